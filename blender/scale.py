@@ -4,7 +4,7 @@
 
 from bpy.types import Scene
 
-from ..core.numerics.float32 import shortest_decimal
+from ..core.numerics import shortest_decimal
 
 
 def meters_per_unit(scene: Scene) -> float:

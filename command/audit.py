@@ -12,16 +12,20 @@ from pathlib import Path
 from typing import Any
 
 from ..blender.write.findings import FILE_NOT_WRITTEN
-from ..core.files.findings import FILE_WITHOUT_OBJECTS
+from ..core.files import FILE_WITHOUT_OBJECTS
 from ..core.files.whole_file import whole_file
-from ..core.measurement.plain_text import counted, print_message
-from ..core.robots.audit import Audit, Auditor, repaired_copy
-from ..core.robots.findings import DESCRIPTION_UNKNOWN, XML_ENTITIES
-from ..core.robots.formats import AUDITED_SUFFIXES
+from ..core.measurement import counted, print_message
+from ..core.robots import (
+    AUDITED_SUFFIXES,
+    DESCRIPTION_UNKNOWN,
+    XML_ENTITIES,
+    Audit,
+    Auditor,
+    repaired_copy,
+)
 from ..core.robots.read.descriptions import Roots, read_description
 from ..core.robots.write import audit_report
-from ..core.verdict import internal_error
-from ..core.verdict.finding import FileError, MeasureError, system_reason
+from ..core.verdict import FileError, MeasureError, internal_error, system_reason
 from . import audit_gate
 from .files import output
 from .options import option_types

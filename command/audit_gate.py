@@ -15,8 +15,7 @@ from typing import Any
 
 from ..core.files.whole_file import whole_file
 from ..core.robots.write import audit_report
-from ..core.verdict.catalog import declared
-from ..core.verdict.finding import Severity
+from ..core.verdict import Severity, declared
 
 SCHEMA = "body-moments-baseline/1"
 FAILING = {"error": (Severity.ERROR,), "warning": (Severity.ERROR, Severity.WARNING), "never": ()}

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `command`. Usage errors and progress are plain texts where they are printed."""
 
-from ..core.verdict.finding import error, note, warning
+from ..core.verdict import error, note, warning
 
 SOLID_OPERAND_MEASURED = warning(
     "solid_operand_measured",

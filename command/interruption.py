@@ -9,7 +9,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 
-from ..core.measurement.plain_text import print_message
+from ..core.measurement import print_message
 
 PERIOD = 5.0  # seconds between reports of progress
 _NAMES = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")

@@ -8,7 +8,7 @@ import argparse
 from collections.abc import Callable, Sequence
 from typing import Any, NoReturn
 
-from ..core.measurement.plain_text import visible
+from ..core.measurement import visible
 
 COMMANDS = {
     "measure": "Exact mass properties of the objects in files.",

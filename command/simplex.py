@@ -15,13 +15,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.files.limits import file_limits
-from ..core.measurement.plain_text import print_message
-from ..core.measurement.record import described
-from ..core.numerics.array_types import Array
-from ..core.polyhedron import enclosed_moments, facet_moments, facets_of
-from ..core.polyhedron.n_dimensions import SimplexMoments, closes, multi_indices, outer_facets
-from ..core.scans.numpy_files import read_arrays
+from ..core.files import file_limits
+from ..core.measurement import described, print_message
+from ..core.numerics import Array
+from ..core.polyhedron import (
+    SimplexMoments,
+    closes,
+    enclosed_moments,
+    facet_moments,
+    facets_of,
+    multi_indices,
+    outer_facets,
+)
+from ..core.scans import read_arrays
 from ..core.verdict.finding import MeasureError, finding, system_reason
 from .findings import SIMPLEX_OPEN
 from .options import option_types as types

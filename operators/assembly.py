@@ -20,9 +20,7 @@ from ..blender.scene.findings import OPEN_OBJECT
 from ..blender.session import stored
 from ..blender.settings.assembly import Root, active_assembly, is_assembly
 from ..blender.write import properties, reports
-from ..core.verdict.finding import EditRefusedError, MeasureError, Severity
-from ..core.verdict.method import Procedure
-from ..core.verdict.sentences import of_severity
+from ..core.verdict import EditRefusedError, MeasureError, Procedure, Severity, of_severity
 from . import selection
 from .findings import NO_ACTIVE_ASSEMBLY
 from .modal import ModalSteps

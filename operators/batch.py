@@ -47,7 +47,7 @@ def main(argv: list[str], *, channel: int | None = None, file_needed: bool = Fal
     """
     from ..command import interruption
     from ..command.files import output
-    from ..core.measurement.plain_text import print_message
+    from ..core.measurement import print_message
 
     channel = output.claim_stdout() if channel is None else channel
     try:
@@ -65,8 +65,8 @@ def _answer(argv: list[str], channel: int, file_needed: bool) -> int:
     """Run the requested command, and return the exit code."""
     from ..command.files import output
     from ..command.parser import HelpRequested, UsageError, list_commands
-    from ..core.measurement.plain_text import print_message
-    from ..core.verdict.finding import MeasureError
+    from ..core.measurement import print_message
+    from ..core.verdict import MeasureError
 
     word = "".join(argv[:1])
     try:

@@ -5,7 +5,7 @@
 Other texts stand beside their reports.
 """
 
-from ..core.verdict.finding import error, warning
+from ..core.verdict import error, warning
 
 NO_ACTIVE_ASSEMBLY = error(
     "no_active_assembly",

@@ -27,8 +27,8 @@ from ..blender import read, scene
 from ..blender.scale import meters_per_unit
 from ..blender.write import reports
 from ..blender.write.findings import FILE_NOT_WRITTEN
-from ..core.scans.scan_files import SAMPLE_TYPES, SUFFIXES
-from ..core.verdict.finding import FileError, Finding, MeasureError
+from ..core.scans import SAMPLE_TYPES, SUFFIXES
+from ..core.verdict import FileError, Finding, MeasureError
 from . import selection
 from .findings import FILE_EXISTS
 

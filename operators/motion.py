@@ -10,7 +10,7 @@ from bpy.types import Context, Event, Operator, Scene, UILayout
 
 from ..blender import session
 from ..blender.write import reports
-from ..core.verdict.finding import MeasureError, Severity
+from ..core.verdict import MeasureError, Severity
 from . import selection
 from .modal import ModalDialog, ModalSteps
 from .rig import OnArmature

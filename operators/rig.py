@@ -13,8 +13,7 @@ from ..blender.read.tracking import tracking_paused
 from ..blender.session import character, stored
 from ..blender.session.tracking.armatures import stands_for_meshes
 from ..blender.write import reports
-from ..core.verdict.finding import Severity
-from ..core.verdict.sentences import of_severity
+from ..core.verdict import Severity, of_severity
 from . import selection
 from .assembly import report_cleared
 

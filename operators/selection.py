@@ -23,7 +23,7 @@ from ..blender.session.tracking import armatures
 from ..blender.settings.preferences import copy_defaults
 from ..blender.write import reports
 from ..blender.write.findings import FILE_NOT_WRITTEN
-from ..core.verdict.finding import FileError, Finding, MeasureError, Severity, system_reason
+from ..core.verdict import FileError, Finding, MeasureError, Severity, system_reason
 
 NO_FILE = "No file is named. Choose one."
 MAX_OBJECTS_WITHOUT_REDRAW = (

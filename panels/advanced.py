@@ -15,7 +15,7 @@ from ..blender.session.selected import subject
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.settings.preferences import shows_advanced
 from ..blender.write import properties
-from ..core.inertia.plain_body import PlainBody
+from ..core.inertia import PlainBody
 from ..core.lazy import loaded_module
 from . import rows
 from .places import in_both_places

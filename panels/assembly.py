@@ -29,8 +29,8 @@ from ..blender.settings.chosen import chosen_objects
 from ..blender.settings.given import has_density
 from ..blender.write import properties
 from ..blender.write.translations import localized
-from ..core.inertia.plain_body import PlainBody
-from ..core.verdict.sentences import Group, severity
+from ..core.inertia import PlainBody
+from ..core.verdict import Group, severity
 from . import remedies, rows
 from .density import given_rows
 from .places import AmongProperties, in_both_places

@@ -23,10 +23,9 @@ from ..blender.settings.chosen import chosen_objects
 from ..blender.settings.preferences import draw_links
 from ..blender.write import properties
 from ..blender.write.translations import localized
-from ..core.inertia.plain_body import PlainBody
-from ..core.verdict.method import Source
-from ..core.verdict.sentences import METHODS, Group, method_key, truncate_list
-from ..core.wall.findings import WALL_MEASURED
+from ..core.inertia import PlainBody
+from ..core.verdict import METHODS, Group, Source, method_key, truncate_list
+from ..core.wall import WALL_MEASURED
 from . import remedies, rows
 from .density import material_row
 from .overlay.draw import header_switch

@@ -13,8 +13,8 @@ from ..blender.session import stored
 from ..blender.session.displayed import displayed, shown_objects, total
 from ..blender.session.selected import subject
 from ..blender.session.tracking import armatures
-from ..core.inertia.plain_body import PlainBody
-from ..core.verdict.finding import Finding
+from ..core.inertia import PlainBody
+from ..core.verdict import Finding
 from . import rows
 from .places import in_both_places
 

@@ -12,7 +12,7 @@ from bpy.types import Context, Material, Menu, Panel, Scene, UILayout
 
 from ..blender.settings.chosen import chosen_objects
 from ..blender.settings.properties import density_field_name
-from ..core.density.materials import CATEGORIES, FILAMENT, MATERIALS
+from ..core.density import CATEGORIES, FILAMENT, MATERIALS
 from ..operators.setup.presets import (
     PRESET_FOLDER,
     MATERIAL_OT_body_moments_set_density,

@@ -17,9 +17,8 @@ from ..blender.session.selected import subject
 from ..blender.session.stored import outcome
 from ..blender.write.remedies import DEFECTS, REMEDIES, REPAIR, SELECT, remedies_of
 from ..blender.write.translations import localized, localized_sentence
-from ..core.inertia.plain_body import PlainBody
-from ..core.verdict.finding import Finding, Severity
-from ..core.verdict.sentences import Group, of_severity, severity
+from ..core.inertia import PlainBody
+from ..core.verdict import Finding, Group, Severity, of_severity, severity
 from . import rows
 
 ICONS = {DEFECTS: "ZOOM_SELECTED", SELECT: "RESTRICT_SELECT_OFF"}

@@ -21,11 +21,9 @@ from bpy.types import PropertyGroup, UILayout
 from ..blender.session.selected import is_mixed
 from ..blender.write.translations import localized, localized_sentence
 from ..blender.write.units import SI_UNITS, Units
-from ..core.inertia.plain_body import ENTRIES, PlainBody
-from ..core.measurement.documents import plain
-from ..core.verdict.finding import Finding, Severity
-from ..core.verdict.sentences import fill, severity
-from ..core.verdict.verdict import Verdict
+from ..core.inertia import ENTRIES, PlainBody
+from ..core.measurement import plain
+from ..core.verdict import Finding, Severity, Verdict, fill, severity
 
 # share of a row for its label, for one of up to 3 letters, and for one of 1 letter
 LABEL_SHARE = 0.36

@@ -15,7 +15,7 @@ from ..blender.session.tracking.stamps import of_section
 from ..blender.write import section as record
 from ..blender.write.translations import localized
 from ..blender.write.units import number
-from ..core.verdict.sentences import Group
+from ..core.verdict import Group
 from . import remedies, rows
 from .places import in_both_places
 

@@ -14,8 +14,7 @@ from ..blender.session.tracking.staleness import stale_reason
 from ..blender.session.tracking.stamps import of_symmetry
 from ..blender.settings.preferences import shows_advanced
 from ..blender.write.translations import localized
-from ..core.verdict.finding import truncate
-from ..core.verdict.sentences import SIMILARITY
+from ..core.verdict import SIMILARITY, truncate
 from . import rows
 from .places import in_both_places
 

@@ -18,12 +18,12 @@ from ..blender.session.displayed import shown_objects
 from ..blender.session.selected import subject
 from ..blender.session.tracking import armatures
 from ..core.lazy import loaded_module
-from ..core.verdict.finding import Finding
+from ..core.verdict import Finding
 from . import rows
 from .places import in_both_places
 
 if TYPE_CHECKING:
-    from ..core.statics.support import Support
+    from ..core.statics import Support
 
 MAX_POSES = 6  # limit of the list: round bodies have thousands
 

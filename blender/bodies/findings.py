@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `blender/bodies`."""
 
-from ...core.verdict.finding import error, note, warning
+from ...core.verdict import error, note, warning
 
 UNION_BY_BOOLEAN = note(
     "union_by_boolean",

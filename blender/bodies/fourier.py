@@ -13,20 +13,23 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.bodies.findings import WIRE_UNSUPPORTED
-from ...core.bodies.reading import Reading, name_subject, to_si
-from ...core.flat.section import foot
-from ...core.fourier.findings import FOURIER_OF_OPEN_SURFACE
-from ...core.fourier.instances import FOURIER_RTOL, BodyTransform
-from ...core.fourier.polygon import RegionTransform
-from ...core.fourier.wave_vectors import APPROXIMATE, FrequencyGrid, Spectrum
-from ...core.measurement.findings import WALL_UNSUPPORTED, ZERO_QUANTITY
-from ...core.mesh.surface import Surface
-from ...core.moments.affine_maps import affine_matrices, placed_boxes
-from ...core.moments.moments import Measure
-from ...core.numerics.array_types import Array
+from ...core.bodies import WIRE_UNSUPPORTED, Reading, name_subject, to_si
+from ...core.flat import foot
+from ...core.fourier import (
+    APPROXIMATE,
+    FOURIER_OF_OPEN_SURFACE,
+    FOURIER_RTOL,
+    BodyTransform,
+    FrequencyGrid,
+    RegionTransform,
+    Spectrum,
+)
+from ...core.measurement import WALL_UNSUPPORTED, ZERO_QUANTITY
+from ...core.mesh import Surface
+from ...core.moments import Measure, affine_matrices, placed_boxes
+from ...core.numerics import Array
+from ...core.verdict import Procedure
 from ...core.verdict.finding import Finding, ReadError, finding
-from ...core.verdict.method import Procedure
 from ..read.objects import read_object
 from ..read.visibility import shows_flat_region
 from ..settings.density import density_field

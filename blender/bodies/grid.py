@@ -11,34 +11,29 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.bodies.findings import (
+from ...core.bodies import (
     DENSITY_FROM_GRID,
     GRID_AS_SHELL,
     GRID_DENSITY,
     GRID_EMPTY,
     GRID_IS_LEVEL_SET,
     GRID_TOO_LARGE,
-    SAMPLES_POSITIONED,
-)
-from ...core.bodies.grid import (
     MAX_SAMPLES,
+    SAMPLES_POSITIONED,
+    MeshBody,
+    Part,
     Samples,
     ThresholdGrid,
     density_body,
     threshold_grid_body,
+    to_si,
 )
-from ...core.bodies.mesh_body import MeshBody
-from ...core.bodies.reading import Part, to_si
-from ...core.density.grid_options import GridOptions
-from ...core.density.grid_values import sample_positions
-from ...core.density.spline_grid import Blocks
-from ...core.measurement.measurement import Body
-from ...core.measurement.settings import Settings
-from ...core.moments.affine_maps import affine_matrices
-from ...core.moments.exponents import KNOWN_ORDER
-from ...core.scans.formats import AXES, Positions
+from ...core.density import Blocks, GridOptions, sample_positions
+from ...core.measurement import Body, Settings
+from ...core.moments import KNOWN_ORDER, affine_matrices
+from ...core.scans import AXES, Positions
+from ...core.verdict import Method, Source
 from ...core.verdict.finding import ReadError, finding
-from ...core.verdict.method import Method, Source
 from ..read.tracking import tracking_paused
 from ..read.volume import VolumeReading, volume_reading
 from ..settings.density import density_key, grid_key

@@ -16,11 +16,10 @@ from dataclasses import dataclass
 
 import bpy
 
-from ...core.bodies.reading import Reading, name_subject
-from ...core.inertia.mass_properties import MassProperties
-from ...core.measurement.measurement import Body, Measurement
-from ...core.verdict.finding import Finding
-from ...core.verdict.method import Method
+from ...core.bodies import Reading, name_subject
+from ...core.inertia import MassProperties
+from ...core.measurement import Body, Measurement
+from ...core.verdict import Finding, Method
 from ..settings.options import AS_SET, MeasureOptions
 from . import grid, mesh, nurbs, wire
 from .assembly.given import point_measurement, read_point, with_given

@@ -15,18 +15,20 @@ import bpy
 import numpy as np
 from bpy.types import Depsgraph, Object
 
-from ...core.bodies.instances import singular_instances_message
-from ...core.bodies.mesh_body import MeshBody, drawn_names, of_drawn, sum_of_instances
-from ...core.bodies.reading import Reading
-from ...core.bodies.wall import find_walls
-from ...core.measurement.measurement import Body
-from ...core.mesh.hulls import ConvexHull, convex_hull
-from ...core.mesh.surface import Surface, join_surfaces
-from ...core.solid.findings import HOLES_CAPPED, INVERTED_COMPONENTS
-from ...core.solid.measure import measure_solid
+from ...core.bodies import (
+    MeshBody,
+    Reading,
+    drawn_names,
+    find_walls,
+    of_drawn,
+    singular_instances_message,
+    sum_of_instances,
+)
+from ...core.measurement import Body
+from ...core.mesh import ConvexHull, Surface, convex_hull, join_surfaces
+from ...core.solid import HOLES_CAPPED, INVERTED_COMPONENTS, measure_solid
+from ...core.verdict import FLIPPED_FACES, Method, Procedure
 from ...core.verdict.finding import EditRefusedError, ReadError, finding
-from ...core.verdict.findings import FLIPPED_FACES
-from ...core.verdict.method import Method, Procedure
 from ..read.findings import SCALE_ZERO_AXIS
 from ..read.mesh import mesh_surface
 from ..read.objects import read_object

@@ -17,30 +17,38 @@ from typing import ClassVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.bodies.findings import INSTANCE_OVERLAP_UNCHECKED
-from ...core.bodies.instances import (
+from ...core.bodies import (
+    INSTANCE_OVERLAP_UNCHECKED,
+    MeshBody,
+    Part,
+    Reading,
+    SplineReading,
     each_once,
+    extend_input_error,
     findings_by_part,
     instances_overlap,
     merge_health,
     singular_instances_message,
+    to_si,
 )
-from ...core.bodies.mesh_body import MeshBody, extend_input_error
-from ...core.bodies.reading import Part, Reading, SplineReading, to_si
-from ...core.measurement.findings import WALL_UNSUPPORTED
-from ...core.measurement.measurement import Body
-from ...core.mesh.surface import Surface
-from ...core.moments.affine_maps import affine_matrices, are_similarities, distinct_linear_parts
-from ...core.moments.images import sum_of_images
+from ...core.measurement import WALL_UNSUPPORTED, Body
+from ...core.mesh import Surface
+from ...core.moments import affine_matrices, are_similarities, distinct_linear_parts, sum_of_images
 from ...core.moments.moments import Measure, Moments, monomial_count, sum_moments
-from ...core.numerics.array_types import Array
-from ...core.nurbs.findings import ERROR_ESTIMATE_LARGE
-from ...core.nurbs.patch_moments import area_moments, stored_area_moments, volume_moments
-from ...core.nurbs.seams import sharpest_crease
-from ...core.nurbs.solid import PatchIntegrals, measure_patches, measure_sheet
-from ...core.nurbs.splines import Face
+from ...core.numerics import Array
+from ...core.nurbs import (
+    ERROR_ESTIMATE_LARGE,
+    Face,
+    PatchIntegrals,
+    area_moments,
+    measure_patches,
+    measure_sheet,
+    sharpest_crease,
+    stored_area_moments,
+    volume_moments,
+)
+from ...core.verdict import Method, Procedure, Source, least_trusted
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
-from ...core.verdict.method import Method, Procedure, Source, least_trusted
 from .findings import DISPLAY_MESH_NEEDED, WALL_CREASES, ZERO_SCALE
 from .mesh import mesh_body
 from .request import Request

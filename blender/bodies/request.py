@@ -12,10 +12,9 @@ from functools import cached_property
 
 import bpy
 
-from ...core.bodies.reading import Reading, measure_reading
-from ...core.measurement.measurement import Body, Measurement
-from ...core.measurement.settings import Settings
-from ...core.verdict.finding import Finding
+from ...core.bodies import Reading, measure_reading
+from ...core.measurement import Body, Measurement, Settings
+from ...core.verdict import Finding
 from ..read.fingerprint import transform_key
 from ..read.objects import read_object
 from ..settings.accepted import accepted_codes, with_acceptance

@@ -11,23 +11,27 @@ import numpy as np
 from bpy.types import Context, Depsgraph, Object
 from numpy.typing import NDArray
 
-from ...core.bodies.reading import Part, to_si
-from ...core.measurement.builder import Extent, add_extents, extent_of, measure_total
-from ...core.measurement.findings import DENSITY_FROM_MEMBERS, NO_VOLUME, ZERO_QUANTITY
+from ...core.bodies import Part, to_si
+from ...core.measurement import (
+    DENSITY_FROM_MEMBERS,
+    NO_VOLUME,
+    ZERO_QUANTITY,
+    Extent,
+    add_extents,
+    digest,
+    extent_of,
+    fingerprint,
+    measure_total,
+)
 from ...core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
-from ...core.measurement.settings import digest, fingerprint
-from ...core.mesh.surface import Surface
-from ...core.moments.affine_maps import are_similarities
-from ...core.moments.exponents import KNOWN_ORDER
-from ...core.moments.moments import Measure, Moments, sum_moments
-from ...core.numerics.array_types import Array
-from ...core.numerics.float32 import shortest_decimal
+from ...core.mesh import Surface
+from ...core.moments import KNOWN_ORDER, Measure, Moments, are_similarities, sum_moments
+from ...core.numerics import Array, shortest_decimal
 from ...core.polyhedron import polyhedron_moments
-from ...core.rig.cuts import bone_pieces, bones_of_caps, dominant_bones
-from ...core.solid.measure import measure_solid
-from ...core.verdict import internal_error
+from ...core.rig import bone_pieces, bones_of_caps, dominant_bones
+from ...core.solid import measure_solid
+from ...core.verdict import Method, Procedure, internal_error, least_trusted
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
-from ...core.verdict.method import Method, Procedure, least_trusted
 from ..read.bones import RestBones, vertex_weights
 from ..read.fingerprint import matrix_hash
 from ..read.objects import locate, read_object

@@ -9,17 +9,13 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...core.bodies.reading import Reading
-from ...core.measurement.measurement import Body
-from ...core.moments.exponents import KNOWN_ORDER, monomials
-from ...core.moments.moments import FLOAT32_HALF_ULP, Moments, U
-from ...core.numerics.array_types import Array
-from ...core.nurbs.curve_moments import length_moments
-from ...core.nurbs.splines import Curve
-from ...core.polyhedron.third_order import nothing
-from ...core.verdict.finding import ReadError
-from ...core.verdict.health import MeshHealth
-from ...core.verdict.method import Method, Procedure
+from ...core.bodies import Reading
+from ...core.measurement import Body
+from ...core.moments import FLOAT32_HALF_ULP, KNOWN_ORDER, Moments, U, monomials
+from ...core.numerics import Array
+from ...core.nurbs import Curve, length_moments
+from ...core.polyhedron import nothing
+from ...core.verdict import MeshHealth, Method, Procedure, ReadError
 from ..read.findings import NO_CURVE
 from ..read.objects import read_lines
 from .request import Request

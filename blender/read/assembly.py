@@ -20,8 +20,8 @@ import bpy
 from bpy.types import Depsgraph, LayerCollection, Object, Scene, ViewLayer
 from mathutils import Matrix
 
-from ...core.measurement.settings import digest
-from ...core.numerics.float32 import shortest_decimal
+from ...core.measurement import digest
+from ...core.numerics import shortest_decimal
 from ...core.verdict.finding import Finding, finding
 from ..settings.assembly import Root, is_assembly, settings_of
 from ..settings.given import GivenPart, is_point_mass, shows_collection

@@ -9,10 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from bpy.types import Depsgraph, Object
 
-from ...core.bodies.reading import Part, float64_matrix
-from ...core.numerics.array_types import Array
-from ...core.numerics.rotations import rotation_matrix
-from ...core.rig.cuts import VertexWeights
+from ...core.bodies import Part, float64_matrix
+from ...core.numerics import Array, rotation_matrix
+from ...core.rig import VertexWeights
 from .visibility import evaluated_geometry
 
 

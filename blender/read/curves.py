@@ -14,11 +14,8 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.numerics.array_types import Array
-from ...core.numerics.bspline import SplineSpace
-from ...core.nurbs.blender_knots import blender_space
-from ...core.nurbs.findings import NON_FINITE_CONTROL_POINTS
-from ...core.nurbs.splines import Curve
+from ...core.numerics import Array, SplineSpace
+from ...core.nurbs import NON_FINITE_CONTROL_POINTS, Curve, blender_space
 from ...core.verdict.finding import Finding, ReadError, finding
 from .findings import CURVE_MEASURED_WHOLE, NO_CURVE, SPLINES_LEFT_OUT, UNKNOWN_KNOTS
 from .mesh import read_array

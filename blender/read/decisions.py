@@ -10,9 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...core.bodies.findings import DRAWN_AS_POLYGONS, NO_GEOMETRY
-from ...core.bodies.reading import attribute_to_source
-from ...core.numerics.float32 import shortest_decimal
+from ...core.bodies import DRAWN_AS_POLYGONS, NO_GEOMETRY, attribute_to_source
+from ...core.numerics import shortest_decimal
 from ...core.verdict.finding import Finding, finding
 from .curves import is_round
 from .findings import (

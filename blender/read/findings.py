@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `blender/read`."""
 
-from ...core.verdict.finding import error, note, warning
+from ...core.verdict import error, note, warning
 
 INSTANCES_VANISHED = note(
     "instances_vanished",

@@ -24,7 +24,7 @@ from ..settings.density import density_key
 from ..settings.given import COLLIDER
 
 if TYPE_CHECKING:
-    from ...core.measurement.settings import Settings
+    from ...core.measurement import Settings
 
 SAME_SCALE_RTOL = (
     2e-6  # relative to an axis' length: float32 matrices change as much as the object turns

@@ -19,7 +19,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.bodies.reading import (
+from ...core.bodies import (
     NO_VALUES,
     FaceAttributes,
     Part,
@@ -27,10 +27,10 @@ from ...core.bodies.reading import (
     float64_matrix,
     name_subject,
 )
-from ...core.mesh.surface import Surface
-from ...core.moments.affine_maps import affine_matrices
-from ...core.numerics.array_types import Array
-from ...core.verdict.finding import ReadError
+from ...core.mesh import Surface
+from ...core.moments import affine_matrices
+from ...core.numerics import Array
+from ...core.verdict import ReadError
 from .findings import INSTANCES_OF_HIDDEN_OBJECT, NON_FINITE_INSTANCES
 from .mesh import face_slots, from_edit_mesh, mesh_surface, read_array, vertex_values
 from .places import world_matrices

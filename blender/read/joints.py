@@ -14,11 +14,18 @@ from typing import Any
 import numpy as np
 from bpy.types import Object, PoseBone, RigidBodyConstraint, Scene
 
-from ...core.bodies.reading import float64_matrix
-from ...core.numerics.rotations import polar_rotation
-from ...core.robots.findings import JOINT_VALUE_UNUSABLE
-from ...core.robots.links import Candidate, Connection
-from ...core.robots.model import VALUES, FreeAxis, Link, Mimic, Pose
+from ...core.bodies import float64_matrix
+from ...core.numerics import polar_rotation
+from ...core.robots import (
+    JOINT_VALUE_UNUSABLE,
+    VALUES,
+    Candidate,
+    Connection,
+    FreeAxis,
+    Link,
+    Mimic,
+    Pose,
+)
 from ...core.verdict.finding import Finding, finding
 
 

@@ -22,9 +22,9 @@ import numpy as np
 from bpy.types import Depsgraph, Object
 from numpy.typing import NDArray
 
-from ...core.mesh.surface import Surface
-from ...core.numerics.array_types import Array
-from ...core.verdict.finding import ReadError
+from ...core.mesh import Surface
+from ...core.numerics import Array
+from ...core.verdict import ReadError
 from .findings import ATTRIBUTE_MISSING
 from .visibility import evaluated_geometry
 

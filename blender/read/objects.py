@@ -11,11 +11,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.bodies.reading import Part, Reading, attribute_to_source
-from ...core.mesh.surface import Surface
-from ...core.numerics.rotations import rotation_matrix
-from ...core.nurbs.findings import NON_POSITIVE_WEIGHTS
-from ...core.solid.findings import NON_FINITE_VERTICES
+from ...core.bodies import Part, Reading, attribute_to_source
+from ...core.mesh import Surface
+from ...core.numerics import rotation_matrix
+from ...core.nurbs import NON_POSITIVE_WEIGHTS
+from ...core.solid import NON_FINITE_VERTICES
 from ...core.verdict.finding import ReadError, finding
 from .curves import read_curves
 from .decisions import reading_findings, why_empty

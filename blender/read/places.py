@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 from bpy.types import Object
 
-from ...core.bodies.reading import float64_matrix
-from ...core.numerics.array_types import Array
+from ...core.bodies import float64_matrix
+from ...core.numerics import Array
 
 KEY = "body_file_places"  # a property of objects: the numbers of their matrices
 

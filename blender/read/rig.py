@@ -12,8 +12,8 @@ from contextlib import contextmanager
 
 from bpy.types import Context, Depsgraph, Object, Scene
 
-from ...core.measurement.settings import digest
-from ...core.verdict.finding import ReadError
+from ...core.measurement import digest
+from ...core.verdict import ReadError
 from .findings import ARMATURE_IN_EDIT_MODE, NO_ACTIVE_ARMATURE
 from .fingerprint import matrix_bytes, settings_hash
 from .tracking import tracking_paused

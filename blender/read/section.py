@@ -17,12 +17,10 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.bodies.findings import DRAWN_AS_POLYGONS
-from ...core.bodies.reading import Reading
-from ...core.mesh.surface import Surface
-from ...core.numerics.array_types import Array, Index, Mask
-from ...core.numerics.rotations import polar_rotation
-from ...core.nurbs.splines import Curve
+from ...core.bodies import DRAWN_AS_POLYGONS, Reading
+from ...core.mesh import Surface
+from ...core.numerics import Array, Index, Mask, polar_rotation
+from ...core.nurbs import Curve
 from ...core.verdict.finding import Finding, ReadError, finding
 from .curves import read_curves, text_curves
 from .findings import (

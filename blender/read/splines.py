@@ -17,12 +17,10 @@ import numpy as np
 from bpy.types import Curve
 from numpy.typing import NDArray
 
-from ...core.bodies.reading import SplineReading, float64_matrix
-from ...core.moments.moments import FLOAT32_HALF_ULP
-from ...core.numerics.array_types import Array
-from ...core.numerics.bspline import SplineSpace
-from ...core.nurbs.blender_knots import blender_space, display_parameters, display_table
-from ...core.nurbs.splines import Patch
+from ...core.bodies import SplineReading, float64_matrix
+from ...core.moments import FLOAT32_HALF_ULP
+from ...core.numerics import Array, SplineSpace
+from ...core.nurbs import Patch, blender_space, display_parameters, display_table
 from ...core.verdict.finding import ReadError, finding
 from .findings import CONTROL_POINTS_RECOVERED, SCALE_ZERO_AXIS, SPLINES_LEFT_OUT
 from .mesh import read_array, vertex_points

@@ -18,10 +18,10 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.bodies.findings import GRID_TOO_LARGE
-from ...core.mesh.surface import Surface
-from ...core.moments.affine_maps import affine_matrices
-from ...core.verdict.finding import ReadError
+from ...core.bodies import GRID_TOO_LARGE
+from ...core.mesh import Surface
+from ...core.moments import affine_matrices
+from ...core.verdict import ReadError
 from .findings import GRID_FAR_FROM_ORIGIN, GRID_FRUSTUM, GRID_TYPE, GRID_UNREADABLE
 
 NODE_VOXELS = 128  # voxels along a side of the blocks that are read

@@ -21,13 +21,11 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.bodies.findings import GRID_TOO_LARGE
-from ...core.bodies.reading import Reading, float64_matrix, name_subject
-from ...core.density.findings import GRID_TRANSFORM_SINGULAR
-from ...core.files.findings import OTHERS_LEFT_OUT
-from ...core.mesh.surface import Surface
-from ...core.numerics.array_types import Array
-from ...core.numerics.float32 import shortest_decimal
+from ...core.bodies import GRID_TOO_LARGE, Reading, float64_matrix, name_subject
+from ...core.density import GRID_TRANSFORM_SINGULAR
+from ...core.files import OTHERS_LEFT_OUT
+from ...core.mesh import Surface
+from ...core.numerics import Array, shortest_decimal
 from ...core.verdict.finding import Finding, ReadError, finding
 from .decisions import modifier_findings
 from .findings import (

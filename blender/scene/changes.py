@@ -16,8 +16,7 @@ from typing import TypeVar
 import bpy
 from bpy.types import ID, Collection, Context, Depsgraph, Object
 
-from ...core.verdict.finding import EditRefusedError
-from ...core.verdict.findings import LINKED_OBJECT
+from ...core.verdict import LINKED_OBJECT, EditRefusedError
 
 Planned = TypeVar("Planned")
 SceneChange = Generator[None, Depsgraph, None]  # yields once before it does anything

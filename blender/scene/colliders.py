@@ -21,13 +21,12 @@ import numpy as np
 from bpy.types import Context, Mesh, Object
 from mathutils import Matrix
 
-from ...core.bodies.reading import float64_matrix
-from ...core.mesh.surface import Surface
-from ...core.numerics.array_types import Array
-from ...core.numerics.rotations import polar_rotation, quaternion
-from ...core.polyhedron.integration import volume_and_center
-from ...core.robots.model import Pose, Shape
-from ...core.verdict.finding import EditRefusedError
+from ...core.bodies import float64_matrix
+from ...core.mesh import Surface
+from ...core.numerics import Array, polar_rotation, quaternion
+from ...core.polyhedron import volume_and_center
+from ...core.robots import Pose, Shape
+from ...core.verdict import EditRefusedError
 from ..read.mesh import mesh_surface
 from ..settings.given import COLLIDER
 from .changes import made_collection

@@ -27,10 +27,10 @@ import numpy as np
 from bpy.types import ID, Context, Mesh, Node, NodesModifier, NodeTree, Object, bpy_prop_collection
 from numpy.typing import NDArray
 
-from ...core.mesh.correspondence import Correspondence, Elements, correspondences
-from ...core.numerics.array_types import Array
+from ...core.mesh import Correspondence, Elements, correspondences
+from ...core.numerics import Array
+from ...core.verdict import LINKED_OBJECT
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
-from ...core.verdict.findings import LINKED_OBJECT
 from . import reframe
 from .dependents import SAME_SHAPE_RTOL
 from .findings import (

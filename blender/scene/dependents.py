@@ -14,7 +14,7 @@ from bpy.types import ID, Constraint, Depsgraph, Object
 from mathutils import Matrix
 from numpy.typing import NDArray
 
-from ...core.numerics.array_types import Array
+from ...core.numerics import Array
 from ...core.verdict.finding import EditRefusedError, Finding, ReadError, finding
 from ..read.objects import read_object
 from ..read.visibility import measurable

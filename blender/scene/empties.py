@@ -12,7 +12,7 @@ from bpy.types import Context, Depsgraph, Object
 from mathutils import Matrix
 from numpy.typing import NDArray
 
-from ...core.verdict.finding import EditRefusedError
+from ...core.verdict import EditRefusedError
 from ..read.findings import SCALE_ZERO_AXIS
 from ..read.tracking import tracking_paused
 from .changes import (

@@ -16,9 +16,9 @@ import numpy as np
 from bpy.types import FCurve, Object, Scene
 from numpy.typing import NDArray
 
-from ...core.numerics.array_types import Array
-from ...core.rig.channels import handle_values
-from ...core.verdict.finding import EditRefusedError
+from ...core.numerics import Array
+from ...core.rig import handle_values
+from ...core.verdict import EditRefusedError
 from .findings import INTERPOLATION_UNCUT
 
 # values of an F-curve's interpolation

@@ -23,27 +23,22 @@ import numpy as np
 from bpy.types import Context, Curve, Object, Scene
 from numpy.typing import NDArray
 
-from ...core.bodies.reading import SplineReading
-from ...core.cad.surface_file import read_surfaces
-from ...core.cad.surfaces import MAX_ORDER, SurfaceBody, is_storable
-from ...core.density.grid_values import positions_text
-from ...core.files.findings import FILE_UNREADABLE
-from ...core.files.limits import Limits
-from ...core.numerics.array_types import Array
-from ...core.numerics.float32 import shortest_decimal
-from ...core.nurbs.blender_knots import bezier_space
-from ...core.nurbs.flat_face import FlatFace
-from ...core.nurbs.splines import Face, Patch
-from ...core.scans.formats import (
+from ...core.bodies import SplineReading
+from ...core.cad import MAX_ORDER, SurfaceBody, is_storable, read_surfaces
+from ...core.density import positions_text
+from ...core.files import FILE_UNREADABLE, Limits
+from ...core.numerics import Array, shortest_decimal
+from ...core.nurbs import Face, FlatFace, Patch, bezier_space
+from ...core.scans import (
     Positions,
+    Scan,
     place_samples,
     read_all_positions,
+    read_raw,
     read_scan,
     sample_matrix,
+    scan_suffix,
 )
-from ...core.scans.numpy_files import read_raw
-from ...core.scans.scan import Scan
-from ...core.scans.scan_files import scan_suffix
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..read.splines import keep_faces
 from ..scale import meters_per_unit

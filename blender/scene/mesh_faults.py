@@ -13,10 +13,8 @@ import bpy
 import numpy as np
 from bpy.types import Object
 
-from ...core.measurement.measurement import Measurement
-from ...core.verdict.finding import EditRefusedError
-from ...core.verdict.findings import LINKED_OBJECT
-from ...core.verdict.tolerances import welding_tolerance
+from ...core.measurement import Measurement
+from ...core.verdict import LINKED_OBJECT, EditRefusedError, welding_tolerance
 from .findings import SHAPE_OF_MODIFIERS
 
 # Modifiers that only move vertices: the faults' indices are those of the mesh itself.

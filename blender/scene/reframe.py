@@ -26,10 +26,9 @@ from bpy.types import ID, Context, Object
 from mathutils import Matrix
 from numpy.typing import NDArray
 
-from ...core.numerics.array_types import Index
-from ...core.verdict import internal_error
+from ...core.numerics import Index
+from ...core.verdict import LINKED_OBJECT, internal_error
 from ...core.verdict.finding import EditRefusedError, Finding, finding
-from ...core.verdict.findings import LINKED_OBJECT
 from ..read.findings import SCALE_ZERO_AXIS
 from ..settings.density import density_anchor
 from .changes import (

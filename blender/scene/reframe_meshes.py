@@ -21,8 +21,7 @@ from bpy.types import Context, Mesh, Object
 from mathutils import Matrix
 from numpy.typing import NDArray
 
-from ...core.numerics.array_types import Array, Index, Mask
-from ...core.numerics.arrays import PerBody
+from ...core.numerics import Array, Index, Mask, PerBody
 from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, finding
 from .changes import ancestors

@@ -15,8 +15,8 @@ import numpy as np
 from bpy.types import Context, Object, PoseBone
 from mathutils import Matrix, Vector
 
-from ...core.mesh.surface import join_surfaces
-from ...core.verdict.finding import EditRefusedError
+from ...core.mesh import join_surfaces
+from ...core.verdict import EditRefusedError
 from ..bodies.rig import BonePart, Rig
 from ..scale import meters_per_unit
 from .changes import MadeCollection

@@ -14,8 +14,8 @@ import bpy
 import numpy as np
 from bpy.types import Context, Object, RigidBodyConstraint, Scene
 
-from ...core.numerics.array_types import Array
-from ...core.verdict.finding import EditRefusedError
+from ...core.numerics import Array
+from ...core.verdict import EditRefusedError
 from .findings import RIGID_WORLD_LINKED
 
 MIN_MASS = bpy.types.RigidBodyObject.bl_rna.properties["mass"].hard_min  # kg

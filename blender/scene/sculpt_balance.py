@@ -20,16 +20,20 @@ import numpy as np
 from bpy.types import Context, Object
 from numpy.typing import NDArray
 
-from ...core.bodies.reading import Part
-from ...core.measurement.measurement import Measurement
-from ...core.moments.moments import Measure
-from ...core.numerics.array_types import Array
-from ...core.statics.balancing import balance
-from ...core.statics.findings import BALANCE_NO_EFFECT, BALANCE_SHORT
-from ...core.verdict.finding import EditRefusedError, MeasureError, Severity
-from ...core.verdict.findings import LINKED_OBJECT
-from ...core.verdict.method import Method, Procedure
-from ...core.verdict.sentences import of_severity
+from ...core.bodies import Part
+from ...core.measurement import Measurement
+from ...core.moments import Measure
+from ...core.numerics import Array
+from ...core.statics import BALANCE_NO_EFFECT, BALANCE_SHORT, balance
+from ...core.verdict import (
+    LINKED_OBJECT,
+    EditRefusedError,
+    MeasureError,
+    Method,
+    Procedure,
+    Severity,
+    of_severity,
+)
 from ..bodies.measure_object import measure_object
 from ..read.findings import SCALE_ZERO_AXIS
 from ..read.mesh import vertex_points

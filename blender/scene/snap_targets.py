@@ -19,14 +19,10 @@ import numpy as np
 from bpy.types import Context, Object
 from numpy.typing import NDArray
 
-from ...core.inertia.mass_properties import MassProperties
-from ...core.inertia.plain_body import EQUAL_AXES
-from ...core.inertia.principal_frames import PrincipalFrame, zhang_chen_frame
-from ...core.numerics.array_types import Array
-from ...core.numerics.rotations import polar_rotation
-from ...core.shape.registration import MAX_FIT_RTOL, RigidMatch
-from ...core.verdict.finding import EditRefusedError, Finding
-from ...core.verdict.method import Procedure
+from ...core.inertia import EQUAL_AXES, MassProperties, PrincipalFrame, zhang_chen_frame
+from ...core.numerics import Array, polar_rotation
+from ...core.shape import MAX_FIT_RTOL, RigidMatch
+from ...core.verdict import EditRefusedError, Finding, Procedure
 from ..bodies.measure_object import Measured, measure_body
 from ..bodies.shape.shape import NoShapeError, shape_of_measured
 from ..bodies.stacks.many import measured_in_turn

@@ -20,9 +20,8 @@ import numpy as np
 from bpy.types import Object, PoseBone
 from numpy.typing import NDArray
 
-from ...core.numerics.array_types import Array, Mask
-from ...core.numerics.rotations import quaternion, rotation_matrix
-from ...core.verdict.finding import EditRefusedError
+from ...core.numerics import Array, Mask, quaternion, rotation_matrix
+from ...core.verdict import EditRefusedError
 from ..read.findings import SCALE_ZERO_AXIS
 from .fcurves import all_curves
 from .findings import CHANNEL_LOCKED, PARENT_SHEARS

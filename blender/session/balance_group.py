@@ -12,10 +12,9 @@ import numpy as np
 from bpy.types import Collection, Context, Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
-from ...core.numerics.array_types import Array
-from ...core.statics.support import Support, find_contacts, support_of_contacts
-from ...core.verdict import internal_error
-from ...core.verdict.finding import EditRefusedError, MeasureError
+from ...core.numerics import Array
+from ...core.statics import Support, find_contacts, support_of_contacts
+from ...core.verdict import EditRefusedError, MeasureError, internal_error
 from ..bodies.assembly.assembly import measure_assembly
 from ..read.assembly import Member, MemberKind, members_of, settings_of
 from ..read.rig import is_skin_of

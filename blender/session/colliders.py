@@ -12,20 +12,23 @@ from typing import Any
 import numpy as np
 from bpy.types import Context, Depsgraph, Object
 
-from ...core.bodies.reading import float64_matrix
-from ...core.colliders.effects import correct_masses, correct_vertices, effect, uniform_masses
-from ...core.colliders.fits import Wanted, distances, make_colliders
-from ...core.inertia.mass_properties import MassProperties
-from ...core.measurement.documents import plain
-from ...core.measurement.measurement import Measurement
-from ...core.measurement.settings import digest
-from ...core.mesh.hulls import convex_hull
-from ...core.mesh.surface import Surface, join_surfaces
-from ...core.moments.affine_maps import are_singular
-from ...core.numerics.array_types import Array
-from ...core.numerics.rotations import polar_rotation
-from ...core.robots.model import Pose, Shape
-from ...core.verdict.finding import ReadError
+from ...core.bodies import float64_matrix
+from ...core.colliders import (
+    Wanted,
+    correct_masses,
+    correct_vertices,
+    distances,
+    effect,
+    make_colliders,
+    uniform_masses,
+)
+from ...core.inertia import MassProperties
+from ...core.measurement import Measurement, digest, plain
+from ...core.mesh import Surface, convex_hull, join_surfaces
+from ...core.moments import are_singular
+from ...core.numerics import Array, polar_rotation
+from ...core.robots import Pose, Shape
+from ...core.verdict import ReadError
 from ..bodies.measure_object import Measured, measure_body
 from ..read.findings import OBJECT_WITHOUT_GEOMETRY, SCALE_ZERO_AXIS
 from ..read.fingerprint import colliders_digest, scale_products

@@ -12,8 +12,7 @@ from typing import Any
 import bpy
 from bpy.types import Object
 
-from ...core.measurement import record
-from ...core.measurement.documents import FRAMES
+from ...core.measurement import FRAMES, record
 from ...core.verdict import internal_error
 from ..bodies.measure_object import Measured
 from ..bodies.stacks.many import measure_many

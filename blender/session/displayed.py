@@ -17,13 +17,19 @@ from typing import NamedTuple
 import bpy
 from bpy.types import ID, Context, Object, PoseBone, Scene, ViewLayer
 
-from ...core.bodies.findings import DENSITY_DEFAULTED
-from ...core.inertia.plain_body import PlainBody, add_bodies
+from ...core.bodies import DENSITY_DEFAULTED
+from ...core.inertia import PlainBody, add_bodies
 from ...core.lazy import loaded_module
-from ...core.verdict.finding import Finding
-from ...core.verdict.method import Method, Procedure
-from ...core.verdict.sentences import Group, grouped
-from ...core.verdict.verdict import Verdict, find_verdict, open_body_caveats
+from ...core.verdict import (
+    Finding,
+    Group,
+    Method,
+    Procedure,
+    Verdict,
+    find_verdict,
+    grouped,
+    open_body_caveats,
+)
 from .. import read
 from ..read.fingerprint import has_transform
 from ..scale import meters_per_unit

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `blender/session`."""
 
-from ...core.verdict.finding import error, warning
+from ...core.verdict import error, warning
 
 MASS_MOMENTS_UNKNOWN = error(
     "mass_moments_unknown",

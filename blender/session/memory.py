@@ -18,7 +18,7 @@ from bpy.types import ID, Object, Scene
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from ...core.statics.support import Support
+    from ...core.statics import Support
     from .character.weight import Character, Weight
     from .displayed import Displayed, Listing, Total
     from .live.following import Followed

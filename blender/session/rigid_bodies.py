@@ -15,10 +15,9 @@ import bpy
 import numpy as np
 from bpy.types import Context, Object
 
-from ...core.inertia.mass_properties import combine
-from ...core.measurement.findings import NO_VOLUME
-from ...core.verdict.finding import EditRefusedError, Finding, MeasureError
-from ...core.verdict.method import Procedure
+from ...core.inertia import combine
+from ...core.measurement import NO_VOLUME
+from ...core.verdict import EditRefusedError, Finding, MeasureError, Procedure
 from ..bodies.measure_object import Measured as MeasuredBody
 from ..bodies.stacks.many import measured_in_turn
 from ..bodies.stacks.stack import Stacked

@@ -13,14 +13,21 @@ import bpy
 import numpy as np
 from bpy.types import Collection, Context, Depsgraph, Object
 
-from ...core.bodies.reading import float64_matrix
-from ...core.measurement.measurement import Measurement
-from ...core.mesh.surface import Surface, join_surfaces
-from ...core.numerics.array_types import Array
-from ...core.numerics.rotations import polar_rotation, rotation_matrix
-from ...core.robots.findings import ROBOT_WITHOUT_LINKS
-from ...core.robots.links import Candidate, Connection, assemble_robot, make_candidate
-from ...core.robots.model import Link, Pose, Robot, Shape
+from ...core.bodies import float64_matrix
+from ...core.measurement import Measurement
+from ...core.mesh import Surface, join_surfaces
+from ...core.numerics import Array, polar_rotation, rotation_matrix
+from ...core.robots import (
+    ROBOT_WITHOUT_LINKS,
+    Candidate,
+    Connection,
+    Link,
+    Pose,
+    Robot,
+    Shape,
+    assemble_robot,
+    make_candidate,
+)
 from ...core.robots.write.shapes import with_colliders
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from ..bodies.assembly.assembly import measure_assembly

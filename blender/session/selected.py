@@ -14,7 +14,7 @@ import bpy
 from bpy.props import StringProperty
 from bpy.types import Context, Object, PropertyGroup, Scene
 
-from ...core.density.materials import DENSITY_UNITS
+from ...core.density import DENSITY_UNITS
 from ..settings.chosen import chosen_objects, pinned_object
 from ..settings.given import COLLIDER, GivenPartProperties, has_density
 from ..settings.properties import COPIED_PROPERTIES, BodyMomentsObjectSettings, comparable

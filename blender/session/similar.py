@@ -12,10 +12,18 @@ from typing import NamedTuple
 
 from bpy.types import Depsgraph, Object
 
-from ...core.shape.library import UNDECIDED_HANDEDNESS, Entry, classify, rank, read_library
-from ...core.shape.registration import MAX_FIT_RTOL
-from ...core.shape.signatures import Likeness, Signature, similarity
-from ...core.verdict.finding import Finding
+from ...core.shape import (
+    MAX_FIT_RTOL,
+    UNDECIDED_HANDEDNESS,
+    Entry,
+    Likeness,
+    Signature,
+    classify,
+    rank,
+    read_library,
+    similarity,
+)
+from ...core.verdict import Finding
 from ..bodies.flat.flat_shape import FlatShape, body_or_flat, comparable_shape_of, distance_from
 from ..bodies.shape.shape import signed_in_turn, surface_shape_of
 from ..bodies.shape.surface_distance import register_surfaces

@@ -9,8 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from bpy.types import Context, Object
 from numpy.typing import NDArray
 
-from ...core.verdict import internal_error
-from ...core.verdict.finding import Finding
+from ...core.verdict import Finding, internal_error
 from ..bodies.measure_object import Measured
 from ..bodies.stacks.many import measure_many, measured_in_turn
 from ..bodies.stacks.stack import Stacked

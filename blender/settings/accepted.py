@@ -12,7 +12,7 @@ from dataclasses import replace
 
 from bpy.types import Object
 
-from ...core.verdict.finding import Finding
+from ...core.verdict import Finding
 
 ACCEPTED = "accepted"  # name of the value that marks an accepted finding
 

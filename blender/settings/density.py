@@ -13,7 +13,7 @@ import bpy
 
 from ...core import density as density_engine
 from ...core.measurement.findings import DENSITY_FROM_VALUE
-from ...core.numerics.float32 import shortest_decimal
+from ...core.numerics import shortest_decimal
 from ...core.verdict.finding import Finding, ReadError, finding
 from .findings import (
     DENSITY_FROM_POLYNOMIAL,
@@ -25,8 +25,8 @@ from .given import GivenPart
 from .preferences import default_density
 
 if TYPE_CHECKING:
-    from ...core.density.polynomial import Polynomial
-    from ...core.measurement.measurement import Measurement
+    from ...core.density import Polynomial
+    from ...core.measurement import Measurement
 
 # Sources of density from the one value of an object, for all or some of its faces.
 _BY_OBJECT = {DENSITY_FROM_VALUE, OBJECT_DENSITY_USED, OBJECT_DENSITY_USED_FOR_MATERIALS}

@@ -11,8 +11,8 @@ from typing import Any, NamedTuple
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty
 from bpy.types import Object, PropertyGroup
 
-from ...core.measurement.documents import plain
-from ...core.numerics.float32 import shortest_decimal
+from ...core.measurement import plain
+from ...core.numerics import shortest_decimal
 from .hooks import Hook, changed
 
 GIVEN_PROPERTIES = (

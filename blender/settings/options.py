@@ -10,8 +10,8 @@ from dataclasses import dataclass, fields
 
 from bpy.types import Object, Scene
 
-from ...core.measurement.settings import RequestedResults, Settings
-from ...core.numerics.float32 import shortest_decimal
+from ...core.measurement import RequestedResults, Settings
+from ...core.numerics import shortest_decimal
 from ..scale import meters_per_unit
 from .density import object_density
 

@@ -15,8 +15,8 @@ import bpy
 from bpy.props import BoolProperty, FloatProperty, IntProperty
 from bpy.types import AddonPreferences, Context, Scene, UILayout
 
-from ...core.density.materials import BY_NAME, MATERIALS
-from ...core.numerics.float32 import shortest_decimal
+from ...core.density import BY_NAME, MATERIALS
+from ...core.numerics import shortest_decimal
 from .given import choice_property, density_property
 from .hooks import default_density_changed
 

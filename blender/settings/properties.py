@@ -14,8 +14,8 @@ import bpy
 from bpy.props import FloatProperty, IntProperty, PointerProperty, StringProperty
 from bpy.types import Context, Material, Object, PropertyGroup, Scene
 
-from ...core.density.materials import BY_NAME, CT_DENSITIES, DENSITY_UNITS, density_unit
-from ...core.numerics.float32 import shortest_decimal
+from ...core.density import BY_NAME, CT_DENSITIES, DENSITY_UNITS, density_unit
+from ...core.numerics import shortest_decimal
 from ..scale import meters_per_unit
 from .density import object_density
 from .given import (

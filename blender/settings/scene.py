@@ -9,7 +9,7 @@ Inertia and moments are shown about the reference.
 from bpy.props import BoolProperty, FloatVectorProperty, IntProperty, PointerProperty
 from bpy.types import Object, PropertyGroup, Scene
 
-from ...core.measurement.documents import MAX_ORDER
+from ...core.measurement import MAX_ORDER
 from .given import choice_property
 from .preferences import BodyMomentsPreferences, SceneDefaults
 from .properties import TRANSLATION_CONTEXT

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `blender/write`."""
 
-from ...core.verdict.finding import error, warning
+from ...core.verdict import error, warning
 
 STALE_RESULTS = warning(
     "stale_results", "Out of date: the object changed after it was measured. Measure it again."

@@ -18,19 +18,26 @@ from typing import TYPE_CHECKING, Any
 import bpy
 
 from ... import core
-from ...core.inertia.plain_body import BOUND_KEYS, COLUMNS, ROWS, PlainBody, rotation_axes
-from ...core.measurement.documents import plain
+from ...core.inertia import BOUND_KEYS, COLUMNS, ROWS, PlainBody, rotation_axes
+from ...core.measurement import plain
 from ...core.measurement.findings import DENSITY_FROM_MASS, DENSITY_FROM_VALUE
-from ...core.verdict.finding import EditRefusedError, Finding, Severity
-from ...core.verdict.findings import LINKED_OBJECT
-from ...core.verdict.method import Method, Procedure, Source
-from ...core.verdict.sentences import of_severity, sentence
+from ...core.verdict import (
+    LINKED_OBJECT,
+    EditRefusedError,
+    Finding,
+    Method,
+    Procedure,
+    Severity,
+    Source,
+    of_severity,
+    sentence,
+)
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ...core.inertia.mass_properties import MassProperties
-    from ...core.measurement.measurement import Measurement
+    from ...core.inertia import MassProperties
+    from ...core.measurement import Measurement
 
 DESCRIPTIONS = {
     "body_mass": "Mass in kg",

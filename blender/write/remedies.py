@@ -6,9 +6,9 @@ remedies.
 
 from typing import NamedTuple
 
-from ...core.inertia.findings import NEGATIVE_INERTIA
-from ...core.measurement.findings import NO_VOLUME
-from ...core.solid.findings import (
+from ...core.inertia import NEGATIVE_INERTIA
+from ...core.measurement import NO_VOLUME
+from ...core.solid import (
     COMPONENTS_NESTED,
     COMPONENTS_OVERLAP,
     DUPLICATE_FACES_COUNTED,
@@ -22,7 +22,7 @@ from ...core.solid.findings import (
     SELF_INTERSECTING,
     VERTICES_WELDED,
 )
-from ...core.verdict.findings import FLIPPED_FACES, SELF_INTERSECTION
+from ...core.verdict import FLIPPED_FACES, SELF_INTERSECTION
 
 
 class Remedy(NamedTuple):

@@ -16,9 +16,8 @@ from typing import Any
 import bpy
 from bpy.types import Operator
 
-from ...core.verdict import internal_error
+from ...core.verdict import fill, internal_error, sentence, severity
 from ...core.verdict.finding import Finding, MeasureError, Severity, finding, truncate_findings
-from ...core.verdict.sentences import fill, sentence, severity
 from .findings import FAILURE
 from .units import Units
 

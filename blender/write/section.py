@@ -16,13 +16,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import bpy
 
 from ... import core
-from ...core.verdict.finding import Finding, Severity
-from ...core.verdict.sentences import sentence, severity
+from ...core.verdict import Finding, Severity, sentence, severity
 from .properties import findings_in, findings_text, warning_lines
 from .units import clean, report_line, report_number, report_vector, rounded_up
 
 if TYPE_CHECKING:
-    from ...core.flat.section_properties import Section
+    from ...core.flat import Section
 
 KEY = "body_section"
 BOUND_KEYS = ("area", "perimeter", "centroid", "second")

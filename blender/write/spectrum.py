@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.files.whole_file import whole_file
-from ...core.fourier.wave_vectors import Spectrum
-from ...core.measurement.documents import SPECTRUM_ARRAYS
+from ...core.fourier import Spectrum
+from ...core.measurement import SPECTRUM_ARRAYS
 
 IMAGE_MARK = (
     "body_fourier"  # property of the images that may be overwritten; its value is their name

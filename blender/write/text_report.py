@@ -13,14 +13,11 @@ from collections.abc import Collection, Iterable, Sequence
 from math import sqrt
 from typing import Any
 
-from ...core.inertia.plain_body import TENSOR, PlainBody, add_bodies, principal_axes, tensor_rows
-from ...core.measurement.documents import document, plain
-from ...core.measurement.plain_text import visible
-from ...core.measurement.record import described
+from ...core.inertia import TENSOR, PlainBody, add_bodies, principal_axes, tensor_rows
+from ...core.measurement import described, document, plain, visible
+from ...core.verdict import HEALTH, METHODS, Method, Procedure, method_key
 from ...core.verdict.finding import Finding, ReadError, finding
-from ...core.verdict.method import Method, Procedure
-from ...core.verdict.sentences import HEALTH, METHODS, method_key
-from ...core.wall.findings import WALL_MEASURED
+from ...core.wall import WALL_MEASURED
 from ..scale import meters_per_unit
 from . import properties
 from .findings import NO_STORED_RESULTS, STALE_RESULTS

@@ -11,7 +11,7 @@ import zlib
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.numerics.array_types import Array
+from ...core.numerics import Array
 
 SIZE = 128  # pixels
 _SAMPLES = 5_000  # points of the surface, so that parts thinner than a pixel are drawn, too

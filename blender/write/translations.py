@@ -22,8 +22,7 @@ from typing import Any
 import bpy
 from bpy.app.handlers import persistent
 
-from ...core.verdict.finding import Finding
-from ...core.verdict.sentences import sentence
+from ...core.verdict import Finding, sentence
 from .units import Units
 
 ADDON_ID = __name__.removesuffix(".blender.write.translations")

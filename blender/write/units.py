@@ -13,8 +13,8 @@ from collections.abc import Sequence
 from math import isfinite
 from typing import NamedTuple
 
-from ...core.density.materials import DENSITY_UNITS, FOOT, POUND, density_unit
-from ...core.numerics.float32 import shortest_decimal
+from ...core.density import DENSITY_UNITS, FOOT, POUND, density_unit
+from ...core.numerics import shortest_decimal
 
 LENGTHS = {
     "METRIC": {

@@ -20,7 +20,7 @@ from dataclasses import replace
 
 import bpy
 
-from ...core.files.findings import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
+from ...core.files import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..findings import FILE_NEWER_VERSION, FILE_VERSION_UNSUPPORTED, FRAME_MEASURED
 from ..supervisor.listing import BLEND, USD

@@ -22,17 +22,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.cad.obj_text import check_obj_text
-from ...core.files.damage import refuse_non_finite
-from ...core.files.findings import DAMAGE_SIZE, FILE_DAMAGED, MISSING_REFERENCES
-from ...core.files.text_fields import (
+from ...core.cad import check_obj_text
+from ...core.files import (
     BLOCK,
+    DAMAGE_SIZE,
+    FILE_DAMAGED,
     MAX_FLOAT32,
+    MISSING_REFERENCES,
     SHORT,
     Data,
     find_number_fault,
     map_file,
     refuse_line,
+    refuse_non_finite,
 )
 from ...core.verdict.finding import FileError, finding
 

@@ -20,10 +20,9 @@ from numpy.typing import NDArray
 from ...blender.read.places import set_places
 from ...blender.scene.findings import SURFACES_ROUNDED
 from ...blender.scene.imports import surface_data
-from ...core.cad.obj import UPRIGHT
-from ...core.cad.surfaces import revolved_solid
-from ...core.files.findings import FILE_UNREADABLE
-from ...core.numerics.array_types import Array
+from ...core.cad import UPRIGHT, revolved_solid
+from ...core.files import FILE_UNREADABLE
+from ...core.numerics import Array
 from ...core.verdict.finding import FileError, Finding, finding
 from ..findings import FILE_HIDES, FRAME_MEASURED, USD_CAGE, USD_UNREAD
 from .placing import place_objects, set_frame

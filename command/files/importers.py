@@ -20,14 +20,9 @@ import numpy as np
 from mathutils import Matrix
 
 from ...blender.scene.imports import show_bodies
-from ...core.cad.findings import FACES_NOT_READ
-from ...core.cad.obj import has_surfaces
-from ...core.cad.surface_file import read_surfaces
-from ...core.cad.surfaces import SurfaceFile
-from ...core.files.limits import file_limits
-from ...core.streams.file_mesh import FileMesh, box_of_blocks
-from ...core.streams.measure import KINDS
-from ...core.streams.threemf import Placed, read_3mf
+from ...core.cad import FACES_NOT_READ, SurfaceFile, has_surfaces, read_surfaces
+from ...core.files import file_limits
+from ...core.streams import KINDS, FileMesh, Placed, box_of_blocks, read_3mf
 from ...core.verdict.finding import FileError, Finding, finding
 from ..findings import FBX_INHERIT_TYPE, FILE_HIDES
 from .references import Opened

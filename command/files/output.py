@@ -22,10 +22,9 @@ from pathlib import Path
 from typing import NoReturn
 
 from ...core.files.whole_file import whole_file
-from ...core.measurement.documents import FLAT_SPECTRUM_ARRAYS, SPECTRUM_ARRAYS, to_csv
-from ...core.measurement.plain_text import print_message
+from ...core.measurement import FLAT_SPECTRUM_ARRAYS, SPECTRUM_ARRAYS, print_message, to_csv
 from ...core.robots.write.marker import is_audit, is_ours
-from ...core.verdict.finding import system_reason
+from ...core.verdict import system_reason
 from ..options.arguments import TARGETS
 from ..options.arguments import fail as fail_measure
 

@@ -12,8 +12,8 @@ import numpy as np
 from mathutils import Matrix
 
 from ...blender.read.places import set_places
-from ...core.bodies.reading import float64_matrix
-from ...core.numerics.array_types import Array
+from ...core.bodies import float64_matrix
+from ...core.numerics import Array
 
 ANCHOR = "Imported Places"  # an empty at the world's origin
 _AGREEMENT = 1e-5  # of an axis, and of a location: larger than the rounding along chains of parents

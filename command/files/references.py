@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 
 import bpy
 
-from ...core.files.findings import MISSING_REFERENCES
+from ...core.files import MISSING_REFERENCES
 from ...core.verdict.finding import Finding, finding
 from ..findings import DRIVER_BLOCKED, SCRIPT_BLOCKED, SCRIPTS_ALLOWED
 

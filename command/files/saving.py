@@ -17,8 +17,8 @@ import bpy
 from ...blender.read.assembly import Root
 from ...blender.settings.given import shows_collection
 from ...blender.write.findings import FILE_NOT_WRITTEN
-from ...core.files.whole_file import partial_file, replace
-from ...core.measurement.measurement import Measurement
+from ...core.files import partial_file, replace
+from ...core.measurement import Measurement
 from ...core.verdict.finding import FileError, Finding, finding
 from ..findings import ASSETS_NOT_MEASURED, FILE_CHANGED_MEANWHILE
 from ..supervisor.listing import COPY_SUFFIX

@@ -8,16 +8,16 @@ import os
 import zipfile
 from pathlib import Path
 
-from ...core.files.damage import damaged
-from ...core.files.findings import (
+from ...core.files import (
     DAMAGE_INCOMPLETE,
     FILE_MISSING,
     FILE_NOT_REGULAR,
     FILE_TYPE,
     FILE_UNREADABLE,
+    damaged,
 )
 from ...core.scans import formats as scans
-from ...core.verdict.finding import FileError, system_reason
+from ...core.verdict import FileError, system_reason
 from ..supervisor.listing import BLEND, IMPORTED
 
 STREAMED = (".stl", ".ply")  # formats that can be measured in blocks

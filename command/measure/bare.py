@@ -18,24 +18,23 @@ from typing import Any
 
 from ...blender.session.findings import NO_SUCH_NAME
 from ...blender.write.thumbnail import thumbnail
-from ...core.bodies.files import (
+from ...core.bodies import (
+    DENSITY_DEFAULTED,
+    SHAPE_OF_GRID,
     ArrayOptions,
     body_of_mesh,
     measure_array,
     measure_mesh_file,
+    measure_reading,
     read_mesh,
 )
-from ...core.bodies.findings import DENSITY_DEFAULTED, SHAPE_OF_GRID
-from ...core.bodies.reading import measure_reading
-from ...core.cad.obj import has_surfaces
-from ...core.cad.surface_file import read_meshes
-from ...core.files.findings import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
-from ...core.measurement import record
-from ...core.measurement.measurement import Measurement
-from ...core.measurement.settings import Settings
-from ...core.robots.formats import FORMATS as ROBOT_FORMATS
+from ...core.cad import has_surfaces, read_meshes
+from ...core.files import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
+from ...core.measurement import Measurement, Settings, record
+from ...core.robots import FORMATS as ROBOT_FORMATS
 from ...core.scans import formats as scans
-from ...core.streams.file_mesh import FileMesh
+from ...core.streams import FileMesh
+from ...core.verdict import open_body_caveats
 from ...core.verdict.finding import (
     FileError,
     Finding,
@@ -44,7 +43,6 @@ from ...core.verdict.finding import (
     finding,
     system_reason,
 )
-from ...core.verdict.verdict import open_body_caveats
 from .. import measure
 from ..files.suffixes import STREAMED, check_file, file_suffix
 from ..findings import FOURIER_OBJECT_COUNT, RESULTS_NEED_BLEND, STREAM_OPTIONS

@@ -16,10 +16,9 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ...core.files.limits import file_limits
-from ...core.files.text_fields import map_file
-from ...core.scans.nrrd import data_file, read_header
-from ...core.verdict.finding import MeasureError
+from ...core.files import file_limits, map_file
+from ...core.scans import data_file, read_header
+from ...core.verdict import MeasureError
 from ..files.finite import MALFORMED, Buffers, unquote
 from ..interruption import Progress
 from ..options.arguments import parse

@@ -22,10 +22,8 @@ from ...blender.read.assembly import Root, is_assembly, settings_of
 from ...blender.session.stored import assembly as stored_assembly
 from ...blender.session.stored import results
 from ...blender.settings.options import MeasureOptions
-from ...core.measurement import record
-from ...core.measurement.measurement import Measurement
-from ...core.verdict.finding import MeasureError
-from ...core.verdict.method import Procedure
+from ...core.measurement import Measurement, record
+from ...core.verdict import MeasureError, Procedure
 from .entries import Contents
 
 

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
-from ...core.measurement.measurement import Measurement
+from ...core.measurement import Measurement
 from ...core.verdict.finding import Finding, MeasureError, finding, unique
 
 

@@ -32,13 +32,12 @@ from ...blender.settings.given import shows_collection
 from ...blender.settings.options import MeasureOptions
 from ...blender.write import spectrum
 from ...blender.write.thumbnail import thumbnail
-from ...core.bodies.findings import SIGNATURE_NEEDS_POLYGONS
-from ...core.files.findings import OTHERS_LEFT_OUT
-from ...core.measurement.measurement import Measurement
-from ...core.measurement.record import flat_record
-from ...core.moments.complex_form import flusser_invariants, hu_invariants, normalize
+from ...core.bodies import SIGNATURE_NEEDS_POLYGONS
+from ...core.files import OTHERS_LEFT_OUT
+from ...core.measurement import Measurement, flat_record
+from ...core.moments import flusser_invariants, hu_invariants, normalize
+from ...core.verdict import Source
 from ...core.verdict.finding import Finding, MeasureError, QueryError, finding
-from ...core.verdict.method import Source
 from ..files.output import guard
 from ..findings import NO_MEASURABLE_OBJECT, NOTHING_RENDERED, SIGNATURE_OF_DISPLAY_MESH
 from ..options.checks import unused

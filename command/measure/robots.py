@@ -27,15 +27,12 @@ from ...blender.session.robots import (
 )
 from ...blender.settings.options import MeasureOptions
 from ...blender.write.findings import FILE_NOT_WRITTEN
-from ...core.measurement.measurement import Measurement
-from ...core.measurement.plain_text import print_message
-from ...core.robots.formats import FORMATS
-from ...core.robots.links import robot_name
-from ...core.robots.model import Robot
+from ...core.measurement import Measurement, print_message
+from ...core.robots import FORMATS, Robot, robot_name
 from ...core.robots.write.shapes import with_primitives, without_collision
 from ...core.robots.write.texts import robot_text, with_geometry
+from ...core.verdict import sentence, severity
 from ...core.verdict.finding import MeasureError, Severity, finding, system_reason
-from ...core.verdict.sentences import sentence, severity
 from ..files.output import is_stream
 from .entries import failure
 

@@ -15,13 +15,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from ...core.bodies.findings import DENSITY_DEFAULTED
-from ...core.files.findings import FILE_MISSING
-from ...core.measurement import record
-from ...core.measurement.documents import document
-from ...core.measurement.plain_text import print_message
-from ...core.verdict import internal_error
-from ...core.verdict.finding import MeasureError
+from ...core.bodies import DENSITY_DEFAULTED
+from ...core.files import FILE_MISSING
+from ...core.measurement import document, print_message, record
+from ...core.verdict import MeasureError, internal_error
 from .. import measure
 from ..findings import FILE_VERSION_UNSUPPORTED
 from ..interruption import Progress, check_interruption

@@ -23,10 +23,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ...core.files.whole_file import hidden_path
-from ...core.measurement.documents import failed_document
-from ...core.measurement.plain_text import PROGRAM, counted, print_message
-from ...core.robots.formats import FORMATS as ROBOT_FORMATS
+from ...core.files import hidden_path
+from ...core.measurement import PROGRAM, counted, failed_document, print_message
+from ...core.robots import FORMATS as ROBOT_FORMATS
 from ...core.verdict.finding import Finding, finding, system_reason
 from ..files import output
 from ..findings import FILE_CRASHED, FILE_TIMED_OUT, FILE_TOOK_MEMORY

@@ -27,12 +27,11 @@ from ...blender.settings.given import COLLIDERS
 from ...blender.settings.options import MeasureOptions
 from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...blender.write.properties import store
-from ...core.bodies.findings import DENSITY_DEFAULTED
-from ...core.files.findings import FILE_UNREADABLE
-from ...core.measurement import record
-from ...core.measurement.measurement import Measurement
+from ...core.bodies import DENSITY_DEFAULTED
+from ...core.files import FILE_UNREADABLE
+from ...core.measurement import Measurement, record
+from ...core.verdict import open_body_caveats
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
-from ...core.verdict.verdict import open_body_caveats
 from ..files.files import newer_version, open_file, requested_file
 from ..files.references import Opened, blocked_scripts, missing_links, scripts_of_open_file
 from ..files.saving import Place, write_assets

@@ -17,8 +17,8 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
-from ...core.robots.formats import FORMATS as ROBOT_FORMATS
-from ...core.scans.scan_files import scan_suffix
+from ...core.robots import FORMATS as ROBOT_FORMATS
+from ...core.scans import scan_suffix
 from ..supervisor.listing import UNITLESS
 from ..supervisor.processes import has_blender
 from .measure_parser import DEFAULT_ORDER, measure_parser

@@ -13,13 +13,12 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from zipfile import is_zipfile
 
-from ...core.density.materials import BY_NAME
-from ...core.density.polynomial import parse_polynomial
-from ...core.files.limits import file_limits
+from ...core.density import BY_NAME, parse_polynomial
+from ...core.files import file_limits
 from ...core.fourier.wave_vectors import FrequencyGrid, wave_vectors
-from ...core.measurement.measurement import Measurement
-from ...core.numerics.array_types import Array
-from ...core.scans.numpy_files import map_array
+from ...core.measurement import Measurement
+from ...core.numerics import Array
+from ...core.scans import map_array
 from ...core.verdict.finding import Finding, MeasureError, finding, system_reason
 from ..files.suffixes import file_suffix
 from ..findings import OPTIONS_UNUSED, UNIT_ASSUMED

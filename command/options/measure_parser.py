@@ -12,8 +12,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ...core.measurement.documents import FRAMES
-from ...core.robots.formats import FORMATS as ROBOT_FORMATS
+from ...core.measurement import FRAMES
+from ...core.robots import FORMATS as ROBOT_FORMATS
 from ..parser import COMMANDS, Parser
 from . import option_types as types
 from .option_types import FORMATS

@@ -12,9 +12,9 @@ from argparse import ArgumentTypeError
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
-from ...core.files.number_text import parse_number, parse_whole
+from ...core.files import parse_number, parse_whole
 from ...core.measurement import documents
-from ...core.robots.formats import FORMATS as ROBOT_FORMATS
+from ...core.robots import FORMATS as ROBOT_FORMATS
 from ..parser import COMMANDS
 
 # Equal to the values in the core, which needs numpy: the process that supervises others may have

@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from ...core.measurement.documents import bound_of, radius_of_gyration
+from ...core.measurement import bound_of, radius_of_gyration
 
 _SCALARS = ("mass", "volume", "area", "density", "length", "linear_density", "thickness")
 _DOMAINS = ("volume", "surface", "length", "mass", "area")  # domains of moments

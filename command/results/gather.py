@@ -15,11 +15,19 @@ from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from ...core.measurement.checked import check_document, check_journal_line, parse_json
-from ...core.measurement.documents import bound_of, count_findings, to_csv, to_json_lines
-from ...core.measurement.page import to_html
-from ...core.measurement.plain_text import counted, visible
-from ...core.verdict.finding import system_reason
+from ...core.measurement import (
+    bound_of,
+    check_document,
+    check_journal_line,
+    count_findings,
+    counted,
+    parse_json,
+    to_csv,
+    to_html,
+    to_json_lines,
+    visible,
+)
+from ...core.verdict import system_reason
 from ..options.option_types import count, positive
 from ..parser import COMMANDS, Parser, UsageError
 from ..supervisor import journal, listing

@@ -7,10 +7,9 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ...core.measurement.plain_text import print_message, visible
-from ...core.shape.library import Entry, classify, rank, read_library
-from ...core.verdict.finding import system_reason
-from ...core.verdict.sentences import SIMILARITY
+from ...core.measurement import print_message, visible
+from ...core.shape import Entry, classify, rank, read_library
+from ...core.verdict import SIMILARITY, system_reason
 from ..options.option_types import count
 from ..parser import Parser, UsageError
 

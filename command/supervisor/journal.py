@@ -22,7 +22,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ...core.measurement.checked import check_document
+from ...core.measurement import check_document
 
 if os.name == "nt":
     import msvcrt

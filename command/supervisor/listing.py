@@ -17,7 +17,7 @@ from errno import ENOENT
 from pathlib import Path
 
 from ...core.scans import scan_files as scans
-from ...core.verdict.finding import system_reason
+from ...core.verdict import system_reason
 from ..parser import UsageError
 
 SCHEMA = "body-moments-manifest/1"

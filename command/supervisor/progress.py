@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Sequence
 from datetime import timedelta
 
-from ...core.measurement.plain_text import counted, print_message
+from ...core.measurement import counted, print_message
 
 PERIOD = 5.0  # seconds between lines
 

@@ -13,26 +13,23 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..density.findings import POSITIONS_ONLY_AS_DENSITY
-from ..density.grid_options import GridOptions
-from ..files.limits import DEFAULT_LIMITS, Limits
-from ..measurement.findings import NO_VOLUME
-from ..measurement.measurement import Body, Measurement
-from ..measurement.settings import Settings
-from ..moments.affine_maps import affine_matrices
-from ..moments.exponents import KNOWN_ORDER
-from ..moments.moments import Moments
-from ..numerics.array_types import Array
-from ..scans import Scan, read_scan, sample_matrix
-from ..scans.findings import SCAN_UNSTATED
-from ..scans.formats import place_samples, read_all_positions
-from ..solid.findings import INVERTED_COMPONENTS
-from ..streams.file_mesh import FileMesh, box_of_blocks
-from ..streams.measure import MeshFile, StreamIntegrals, measure_stream, open_mesh_file
+from ..density import POSITIONS_ONLY_AS_DENSITY, GridOptions
+from ..files import DEFAULT_LIMITS, Limits
+from ..measurement import NO_VOLUME, Body, Measurement, Settings
+from ..moments import KNOWN_ORDER, Moments, affine_matrices
+from ..numerics import Array
+from ..scans import SCAN_UNSTATED, Scan, place_samples, read_all_positions, read_scan, sample_matrix
+from ..solid import INVERTED_COMPONENTS
+from ..streams import (
+    FileMesh,
+    MeshFile,
+    StreamIntegrals,
+    box_of_blocks,
+    measure_stream,
+    open_mesh_file,
+)
+from ..verdict import SELF_INTERSECTION, MeshHealth, Method, Procedure
 from ..verdict.finding import Finding, ReadError, finding
-from ..verdict.findings import SELF_INTERSECTION
-from ..verdict.health import MeshHealth
-from ..verdict.method import Method, Procedure
 from .findings import (
     DENSITY_FROM_SAMPLES,
     GIVEN_DENSITY_IGNORED,

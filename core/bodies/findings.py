@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/bodies`."""
 
-from ..verdict.finding import error, note, warning
+from ..verdict import error, note, warning
 
 NON_PLANAR_FACES_OF_DISPLAY_MESH = note(
     "non_planar_faces_of_display_mesh",

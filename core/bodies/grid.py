@@ -12,21 +12,22 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..density.grid_options import GridOptions
-from ..density.grid_values import density_function, empty_background_note
-from ..density.smooth_threshold import smooth_threshold_body
-from ..density.spline_grid import Blocks, grid_moments
-from ..density.threshold import ThresholdBody, threshold_body
-from ..measurement.measurement import Body
-from ..moments.exponents import KNOWN_ORDER
-from ..moments.moments import Measure, Moments
-from ..numerics.array_types import Array
-from ..scans.findings import SCAN_LABELS
-from ..scans.formats import EVEN, Positions
-from ..scans.labels import count_labels
+from ..density import (
+    Blocks,
+    GridOptions,
+    ThresholdBody,
+    density_function,
+    empty_background_note,
+    grid_moments,
+    smooth_threshold_body,
+    threshold_body,
+)
+from ..measurement import Body
+from ..moments import KNOWN_ORDER, Measure, Moments
+from ..numerics import Array
+from ..scans import EVEN, SCAN_LABELS, Positions, count_labels
+from ..verdict import MeshHealth, Method, Procedure, Source
 from ..verdict.finding import Finding, ReadError, finding
-from ..verdict.health import MeshHealth
-from ..verdict.method import Method, Procedure, Source
 from .findings import (
     DENSITY_FROM_GRID,
     GRID_EMPTY,

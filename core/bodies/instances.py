@@ -14,20 +14,34 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.bvh import boxes_overlap, sort_components
-from ..mesh.surface import Surface
-from ..moments.affine_maps import affine_matrices, are_similarities, placed_boxes, similarity_groups
-from ..moments.images import sum_of_images
-from ..moments.moments import Moments
-from ..numerics.array_types import Array, Index
-from ..polyhedron.integration import area_of_images
-from ..solid.findings import COMPONENTS_NESTED, COMPONENTS_OVERLAP, OVERLAP_UNCHECKED
-from ..solid.nesting import classify_pairs
-from ..solid.solid_method import SolidIntegrals
+from ..mesh import Surface, boxes_overlap, sort_components
+from ..moments import (
+    Moments,
+    affine_matrices,
+    are_similarities,
+    placed_boxes,
+    similarity_groups,
+    sum_of_images,
+)
+from ..numerics import Array, Index
+from ..polyhedron import area_of_images
+from ..solid import (
+    COMPONENTS_NESTED,
+    COMPONENTS_OVERLAP,
+    OVERLAP_UNCHECKED,
+    SolidIntegrals,
+    classify_pairs,
+)
+from ..verdict import (
+    CLOSED_SHEET_VOLUME_RTOL,
+    NEGLIGIBLE,
+    SELF_INTERSECTION,
+    DefectiveElements,
+    Intersection,
+    MeshHealth,
+    welding_tolerance,
+)
 from ..verdict.finding import Finding, finding
-from ..verdict.findings import SELF_INTERSECTION
-from ..verdict.health import DefectiveElements, Intersection, MeshHealth
-from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, NEGLIGIBLE, welding_tolerance
 from .findings import FLAT_SURFACES
 from .reading import Reading
 

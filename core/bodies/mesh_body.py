@@ -13,17 +13,16 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..measurement.measurement import Body
-from ..mesh.surface import Surface, normals
-from ..moments.images import sum_of_images
+from ..measurement import Body
+from ..mesh import Surface, normals
+from ..moments import sum_of_images
 from ..moments.moments import Moments, monomials, sum_moments
-from ..numerics.array_types import Array
+from ..numerics import Array
 from ..polyhedron import polyhedron_moments
-from ..solid.findings import DUPLICATE_FACES_COUNTED, NON_PLANAR_FACES
+from ..solid import DUPLICATE_FACES_COUNTED, NON_PLANAR_FACES
 from ..solid.measure import SolidIntegrals, measure_solid
+from ..verdict import NEGLIGIBLE, Method, Procedure, least_trusted
 from ..verdict.finding import Finding, finding
-from ..verdict.method import Method, Procedure, least_trusted
-from ..verdict.tolerances import NEGLIGIBLE
 from .findings import (
     DRAWN_AS_POLYGONS,
     FLAT_SURFACES,

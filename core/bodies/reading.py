@@ -13,15 +13,13 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..files.findings import FILE_UNREADABLE
-from ..measurement.builder import measure_body
-from ..measurement.measurement import Body, Measurement
-from ..measurement.settings import Settings, fingerprint
-from ..mesh.surface import Surface, join_surfaces
-from ..moments.affine_maps import are_singular
-from ..numerics.array_types import Array
-from ..nurbs.splines import Curve, Face
-from ..verdict.finding import Finding, MeasureError, ReadError, system_reason
+from ..files import FILE_UNREADABLE
+from ..measurement import Body, Measurement, Settings, fingerprint, measure_body
+from ..mesh import Surface, join_surfaces
+from ..moments import are_singular
+from ..numerics import Array
+from ..nurbs import Curve, Face
+from ..verdict import Finding, MeasureError, ReadError, system_reason
 
 NO_SLOTS = np.empty(0, np.intp)
 NO_VALUES = np.empty(0)

@@ -16,25 +16,17 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..measurement.findings import WALL_UNSUPPORTED, ZERO_QUANTITY
-from ..measurement.measurement import Body
-from ..mesh.bvh import boxes_overlap
-from ..mesh.surface import Surface
-from ..moments.affine_maps import placed_boxes
-from ..moments.exponents import KNOWN_ORDER
-from ..moments.images import sum_of_images
+from ..measurement import WALL_UNSUPPORTED, ZERO_QUANTITY, Body
+from ..mesh import Surface, boxes_overlap
+from ..moments import KNOWN_ORDER, placed_boxes, sum_of_images
 from ..moments.moments import Measure, Moments, monomials, sum_moments
-from ..numerics.array_types import Array
+from ..numerics import Array
 from ..polyhedron import polyhedron_moments
-from ..solid.findings import INVERTED_COMPONENTS
+from ..solid import INVERTED_COMPONENTS
 from ..solid.measure import SolidIntegrals
+from ..verdict import FLIPPED_FACES, NEGLIGIBLE, Procedure
 from ..verdict.finding import Finding, ReadError, finding, unique
-from ..verdict.findings import FLIPPED_FACES
-from ..verdict.method import Procedure
-from ..verdict.tolerances import NEGLIGIBLE
-from ..wall import offset_solid, wall_moments
-from ..wall.findings import WALL_MEASURED
-from ..wall.walls import OffsetSolid, split_thickness
+from ..wall import WALL_MEASURED, OffsetSolid, offset_solid, split_thickness, wall_moments
 from .findings import (
     INSTANCE_OVERLAP_UNCHECKED,
     WALL_FACES_WITHOUT_AREA,

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/cad`."""
 
-from ..verdict.finding import error, note, warning
+from ..verdict import error, note, warning
 
 IGES_NOT_ASCII = error(
     "iges_not_ascii", "The IGES file is binary or compressed. Save it in fixed ASCII form."

@@ -18,10 +18,9 @@ from typing import TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..files.findings import FILE_TOO_LARGE
-from ..numerics.array_types import Array
-from ..nurbs.flat_face import FlatFace
-from ..nurbs.splines import Curve, Face, Patch, patches_size
+from ..files import FILE_TOO_LARGE
+from ..numerics import Array
+from ..nurbs import Curve, Face, FlatFace, Patch, patches_size
 from ..verdict.finding import FileError, finding
 from .findings import (
     CURVES_LEFT_OUT,

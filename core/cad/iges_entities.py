@@ -20,12 +20,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..files.findings import FILE_UNRECOGNIZED
-from ..numerics.array_types import Array
-from ..numerics.bspline import SplineSpace, clamped_space
-from ..nurbs.blender_knots import bezier_curves
-from ..nurbs.splines import Curve
-from ..verdict.finding import FileError
+from ..files import FILE_UNRECOGNIZED
+from ..numerics import Array, SplineSpace, clamped_space
+from ..nurbs import Curve, bezier_curves
+from ..verdict import FileError
 from .findings import IGES_DAMAGED, IGES_NOT_ASCII, IGES_UNIT
 
 FORMAT = "IGES (fixed ASCII form)"

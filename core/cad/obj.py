@@ -20,13 +20,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..files.findings import FILE_TOO_LARGE
-from ..files.number_text import parse_number, parse_whole
-from ..files.text_fields import map_file, parse_decimals
-from ..numerics.array_types import Array, Index
-from ..nurbs.splines import Face
-from ..streams.file_mesh import FileMesh, name_of_file, without_repeats
-from ..verdict.finding import FileError
+from ..files import FILE_TOO_LARGE, map_file, parse_decimals, parse_number, parse_whole
+from ..numerics import Array, Index
+from ..nurbs import Face
+from ..streams import FileMesh, name_of_file, without_repeats
+from ..verdict import FileError
 from .findings import OBJ_CALL, SURFACE_ORDER, SURFACE_TRIMMED, SURFACE_UNSUPPORTED
 from .obj_text import Lines, blocks, check_obj_text
 from .surfaces import (

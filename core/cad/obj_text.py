@@ -16,7 +16,7 @@ from itertools import chain
 import numpy as np
 from numpy.typing import NDArray
 
-from ..files.text_fields import (
+from ..files import (
     BLOCK,
     MARK,
     SHORT,
@@ -32,7 +32,7 @@ from ..files.text_fields import (
     refuse_line,
     shorten,
 )
-from ..numerics.array_types import Mask
+from ..numerics import Mask
 
 VERTICES = {b"v": 3, b"vt": 1, b"vn": 3, b"vp": 1}  # the least count of numbers
 INDICES = {b"f": 3, b"l": 2, b"p": 1}  # the least count of indices

@@ -9,12 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
-from ..files.findings import FILE_MISSING, FILE_NOT_REGULAR, FILE_TYPE
-from ..files.limits import DEFAULT_LIMITS, Limits
-from ..numerics.array_types import Array
-from ..streams.file_mesh import FileMesh, box_of_blocks
-from ..streams.measure import KINDS
-from ..verdict.finding import FileError
+from ..files import DEFAULT_LIMITS, FILE_MISSING, FILE_NOT_REGULAR, FILE_TYPE, Limits
+from ..numerics import Array
+from ..streams import KINDS, FileMesh, box_of_blocks
+from ..verdict import FileError
 from .iges import IgesReader
 from .obj import UPRIGHT, ObjReader, read_obj_meshes
 from .surfaces import SurfaceFile

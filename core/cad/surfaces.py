@@ -13,12 +13,16 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..files.findings import FILE_TOO_LARGE, FILE_WITHOUT_OBJECTS
-from ..numerics.array_types import Array
-from ..numerics.bspline import SplineSpace
-from ..nurbs.blender_knots import bezier_patches, bezier_space
-from ..nurbs.findings import NON_FINITE_CONTROL_POINTS, NON_POSITIVE_WEIGHTS
-from ..nurbs.splines import Face, Patch
+from ..files import FILE_TOO_LARGE, FILE_WITHOUT_OBJECTS
+from ..numerics import Array, SplineSpace
+from ..nurbs import (
+    NON_FINITE_CONTROL_POINTS,
+    NON_POSITIVE_WEIGHTS,
+    Face,
+    Patch,
+    bezier_patches,
+    bezier_space,
+)
 from ..verdict.finding import FileError, Finding, MeasureError, finding, truncate_findings
 from .findings import (
     NO_SURFACE_KEPT,

@@ -14,13 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.array_types import Array
-from ..nurbs.flat_face import FlatFace
-from ..nurbs.patch_moments import vector_area
-from ..nurbs.seams import nearest_parameters
-from ..nurbs.splines import Curve, Face, Patch, patches_size
-from ..verdict.finding import MeasureError
-from ..verdict.tolerances import WELDING_RTOL
+from ..numerics import Array
+from ..nurbs import Curve, Face, FlatFace, Patch, nearest_parameters, patches_size, vector_area
+from ..verdict import WELDING_RTOL, MeasureError
 from .findings import SURFACE_TRIMMED
 from .surfaces import SurfaceRefusedError
 

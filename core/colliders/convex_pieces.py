@@ -17,13 +17,16 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.hulls import ConvexHull, convex_hull, hull_volumes
-from ..mesh.point_triangle import triangle_distances
-from ..mesh.surface import Surface, triangle_areas
-from ..numerics.array_types import Array, Index, Mask
-from ..numerics.graph import connected_components
-from ..numerics.quadrature import spread_directions
-from ..verdict.finding import MeasureError
+from ..mesh import (
+    ConvexHull,
+    Surface,
+    convex_hull,
+    hull_volumes,
+    triangle_areas,
+    triangle_distances,
+)
+from ..numerics import Array, Index, Mask, connected_components, spread_directions
+from ..verdict import MeasureError
 from .plane_cuts import ON_PLANE_RTOL, Piece, connected_parts, cut, piece_from_surface
 
 HULL_RTOL = 1e-6  # tolerance of the resulting hulls

@@ -30,18 +30,15 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inertia.mass_properties import MassProperties
-from ..mesh.hulls import ConvexHull, convex_hull
-from ..mesh.surface import Surface, triangle_areas
+from ..inertia import MassProperties
+from ..mesh import ConvexHull, Surface, convex_hull, triangle_areas
+from ..moments import SECOND_MOMENT_INDEX, Moments
 from ..moments.exponents import monomial_count, monomials
-from ..moments.moments import SECOND_MOMENT_INDEX, Moments
-from ..numerics.array_types import Array
-from ..numerics.arrays import sums_by_index
-from ..polyhedron.integration import polyhedron_moments
-from ..robots.model import Effect, Inertial, Pose, Shape, compare, ratio
-from ..robots.primitives import moments_of
-from ..statics.gradient import volume_gradient
-from ..verdict.finding import MeasureError
+from ..numerics import Array, sums_by_index
+from ..polyhedron import polyhedron_moments
+from ..robots import Effect, Inertial, Pose, Shape, compare, moments_of, ratio
+from ..statics import volume_gradient
+from ..verdict import MeasureError
 from .findings import COLLIDERS_FLAT
 
 SUMS = monomial_count(2)  # mass, first and second moments

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/colliders`."""
 
-from ..verdict.finding import error
+from ..verdict import error
 
 COLLIDERS_FLAT = error(
     "colliders_flat",

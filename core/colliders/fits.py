@@ -17,15 +17,11 @@ from math import inf, pi
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inertia.mass_properties import MassProperties
-from ..mesh.bvh import Bvh, sort_components
-from ..mesh.hulls import ConvexHull, convex_hull
-from ..mesh.surface import Surface, normals, triangle_areas
-from ..numerics.array_types import Array
-from ..numerics.quadrature import spread_directions
-from ..polyhedron.integration import volume_and_center
-from ..robots.model import Inertial, Pose, Shape
-from ..robots.primitives import equal_inertia_shape, primitive_moments
+from ..inertia import MassProperties
+from ..mesh import Bvh, ConvexHull, Surface, convex_hull, normals, sort_components, triangle_areas
+from ..numerics import Array, spread_directions
+from ..polyhedron import volume_and_center
+from ..robots import Inertial, Pose, Shape, equal_inertia_shape, primitive_moments
 from .convex_pieces import cut_into_pieces, distances_from_triangles
 
 AXES_CORNERS = 48  # of the hull whose faces and edges give the directions of boxes

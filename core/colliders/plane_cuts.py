@@ -14,9 +14,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.surface import Surface, normals
-from ..numerics.array_types import Array, Index, Mask
-from ..numerics.graph import connected_components
+from ..mesh import Surface, normals
+from ..numerics import Array, Index, Mask, connected_components
 
 ON_PLANE_RTOL = 1e-9  # relative to the size: points nearer to a plane are on it
 

@@ -4,9 +4,4 @@
 
 from ..lazy import lazy_names
 
-__getattr__, __dir__, __all__ = lazy_names(
-    __name__,
-    MATERIALS="materials",
-    grid_moments="spline_grid",
-    threshold_body="threshold",
-)
+__getattr__, __dir__, __all__ = lazy_names(__name__)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/density`."""
 
-from ..verdict.finding import error, note, warning
+from ..verdict import error, note, warning
 
 POLYNOMIAL_EMPTY = error(
     "polynomial_empty", "The polynomial is empty. Type one, such as 1000 + 20*z."

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ..numerics.float32 import shortest_decimal
+from ..numerics import shortest_decimal
 from ..verdict.finding import Finding, ReadError, finding
 from .findings import POSITIONS_ONLY_AS_DENSITY, VALUES_BY_TABLE, VALUES_SCALED
 

@@ -11,8 +11,8 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.array_types import Array
-from ..scans.formats import AXES, EVEN, Positions
+from ..numerics import Array
+from ..scans import AXES, EVEN, Positions
 from ..verdict.finding import Finding, MeasureError, ReadError, finding
 from .findings import (
     BACKGROUND_EMPTY,

@@ -25,7 +25,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..moments.exponents import factorial_ratios
+from ..moments import factorial_ratios
 from ..moments.moments import (
     FLOAT32_HALF_ULP,
     PAIRWISE_SUM_ROUNDINGS,
@@ -36,8 +36,8 @@ from ..moments.moments import (
     monomial_index,
     monomials,
 )
-from ..numerics.array_types import Array, Mask
-from ..solid.orientation import ClosedParts
+from ..numerics import Array, Mask
+from ..solid import ClosedParts
 
 TRIANGLES_PER_BLOCK = 4096  # triangles whose table of 20 monomials stays in the cache
 MIN_TRIANGLES_PER_BLOCK = 64

@@ -24,11 +24,10 @@ from itertools import product
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..moments import U
 from ..moments.exponents import monomial_count, monomial_index, monomials, order_from_count
-from ..moments.moments import U
-from ..numerics.array_types import Array
-from ..numerics.arrays import power_table
-from ..verdict.finding import MeasureError
+from ..numerics import Array, power_table
+from ..verdict import MeasureError
 from .findings import (
     POLYNOMIAL_BEYOND_NUMBERS,
     POLYNOMIAL_DEGREE,

@@ -9,18 +9,20 @@ from itertools import product
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..mesh.point_triangle import winding_number
-from ..moments.affine_maps import (
+from ..mesh import winding_number
+from ..moments import (
+    MAPS_PER_BLOCK,
+    Measure,
+    Moments,
+    U,
     absolute_moments,
+    measure_scale_factors,
     multiply_by_linear_form,
     to_trailing_axis,
     transform_by_horner,
 )
 from ..moments.exponents import monomial_count, monomials, order_from_count, product_indices
-from ..moments.images import MAPS_PER_BLOCK
-from ..moments.moments import Measure, Moments, U, measure_scale_factors
-from ..numerics.array_types import Array
-from ..numerics.rotations import polar_rotation
+from ..numerics import Array, polar_rotation
 from .polynomial import Polynomial
 
 Terms = dict[tuple[int, int, int], float]

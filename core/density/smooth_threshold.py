@@ -15,8 +15,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..moments.moments import Moments
-from ..numerics.array_types import Array
+from ..moments import Moments
+from ..numerics import Array
 from .threshold import ThresholdBody, threshold_body
 
 MAX_SAMPLES = 1 << 24  # Limit for the finest grid.

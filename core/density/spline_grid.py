@@ -28,9 +28,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
-from ..numerics.arguments import float_array, number_array
-from ..numerics.array_types import Array
-from ..verdict.finding import MeasureError
+from ..numerics import Array, float_array, number_array
+from ..verdict import MeasureError
 from .findings import DENSITY_NON_FINITE, GRID_TRANSFORM_SINGULAR
 
 COEFFICIENTS_PER_BLOCK = 1 << 17  # coefficients at a time: 1 MB of float64

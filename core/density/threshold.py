@@ -26,11 +26,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
-from ..numerics.arguments import float_array, number_array
-from ..numerics.array_types import Array, Mask
-from ..numerics.arrays import power_table
-from ..numerics.quadrature import gauss_legendre
-from ..verdict.finding import MeasureError
+from ..numerics import Array, Mask, float_array, gauss_legendre, number_array, power_table
+from ..verdict import MeasureError
 from .findings import DENSITY_NON_FINITE, GRID_TRANSFORM_SINGULAR
 from .spline_grid import contract
 from .threshold_cells import TURNS, Cells, Columns, amounts_of, compare_rules

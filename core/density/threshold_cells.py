@@ -12,8 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.array_types import Array, Index
-from ..numerics.quadrature import gauss_legendre
+from ..numerics import Array, Index, gauss_legendre
 
 # By the axis of a cell's columns: the axes along which x, y and the columns run.
 TURNS = ((1, 2, 0), (2, 0, 1), (0, 1, 2))

@@ -20,11 +20,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
-from ..numerics.arguments import float_array
-from ..numerics.array_types import Array
-from ..numerics.arrays import batches, power_table
-from ..numerics.quadrature import triangle_rule
-from ..verdict.finding import MeasureError
+from ..numerics import Array, batches, float_array, power_table, triangle_rule
+from ..verdict import MeasureError
 from ..verdict.findings import NO_FACES
 from .findings import DENSITY_NON_FINITE
 

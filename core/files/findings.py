@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/files`: what may be wrong with a file of any format."""
 
-from ..verdict.finding import error, note, warning
+from ..verdict import error, note, warning
 
 FILE_MISSING = error("file_missing", "No such file.")
 FILE_NOT_REGULAR = error("file_not_regular", "Not a regular file.")

@@ -11,7 +11,7 @@ import os
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 
-from ..verdict.finding import FileError, QueryError
+from ..verdict import FileError, QueryError
 from .findings import FILE_EXCEEDS_LIMIT, LIMITS_UNRECOGNIZED
 from .number_text import parse_number
 

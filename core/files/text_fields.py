@@ -16,8 +16,8 @@ from typing import NoReturn
 
 import numpy as np
 
-from ..numerics.array_types import Array, Index
-from ..verdict.finding import FileError
+from ..numerics import Array, Index
+from ..verdict import FileError
 from .findings import LINE_MISREAD
 from .number_text import parse_number, parse_whole
 

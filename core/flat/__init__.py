@@ -4,11 +4,4 @@
 
 from ..lazy import lazy_names
 
-__getattr__, __dir__, __all__ = lazy_names(
-    __name__,
-    Section="section_properties",
-    directed_edges="polygon",
-    fit_plane="section",
-    measure_section="section",
-    region_moments="polygon",
-)
+__getattr__, __dir__, __all__ = lazy_names(__name__)

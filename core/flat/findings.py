@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/flat`."""
 
-from ..verdict.finding import error
+from ..verdict import error
 
 SECTION_NO_AREA = error("section_no_area", "The faces have no area. Select other faces.")
 SECTION_ENCLOSES_NOTHING = error(

@@ -23,14 +23,19 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..moments import Measure, Moments
 from ..moments.exponents import monomial_count, monomial_index
-from ..moments.moments import Measure, Moments
-from ..numerics.arguments import float_array, index_array
-from ..numerics.array_types import Array, Index
-from ..numerics.arrays import segment_ranges, sums_by_index
-from ..numerics.graph import connected_components
-from ..polyhedron.n_dimensions import SimplexMoments, enclosed_moments, multi_indices
-from ..verdict.finding import MeasureError
+from ..numerics import (
+    Array,
+    Index,
+    connected_components,
+    float_array,
+    index_array,
+    segment_ranges,
+    sums_by_index,
+)
+from ..polyhedron import SimplexMoments, enclosed_moments, multi_indices
+from ..verdict import MeasureError
 from .findings import OUTLINE_OPEN, OUTLINES_COINCIDE, SECTION_ENCLOSES_NOTHING
 
 SAMPLES_PER_OUTLINE = (

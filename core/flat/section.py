@@ -11,14 +11,11 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..mesh.edges import uncancelled_sides
-from ..mesh.surface import normals
-from ..mesh.welding import first_at_equal_position
-from ..moments.moments import U
-from ..numerics.arguments import check_type, float_array, index_array
-from ..numerics.array_types import Array, Index
-from ..polyhedron.n_dimensions import facet_moments
-from ..verdict.finding import MeasureError
+from ..mesh import first_at_equal_position, normals, uncancelled_sides
+from ..moments import U
+from ..numerics import Array, Index, check_type, float_array, index_array
+from ..polyhedron import facet_moments
+from ..verdict import MeasureError
 from .findings import SECTION_ENCLOSES_NOTHING, SECTION_NO_AREA, SECTION_NOT_FLAT
 from .polygon import edge_arrays, outline_areas, plane_positions, region_moments
 from .section_properties import Plane, Section

@@ -17,7 +17,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import atan2, hypot, pi, sqrt
 
-from ..numerics.vectors import Vector
+from ..numerics import Vector
 
 EQUAL_MOMENTS_RTOL = 1e-6  # principal moments closer than this, relatively, are equal
 MAX_NOISE_SHARE = 1e-3  # Relative to the larger principal moment: noise is limited to this.

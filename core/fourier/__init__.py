@@ -4,10 +4,4 @@
 
 from ..lazy import lazy_names
 
-__getattr__, __dir__, __all__ = lazy_names(
-    __name__,
-    FrequencyGrid="wave_vectors",
-    polygon_transform="polygon",
-    solid_transform="transform",
-    surface_transform="transform",
-)
+__getattr__, __dir__, __all__ = lazy_names(__name__)

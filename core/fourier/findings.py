@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/fourier`."""
 
-from ..verdict.finding import error
+from ..verdict import error
 
 FOURIER_OF_OPEN_SURFACE = error(
     "fourier_of_open_surface",

@@ -27,12 +27,9 @@ from math import factorial
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.surface import Surface
-from ..moments.moments import Measure
-from ..numerics.arguments import check_type
-from ..numerics.array_types import Array, Index
-from ..numerics.compensated import compensated_normals
-from ..numerics.quadrature import gauss_legendre, triangle_rule
+from ..mesh import Surface
+from ..moments import Measure
+from ..numerics import Array, Index, check_type, compensated_normals, gauss_legendre, triangle_rule
 from .transform import Transform
 from .triangle_kernel import PAIRS_PER_BLOCK, PhaseMeans, TriangleBlock
 from .wave_vectors import APPROXIMATE, FrequencyGrid, ListWaves, Spectrum

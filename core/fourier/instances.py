@@ -15,13 +15,10 @@ from typing import cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..mesh.surface import Surface
-from ..moments.affine_maps import distinct_linear_parts
-from ..moments.moments import Measure
-from ..numerics.arguments import check_type, float_array
-from ..numerics.array_types import Array
-from ..numerics.compensated import phase_factors
-from ..verdict.finding import MeasureError
+from ..mesh import Surface
+from ..moments import Measure, distinct_linear_parts
+from ..numerics import Array, check_type, float_array, phase_factors
+from ..verdict import MeasureError
 from ..verdict.findings import NO_FACES
 from .grid import GridTransform
 from .transform import Transform

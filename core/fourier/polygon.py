@@ -16,10 +16,8 @@ from math import factorial
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..moments.moments import U
-from ..numerics.arguments import check_filled, float_array
-from ..numerics.array_types import Array
-from ..numerics.compensated import phase_factors
+from ..moments import U
+from ..numerics import Array, check_filled, float_array, phase_factors
 from .transform import ROUNDING_FACTOR, ZERO_WAVE_NUMBER
 from .triangle_kernel import PAIRS_PER_BLOCK
 from .wave_vectors import FrequencyGrid, Spectrum, wave_vectors

@@ -25,11 +25,11 @@ from concurrent.futures import Future, ThreadPoolExecutor
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..mesh.surface import Surface
-from ..moments.moments import Measure, U
-from ..numerics.compensated import phase_factors, two_sum
-from ..polyhedron.integration import polyhedron_moments
-from ..verdict.finding import MeasureError
+from ..mesh import Surface
+from ..moments import Measure, U
+from ..numerics import phase_factors, two_sum
+from ..polyhedron import polyhedron_moments
+from ..verdict import MeasureError
 from .findings import FOURIER_OF_OPEN_SURFACE
 from .triangle_kernel import (
     PAIRS_PER_BLOCK,

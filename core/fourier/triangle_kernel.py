@@ -23,14 +23,10 @@ from math import factorial, hypot
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.surface import Surface
-from ..numerics.arguments import check_type
-from ..numerics.array_types import Array, Index
-from ..numerics.arrays import indices_in_range, spread_bits
-from ..numerics.compensated import compensated_normals
-from ..verdict.finding import MeasureError
+from ..mesh import Surface
+from ..numerics import Array, Index, check_type, compensated_normals, indices_in_range, spread_bits
+from ..verdict import MAX_COORDINATE, MeasureError, check_size
 from ..verdict.findings import NO_FACES, OBJECT_TOO_LARGE
-from ..verdict.tolerances import MAX_COORDINATE, check_size
 from .wave_vectors import GridWaves, ListWaves
 
 TRIANGLES_PER_BLOCK = 128  # triangles

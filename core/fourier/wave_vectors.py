@@ -15,9 +15,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..moments.moments import U
-from ..numerics.array_types import Array
-from ..verdict.finding import MeasureError
+from ..moments import U
+from ..numerics import Array
+from ..verdict import MeasureError
 from .findings import FREQUENCY_COUNT, FREQUENCY_RANGE, WAVE_VECTORS_RANGE, WAVE_VECTORS_SHAPE
 
 MAX_FREQUENCY = 1e100  # its square is still a number, for any size of the body

@@ -6,10 +6,4 @@ moments.
 
 from ..lazy import lazy_names
 
-__getattr__, __dir__, __all__ = lazy_names(
-    __name__,
-    MassProperties="mass_properties",
-    combine="mass_properties",
-    pose_matrix="principal_frames",
-    principal_frame="principal_frames",
-)
+__getattr__, __dir__, __all__ = lazy_names(__name__)

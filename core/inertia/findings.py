@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/inertia`."""
 
-from ..verdict.finding import error, note
+from ..verdict import error, note
 
 NO_CERTAIN_VOLUME = error(
     "no_certain_volume",

@@ -16,12 +16,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, sum_moments
-from ..numerics.arguments import check_type, float_array
-from ..numerics.array_types import Array, Mask
-from ..numerics.arrays import PerBody
-from ..numerics.rotations import rotation_array
-from ..verdict.finding import MeasureError
+from ..moments import SECOND_MOMENT_INDEX, Measure, Moments, U, sum_moments
+from ..numerics import Array, Mask, PerBody, check_type, float_array, rotation_array
+from ..verdict import MeasureError
 from .findings import NO_CERTAIN_VOLUME
 from .principal_frames import PrincipalFrame, principal_frame, principal_frames
 from .third_moment_frames import ThirdMomentFrames

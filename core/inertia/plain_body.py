@@ -16,8 +16,8 @@ from math import atan2, cos, hypot, sin, sqrt
 from sys import float_info
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..numerics.vectors import cross, dot, subtract
-from ..verdict.finding import QueryError
+from ..numerics import cross, dot, subtract
+from ..verdict import QueryError
 from .findings import AXIS_POINTS_COINCIDE
 
 if TYPE_CHECKING:

@@ -21,14 +21,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..moments.affine_maps import affine_matrices
-from ..moments.moments import Moments
-from ..numerics.arguments import check_type, float_array
-from ..numerics.array_types import Array
-from ..numerics.arrays import PerBody
-from ..numerics.rotations import quaternion, rotation_array
+from ..moments import Moments, affine_matrices
+from ..numerics import Array, PerBody, check_type, float_array, quaternion, rotation_array
+from ..verdict import OBJECT_TOO_SMALL
 from ..verdict.finding import MeasureError, finding
-from ..verdict.findings import OBJECT_TOO_SMALL
 from .findings import (
     AXES_AMBIGUOUS,
     AXES_FREE,

@@ -4,9 +4,4 @@
 
 from ..lazy import lazy_names
 
-__getattr__, __dir__, __all__ = lazy_names(
-    __name__,
-    FORMATS="documents",
-    mass_properties="builder",
-    to_html="page",
-)
+__getattr__, __dir__, __all__ = lazy_names(__name__)

@@ -12,18 +12,22 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..inertia.findings import AXES_FREE, MOMENTS_OVERFLOW, NO_CERTAIN_VOLUME
-from ..inertia.mass_properties import MassProperties, has_certain_total
-from ..inertia.principal_frames import PrincipalFrame
-from ..mesh.surface import Surface
-from ..moments.exponents import KNOWN_ORDER
+from ..inertia import (
+    AXES_FREE,
+    MOMENTS_OVERFLOW,
+    NO_CERTAIN_VOLUME,
+    MassProperties,
+    PrincipalFrame,
+    has_certain_total,
+)
+from ..mesh import Surface
+from ..moments import KNOWN_ORDER
 from ..moments.moments import Measure, Moments, U, monomial_count
-from ..numerics.array_types import Array
+from ..numerics import Array
 from ..solid.measure import SolidIntegrals, measure_solid
+from ..verdict import MeshHealth, Method, Procedure
 from ..verdict.finding import Finding, ReadError, finding
-from ..verdict.health import MeshHealth
-from ..verdict.method import Method, Procedure
-from ..wall.findings import NO_FACE_AREA
+from ..wall import NO_FACE_AREA
 from .findings import (
     DENSITY_FROM_MEMBERS,
     LARGE_BOUND,

@@ -19,7 +19,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from math import isfinite, sqrt
 from typing import Any
 
-from ..inertia.plain_body import TENSOR
+from ..inertia import TENSOR
 
 SCHEMA = "body-moments/1"
 FRAMES = ("world", "object")

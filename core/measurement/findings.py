@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/measurement`."""
 
-from ..verdict.finding import error, note, warning
+from ..verdict import error, note, warning
 
 DENSITY_FROM_VALUE = note("density_from_value", "one value")
 DENSITY_FROM_MASS = note("density_from_mass", "given mass")

@@ -10,13 +10,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
-from ..inertia.mass_properties import MassProperties
-from ..mesh.surface import Surface
-from ..moments.moments import Measure, Moments
-from ..numerics.array_types import Array
+from ..inertia import MassProperties
+from ..mesh import Surface
+from ..moments import Measure, Moments
+from ..numerics import Array
+from ..verdict import MeshHealth, Method
 from ..verdict.finding import Finding, ReadError, finding
-from ..verdict.health import MeshHealth
-from ..verdict.method import Method
 from .findings import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, WALL_UNSUPPORTED
 
 # Sources of a density that is the same everywhere.

@@ -20,18 +20,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..flat.polygon import plane_positions
-from ..flat.section import foot
-from ..flat.section_properties import Plane
-from ..inertia.mass_properties import MassProperties, combine
-from ..moments.complex_form import Invariant
+from ..flat import Plane, foot, plane_positions
+from ..inertia import MassProperties, combine
+from ..moments import Invariant
 from ..moments.exponents import monomial_index
 from ..moments.moments import Moments, U, monomials
-from ..numerics.array_types import Array
-from ..polyhedron.n_dimensions import multi_indices
-from ..verdict.finding import Finding, MeasureError, Severity
-from ..verdict.sentences import sentence, severity
-from ..verdict.verdict import find_verdict
+from ..numerics import Array
+from ..polyhedron import multi_indices
+from ..verdict import Finding, MeasureError, Severity, find_verdict, sentence, severity
 from .documents import plain
 from .measurement import UNIFORM_DENSITIES, Measurement
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 import hashlib
 from dataclasses import dataclass
 
-from ..numerics.float32 import shortest_decimal
+from ..numerics import shortest_decimal
 
 VERSION = "v1"
 

@@ -6,8 +6,4 @@ hierarchy.
 
 from ..lazy import lazy_names
 
-__getattr__, __dir__, __all__ = lazy_names(
-    __name__,
-    Surface="surface",
-    convex_hull="hulls",
-)
+__getattr__, __dir__, __all__ = lazy_names(__name__)

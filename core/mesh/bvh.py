@@ -18,8 +18,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.array_types import Array, Index, Mask
-from ..numerics.arrays import following_pairs, segment_ranges, spread_bits
+from ..numerics import Array, Index, Mask, following_pairs, segment_ranges, spread_bits
 from .point_triangle import triangle_distances
 
 RAY_SLOPES = (0.08173, 0.05311)  # the ray is (0.08173, 0.05311, 1)

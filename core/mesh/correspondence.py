@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.array_types import Array, Index
+from ..numerics import Array, Index
 
 # hardly any mesh has points that coincide along this direction
 DIRECTION = np.array([0.7071, 0.5477, 0.4472])

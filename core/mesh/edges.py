@@ -25,9 +25,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.array_types import Array, Index, Mask
-from ..numerics.arrays import NEXT_AXIS, first_occurrence, sums_by_index
-from ..numerics.graph import EDGES_PER_BLOCK, connected_components
+from ..numerics import (
+    EDGES_PER_BLOCK,
+    NEXT_AXIS,
+    Array,
+    Index,
+    Mask,
+    connected_components,
+    first_occurrence,
+    sums_by_index,
+)
 from .surface import Surface, face_of_each
 
 HASH_FACTOR = np.uint32(0x9E3779B1)  # a prime of xxHash, by Yann Collet

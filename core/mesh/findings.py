@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/mesh`."""
 
-from ..verdict.finding import error
+from ..verdict import error
 
 HULL_WITHOUT_EXTENT = error(
     "hull_without_extent", "All points are on one line: nothing can stand on it."

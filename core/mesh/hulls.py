@@ -19,11 +19,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.arguments import float_array
-from ..numerics.array_types import Array, Index, Mask
-from ..numerics.arrays import NEXT_AXIS, batches, segment_ranges
-from ..numerics.vectors import cross
-from ..verdict.finding import MeasureError
+from ..numerics import NEXT_AXIS, Array, Index, Mask, batches, cross, float_array, segment_ranges
+from ..verdict import MeasureError
 from .findings import HULL_WITHOUT_EXTENT
 
 GRID_BITS = 29

@@ -21,9 +21,7 @@ from functools import cached_property, partial
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.array_types import Array, Index, Mask
-from ..numerics.arrays import segment_ranges, segment_starts, sums_by_index
-from ..numerics.vectors import cross, dot
+from ..numerics import Array, Index, Mask, cross, dot, segment_ranges, segment_starts, sums_by_index
 from .edges import ring_sizes
 from .surface import Surface, face_of_each
 from .surface_stack import SurfaceStack

@@ -17,8 +17,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.array_types import Array
-from ..numerics.vectors import cross, dot, subtract
+from ..numerics import Array, cross, dot, subtract
 
 TRIANGLES_PER_BLOCK = 1 << 15  # triangles at a time
 

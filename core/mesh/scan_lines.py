@@ -20,8 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.array_types import Array, Index, Mask
-from ..numerics.arrays import batches, segment_ranges, sums_by_index
+from ..numerics import Array, Index, Mask, batches, segment_ranges, sums_by_index
 from .surface import Surface, flipped_quads
 
 LINE_SLOPES = 0.08173, 0.05311  # direction of the lines: across, for each length along

@@ -16,10 +16,18 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.arguments import float_array, has_form, index_array, number_array
-from ..numerics.array_types import Array, Mask
-from ..numerics.arrays import cross_rows, lengths
-from ..numerics.vectors import cross, dot
+from ..numerics import (
+    Array,
+    Mask,
+    cross,
+    cross_rows,
+    dot,
+    float_array,
+    has_form,
+    index_array,
+    lengths,
+    number_array,
+)
 
 NO_TRIANGLES = np.empty((0, 3), np.int32)
 NO_QUADS = np.empty((0, 4), np.int32)

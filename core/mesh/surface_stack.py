@@ -13,9 +13,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.array_types import Array, Index, Mask
-from ..numerics.arrays import as_unsigned, segment_starts
-from ..numerics.graph import connected_components
+from ..numerics import Array, Index, Mask, as_unsigned, connected_components, segment_starts
 from .edges import ring_sizes
 from .surface import HALVES, Surface, face_of_each, half_ulp, turned_quads
 

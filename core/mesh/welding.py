@@ -15,9 +15,16 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.array_types import Array, Index, Mask
-from ..numerics.arrays import NEXT_AXIS, first_occurrence, hash_uint64, lengths
-from ..numerics.graph import connected_components
+from ..numerics import (
+    NEXT_AXIS,
+    Array,
+    Index,
+    Mask,
+    connected_components,
+    first_occurrence,
+    hash_uint64,
+    lengths,
+)
 
 # Points near to each other are near along this direction, too; planes and axes of usual bodies are
 # not across it.

@@ -6,9 +6,4 @@ them.
 
 from ..lazy import lazy_names
 
-__getattr__, __dir__, __all__ = lazy_names(
-    __name__,
-    Measure="moments",
-    Moments="moments",
-    monomials="exponents",
-)
+__getattr__, __dir__, __all__ = lazy_names(__name__)

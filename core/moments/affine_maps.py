@@ -16,8 +16,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.array_types import Array, Index, Mask
-from ..numerics.arrays import segment_ranges, segment_starts
+from ..numerics import Array, Index, Mask, segment_ranges, segment_starts
 from .exponents import (
     count_of_degree,
     monomial_count,

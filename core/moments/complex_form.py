@@ -18,8 +18,8 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.array_types import Array
-from ..verdict.finding import MeasureError
+from ..numerics import Array
+from ..verdict import MeasureError
 from .affine_maps import apply_translation
 from .exponents import monomial_index, monomials
 from .findings import NORMALIZATION_UNDEFINED

@@ -11,7 +11,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.array_types import Array
+from ..numerics import Array
 
 KNOWN_ORDER = 3  # every body has its moments to this order
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/moments`."""
 
-from ..verdict.finding import error
+from ..verdict import error
 
 NORMALIZATION_UNDEFINED = error(
     "normalization_undefined",

@@ -19,12 +19,16 @@ from typing import cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.arguments import check_filled, float_array, shape_error
-from ..numerics.array_types import Array
-from ..numerics.arrays import PerBody, as_rows
-from ..numerics.rotations import rotation_array
-from ..verdict.finding import MeasureError
-from ..verdict.findings import OBJECT_TOO_SMALL
+from ..numerics import (
+    Array,
+    PerBody,
+    as_rows,
+    check_filled,
+    float_array,
+    rotation_array,
+    shape_error,
+)
+from ..verdict import OBJECT_TOO_SMALL, MeasureError
 from .affine_maps import (
     SIMILARITY_RTOL,
     absolute_moments,

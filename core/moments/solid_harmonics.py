@@ -20,7 +20,7 @@ from math import comb, factorial, pi, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.array_types import Array, Index
+from ..numerics import Array, Index
 from .exponents import monomial_count, monomial_index, product_indices
 
 Multiplets = dict[tuple[int, int], NDArray[np.complex128]]

@@ -4,9 +4,4 @@
 
 from ..lazy import lazy_names
 
-__getattr__, __dir__, __all__ = lazy_names(
-    __name__,
-    SplineSpace="bspline",
-    clamped_space="bspline",
-    quaternion="rotations",
-)
+__getattr__, __dir__, __all__ = lazy_names(__name__)

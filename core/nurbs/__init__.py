@@ -6,10 +6,4 @@
 
 from ..lazy import lazy_names
 
-__getattr__, __dir__, __all__ = lazy_names(
-    __name__,
-    Curve="splines",
-    Patch="splines",
-    length_moments="curve_moments",
-    measure_patches="solid",
-)
+__getattr__, __dir__, __all__ = lazy_names(__name__)

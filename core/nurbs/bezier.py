@@ -20,9 +20,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.exponents import monomial_count
-from ..numerics.array_types import Array, Index
-from ..numerics.bspline import SplineSpace, clamped_space
-from ..numerics.quadrature import gauss_legendre, gauss_legendre_with_ends
+from ..numerics import (
+    Array,
+    Index,
+    SplineSpace,
+    clamped_space,
+    gauss_legendre,
+    gauss_legendre_with_ends,
+)
 from .splines import Patch
 
 VOLUME_RTOL = 4e-15  # Relative to the largest possible moment: about the unavoidable rounding.

@@ -23,8 +23,7 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.array_types import Array
-from ..numerics.bspline import SplineSpace
+from ..numerics import Array, SplineSpace
 from .bezier import homogeneous
 from .splines import Curve, Patch
 

@@ -24,10 +24,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
-from ..numerics.arguments import check_type
-from ..numerics.array_types import Array
-from ..numerics.vectors import cross, dot
-from ..verdict.tolerances import check_size
+from ..numerics import Array, check_type, cross, dot
+from ..verdict import check_size
 from .bezier import ROUNDING, VOLUME_RTOL, bernstein, halves, homogeneous
 from .splines import Curve
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/nurbs`."""
 
-from ..verdict.finding import error, warning
+from ..verdict import error, warning
 
 NON_FINITE_CONTROL_POINTS = error(
     "non_finite_control_points",

@@ -15,13 +15,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..flat.polygon import orient_loops
-from ..mesh.bvh import overlapping_box_pairs
+from ..flat import orient_loops
+from ..mesh import overlapping_box_pairs
 from ..moments.moments import Measure, Moments, U, monomials
-from ..numerics.array_types import Array
-from ..numerics.bspline import SplineSpace
-from ..verdict.finding import MeasureError
-from ..verdict.tolerances import WELDING_RTOL
+from ..numerics import Array, SplineSpace
+from ..verdict import WELDING_RTOL, MeasureError
 from .curve_moments import curves_center, plane_moments
 from .findings import CURVE_OPEN, CURVE_TOO_SMALL, CURVES_CROSS, CURVES_NOT_COPLANAR
 from .splines import Curve, Face, Patch

@@ -27,11 +27,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials, sum_moments
-from ..numerics.array_types import Array
-from ..numerics.bspline import SplineSpace
-from ..numerics.quadrature import gauss_legendre, gauss_legendre_with_ends
-from ..numerics.vectors import cross, dot
-from ..verdict.finding import MeasureError
+from ..numerics import Array, SplineSpace, cross, dot, gauss_legendre, gauss_legendre_with_ends
+from ..verdict import MeasureError
 from .bezier import (
     ROUNDING,
     VOLUME_RTOL,

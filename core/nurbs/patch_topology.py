@@ -20,10 +20,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.array_types import Index, Mask
-from ..numerics.bspline import clamped_space
-from ..numerics.graph import connected_components
-from ..verdict.finding import MeasureError
+from ..numerics import Index, Mask, clamped_space, connected_components
+from ..verdict import MeasureError
 from .findings import DISCONTINUOUS_PATCH
 from .flat_face import self_intersects
 from .patch_moments import vector_area

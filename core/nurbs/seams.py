@@ -18,12 +18,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.bvh import overlapping_box_pairs
-from ..numerics.array_types import Array, Index, Mask
-from ..numerics.arrays import following_pairs
-from ..numerics.bspline import SplineSpace
-from ..numerics.graph import connected_components
-from ..numerics.vectors import cross
+from ..mesh import overlapping_box_pairs
+from ..numerics import Array, Index, Mask, SplineSpace, connected_components, cross, following_pairs
 from .blender_knots import bezier_curves
 from .flat_face import FlatFace, split_faces
 from .splines import SIDES, Curve, Face, Patch

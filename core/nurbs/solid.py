@@ -20,11 +20,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.bvh import SortedComponents, sort_components
-from ..moments.moments import Moments, sum_moments
-from ..numerics.arguments import check_filled
-from ..numerics.array_types import Array, Index, Mask
-from ..solid.findings import (
+from ..mesh import SortedComponents, sort_components
+from ..moments import Moments, sum_moments
+from ..numerics import Array, Index, Mask, check_filled
+from ..solid import (
     CAVITIES_BREAK_THROUGH,
     CAVITIES_SUBTRACTED,
     COMPONENTS_NESTED,
@@ -32,13 +31,13 @@ from ..solid.findings import (
     FLAT_COMPONENTS,
     FLAT_SURFACE,
     OVERLAP_UNCHECKED,
+    ComponentComparison,
+    ComponentRelations,
+    classify_pairs,
+    zero_volume,
 )
-from ..solid.nesting import ComponentRelations, classify_pairs
-from ..solid.orientation import ComponentComparison, zero_volume
+from ..verdict import NEGLIGIBLE, MeshHealth, Procedure, welding_tolerance
 from ..verdict.finding import Finding, MeasureError, finding
-from ..verdict.health import MeshHealth
-from ..verdict.method import Procedure
-from ..verdict.tolerances import NEGLIGIBLE, welding_tolerance
 from .findings import (
     AMBIGUOUS_PATCH_SIDES,
     ERROR_ESTIMATE_LARGE,

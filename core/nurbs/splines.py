@@ -16,11 +16,8 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.arguments import check_type, float_array
-from ..numerics.array_types import Array
-from ..numerics.bspline import SplineSpace
-from ..verdict.finding import MeasureError
-from ..verdict.tolerances import check_size
+from ..numerics import Array, SplineSpace, check_type, float_array
+from ..verdict import MeasureError, check_size
 from .findings import NON_FINITE_CONTROL_POINTS, NON_POSITIVE_WEIGHTS
 
 Face: TypeAlias = "Patch | FlatFace"

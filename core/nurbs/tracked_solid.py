@@ -20,10 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, monomials, sum_moments
-from ..numerics.array_types import Array
-from ..numerics.bspline import SplineSpace
-from ..verdict.method import Procedure
-from ..verdict.tolerances import welding_tolerance
+from ..numerics import Array, SplineSpace
+from ..verdict import Procedure, welding_tolerance
 from .bezier import MAX_CELLS, cells_of_nets, homogeneous
 from .patch_moments import area_slope, exact_points, flux_sums, integrand_in_blocks, volume_moments
 from .patch_topology import PatchTopology, find_topology

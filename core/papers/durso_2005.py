@@ -33,7 +33,7 @@ from math import factorial
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.vectors import Number, Vector, cross, dot
+from ..numerics import Number, Vector, cross, dot
 from .sheynin_tuzikov_2001 import _exponents_to, sigma
 
 # (divisor of the sum of c_j (p⊥·n) times these products; the products: a is p_j, b is p_{j+1}, p is

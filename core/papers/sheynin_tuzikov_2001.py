@@ -22,7 +22,7 @@ from operator import mul
 from typing import Any
 
 from ..moments.moments import monomials
-from ..numerics.vectors import Number, Vector, cross, dot, subtract
+from ..numerics import Number, Vector, cross, dot, subtract
 
 
 def sigma(exponents: tuple[int, int, int], a: Vector, b: Vector, c: Vector) -> Number:

@@ -17,9 +17,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.array_types import Array
-from ..numerics.bspline import SplineSpace
-from ..numerics.quadrature import gauss_legendre
+from ..numerics import Array, SplineSpace, gauss_legendre
 from .sheynin_tuzikov_2001 import _exponents_to
 
 MAX_ENTRIES = 2e6

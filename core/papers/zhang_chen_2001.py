@@ -28,7 +28,7 @@ from fractions import Fraction
 from itertools import product
 from math import factorial, prod
 
-from ..numerics.vectors import Number, Vector, cross, dot
+from ..numerics import Number, Vector, cross, dot
 
 
 def signed_area(points: Sequence[Vector], edges: Sequence[tuple[int, int]]) -> Number:

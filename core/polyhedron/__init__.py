@@ -6,10 +6,4 @@ dimensions.
 
 from ..lazy import lazy_names
 
-__getattr__, __dir__, __all__ = lazy_names(
-    __name__,
-    enclosed_moments="n_dimensions",
-    facet_moments="n_dimensions",
-    facets_of="n_dimensions",
-    polyhedron_moments="integration",
-)
+__getattr__, __dir__, __all__ = lazy_names(__name__)

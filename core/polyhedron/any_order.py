@@ -30,8 +30,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inertia.findings import MOMENTS_OVERFLOW
-from ..mesh.surface import Surface, turned_quads
+from ..inertia import MOMENTS_OVERFLOW
+from ..mesh import Surface, turned_quads
+from ..moments import Measure, Moments, U, unchecked_moments
 from ..moments.exponents import (
     count_of_degree,
     factorial_ratios,
@@ -40,12 +41,8 @@ from ..moments.exponents import (
     monomials,
     quotient_indices,
 )
-from ..moments.moments import Measure, Moments, U, unchecked_moments
-from ..numerics.array_types import Array
-from ..numerics.arrays import batches, indices_in_range
-from ..numerics.vectors import cross, dot
-from ..verdict.finding import MeasureError
-from ..verdict.tolerances import check_size
+from ..numerics import Array, batches, cross, dot, indices_in_range
+from ..verdict import MeasureError, check_size
 from .any_order_kernel import UNDERFLOW_BOUND, AnyOrderKernel, Sums, absolute_sums, row_count
 from .third_order import NO_VERTEX, box_center, finite_box, nothing
 

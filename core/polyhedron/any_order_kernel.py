@@ -30,9 +30,9 @@ from math import factorial, prod
 import numpy as np
 from numpy.typing import NDArray
 
+from ..moments import U
 from ..moments.exponents import count_of_degree, monomial_count, monomials, quotient_indices
-from ..moments.moments import U
-from ..numerics.array_types import Array
+from ..numerics import Array
 from .workspace import Workspace, gather
 
 FACES_PER_CHUNK = 32  # faces that share one bound of their coordinates

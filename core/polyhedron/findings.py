@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/polyhedron`."""
 
-from ..verdict.finding import error
+from ..verdict import error
 
 BOUNDARY_OPEN = error(
     "boundary_open",

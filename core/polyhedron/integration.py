@@ -16,17 +16,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..inertia.findings import MOMENTS_OVERFLOW
-from ..mesh.boundary import BoundarySum
-from ..mesh.planarity import PlanarityAccumulator
-from ..mesh.surface import Surface
+from ..inertia import MOMENTS_OVERFLOW
+from ..mesh import BoundarySum, PlanarityAccumulator, Surface
+from ..moments import Measure, Moments, U
 from ..moments.exponents import monomial_count
-from ..moments.moments import Measure, Moments, U
-from ..numerics.arguments import check_order, check_type, float_array, number_array
-from ..numerics.array_types import Array
-from ..numerics.arrays import indices_in_range
-from ..numerics.vectors import cross, dot
-from ..verdict.finding import MeasureError
+from ..numerics import (
+    Array,
+    check_order,
+    check_type,
+    cross,
+    dot,
+    float_array,
+    indices_in_range,
+    number_array,
+)
+from ..verdict import MeasureError
 from . import third_order
 from .any_order import StreamIntegrator
 from .findings import BOUNDARY_OPEN

@@ -25,13 +25,10 @@ from math import comb, isfinite
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..inertia.findings import MOMENTS_OVERFLOW
-from ..moments.exponents import check_exponents, factorial_ratios
-from ..moments.moments import PAIRWISE_SUM_ROUNDINGS, U
-from ..numerics.arguments import check_filled, check_order, float_array, index_array
-from ..numerics.array_types import Array, Index
-from ..verdict.finding import MeasureError
-from ..verdict.findings import OBJECT_TOO_SMALL
+from ..inertia import MOMENTS_OVERFLOW
+from ..moments import PAIRWISE_SUM_ROUNDINGS, U, check_exponents, factorial_ratios
+from ..numerics import Array, Index, check_filled, check_order, float_array, index_array
+from ..verdict import OBJECT_TOO_SMALL, MeasureError
 from .findings import BOUNDARY_OPEN
 
 NUMBERS_PER_BLOCK = 1 << 20  # numbers in the table of a block

@@ -34,14 +34,11 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.planarity import PlanarityAccumulator
-from ..mesh.surface import Surface, has_flipped_corners
+from ..mesh import PlanarityAccumulator, Surface, has_flipped_corners
+from ..moments import PAIRWISE_SUM_ROUNDINGS, Measure, Moments, U, unchecked_moments
 from ..moments.exponents import monomial_count, monomials
-from ..moments.moments import PAIRWISE_SUM_ROUNDINGS, Measure, Moments, U, unchecked_moments
-from ..numerics.array_types import Array, Index
-from ..numerics.arrays import batches, indices_in_range
-from ..numerics.vectors import cross
-from ..verdict.tolerances import check_size
+from ..numerics import Array, Index, batches, cross, indices_in_range
+from ..verdict import check_size
 
 # Up to this number of triangles the third order is always exact, which takes half as long again.
 MAX_TRIANGLES_EXACT_THIRD = 100_000

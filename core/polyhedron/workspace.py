@@ -15,7 +15,7 @@ from typing import Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.array_types import Array, Index
+from ..numerics import Array, Index
 
 ROW_PADDING = (
     8  # numbers between arrays: numpy < 2 leaves its vector loop where output ends at input's start

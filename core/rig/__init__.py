@@ -4,7 +4,4 @@
 
 from ..lazy import lazy_names
 
-__getattr__, __dir__, __all__ = lazy_names(
-    __name__,
-    cuts="cuts",
-)
+__getattr__, __dir__, __all__ = lazy_names(__name__)

@@ -9,8 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.array_types import Array
-from ..numerics.rotations import quaternion, rotation_matrix
+from ..numerics import Array, quaternion, rotation_matrix
 from .motion import continuous
 from .spin import LAST, NODES, node_weights
 

@@ -19,13 +19,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.edges import find_edges, uncancelled_sides
-from ..mesh.surface import Surface
-from ..moments.moments import Moments
-from ..numerics.array_types import Array, Index, Mask
-from ..numerics.arrays import sums_by_index
-from ..numerics.graph import connected_components
-from ..polyhedron.integration import polyhedron_moments
+from ..mesh import Surface, find_edges, uncancelled_sides
+from ..moments import Moments
+from ..numerics import Array, Index, Mask, connected_components, sums_by_index
+from ..polyhedron import polyhedron_moments
 
 NO_BONE = -1
 TIE_RTOL = 1e-5  # weights are float32, and a mirrored face adds them up in another order

@@ -17,8 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.array_types import Array, Mask
-from ..numerics.rotations import polar_rotation, quaternion, rotation_matrix
+from ..numerics import Array, Mask, polar_rotation, quaternion, rotation_matrix
 
 # indices of the last frame on the ground, or of frame 0, and of the next frame on the ground
 Flight = tuple[int, int]

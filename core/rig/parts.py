@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.array_types import Array
+from ..numerics import Array
 
 
 @dataclass(frozen=True, eq=False)

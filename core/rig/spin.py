@@ -18,8 +18,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.array_types import Array
-from ..numerics.rotations import quaternion, rotation_matrix
+from ..numerics import Array, quaternion, rotation_matrix
 from .motion import Course, continuous
 
 # Of a frame, in -1 to 1. A cubic through the first, second, fourth and fifth has the least error of

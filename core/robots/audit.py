@@ -14,15 +14,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inertia.mass_properties import combine
-from ..mesh.surface import Surface
-from ..moments.moments import Moments
-from ..numerics.array_types import Array
-from ..solid.measure import measure_solid
-from ..verdict import internal_error
+from ..inertia import combine
+from ..mesh import Surface
+from ..moments import Moments
+from ..numerics import Array
+from ..solid import measure_solid
+from ..verdict import Procedure, internal_error, sentence, severity
 from ..verdict.finding import Finding, MeasureError, Severity, finding
-from ..verdict.method import Procedure
-from ..verdict.sentences import sentence, severity
 from .diagnosis import DIFFERS, Diagnosis, Reference, diagnose, diagnose_density
 from .findings import (
     AUDIT_ANGLES,

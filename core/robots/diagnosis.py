@@ -19,8 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.array_types import Array
-from ..numerics.rotations import rotation_matrix
+from ..numerics import Array, rotation_matrix
 from ..verdict.finding import Finding, finding
 from .findings import (
     AUDIT_ANGLES,

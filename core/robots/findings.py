@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/robots`."""
 
-from ..verdict.finding import error, note, warning
+from ..verdict import error, note, warning
 
 ROBOT_LINKS_LEFT_OUT = warning(
     "robot_links_left_out",

@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..measurement.measurement import Measurement
-from ..numerics.rotations import quaternion, rotation_matrix
+from ..measurement import Measurement
+from ..numerics import quaternion, rotation_matrix
 from ..verdict.finding import Finding, finding
 from .findings import (
     JOINT_VALUE_UNUSABLE,

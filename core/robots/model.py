@@ -17,11 +17,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inertia.mass_properties import combine
-from ..inertia.plain_body import EQUAL_MOMENTS_RTOL
-from ..mesh.surface import Surface
+from ..inertia import EQUAL_MOMENTS_RTOL, combine
+from ..mesh import Surface
 from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, monomial_count
-from ..numerics.array_types import Array
+from ..numerics import Array
 
 # Known values of an axis: N·m·s/rad or N·s/m, N·m or N, N·m/rad or N/m, N·m or N, rad/s or m/s.
 VALUES = ("damping", "friction", "stiffness", "effort", "velocity")

@@ -26,8 +26,7 @@ from math import pi, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.array_types import Array
-from ..numerics.quadrature import spread_directions
+from ..numerics import Array, spread_directions
 from ..verdict.finding import Finding, finding
 from .findings import (
     INERTIAL_CENTER_OUTSIDE,

@@ -15,10 +15,10 @@ from math import pi, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from ..moments.exponents import KNOWN_ORDER
+from ..moments import KNOWN_ORDER
 from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, monomial_count
-from ..numerics.array_types import Array
-from ..polyhedron.third_order import integrate
+from ..numerics import Array
+from ..polyhedron import integrate
 from .model import Inertial, Pose, Shape
 
 LEAST_SPREAD = float(np.finfo(np.float64).eps)  # Relative to the largest one.

@@ -11,9 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.array_types import Array
-from ..numerics.rotations import rotation_matrix
-from ..verdict.finding import Finding
+from ..numerics import Array, rotation_matrix
+from ..verdict import Finding
 from .model import Inertial, Shape
 
 # The names of the tensor's entries in URDF and SDF.

@@ -4,6 +4,4 @@
 
 from ..lazy import lazy_names
 
-__getattr__, __dir__, __all__ = lazy_names(
-    __name__, Scan="scan", read_scan="formats", sample_matrix="formats"
-)
+__getattr__, __dir__, __all__ = lazy_names(__name__)

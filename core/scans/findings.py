@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/scans`."""
 
-from ..verdict.finding import error, note, warning
+from ..verdict import error, note, warning
 
 NRRD_DATA_FILE_OUTSIDE = error(
     "nrrd_data_file_outside",

@@ -12,16 +12,16 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..files.damage import wrong_field
-from ..files.findings import (
+from ..files import (
+    DEFAULT_LIMITS,
     FILE_MISSING,
     FILE_NOT_REGULAR,
     FILE_TYPE,
     NAMED_FILE_MISSING,
+    Limits,
+    wrong_field,
 )
-from ..files.limits import DEFAULT_LIMITS, Limits
-from ..numerics.arguments import check_type, float_array
-from ..numerics.array_types import Array
+from ..numerics import Array, check_type, float_array
 from ..verdict.finding import FileError, Finding, finding
 from .findings import (
     POSITIONS_COUNT,

@@ -9,12 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from ..files.damage import damaged, wrong_field
-from ..files.findings import DAMAGE_CUT_SHORT, FILE_UNRECOGNIZED
-from ..files.limits import Limits
-from ..numerics.array_types import Array
-from ..numerics.rotations import rotation_matrix
-from ..verdict.finding import FileError
+from ..files import DAMAGE_CUT_SHORT, FILE_UNRECOGNIZED, Limits, damaged, wrong_field
+from ..numerics import Array, rotation_matrix
+from ..verdict import FileError
 from .findings import SCAN_IN_SEVERAL_FILES, SCAN_SAMPLE_TYPE, SCAN_SIZE
 from .scan import (
     Scan,

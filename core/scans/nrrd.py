@@ -14,17 +14,18 @@ from typing import Any
 
 import numpy as np
 
-from ..files.damage import damaged
-from ..files.findings import (
+from ..files import (
     DAMAGE_CUT_SHORT,
     FILE_UNRECOGNIZED,
     HEADER_FIELD,
     NAMED_FILE_MISSING,
+    Limits,
+    damaged,
+    parse_number,
+    parse_whole,
 )
-from ..files.limits import Limits
-from ..files.number_text import parse_number, parse_whole
-from ..numerics.array_types import Array
-from ..verdict.finding import FileError
+from ..numerics import Array
+from ..verdict import FileError
 from .findings import NRRD_DATA_FILE_OUTSIDE, SCAN_IN_SEVERAL_FILES, SCAN_SAMPLE_TYPE
 from .scan import Scan, map_samples, parse_samples, shape_of, space_axes, unpack_samples
 

@@ -17,9 +17,14 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
-from ..files.damage import check_length, damaged
-from ..files.findings import DAMAGE_INCOMPLETE, OTHERS_LEFT_OUT
-from ..files.limits import DEFAULT_LIMITS, Limits
+from ..files import (
+    DAMAGE_INCOMPLETE,
+    DEFAULT_LIMITS,
+    OTHERS_LEFT_OUT,
+    Limits,
+    check_length,
+    damaged,
+)
 from ..verdict.finding import FileError, finding
 from .findings import RAW_WITHOUT_LAYOUT, SCAN_SAMPLE_TYPE, SCAN_SIZE
 from .scan import (

@@ -19,15 +19,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..files.damage import check_length, damaged
-from ..files.findings import (
-    DAMAGE_CUT_SHORT,
-    DAMAGE_INCOMPLETE,
-    DAMAGE_SIZE,
-)
-from ..files.limits import Limits
-from ..numerics.array_types import Array
-from ..verdict.finding import FileError, Finding
+from ..files import DAMAGE_CUT_SHORT, DAMAGE_INCOMPLETE, DAMAGE_SIZE, Limits, check_length, damaged
+from ..numerics import Array
+from ..verdict import FileError, Finding
 from .findings import SCAN_SAMPLE_TYPE, SCAN_SIZE
 
 # Most bytes that one byte of a packed file can unpack to; bzip2 packs 900 kB of zeros in 39 bytes.

@@ -4,12 +4,4 @@
 
 from ..lazy import lazy_names
 
-__getattr__, __dir__, __all__ = lazy_names(
-    __name__,
-    rank="library",
-    read_library="library",
-    signature="signatures",
-    similarity="signatures",
-    symmetry="symmetries",
-    unique_frame="unique_frames",
-)
+__getattr__, __dir__, __all__ = lazy_names(__name__)

@@ -24,10 +24,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inertia.third_moment_frames import NOISE_LEVEL
-from ..mesh.surface import Surface
-from ..numerics.array_types import Array
-from ..numerics.vectors import cross, dot
+from ..inertia import NOISE_LEVEL
+from ..mesh import Surface
+from ..numerics import Array, cross, dot
 from .canonical_frame import EquivalentFrames, lexicographic_maximum
 
 MAX_AXIAL_ORDER = 30

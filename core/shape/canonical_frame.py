@@ -23,15 +23,11 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inertia.findings import MOMENTS_OVERFLOW
-from ..inertia.plain_body import frame_about
-from ..inertia.third_moment_frames import NOISE_LEVEL, SecondMomentAxes
+from ..inertia import MOMENTS_OVERFLOW, NOISE_LEVEL, SecondMomentAxes, frame_about
+from ..moments import Measure, Moments
 from ..moments.exponents import monomial_index, monomials, tensor_index
-from ..moments.moments import Measure, Moments
-from ..numerics.array_types import Array
-from ..numerics.arrays import distinct_arrays
-from ..numerics.quadrature import spread_directions
-from ..verdict.finding import MeasureError
+from ..numerics import Array, distinct_arrays, spread_directions
+from ..verdict import MeasureError
 
 MAX_ORDER = 6  # enough for the axes of prisms up to hexagonal, of a cube and of an icosahedron
 # Growth of the noise with the degree: as the moments of a normal distribution grow.

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/shape`."""
 
-from ..verdict.finding import error
+from ..verdict import error
 
 LIBRARY_LINE = error(
     "library_line",

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 
-from ..numerics.arguments import check_type
+from ..numerics import check_type
 from ..verdict.finding import FileError, Finding, finding
 from .findings import LIBRARY_LINE, RECORD_WITHOUT_SHAPE, RECORD_WITHOUT_SIGNATURE
 from .signatures import MAX_SIMILAR_DIFFERENCE, Likeness, Signature, similarity

@@ -20,9 +20,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.bvh import Bvh, sort_components
-from ..numerics.array_types import Array, Index, Mask
-from ..numerics.arrays import cross_rows, lengths
+from ..mesh import Bvh, sort_components
+from ..numerics import Array, Index, Mask, cross_rows, lengths
 from .symmetries import Symmetry, axis_rotation
 
 MAX_CORNERS = 4096  # farthest corners that are compared with each other

@@ -24,11 +24,9 @@ from itertools import count
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inertia.third_moment_frames import HALF_TURN_SIGNS, complete_free_axes
-from ..moments.images import invert_through_point
-from ..moments.moments import Moments
-from ..numerics.array_types import Array
-from ..numerics.arrays import distinct_arrays
+from ..inertia import HALF_TURN_SIGNS, complete_free_axes
+from ..moments import Moments, invert_through_point
+from ..numerics import Array, distinct_arrays
 from .canonical_frame import EquivalentFrames
 from .symmetries import Symmetry
 from .unique_frames import equivalent_frames, undetermined_axes

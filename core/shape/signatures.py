@@ -33,14 +33,10 @@ from math import hypot, log, pi, sqrt, tanh
 import numpy as np
 from numpy.typing import NDArray
 
-from ..moments.complex_form import complex_moments
+from ..moments import Measure, Moments, U, along_first, complex_moments, couple, harmonic_moments
 from ..moments.exponents import monomial_count, monomials
-from ..moments.moments import Measure, Moments, U
-from ..moments.solid_harmonics import along_first, couple, harmonic_moments
-from ..numerics.arguments import check_type
-from ..numerics.array_types import Array, Mask
-from ..numerics.arrays import PerBody
-from ..verdict.finding import FileError
+from ..numerics import Array, Mask, PerBody, check_type
+from ..verdict import FileError
 from .findings import SIGNATURE_INCOMPLETE, SIGNATURE_UNRECOGNIZED
 from .zernike import (
     MAX_ORDER_BY_MOMENTS,

@@ -18,12 +18,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inertia.third_moment_frames import NOISE_LEVEL
-from ..moments.images import invert_through_point
-from ..moments.moments import Moments
-from ..numerics.arguments import check_type
-from ..numerics.array_types import Array, Mask
-from ..numerics.arrays import distinct_arrays
+from ..inertia import NOISE_LEVEL
+from ..moments import Moments, invert_through_point
+from ..numerics import Array, Mask, check_type, distinct_arrays
 from .axial_harmonics import MAX_TILT, AxialHarmonics, axis_last, turn_by_harmonics
 from .unique_frames import equivalent_frames
 

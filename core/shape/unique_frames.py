@@ -13,18 +13,19 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..inertia.findings import AXES_FREE_BY_SHAPE
-from ..inertia.plain_body import EQUAL_AXES, SYMMETRIES
-from ..inertia.principal_frames import (
+from ..inertia import (
+    AXES_FREE_BY_SHAPE,
     CHOICES,
+    EQUAL_AXES,
+    NOISE_LEVEL,
+    SYMMETRIES,
     PrincipalFrame,
+    complete_free_axes,
     frames_of_body,
+    nearest_frames,
 )
-from ..inertia.third_moment_frames import NOISE_LEVEL, complete_free_axes, nearest_frames
-from ..moments.moments import Moments
-from ..numerics.arguments import check_type
-from ..numerics.array_types import Array
-from ..numerics.rotations import rotation_array
+from ..moments import Moments
+from ..numerics import Array, check_type, rotation_array
 from ..verdict.finding import finding
 from .canonical_frame import EquivalentFrames, canonical_frames
 

@@ -35,17 +35,17 @@ from math import ceil, factorial, pi, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from ..moments.complex_form import complex_moments
-from ..moments.exponents import monomials
-from ..moments.moments import Moments, U
-from ..moments.solid_harmonics import (
+from ..moments import (
+    Moments,
     Multiplets,
+    U,
     along_first,
+    complex_moments,
     harmonic_moments,
+    monomials,
     with_negative_orders,
 )
-from ..numerics.array_types import Array
-from ..numerics.quadrature import triangle_rule
+from ..numerics import Array, triangle_rule
 
 MAX_ORDER_BY_MOMENTS = 20  # the highest order that raw moments in float64 give
 MAX_DESCRIPTOR_ERROR = 1e-9  # the error of a descriptor that raw moments may have

@@ -4,8 +4,4 @@
 
 from ..lazy import lazy_names
 
-__getattr__, __dir__, __all__ = lazy_names(
-    __name__,
-    SolidIntegrals="solid_method",
-    measure_solid="measure",
-)
+__getattr__, __dir__, __all__ = lazy_names(__name__)

@@ -16,9 +16,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.array_types import Array, Index, Mask
-from ..numerics.arrays import cross_rows, lengths, segment_ranges, unique_pairs
-from ..numerics.graph import connected_components
+from ..numerics import (
+    Array,
+    Index,
+    Mask,
+    connected_components,
+    cross_rows,
+    lengths,
+    segment_ranges,
+    unique_pairs,
+)
 
 MAX_GAP_ASPECT = 1e-3  # width by length, at most, of a gap that counts as none
 MAX_END_PAIRS = (

@@ -13,20 +13,19 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.edges import closed_side_faces, faces_across_sides
-from ..mesh.planarity import Planarity, PlanarityAccumulator
-from ..mesh.surface import Surface
-from ..moments.moments import Moments
-from ..numerics.arguments import check_type
-from ..numerics.array_types import Index, Mask
-from ..numerics.arrays import indices_in_range
-from ..numerics.graph import connected_components, connected_neighbors
-from ..polyhedron import third_order
-from ..polyhedron.integration import polyhedron_moments
-from ..verdict.finding import MeasureError
+from ..mesh import Planarity, PlanarityAccumulator, Surface, closed_side_faces, faces_across_sides
+from ..moments import Moments
+from ..numerics import (
+    Index,
+    Mask,
+    check_type,
+    connected_components,
+    connected_neighbors,
+    indices_in_range,
+)
+from ..polyhedron import polyhedron_moments, third_order
+from ..verdict import MAX_COORDINATE, MeasureError, MeshHealth, check_size, welding_tolerance
 from ..verdict.findings import NO_FACES, OBJECT_TOO_LARGE
-from ..verdict.health import MeshHealth
-from ..verdict.tolerances import MAX_COORDINATE, check_size, welding_tolerance
 from .findings import INVALID_FACES, NON_FINITE_VERTICES
 from .repaired_mesh import RepairedMesh
 

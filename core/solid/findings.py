@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/solid`."""
 
-from ..verdict.finding import error, note, repair, warning
+from ..verdict import error, note, repair, warning
 
 INVALID_FACES = error(
     "invalid_faces",

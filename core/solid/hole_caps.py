@@ -14,12 +14,15 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.edges import Edges, consistent_orientation, find_edges, group_components
-from ..mesh.surface import normals
-from ..mesh.welding import same_vertices_groups
-from ..numerics.array_types import Array, Index, Mask
-from ..numerics.arrays import hash_uint64, sums_by_index
-from ..numerics.graph import connected_components
+from ..mesh import (
+    Edges,
+    consistent_orientation,
+    find_edges,
+    group_components,
+    normals,
+    same_vertices_groups,
+)
+from ..numerics import Array, Index, Mask, connected_components, hash_uint64, sums_by_index
 from ..verdict.finding import Finding, finding
 from .boundary_loops import (
     OwnedLoops,

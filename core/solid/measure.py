@@ -18,8 +18,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..mesh.surface import Surface
-from ..verdict.method import Procedure
+from ..mesh import Surface
+from ..verdict import Procedure
 from .closedness import CheckedSurface, GivenIntegrals, check_surface, integrate_and_prove
 from .hole_caps import (
     cap_holes,

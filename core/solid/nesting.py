@@ -14,15 +14,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.bvh import (
-    Bvh,
-    SortedComponents,
-    intersecting_pairs,
-    overlapping_box_pairs,
-    sort_components,
-)
-from ..numerics.array_types import Array, Index, Mask
-from ..numerics.arrays import cross_rows, lengths, segment_ranges
+from ..mesh import Bvh, SortedComponents, intersecting_pairs, overlapping_box_pairs, sort_components
+from ..numerics import Array, Index, Mask, cross_rows, lengths, segment_ranges
 
 NO_PAIRS = np.empty((0, 2), np.intp)
 NO_LENGTHS = np.empty(0)

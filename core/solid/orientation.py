@@ -12,14 +12,11 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.bvh import SortedComponents, sort_components
-from ..mesh.surface import Surface, triangle_areas
-from ..moments.moments import Moments, sum_moments
-from ..numerics.array_types import Array, Index, Mask
-from ..numerics.arrays import PerBody, lengths
-from ..polyhedron.integration import polyhedron_moments
-from ..verdict.health import MeshHealth
-from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, FLAT_CAP_VOLUME_RTOL
+from ..mesh import SortedComponents, Surface, sort_components, triangle_areas
+from ..moments import Moments, sum_moments
+from ..numerics import Array, Index, Mask, PerBody, lengths
+from ..polyhedron import polyhedron_moments
+from ..verdict import CLOSED_SHEET_VOLUME_RTOL, FLAT_CAP_VOLUME_RTOL, MeshHealth
 from .closedness import CheckedSurface, GivenIntegrals
 from .nesting import ComponentRelations, cavity_host, classify_pairs, orient_nested_components
 from .repaired_mesh import RepairedMesh, copy_with

@@ -13,10 +13,9 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.edges import Edges
-from ..numerics.array_types import Array, Index, Mask
-from ..verdict.finding import Finding
-from ..verdict.health import MeshHealth
+from ..mesh import Edges
+from ..numerics import Array, Index, Mask
+from ..verdict import Finding, MeshHealth
 from .boundary_loops import side_ends
 
 NO_EDGES = np.empty((0, 2), np.intp)

@@ -21,13 +21,19 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.scan_lines import FACES_PER_BLOCK, Crossings, LineGrids, find_crossings, line_counts
-from ..mesh.surface import HALVES, Surface, turned_quads
-from ..moments.moments import SECOND_MOMENT_INDEX
-from ..numerics.array_types import Array
-from ..numerics.arrays import sums_by_index
-from ..numerics.vectors import cross, dot
-from ..verdict.health import Intersection
+from ..mesh import (
+    FACES_PER_BLOCK,
+    HALVES,
+    Crossings,
+    LineGrids,
+    Surface,
+    find_crossings,
+    line_counts,
+    turned_quads,
+)
+from ..moments import SECOND_MOMENT_INDEX
+from ..numerics import Array, cross, dot, sums_by_index
+from ..verdict import Intersection
 from .closedness import CheckedSurface, GivenIntegrals, same_sign
 from .orientation import OrientedSolid
 

@@ -9,18 +9,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..inertia.mass_properties import are_physical
-from ..mesh.planarity import Planarity
-from ..mesh.surface import Surface, half_ulp, triangle_areas
-from ..moments.moments import Moments
-from ..numerics.array_types import Array, Index, Mask
-from ..numerics.arrays import unique_pairs
-from ..polyhedron.integration import polyhedron_moments
+from ..inertia import are_physical
+from ..mesh import Planarity, Surface, half_ulp, triangle_areas
+from ..moments import Moments
+from ..numerics import Array, Index, Mask, unique_pairs
+from ..polyhedron import polyhedron_moments
+from ..verdict import FLIPPED_FACES, NEGLIGIBLE, SELF_INTERSECTION, Procedure
 from ..verdict.finding import Finding, finding
-from ..verdict.findings import FLIPPED_FACES, SELF_INTERSECTION
 from ..verdict.health import NO_FACES, DefectiveElements, Intersection, MeshHealth
-from ..verdict.method import Procedure
-from ..verdict.tolerances import NEGLIGIBLE
 from .closedness import CheckedSurface, GivenIntegrals
 from .findings import (
     CAVITIES_BREAK_THROUGH,

@@ -17,20 +17,24 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inertia.mass_properties import are_physical
-from ..mesh.bvh import sort_components
-from ..mesh.planarity import StackPlanarity, stack_planarity
-from ..mesh.scan_lines import LineGrids, find_crossings, line_counts
-from ..mesh.surface import Surface
-from ..mesh.surface_stack import Connections, SurfaceStack, TriangleStack
-from ..mesh.welding import may_have_neighbor
-from ..moments.moments import Moments, U, sum_moments
-from ..numerics.array_types import Array, Index, Mask
-from ..numerics.arrays import NEXT_AXIS, PREVIOUS_AXIS
-from ..polyhedron.third_order import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH, small_moments
-from ..verdict.finding import Finding
-from ..verdict.health import DefectiveElements, Intersection, MeshHealth
-from ..verdict.tolerances import WELDING_RTOL
+from ..inertia import are_physical
+from ..mesh import (
+    Connections,
+    LineGrids,
+    StackPlanarity,
+    Surface,
+    SurfaceStack,
+    TriangleStack,
+    find_crossings,
+    line_counts,
+    may_have_neighbor,
+    sort_components,
+    stack_planarity,
+)
+from ..moments import Moments, U, sum_moments
+from ..numerics import NEXT_AXIS, PREVIOUS_AXIS, Array, Index, Mask
+from ..polyhedron import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH, small_moments
+from ..verdict import WELDING_RTOL, DefectiveElements, Finding, Intersection, MeshHealth
 from .boundary_loops import OwnedLoops, has_distinct_vertices, side_ends
 from .closedness import SUM_ROUNDING, GivenIntegrals, prove_closed, same_sign
 from .orientation import zero_volume

@@ -11,20 +11,21 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.edges import Edges, find_edges, ring_sizes
-from ..mesh.surface import Surface, face_of_each, normals
-from ..mesh.welding import (
+from ..mesh import (
+    Edges,
+    Surface,
+    face_of_each,
+    find_edges,
     first_at_equal_position,
     first_at_near_position,
+    normals,
+    ring_sizes,
     same_vertices_groups,
     vertex_tolerance,
 )
-from ..numerics.array_types import Array, Index, Mask
-from ..numerics.arrays import first_occurrence
-from ..numerics.graph import connected_components
+from ..numerics import Array, Index, Mask, connected_components, first_occurrence
+from ..verdict import NEGLIGIBLE, MeshHealth
 from ..verdict.finding import finding
-from ..verdict.health import MeshHealth
-from ..verdict.tolerances import NEGLIGIBLE
 from .boundary_loops import distinct_vertex_pairs, has_distinct_vertices, side_ends
 from .findings import DUPLICATE_FACES_COUNTED, DUPLICATE_FACES_IGNORED
 from .repaired_mesh import UNKNOWN, OpenParts, RepairedMesh, RepairState, copy_with

@@ -6,11 +6,4 @@ change of shape.
 
 from ..lazy import lazy_names
 
-__getattr__, __dir__, __all__ = lazy_names(
-    __name__,
-    area_gradient="gradient",
-    balance="balancing",
-    find_support="support",
-    resting_poses="support",
-    volume_gradient="gradient",
-)
+__getattr__, __dir__, __all__ = lazy_names(__name__)

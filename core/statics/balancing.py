@@ -23,16 +23,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..inertia.findings import NO_CERTAIN_VOLUME
-from ..mesh.edges import uncancelled_sides
-from ..mesh.surface import Surface, normals
-from ..moments.moments import Moments, U
-from ..numerics.arguments import check_type, float_array, index_array
-from ..numerics.array_types import Array
-from ..numerics.arrays import sums_by_index
-from ..polyhedron.integration import polyhedron_moments
-from ..verdict.finding import MeasureError
-from ..wall.walls import first_positive_root
+from ..inertia import NO_CERTAIN_VOLUME
+from ..mesh import Surface, normals, uncancelled_sides
+from ..moments import Moments, U
+from ..numerics import Array, check_type, float_array, index_array, sums_by_index
+from ..polyhedron import polyhedron_moments
+from ..verdict import MeasureError
+from ..wall import first_positive_root
 from .findings import (
     BALANCE_FOLDS_FACES,
     BALANCE_NO_EFFECT,

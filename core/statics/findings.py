@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/statics`."""
 
-from ..verdict.finding import error
+from ..verdict import error
 
 BALANCE_NO_EFFECT = error(
     "balance_no_effect",

@@ -28,11 +28,9 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..mesh.surface import Surface
+from ..mesh import Surface
 from ..moments.exponents import monomial_count
-from ..numerics.arguments import check_type, float_array
-from ..numerics.array_types import Array
-from ..numerics.vectors import cross
+from ..numerics import Array, check_type, cross, float_array
 
 TRIANGLES_PER_BLOCK = 65536  # triangles at a time
 

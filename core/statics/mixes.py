@@ -17,9 +17,9 @@ from math import comb
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..mesh.surface import Surface
-from ..numerics.array_types import Array
-from ..polyhedron.integration import polyhedron_moments
+from ..mesh import Surface
+from ..numerics import Array
+from ..polyhedron import polyhedron_moments
 
 DEGREE = 4  # The degree of the first moments.
 MIN_SHARE = 1e-6  # Smaller volumes, relative to their terms, are lost to cancellation.

@@ -26,15 +26,19 @@ from math import atan2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..inertia.plain_body import frame_about
-from ..mesh.hulls import ConvexHull, convex_polygon
-from ..mesh.point_triangle import solid_angles
-from ..mesh.surface import normals
-from ..numerics.arguments import check_filled, check_type, float_array
-from ..numerics.array_types import Array, Index, Mask
-from ..numerics.arrays import sums_by_index
-from ..numerics.graph import connected_components
-from ..verdict.finding import MeasureError
+from ..inertia import frame_about
+from ..mesh import ConvexHull, convex_polygon, normals, solid_angles
+from ..numerics import (
+    Array,
+    Index,
+    Mask,
+    check_filled,
+    check_type,
+    connected_components,
+    float_array,
+    sums_by_index,
+)
+from ..verdict import MeasureError
 from .findings import CENTER_OUTSIDE_HULL, NO_STABLE_POSE
 
 # Relative to the body's extent: points up to this height above the lowest one touch the ground.

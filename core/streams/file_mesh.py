@@ -13,10 +13,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..files.damage import refuse_non_finite
-from ..mesh.surface import Surface
-from ..mesh.welding import first_at_equal_position
-from ..numerics.array_types import Array, Index, Mask
+from ..files import refuse_non_finite
+from ..mesh import Surface, first_at_equal_position
+from ..numerics import Array, Index, Mask
 
 CORNERS_PER_BLOCK = 1 << 18
 

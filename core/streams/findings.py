@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/streams`."""
 
-from ..verdict.finding import error
+from ..verdict import error
 
 DAMAGE_PLY_ROWS = error(
     "damage_ply_rows",

@@ -11,13 +11,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..files.findings import FILE_TYPE, FILE_WITHOUT_OBJECTS
-from ..mesh.boundary import BoundarySum
-from ..mesh.surface import Surface
-from ..moments.moments import Moments
-from ..polyhedron.integration import polyhedron_moments
-from ..polyhedron.third_order import box_center
-from ..verdict.finding import FileError
+from ..files import FILE_TYPE, FILE_WITHOUT_OBJECTS
+from ..mesh import BoundarySum, Surface
+from ..moments import Moments
+from ..polyhedron import box_center, polyhedron_moments
+from ..verdict import FileError
 from .ply import PlyFile
 from .stl import StlFile
 

@@ -16,10 +16,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..files.damage import damaged
-from ..files.findings import DAMAGE_INDEX, FILE_UNRECOGNIZED, FILE_WITHOUT_OBJECTS
-from ..files.text_fields import (
+from ..files import (
     BLOCK,
+    DAMAGE_INDEX,
+    FILE_UNRECOGNIZED,
+    FILE_WITHOUT_OBJECTS,
     SHORT,
     SHORT_OR_NAN,
     SHORT_WHOLE,
@@ -27,15 +28,16 @@ from ..files.text_fields import (
     Data,
     Fault,
     count_fault,
+    damaged,
     find_number_fault,
     find_whole_fault,
     map_file,
     refuse_line,
     shorten,
 )
-from ..mesh.surface import Surface
-from ..numerics.array_types import Index
-from ..verdict.finding import FileError
+from ..mesh import Surface
+from ..numerics import Index
+from ..verdict import FileError
 from .file_mesh import (
     Box,
     FileMesh,

@@ -14,8 +14,8 @@ from typing import BinaryIO, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..files.text_fields import parse_decimals
-from ..numerics.array_types import Array, Index
+from ..files import parse_decimals
+from ..numerics import Array, Index
 
 BYTES_PER_BLOCK = 1 << 22  # of a text a quarter
 FEW_ROWS = 64  # Rows of equal lengths: after so many, a run of them is looked for.

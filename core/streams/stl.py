@@ -16,7 +16,7 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from ..files.text_fields import (
+from ..files import (
     MARK,
     MAX_FLOAT32,
     SHORT,
@@ -29,8 +29,8 @@ from ..files.text_fields import (
     refuse_line,
     shorten,
 )
-from ..mesh.surface import Surface
-from ..verdict.finding import FileError
+from ..mesh import Surface
+from ..verdict import FileError
 from .file_mesh import Box, FileMesh, Polygons, box_of_blocks, merge_equal, name_of_file
 from .findings import STL_CUT_SHORT
 

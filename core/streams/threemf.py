@@ -21,24 +21,25 @@ from xml.parsers import expat
 import numpy as np
 from numpy.typing import NDArray
 
-from ..files.damage import damaged
-from ..files.findings import (
+from ..files import (
+    BLOCK,
     DAMAGE_INCOMPLETE,
     DAMAGE_INDEX,
+    DEFAULT_LIMITS,
     FILE_TOO_LARGE,
     FILE_UNREADABLE,
     LINE_MISREAD,
-)
-from ..files.limits import DEFAULT_LIMITS, Limits
-from ..files.number_text import (
+    MAX_FLOAT32,
+    MAX_TEXT,
     SPACES,
+    Limits,
+    damaged,
     parse_number,
     parse_numbers,
     parse_whole,
 )
-from ..files.text_fields import BLOCK, MAX_FLOAT32, MAX_TEXT
-from ..numerics.array_types import Array
-from ..verdict.finding import FileError, system_reason
+from ..numerics import Array
+from ..verdict import FileError, system_reason
 from .findings import THREEMF_EXTENSION
 
 MODEL = "model"  # the type of objects that are parts; supports and helpers have other types

@@ -7,10 +7,4 @@ Nothing that is offered here imports numpy: a process without it can read findin
 
 from ..lazy import lazy_names
 
-__getattr__, __dir__, __all__ = lazy_names(
-    __name__,
-    Finding="finding",
-    MeasureError="finding",
-    Method="method",
-    Severity="finding",
-)
+__getattr__, __dir__, __all__ = lazy_names(__name__)

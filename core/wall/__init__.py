@@ -6,8 +6,4 @@ thickness.
 
 from ..lazy import lazy_names
 
-__getattr__, __dir__, __all__ = lazy_names(
-    __name__,
-    offset_solid="walls",
-    wall_moments="moments",
-)
+__getattr__, __dir__, __all__ = lazy_names(__name__)

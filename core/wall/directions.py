@@ -26,13 +26,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.edges import find_edges
-from ..mesh.surface import Surface
-from ..mesh.welding import first_at_equal_position
-from ..moments.moments import U
-from ..numerics.array_types import Array, Mask
-from ..solid.boundary_loops import vertex_pairs
-from ..verdict.finding import MeasureError
+from ..mesh import Surface, find_edges, first_at_equal_position
+from ..moments import U
+from ..numerics import Array, Mask
+from ..solid import vertex_pairs
+from ..verdict import MeasureError
 from .findings import NO_FACE_AREA, WALL_INCONSISTENT_FACES, WALL_NON_MANIFOLD
 
 TRIANGLES_PER_BLOCK = 4096  # triangles at a time

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/wall`."""
 
-from ..verdict.finding import error, note
+from ..verdict import error, note
 
 NO_FACE_AREA = error(
     "no_face_area", "All faces have zero area. Move their vertices apart, or select another object."

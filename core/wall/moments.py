@@ -13,14 +13,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..mesh.edges import find_edges
-from ..mesh.surface import Surface
+from ..mesh import Surface, find_edges
 from ..moments.moments import Measure, Moments, U, monomials
-from ..numerics.arguments import check_type
-from ..numerics.array_types import Array
-from ..numerics.quadrature import gauss_legendre
-from ..numerics.vectors import cross
-from ..polyhedron.integration import polyhedron_moments
+from ..numerics import Array, check_type, cross, gauss_legendre
+from ..polyhedron import polyhedron_moments
 from .walls import ORDER, OffsetSolid
 
 NODES_PER_BLOCK = 1 << 14

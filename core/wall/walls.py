@@ -23,9 +23,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.bvh import sort_components
-from ..mesh.edges import find_edges
-from ..mesh.surface import Surface
+from ..mesh import Surface, find_edges, sort_components
 from ..moments.moments import (
     PAIRWISE_SUM_ROUNDINGS,
     Measure,
@@ -35,13 +33,9 @@ from ..moments.moments import (
     monomial_index,
     monomials,
 )
-from ..numerics.arguments import check_type
-from ..numerics.array_types import Array
-from ..numerics.graph import connected_components
-from ..numerics.vectors import cross
-from ..solid.nesting import classify_pairs, self_overlaps, surfaces_intersect
-from ..verdict.finding import MeasureError
-from ..verdict.tolerances import check_size
+from ..numerics import Array, check_type, connected_components, cross
+from ..solid import classify_pairs, self_overlaps, surfaces_intersect
+from ..verdict import MeasureError, check_size
 from .directions import UNEVEN_RTOL, blocks, offset_directions, weld_equal
 from .findings import WALL_PRECISION_LOST
 

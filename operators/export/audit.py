@@ -14,14 +14,13 @@ from bpy_extras.io_utils import ImportHelper
 
 from ...blender.write import reports
 from ...core import robots
-from ...core.robots import read, write
-from ...core.robots.formats import AUDITED_SUFFIXES
-from ...core.verdict.finding import FileError, MeasureError
+from ...core.robots import AUDITED_SUFFIXES, read, write
+from ...core.verdict import FileError, MeasureError
 from .. import selection
 from ..findings import FILE_EXISTS
 
 if TYPE_CHECKING:
-    from ...core.robots.audit import Audit
+    from ...core.robots import Audit
 
 
 class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):

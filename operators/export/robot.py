@@ -20,11 +20,9 @@ from bpy_extras.io_utils import ExportHelper
 from ...blender import session
 from ...blender.write import reports
 from ...blender.write.findings import FILE_NOT_WRITTEN
-from ...core.robots import write
-from ...core.robots.findings import ROBOT_SCALED
-from ...core.robots.formats import FORMATS, RobotFormat
+from ...core.robots import FORMATS, ROBOT_SCALED, RobotFormat, write
+from ...core.verdict import sentence
 from ...core.verdict.finding import EditRefusedError, FileError, Finding, finding, system_reason
-from ...core.verdict.sentences import sentence
 from .. import selection
 from ..findings import ROBOT_GEOMETRY_NOT_WRITTEN, ROBOT_NAMES_ALIKE
 from ..measure.copy import VIEW3D_MT_body_moments_copy

@@ -21,10 +21,9 @@ from ...blender.session.tracking import staleness, stamps
 from ...blender.write import properties, reports
 from ...blender.write.translations import localized
 from ...core import measurement
+from ...core.robots import FORMATS
 from ...core.robots import write as robot_formats
-from ...core.robots.formats import FORMATS
-from ...core.verdict.finding import Finding, Severity
-from ...core.verdict.verdict import open_body_caveats
+from ...core.verdict import Finding, Severity, open_body_caveats
 from .. import selection
 from .moments import reference_text
 

@@ -22,14 +22,14 @@ from ...blender.read.visibility import measurable
 from ...blender.session.selected import require_subject, subject
 from ...blender.write import reports
 from ...blender.write.findings import FILE_NOT_WRITTEN
-from ...core.numerics.float32 import shortest_decimal
-from ...core.verdict.finding import FileError, system_reason
+from ...core.numerics import shortest_decimal
+from ...core.verdict import FileError, system_reason
 from .. import selection
 from ..modal import ModalSteps
 
 if TYPE_CHECKING:
     from ...blender.bodies.fourier import ObjectTransform
-    from ...core.fourier.wave_vectors import FrequencyGrid
+    from ...core.fourier import FrequencyGrid
 
 SUFFIX = ".npz"
 

@@ -19,7 +19,7 @@ from bpy.types import Context, Event, Operator
 from ... import command
 from ...blender.write import reports
 from ...core import measurement
-from ...core.verdict.finding import Severity, system_reason
+from ...core.verdict import Severity, system_reason
 from .. import selection
 from ..modal import ModalSteps
 

@@ -21,10 +21,9 @@ from ...blender.session.displayed import shown_objects
 from ...blender.session.tracking import armatures, staleness, stamps
 from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
 from ...blender.write import properties, reports
-from ...core.density.materials import BY_NAME
-from ...core.verdict import internal_error
+from ...core.density import BY_NAME
+from ...core.verdict import internal_error, of_severity
 from ...core.verdict.finding import Finding, Severity, finding
-from ...core.verdict.sentences import of_severity
 from .. import selection
 from ..findings import OBJECT_WARNINGS
 from ..modal import ModalSteps

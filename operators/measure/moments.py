@@ -17,14 +17,13 @@ from ...blender.read.visibility import SECTION_TYPES, measurable
 from ...blender.session import stored
 from ...blender.session.selected import require_subject, subject
 from ...blender.write import properties, reports
-from ...core.inertia.plain_body import tensor_rows
-from ...core.verdict.finding import MeasureError, Severity
-from ...core.verdict.sentences import of_severity
+from ...core.inertia import tensor_rows
+from ...core.verdict import MeasureError, Severity, of_severity
 from .. import selection
 
 if TYPE_CHECKING:
     from ...blender.session.stored.reference import ReferenceChoice
-    from ...core.inertia.plain_body import ReferredInertia
+    from ...core.inertia import ReferredInertia
 
 
 class OBJECT_OT_body_moments_compute_moments(Operator):

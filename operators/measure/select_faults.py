@@ -15,13 +15,13 @@ from ...blender.read.findings import KIND_COUNT
 from ...blender.session import stored
 from ...blender.session.tracking import staleness
 from ...blender.write import properties, reports
+from ...core.verdict import FLIPPED_FACES
 from ...core.verdict.finding import finding
-from ...core.verdict.findings import FLIPPED_FACES
 from .. import selection
 from ..findings import OBJECT_WARNINGS
 
 if TYPE_CHECKING:
-    from ...core.measurement.measurement import Measurement
+    from ...core.measurement import Measurement
 
 KINDS = (
     (FLIPPED_FACES, "Flipped Faces", "Faces that were measured as reversed"),

@@ -16,7 +16,7 @@ from ...blender.settings.given import has_density
 from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
 from ...blender.settings.properties import COPIED_PROPERTIES, copy_settings
 from ...blender.write import reports
-from ...core.density.materials import BY_NAME
+from ...core.density import BY_NAME
 from .. import selection
 
 PRESET_FOLDER = "body_moments"  # folder of the user's presets

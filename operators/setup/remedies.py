@@ -29,10 +29,8 @@ from ...blender.write.remedies import (
     UNION,
 )
 from ...blender.write.translations import localized
-from ...core.solid.findings import INVERTED_COMPONENTS
-from ...core.verdict.finding import MeasureError, Severity
-from ...core.verdict.findings import FLIPPED_FACES
-from ...core.verdict.sentences import of_severity
+from ...core.solid import INVERTED_COMPONENTS
+from ...core.verdict import FLIPPED_FACES, MeasureError, Severity, of_severity
 from .. import selection
 
 # Findings that list the reversed faces; an empty list means all faces.

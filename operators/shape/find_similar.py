@@ -20,7 +20,7 @@ from ...blender import session
 from ...blender.read.visibility import measurable_objects
 from ...blender.session.selected import require_subject, subject
 from ...blender.write import reports
-from ...core.verdict.finding import Finding, MeasureError, system_reason
+from ...core.verdict import Finding, MeasureError, system_reason
 from .. import selection
 from ..modal import ModalSteps
 

@@ -25,14 +25,14 @@ from ...blender.scene.changes import require_storable_data
 from ...blender.session import stored
 from ...blender.session.tracking import staleness, stamps
 from ...blender.write import reports
-from ...core.verdict.finding import Finding
+from ...core.verdict import Finding
 from .. import selection
 from ..modal import ModalSteps
 
 if TYPE_CHECKING:
     from ...blender.bodies.flat.flat_shape import FlatShape
     from ...blender.bodies.shape.shape import Shape
-    from ...core.shape.symmetries import Symmetry
+    from ...core.shape import Symmetry
 
 
 class BodyMomentsElement(PropertyGroup):

@@ -18,7 +18,7 @@ from ..modal import ModalSteps
 
 if TYPE_CHECKING:
     from ...blender.scene.reframe_meshes import Plan
-    from ...core.shape.registration import RigidMatch
+    from ...core.shape import RigidMatch
 
 
 class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):

@@ -23,8 +23,7 @@ from ...blender.scene.findings import OPEN_OBJECT
 from ...blender.session.selected import subject
 from ...blender.write import reports
 from ...core import inertia
-from ...core.verdict.finding import EditRefusedError, MeasureError, Severity
-from ...core.verdict.method import Procedure
+from ...core.verdict import EditRefusedError, MeasureError, Procedure, Severity
 from .. import selection
 
 STRICT_PROPERTY = BoolProperty(

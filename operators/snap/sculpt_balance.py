@@ -14,7 +14,7 @@ from ...blender import scene, session
 from ...blender.session import stored
 from ...blender.session.selected import require_subject, subject
 from ...blender.write import reports
-from ...core.verdict.finding import MeasureError
+from ...core.verdict import MeasureError
 from .. import selection
 
 

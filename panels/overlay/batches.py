@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 from ...blender.scale import meters_per_unit
 from ...blender.session import memory
 from ...blender.settings.scene import BodyMomentsOverlaySettings
-from ...core.numerics.array_types import Array
+from ...core.numerics import Array
 from . import appearance as look
 from . import discs, lines
 from .bodies import Bodies, Entry, collect

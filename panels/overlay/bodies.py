@@ -14,9 +14,9 @@ from ...blender.session.displayed import ASSEMBLY, Displayed, all_drawn, drawn_b
 from ...blender.session.tracking.staleness import stale_reason
 from ...blender.settings.assembly import active_assembly, settings_of
 from ...blender.write import properties
-from ...core.inertia.plain_body import PlainBody, add_bodies
-from ...core.numerics.array_types import Array, Index, Mask
-from ...core.verdict.verdict import Verdict
+from ...core.inertia import PlainBody, add_bodies
+from ...core.numerics import Array, Index, Mask
+from ...core.verdict import Verdict
 from . import appearance as look
 
 Entry = Displayed | PlainBody  # one body, or several as one

@@ -18,9 +18,9 @@ from ...blender.session import character
 from ...blender.session.character.weight import Weight
 from ...blender.session.stored import balance_groups, faults, stability
 from ...blender.write import reports
-from ...core.numerics.array_types import Array
-from ...core.rig.motion import ballistic_arc, find_flights
-from ...core.statics.support import Support
+from ...core.numerics import Array
+from ...core.rig import ballistic_arc, find_flights
+from ...core.statics import Support
 from ..rig import standing
 from . import appearance as look
 from .draw import shows_weight

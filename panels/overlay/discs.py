@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.numerics.array_types import Array
+from ...core.numerics import Array
 from . import glyphs
 from .bodies import Bodies
 

@@ -16,7 +16,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.numerics.array_types import Array
+from ...core.numerics import Array
 from . import appearance as look
 
 SEGMENTS = 24  # segments of a circle

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...blender.settings.scene import BodyMomentsOverlaySettings
-from ...core.numerics.array_types import Array, Mask
+from ...core.numerics import Array, Mask
 from .bodies import Bodies
 
 CIRCLE = 2.0 * np.pi / 48.0 * np.arange(49)

@@ -100,7 +100,7 @@ def test_the_zip_holds_the_add_on_and_nothing_else(archive):
         ".js",
         ".css",
     }
-    assert {PurePosixPath(name).suffix for name in expected} == {".py", ".po"}
+    assert {PurePosixPath(name).suffix for name in expected} == {".py", ".pyi", ".po"}
 
 
 def test_the_licence_is_the_whole_gpl_3():

@@ -17,20 +17,20 @@ import bpy
 import numpy as np
 from bpy.types import Depsgraph, Object
 
-from ....core.bodies.instances import merge_health
-from ....core.bodies.reading import to_si
-from ....core.measurement.builder import Extent, add_extents, extent_of, measure_total
-from ....core.measurement.findings import DENSITY_FROM_MEMBERS
+from ....core.bodies import merge_health, to_si
+from ....core.measurement import (
+    DENSITY_FROM_MEMBERS,
+    Extent,
+    add_extents,
+    extent_of,
+    fingerprint,
+    measure_total,
+)
 from ....core.measurement.measurement import DENSITY_FROM_MASS, Measurement
-from ....core.measurement.settings import fingerprint
-from ....core.moments.affine_maps import are_similarities
-from ....core.moments.exponents import KNOWN_ORDER
-from ....core.moments.moments import Measure, Moments, sum_moments
-from ....core.numerics.float32 import shortest_decimal
-from ....core.numerics.rotations import rotation_matrix
-from ....core.verdict import internal_error
+from ....core.moments import KNOWN_ORDER, Measure, Moments, are_similarities, sum_moments
+from ....core.numerics import rotation_matrix, shortest_decimal
+from ....core.verdict import internal_error, open_body_caveats
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
-from ....core.verdict.verdict import open_body_caveats
 from ...read.assembly import (
     Member,
     MemberKind,

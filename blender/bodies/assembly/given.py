@@ -14,18 +14,14 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.bodies.reading import Reading, to_si
-from ....core.measurement.builder import find_extent, measure_total
-from ....core.measurement.findings import ZERO_QUANTITY
+from ....core.bodies import Reading, to_si
+from ....core.measurement import ZERO_QUANTITY, find_extent, fingerprint, measure_total
 from ....core.measurement.measurement import DENSITY_FROM_MASS, Body, Measurement
-from ....core.measurement.settings import fingerprint
-from ....core.moments.affine_maps import placed_boxes
-from ....core.moments.exponents import KNOWN_ORDER
+from ....core.moments import KNOWN_ORDER, placed_boxes
 from ....core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count
-from ....core.numerics.array_types import Array
-from ....core.numerics.float32 import shortest_decimal
+from ....core.numerics import Array, shortest_decimal
+from ....core.verdict import Method, Procedure
 from ....core.verdict.finding import Finding, ReadError, finding
-from ....core.verdict.method import Method, Procedure
 from ...read.fingerprint import matrix_hash
 from ...read.objects import locate
 from ...settings.given import GivenPart, is_point_mass

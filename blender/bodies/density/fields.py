@@ -16,36 +16,38 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.bodies.findings import (
+from ....core.bodies import (
     DENSITY_FROM_GRID,
     GRID_DENSITY,
     GRID_EMPTY,
     GRID_IS_LEVEL_SET,
     GRID_TOO_LARGE,
     MASS_OVERFLOW,
+    MAX_MASS_MOMENT,
+    MeshBody,
+    Reading,
+    attribute_to_source,
+    group_by_similarity,
+    to_si,
 )
-from ....core.bodies.instances import group_by_similarity
-from ....core.bodies.mesh_body import MAX_MASS_MOMENT, MeshBody
-from ....core.bodies.reading import Reading, attribute_to_source, to_si
-from ....core.density.grid_options import GridOptions
-from ....core.density.grid_values import density_function, empty_background_note
-from ....core.density.polynomial_mass import (
+from ....core.density import (
+    MAX_VOXELS,
+    GridOptions,
+    density_function,
+    empty_background_note,
     find_negative_point,
+    inside_moments,
     local_coordinates,
     polynomial_mass_of_images,
 )
-from ....core.density.voxel_fill import MAX_VOXELS, inside_moments
-from ....core.measurement.settings import Settings
-from ....core.mesh.surface import Surface
-from ....core.moments.affine_maps import affine_matrices
-from ....core.moments.moments import Measure, Moments
-from ....core.numerics.array_types import Array
-from ....core.numerics.rotations import polar_rotation
+from ....core.measurement import Settings
+from ....core.mesh import Surface
+from ....core.moments import Measure, Moments, affine_matrices
+from ....core.numerics import Array, polar_rotation
 from ....core.polyhedron import polyhedron_moments
 from ....core.solid.measure import SolidIntegrals
+from ....core.verdict import NEGLIGIBLE, Method, Procedure, Source
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
-from ....core.verdict.method import Method, Procedure, Source
-from ....core.verdict.tolerances import NEGLIGIBLE
 from ...read.findings import OBJECT_UNREADABLE, VOLUME_WITHOUT_GRIDS
 from ...read.tracking import tracking_paused
 from ...read.volume import VolumeReading, volume_reading

@@ -15,30 +15,33 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.bodies.findings import GRID_AS_SHELL, MASS_OVERFLOW
-from ....core.bodies.instances import area_of_instances, findings_by_part
-from ....core.bodies.mesh_body import MAX_MASS_MOMENT, MeshBody
-from ....core.bodies.reading import Reading, attribute_to_source, to_si
-from ....core.density.piecewise_mass import (
+from ....core.bodies import (
+    GRID_AS_SHELL,
+    MASS_OVERFLOW,
+    MAX_MASS_MOMENT,
+    MeshBody,
+    Reading,
+    area_of_instances,
+    attribute_to_source,
+    findings_by_part,
+    to_si,
+)
+from ....core.density import (
     PartDensities,
     part_densities,
     sheet_mass_moments,
     solid_mass_moments,
     to_mass_moments,
 )
-from ....core.measurement.builder import find_extent
-from ....core.mesh.surface import Surface
-from ....core.moments.affine_maps import similarity_groups
-from ....core.moments.exponents import KNOWN_ORDER
-from ....core.moments.images import sum_of_images
-from ....core.moments.moments import Moments, sum_moments
-from ....core.numerics.array_types import Array
+from ....core.measurement import find_extent
+from ....core.mesh import Surface
+from ....core.moments import KNOWN_ORDER, Moments, similarity_groups, sum_moments, sum_of_images
+from ....core.numerics import Array
 from ....core.polyhedron import polyhedron_moments
+from ....core.solid import ClosedParts
 from ....core.solid.measure import SolidIntegrals
-from ....core.solid.orientation import ClosedParts
+from ....core.verdict import NEGLIGIBLE, Procedure
 from ....core.verdict.finding import Finding, ReadError, finding, truncate_findings
-from ....core.verdict.method import Procedure
-from ....core.verdict.tolerances import NEGLIGIBLE
 from ...settings.density import DensityField, density_key, material_density
 from ...settings.findings import OBJECT_DENSITY_USED, OBJECT_DENSITY_USED_FOR_MATERIALS
 from ..findings import (

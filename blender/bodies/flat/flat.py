@@ -17,27 +17,36 @@ from typing import ClassVar
 import bpy
 import numpy as np
 
-from ....core.bodies.findings import DRAWN_AS_POLYGONS, NO_GEOMETRY, SHAPE_OF_OPEN_SURFACE
-from ....core.bodies.mesh_body import extend_input_error
-from ....core.bodies.reading import Reading, name_subject
-from ....core.flat.findings import SECTION_NOT_FLAT
-from ....core.flat.polygon import find_defects, orient_loops, plane_positions, region_moments
-from ....core.flat.section import fit_plane, measure_section, project, projection_rounding, region
-from ....core.flat.section_properties import Plane, Section
-from ....core.inertia.findings import MOMENTS_OVERFLOW, NO_CERTAIN_VOLUME
-from ....core.measurement.findings import NO_VOLUME
-from ....core.measurement.measurement import Body
-from ....core.moments.affine_maps import affine_matrices
+from ....core.bodies import (
+    DRAWN_AS_POLYGONS,
+    NO_GEOMETRY,
+    SHAPE_OF_OPEN_SURFACE,
+    Reading,
+    extend_input_error,
+    name_subject,
+)
+from ....core.flat import (
+    SECTION_NOT_FLAT,
+    Plane,
+    Section,
+    find_defects,
+    fit_plane,
+    measure_section,
+    orient_loops,
+    plane_positions,
+    project,
+    projection_rounding,
+    region,
+    region_moments,
+)
+from ....core.inertia import MOMENTS_OVERFLOW, NO_CERTAIN_VOLUME
+from ....core.measurement import NO_VOLUME, Body
+from ....core.moments import Measure, Moments, affine_matrices
 from ....core.moments.exponents import monomial_count, monomials
-from ....core.moments.moments import Measure, Moments
-from ....core.numerics.array_types import Array, Index
-from ....core.nurbs.curve_moments import length_moments, plane_moments
-from ....core.nurbs.flat_face import planar_region
-from ....core.nurbs.splines import Curve
+from ....core.numerics import Array, Index
+from ....core.nurbs import Curve, length_moments, planar_region, plane_moments
+from ....core.verdict import NEGLIGIBLE, MeshHealth, Method, Procedure, Source
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
-from ....core.verdict.health import MeshHealth
-from ....core.verdict.method import Method, Procedure, Source
-from ....core.verdict.tolerances import NEGLIGIBLE
 from ...read.findings import FLAT_OF_TYPE, RENDER_DIFFERS, SECTION_EXTRUDED, SECTION_NOT_FILLED
 from ...read.objects import read_lines
 from ...read.section import SectionReading, read_outline_curves, read_section

@@ -16,26 +16,26 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.bodies.findings import SHAPE_FAR_FROM_ORIGIN
-from ....core.bodies.reading import name_subject
-from ....core.inertia.third_moment_frames import NOISE_LEVEL
-from ....core.measurement.settings import fingerprint
-from ....core.mesh.surface import Surface
-from ....core.moments.exponents import monomials
-from ....core.moments.moments import Moments
-from ....core.numerics.array_types import Array
-from ....core.shape.registration import (
+from ....core.bodies import SHAPE_FAR_FROM_ORIGIN, name_subject
+from ....core.inertia import NOISE_LEVEL
+from ....core.measurement import fingerprint
+from ....core.mesh import Surface
+from ....core.moments import Moments, monomials
+from ....core.numerics import Array
+from ....core.shape import (
+    MAX_ORDER_BY_MOMENTS,
     Residual,
     RigidMatch,
+    Signature,
+    Symmetry,
+    disc_zernike,
+    flat_signature,
     flat_symmetry,
     holds_by_moments,
     holds_by_outline,
     match_flat,
 )
-from ....core.shape.signatures import Signature, flat_signature
-from ....core.shape.symmetries import Symmetry
-from ....core.shape.zernike import MAX_ORDER_BY_MOMENTS, disc_zernike
-from ....core.verdict.finding import MeasureError, ReadError
+from ....core.verdict import MeasureError, ReadError
 from ...read.fingerprint import matrix_hash, settings_hash
 from ..shape.shape import Shape, surface_shape_of
 from ..shape.surface_distance import EXACT_DISTANCE, SURFACE_SAMPLES, SurfaceDistance, thinned

@@ -18,28 +18,37 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.bodies.findings import (
+from ....core.bodies import (
     SHAPE_FAR_FROM_ORIGIN,
     SHAPE_OF_GRID,
     SHAPE_OF_OPEN_SURFACE,
     SIGNATURE_NEEDS_POLYGONS,
     WIRE_UNSUPPORTED,
+    with_input_error,
 )
-from ....core.bodies.mesh_body import with_input_error
-from ....core.inertia.plain_body import EQUAL_AXES
-from ....core.inertia.principal_frames import PrincipalFrame, pose_matrix
-from ....core.inertia.third_moment_frames import NOISE_LEVEL
-from ....core.measurement.findings import WALL_UNSUPPORTED
-from ....core.measurement.measurement import Body, Measurement
-from ....core.mesh.surface import Surface, join_surfaces
-from ....core.mesh.surface_stack import TriangleStack
-from ....core.moments.affine_maps import are_similarities
-from ....core.moments.moments import Moments
-from ....core.numerics.array_types import Array, Index
-from ....core.numerics.arrays import segment_starts
-from ....core.polyhedron import polyhedron_moments
-from ....core.polyhedron.any_order import extend_small_moments
-from ....core.polyhedron.third_order import small_moments
+from ....core.inertia import EQUAL_AXES, NOISE_LEVEL, PrincipalFrame, pose_matrix
+from ....core.measurement import WALL_UNSUPPORTED, Body, Measurement
+from ....core.mesh import Surface, TriangleStack, join_surfaces
+from ....core.moments import Moments, are_similarities
+from ....core.numerics import Array, Index, segment_starts
+from ....core.polyhedron import extend_small_moments, polyhedron_moments, small_moments
+from ....core.shape import (
+    MAX_AXIS_ORDER,
+    MAX_DESCRIPTOR_ERROR,
+    MAX_ORDER,
+    MAX_ORDER_BY_MOMENTS,
+    UNDECIDED,
+    PlacedTriangles,
+    Residual,
+    RigidMatch,
+    Symmetry,
+    equivalent_frames,
+    match,
+    nearest_frame,
+    symmetry,
+    unique_frame,
+    zernike_quadrature,
+)
 from ....core.shape.axial_harmonics import (
     MAX_AXIAL_ORDER,
     AxialHarmonics,
@@ -47,16 +56,9 @@ from ....core.shape.axial_harmonics import (
     axis_last,
     turn_by_harmonics,
 )
-from ....core.shape.canonical_frame import MAX_ORDER
-from ....core.shape.point_groups import PlacedTriangles
-from ....core.shape.registration import MAX_AXIS_ORDER, Residual, RigidMatch, match
 from ....core.shape.signatures import Signature, signature, signatures
-from ....core.shape.symmetries import UNDECIDED, Symmetry, symmetry
-from ....core.shape.unique_frames import equivalent_frames, nearest_frame, unique_frame
-from ....core.shape.zernike import MAX_DESCRIPTOR_ERROR, MAX_ORDER_BY_MOMENTS, zernike_quadrature
+from ....core.verdict import OBJECT_TOO_LARGE, Procedure, Source
 from ....core.verdict.finding import Finding, ReadError, finding
-from ....core.verdict.findings import OBJECT_TOO_LARGE
-from ....core.verdict.method import Procedure, Source
 from ...settings.options import MeasureOptions
 from ..measure_object import THREADS, Measured, measure_body
 from ..stacks.many import measured_in_turn

@@ -11,10 +11,9 @@ import numpy as np
 from mathutils.bvhtree import BVHTree
 from numpy.typing import NDArray
 
-from ....core.mesh.point_triangle import triangle_distances
-from ....core.mesh.surface import join_surfaces
-from ....core.numerics.array_types import Array
-from ....core.shape.registration import RigidMatch
+from ....core.mesh import join_surfaces, triangle_distances
+from ....core.numerics import Array
+from ....core.shape import RigidMatch
 
 if TYPE_CHECKING:
     from ..flat.flat_shape import FlatShape

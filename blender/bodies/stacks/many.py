@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator, Sequence
 import bpy
 import numpy as np
 
-from ....core.measurement.settings import Settings
+from ....core.measurement import Settings
 from ....core.verdict import internal_error
 from ...read.mesh import mesh_surface, plain_mesh
 from ...read.places import has_places, world_matrices

@@ -15,26 +15,17 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.inertia.mass_properties import MassProperties, has_certain_total
+from ....core.inertia import MassProperties, has_certain_total
 from ....core.inertia.third_moment_frames import third_moment_frames
-from ....core.measurement.builder import build_measurement, find_large_bounds
+from ....core.measurement import Settings, build_measurement, find_large_bounds, fingerprint
 from ....core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
-from ....core.measurement.settings import Settings, fingerprint
-from ....core.mesh.surface import Surface
-from ....core.moments.affine_maps import are_similarities, are_singular
-from ....core.moments.moments import Moments, image, join_moments
-from ....core.numerics.array_types import Array, Mask
-from ....core.numerics.rotations import rotation_matrix
-from ....core.polyhedron.integration import area_of_images
+from ....core.mesh import Surface
+from ....core.moments import Moments, are_similarities, are_singular, image, join_moments
+from ....core.numerics import Array, Mask, rotation_matrix
+from ....core.polyhedron import area_of_images
+from ....core.solid import SolidStack, can_be_stacked, measure_stack
 from ....core.solid.measure import SolidIntegrals, measure_left_over, measure_solid
-from ....core.solid.solid_stack import (
-    SolidStack,
-    can_be_stacked,
-    measure_stack,
-)
-from ....core.verdict.finding import Finding
-from ....core.verdict.health import DefectiveElements, MeshHealth
-from ....core.verdict.method import Method, Procedure
+from ....core.verdict import DefectiveElements, Finding, MeshHealth, Method, Procedure
 from ...read.fingerprint import transform_key
 from ...read.mesh import MAX_DIGESTED_FACES, surface_digest
 from ...settings.accepted import accepted_codes, with_acceptance

@@ -17,9 +17,9 @@ from bpy.types import Context, Object, PoseBone
 from mathutils import Quaternion, Vector
 from numpy.typing import NDArray
 
-from ....core.numerics.array_types import Array
-from ....core.statics.support import ground_axes
-from ....core.verdict.finding import EditRefusedError
+from ....core.numerics import Array
+from ....core.statics import ground_axes
+from ....core.verdict import EditRefusedError
 from ...read.tracking import tracking_paused
 from ...scale import meters_per_unit
 from ...write.reports import Refused, distance

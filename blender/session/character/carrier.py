@@ -11,11 +11,9 @@ import numpy as np
 from bpy.types import Context, Depsgraph, Object, PoseBone
 from numpy.typing import NDArray
 
-from ....core.bodies.reading import float64_matrix
-from ....core.numerics.array_types import Array
-from ....core.numerics.rotations import polar_rotation, quaternion, rotation_matrix
-from ....core.rig.channels import divide_frames, in_pieces, rotation_values
-from ....core.rig.motion import continuous
+from ....core.bodies import float64_matrix
+from ....core.numerics import Array, polar_rotation, quaternion, rotation_matrix
+from ....core.rig import continuous, divide_frames, in_pieces, rotation_values
 from ...read.tracking import tracking_paused
 from ...scene import fcurves
 from ...scene.changes import require_editable

@@ -16,11 +16,9 @@ from bpy.types import Context, Depsgraph, Object, Scene
 from mathutils import Quaternion
 from numpy.typing import NDArray
 
-from ....core.numerics.array_types import Array, Mask
-from ....core.numerics.rotations import quaternion, rotation_matrix
-from ....core.rig import motion, spin
-from ....core.rig.parts import Parts
-from ....core.verdict.finding import EditRefusedError
+from ....core.numerics import Array, Mask, quaternion, rotation_matrix
+from ....core.rig import Parts, motion, spin
+from ....core.verdict import EditRefusedError
 from ...read.rig import require_armature
 from ...read.tracking import tracking_paused
 from ...scale import meters_per_unit

@@ -18,13 +18,12 @@ import numpy as np
 from bpy.types import Context, Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
-from ....core.bodies.reading import float64_matrix
-from ....core.inertia.plain_body import COLUMNS, ROWS, PlainBody, principal_axes, tensor_rows
-from ....core.numerics.array_types import Array, Index
-from ....core.numerics.float32 import shortest_decimal
-from ....core.rig.parts import Parts
-from ....core.statics.support import Support, find_contacts, support_of_contacts
-from ....core.verdict.finding import EditRefusedError, MeasureError, ReadError
+from ....core.bodies import float64_matrix
+from ....core.inertia import COLUMNS, ROWS, PlainBody, principal_axes, tensor_rows
+from ....core.numerics import Array, Index, shortest_decimal
+from ....core.rig import Parts
+from ....core.statics import Support, find_contacts, support_of_contacts
+from ....core.verdict import EditRefusedError, MeasureError, ReadError
 from ...bodies.findings import RIG_WITHOUT_PARTS, UNWEIGHTED_VERTICES
 from ...bodies.rig import Rig, measure_rig
 from ...read.bones import RestBones

@@ -15,10 +15,10 @@ from .. import memory
 from ..tracking.stamps import Kind, Stamp
 
 if TYPE_CHECKING:
-    from ....core.measurement.measurement import Measurement
-    from ....core.numerics.array_types import Array
-    from ....core.nurbs.tracked_solid import TrackedSolid
-    from ....core.verdict.finding import Finding
+    from ....core.measurement import Measurement
+    from ....core.numerics import Array
+    from ....core.nurbs import TrackedSolid
+    from ....core.verdict import Finding
     from .measuring import MovingSurface
 
 

@@ -8,12 +8,11 @@ import numpy as np
 from bpy.types import Object, Scene
 from numpy.typing import NDArray
 
-from ....core.bodies.reading import float64_matrix
-from ....core.inertia.mass_properties import affine_image
-from ....core.inertia.plain_body import PlainBody
-from ....core.measurement.measurement import Measurement
-from ....core.moments.affine_maps import are_singular
-from ....core.numerics.rotations import rotation_matrix
+from ....core.bodies import float64_matrix
+from ....core.inertia import PlainBody, affine_image
+from ....core.measurement import Measurement
+from ....core.moments import are_singular
+from ....core.numerics import rotation_matrix
 from ...read.fingerprint import has_transform
 from ...scale import meters_per_unit
 from ...settings.options import object_settings

@@ -25,17 +25,13 @@ import numpy as np
 from bpy.types import Depsgraph, Object
 from numpy.typing import NDArray
 
-from ....core.bodies.mesh_body import MeshBody
-from ....core.bodies.reading import Reading, float64_matrix
-from ....core.measurement.measurement import Body, Measurement
-from ....core.mesh.surface import Surface
-from ....core.numerics.array_types import Array
-from ....core.nurbs.splines import Patch
-from ....core.nurbs.tracked_solid import TrackedSolid
-from ....core.polyhedron.integration import volume_and_center
-from ....core.verdict import internal_error
-from ....core.verdict.finding import MeasureError, ReadError
-from ....core.verdict.method import Method, Procedure, Source
+from ....core.bodies import MeshBody, Reading, float64_matrix
+from ....core.measurement import Body, Measurement
+from ....core.mesh import Surface
+from ....core.numerics import Array
+from ....core.nurbs import Patch, TrackedSolid
+from ....core.polyhedron import volume_and_center
+from ....core.verdict import MeasureError, Method, Procedure, ReadError, Source, internal_error
 from ...bodies.measure_object import Measured, measure_body
 from ...bodies.request import Request, measurement_of
 from ...read.fingerprint import has_transform, settings_hash, transform_key

@@ -16,14 +16,12 @@ import numpy as np
 from bpy.types import Depsgraph, Object
 from numpy.typing import NDArray
 
-from ....core.bodies.reading import float64_matrix, to_si
-from ....core.mesh.hulls import ConvexHull
-from ....core.moments.affine_maps import are_similarities, are_singular
-from ....core.moments.moments import Measure, Moments
-from ....core.numerics.array_types import Array
-from ....core.statics.mixes import Mixes, fit_mixes, sample_count
-from ....core.verdict.finding import EditRefusedError
-from ....core.verdict.method import Method, Procedure
+from ....core.bodies import float64_matrix, to_si
+from ....core.mesh import ConvexHull
+from ....core.moments import Measure, Moments, are_similarities, are_singular
+from ....core.numerics import Array
+from ....core.statics import Mixes, fit_mixes, sample_count
+from ....core.verdict import EditRefusedError, Method, Procedure
 from ...bodies.measure_object import measure_body
 from ...bodies.mesh import object_hull
 from ...read.objects import read_object

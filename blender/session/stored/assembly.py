@@ -15,14 +15,11 @@ import numpy as np
 from bpy.types import Context, Object, PropertyGroup
 from mathutils import Matrix
 
-from ....core.bodies.findings import DENSITY_DEFAULTED
-from ....core.inertia.plain_body import TENSOR, PlainBody, add_bodies
-from ....core.measurement.builder import find_properties
-from ....core.measurement.documents import table
-from ....core.measurement.settings import digest
-from ....core.verdict import internal_error
+from ....core.bodies import DENSITY_DEFAULTED
+from ....core.inertia import TENSOR, PlainBody, add_bodies
+from ....core.measurement import digest, find_properties, table
+from ....core.verdict import internal_error, of_severity, sentence
 from ....core.verdict.finding import Finding, Severity, finding
-from ....core.verdict.sentences import of_severity, sentence
 from ...bodies.assembly.assembly import Assembly, MemberBody, assembly_measurement
 from ...bodies.findings import ASSEMBLY_MASS_GIVEN, MEMBERS_DENSITY_UNSET
 from ...bodies.measure_object import Measured

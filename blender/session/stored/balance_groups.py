@@ -15,8 +15,8 @@ import numpy as np
 from bpy.types import Object
 from numpy.typing import NDArray
 
-from ....core.numerics.array_types import Array, Mask
-from ....core.statics.support import Support
+from ....core.numerics import Array, Mask
+from ....core.statics import Support
 from ...scene import fcurves
 from ...write.properties import BALANCE_GROUP, BALANCE_SPANS
 from .. import memory

@@ -9,18 +9,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ....core.flat.polygon import plane_positions
-from ....core.flat.section import foot
-from ....core.flat.section_properties import Plane
-from ....core.inertia.findings import MOMENTS_OVERFLOW
-from ....core.inertia.plain_body import Reference
-from ....core.measurement.documents import table
-from ....core.measurement.plain_text import visible
-from ....core.moments.complex_form import Invariant, flusser_invariants, hu_invariants, normalize
+from ....core.flat import Plane, foot, plane_positions
+from ....core.inertia import MOMENTS_OVERFLOW, Reference
+from ....core.measurement import table, visible
+from ....core.moments import Invariant, flusser_invariants, hu_invariants, normalize
 from ....core.moments.moments import Moments, monomials
-from ....core.numerics.array_types import Array
-from ....core.polyhedron.n_dimensions import multi_indices
-from ....core.verdict.finding import Finding, ReadError
+from ....core.numerics import Array
+from ....core.polyhedron import multi_indices
+from ....core.verdict import Finding, ReadError
 from ..findings import INVARIANTS_ORDER, MASS_MOMENTS_UNKNOWN, MOMENTS_OF_AREA_ONLY
 
 HU_ORDER = 3  # order of Hu's invariants

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING
 
 from bpy.types import Context, Object, PropertyGroup, Scene
 
-from ....core.bodies.findings import DENSITY_DEFAULTED
-from ....core.measurement.settings import VERSION
+from ....core.bodies import DENSITY_DEFAULTED
+from ....core.measurement import VERSION
 from ....core.verdict.finding import EditRefusedError, Finding, finding
 from ...bodies.findings import INERTIA_GIVEN
 from ...read.fingerprint import current_settings
@@ -26,7 +26,7 @@ from .. import stored
 from ..tracking import staleness, stamps
 
 if TYPE_CHECKING:
-    from ....core.measurement.measurement import Measurement
+    from ....core.measurement import Measurement
 
 DEFAULTS = {  # notes on an unset density, by the setting
     "density": finding(DENSITY_DEFAULTED, slight=True, density="1000 kg/m³"),

@@ -12,11 +12,10 @@ import numpy as np
 from bpy.types import Object
 from numpy.typing import NDArray
 
-from ....core.bodies.reading import Reading
-from ....core.mesh.surface import Surface
-from ....core.numerics.array_types import Array
-from ....core.verdict.findings import FLIPPED_FACES
-from ....core.verdict.health import DefectiveElements
+from ....core.bodies import Reading
+from ....core.mesh import Surface
+from ....core.numerics import Array
+from ....core.verdict import FLIPPED_FACES, DefectiveElements
 from ...bodies.measure_object import Measured
 from .. import memory
 from ..tracking import updates

@@ -14,10 +14,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from bpy.types import Context, Depsgraph, Object, Scene
 
-from ....core.inertia.plain_body import Reference
-from ....core.moments.complex_form import Invariant
+from ....core.inertia import Reference
+from ....core.moments import Invariant
 from ....core.moments.moments import Measure, Moments, monomial_count, monomials
-from ....core.verdict.finding import Finding, MeasureError
+from ....core.verdict import Finding, MeasureError
 from ...bodies.flat.flat import area_findings, clearer_refusal, flat_region
 from ...bodies.measure_object import THREADS, measure_object
 from ...read.fingerprint import matrix_hash, settings_hash

@@ -11,8 +11,7 @@ from typing import NamedTuple
 
 import bpy
 
-from ....core.verdict.finding import Finding, Severity
-from ....core.verdict.sentences import Group, grouped, severity
+from ....core.verdict import Finding, Group, Severity, grouped, severity
 from ...write.findings import FAILURE
 from .. import memory
 

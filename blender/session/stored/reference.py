@@ -17,9 +17,9 @@ from bpy.types import Collection, Object, PropertyGroup, Scene
 from mathutils import Matrix
 
 from .... import core
-from ....core.inertia.plain_body import PlainBody, Reference, ReferredInertia, rotation_axes
-from ....core.numerics.float32 import shortest_decimal
-from ....core.verdict.finding import Finding, MeasureError, QueryError
+from ....core.inertia import PlainBody, Reference, ReferredInertia, rotation_axes
+from ....core.numerics import shortest_decimal
+from ....core.verdict import Finding, MeasureError, QueryError
 from ...read.findings import REFERENCE_OBJECT_MISSING
 from ...scale import meters_per_unit
 from ...write import properties

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from bpy.types import Context, Object, Scene
 
-from ....core.measurement.settings import fingerprint
+from ....core.measurement import fingerprint
 from ....core.verdict import internal_error
 from ...bodies.measure_object import Measured
 from ...bodies.stacks.stack import MeasuredStack, Stacked
@@ -26,8 +26,8 @@ from ..tracking import armatures, staleness, stamps
 from . import density, faults, reference, sliders
 
 if TYPE_CHECKING:
-    from ....core.shape.symmetries import Symmetry
-    from ....core.verdict.finding import Finding
+    from ....core.shape import Symmetry
+    from ....core.verdict import Finding
     from ...bodies.flat.flat import MeasuredSection
     from ...bodies.flat.flat_shape import FlatShape
     from ...bodies.rig import Rig

@@ -17,13 +17,18 @@ from typing import Generic, TypeVar
 import bpy
 from bpy.types import Context, Object, PropertyGroup, Scene
 
-from ....core.bodies.grid import ThresholdGrid, ThresholdGridBody, threshold_grid_body
-from ....core.bodies.reading import Reading
-from ....core.bodies.wall import WallBody, Walls
-from ....core.density.grid_options import GridOptions
-from ....core.measurement.measurement import Body
-from ....core.numerics.float32 import shortest_decimal
-from ....core.verdict.finding import MeasureError
+from ....core.bodies import (
+    Reading,
+    ThresholdGrid,
+    ThresholdGridBody,
+    WallBody,
+    Walls,
+    threshold_grid_body,
+)
+from ....core.density import GridOptions
+from ....core.measurement import Body
+from ....core.numerics import shortest_decimal
+from ....core.verdict import MeasureError
 from ...bodies.measure_object import Measured
 from ...bodies.request import Request, measurement_of
 from ...scale import meters_per_unit

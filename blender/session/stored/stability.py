@@ -16,20 +16,18 @@ import numpy as np
 from bpy.types import Context, Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
-from ....core.inertia.plain_body import frame_about
-from ....core.mesh.hulls import ConvexHull
-from ....core.numerics.array_types import Array
-from ....core.numerics.rotations import rotation_matrix
-from ....core.statics.findings import NO_STABLE_POSE
-from ....core.statics.support import (
+from ....core.inertia import frame_about
+from ....core.mesh import ConvexHull
+from ....core.numerics import Array, rotation_matrix
+from ....core.statics import (
     CONTACT_RTOL,
+    NO_STABLE_POSE,
     RestingPoses,
     Support,
     find_support,
     resting_poses,
 )
-from ....core.verdict.finding import EditRefusedError, Finding, MeasureError
-from ....core.verdict.method import Procedure
+from ....core.verdict import EditRefusedError, Finding, MeasureError, Procedure
 from ...bodies.measure_object import measure_body
 from ...bodies.mesh import MAX_CORNERS, object_hull
 from ...read.mesh import shape_digest

@@ -18,7 +18,7 @@ from typing import NamedTuple
 from bpy.types import Collection, Object
 
 from ....core import measurement
-from ....core.verdict.method import Procedure
+from ....core.verdict import Procedure
 from ...settings.given import COLLIDERS
 from ...write import properties, section
 from .. import memory

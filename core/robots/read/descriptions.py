@@ -22,14 +22,14 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-from ...files.findings import (
+from ...files import (
     FILE_MISSING,
     FILE_NOT_REGULAR,
     FILE_TOO_LARGE,
     FILE_UNREADABLE,
     FILE_WITHOUT_OBJECTS,
 )
-from ...verdict.finding import FileError, system_reason
+from ...verdict import FileError, system_reason
 from ..findings import (
     DESCRIPTION_INVALID,
     DESCRIPTION_UNKNOWN,

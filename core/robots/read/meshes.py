@@ -19,18 +19,20 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ...cad.obj import read_obj_faces
-from ...files.findings import FILE_TOO_LARGE, FILE_TYPE, FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
-from ...files.number_text import (
+from ...cad import read_obj_faces
+from ...files import (
+    FILE_TOO_LARGE,
+    FILE_TYPE,
+    FILE_UNREADABLE,
+    FILE_WITHOUT_OBJECTS,
     parse_number,
     parse_numbers,
     parse_whole,
     parse_wholes,
 )
-from ...mesh.surface import Surface
-from ...numerics.array_types import Array
-from ...numerics.rotations import rotation_matrix
-from ...streams.stl import StlFile
+from ...mesh import Surface
+from ...numerics import Array, rotation_matrix
+from ...streams import StlFile
 from ...verdict.finding import FileError, finding, system_reason
 from ..findings import MESH_UNREADABLE
 from ..stated import MOST, rotation_about

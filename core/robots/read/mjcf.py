@@ -17,12 +17,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...files.number_text import parse_numbers
-from ...mesh.hulls import convex_hull
-from ...mesh.surface import Surface
-from ...numerics.array_types import Array
-from ...numerics.rotations import rotation_matrix
-from ...verdict.finding import Finding, MeasureError
+from ...files import parse_numbers
+from ...mesh import Surface, convex_hull
+from ...numerics import Array, rotation_matrix
+from ...verdict import Finding, MeasureError
 from ..model import Pose, Shape
 from ..stated import (
     LEAST,

@@ -8,8 +8,8 @@ from math import radians
 
 import numpy as np
 
-from ...numerics.rotations import rotation_matrix
-from ...verdict.finding import Finding
+from ...numerics import rotation_matrix
+from ...verdict import Finding
 from ..model import Pose
 from ..stated import ENTRIES, Angles, Description, StatedInertial, StatedLink, rotation_of_angles
 from .xml import MAX_DEPTH, NOWHERE, Node, attempt, number, numbers, read_shapes, stated_link

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...verdict.finding import Finding
+from ...verdict import Finding
 from ..model import Pose
 from ..stated import ENTRIES, Angles, Description, StatedInertial, StatedLink, rotation_of_angles
 from .xml import Node, attempt, number, numbers, read_shapes, stated_link

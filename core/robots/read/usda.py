@@ -16,10 +16,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...files.number_text import parse_number
-from ...mesh.surface import Surface
-from ...numerics.array_types import Array
-from ...numerics.rotations import polar_rotation, rotation_matrix
+from ...files import parse_number
+from ...mesh import Surface
+from ...numerics import Array, polar_rotation, rotation_matrix
 from ...verdict.finding import FileError, Finding, finding
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER
 from ..model import Pose, Shape

@@ -16,9 +16,8 @@ from xml.parsers import expat
 
 import numpy as np
 
-from ...files.findings import FILE_TOO_LARGE
-from ...files.number_text import parse_numbers
-from ...numerics.array_types import Array
+from ...files import FILE_TOO_LARGE, parse_numbers
+from ...numerics import Array
 from ...verdict.finding import FileError, Finding, finding
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER, XML_ENTITIES
 from ..model import Shape

@@ -14,7 +14,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from ...verdict.catalog import declared
+from ...verdict import declared
 from .marker import AUDIT_COMMANDS, SARIF_SCHEMA
 
 _COMMANDS = {"error": "error", "warning": "warning", "note": "notice"}

@@ -14,10 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from ...measurement.documents import plain, table
-from ...measurement.plain_text import counted, visible
-from ...verdict.finding import Finding, Severity
-from ...verdict.sentences import sentence, severity
+from ...measurement import counted, plain, table, visible
+from ...verdict import Finding, Severity, sentence, severity
 from ..audit import Audit, Entry, LinkAudit
 from ..findings import INERTIAL_CENTER_OUTSIDE, INERTIAL_SPREAD_OUTSIDE
 from ..stated import StatedInertial

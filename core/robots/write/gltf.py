@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...numerics.rotations import quaternion
+from ...numerics import quaternion
 from ...verdict.finding import Finding, finding
 from ..findings import GLTF_NODE_MISSING, GLTF_UNIT_SCALE, ROBOT_SCALED
 from ..model import Inertial, Robot

@@ -20,10 +20,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...mesh.surface import Surface
-from ...numerics.array_types import Array
-from ...numerics.rotations import along_x, quaternion
-from ...verdict.finding import Finding
+from ...mesh import Surface
+from ...numerics import Array, along_x, quaternion
+from ...verdict import Finding
 from ..model import FreeAxis, Joint, Link, Pose, Robot, Shape
 from .gltf import KHR, OMI, Y_UP, body_extensions
 from .joints import NAMES, lost_values

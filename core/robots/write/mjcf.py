@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from xml.etree.ElementTree import Element, SubElement
 
-from ...numerics.rotations import quaternion
+from ...numerics import quaternion
 from ...verdict.finding import Finding, finding
 from ..findings import MJCF_INERTIA_TOO_SMALL
 from ..model import Inertial, Joint, Link, Pose, Robot, Shape

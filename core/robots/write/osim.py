@@ -12,7 +12,7 @@ from xml.etree.ElementTree import Element, SubElement
 
 import numpy as np
 
-from ...verdict.finding import Finding
+from ...verdict import Finding
 from ..model import Joint, Link, Pose, Robot, Shape
 from .joints import lost_values
 from .shapes import capsule_pieces

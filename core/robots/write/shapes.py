@@ -12,7 +12,7 @@ from math import sqrt
 
 import numpy as np
 
-from ...mesh.surface import Surface
+from ...mesh import Surface
 from ...verdict.finding import Finding, finding
 from ..findings import ROBOT_ELLIPSOID_AS_BOX, ROBOT_LINKS_BARE
 from ..model import Link, Pose, Robot, Shape

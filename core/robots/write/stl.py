@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from ...files.whole_file import whole_file
-from ...mesh.surface import Surface
+from ...mesh import Surface
 from ..model import Robot
 from .text import unique_names
 

@@ -17,8 +17,8 @@ from math import degrees, inf, radians
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...mesh.surface import Surface
-from ...numerics.rotations import along_x, quaternion
+from ...mesh import Surface
+from ...numerics import along_x, quaternion
 from ...verdict.finding import Finding, finding
 from ..findings import USD_INERTIA_TOO_SMALL
 from ..model import FreeAxis, Inertial, Joint, Pose, Robot, Shape

@@ -1,0 +1,64 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+from typing import Any
+
+from .files import ArrayOptions as ArrayOptions
+from .files import body_of_mesh as body_of_mesh
+from .files import measure_array as measure_array
+from .files import measure_mesh_file as measure_mesh_file
+from .files import read_mesh as read_mesh
+from .findings import DENSITY_DEFAULTED as DENSITY_DEFAULTED
+from .findings import DENSITY_FROM_GRID as DENSITY_FROM_GRID
+from .findings import DRAWN_AS_POLYGONS as DRAWN_AS_POLYGONS
+from .findings import GRID_AS_SHELL as GRID_AS_SHELL
+from .findings import GRID_DENSITY as GRID_DENSITY
+from .findings import GRID_EMPTY as GRID_EMPTY
+from .findings import GRID_IS_LEVEL_SET as GRID_IS_LEVEL_SET
+from .findings import GRID_TOO_LARGE as GRID_TOO_LARGE
+from .findings import INSTANCE_OVERLAP_UNCHECKED as INSTANCE_OVERLAP_UNCHECKED
+from .findings import MASS_OVERFLOW as MASS_OVERFLOW
+from .findings import NO_GEOMETRY as NO_GEOMETRY
+from .findings import SAMPLES_POSITIONED as SAMPLES_POSITIONED
+from .findings import SHAPE_FAR_FROM_ORIGIN as SHAPE_FAR_FROM_ORIGIN
+from .findings import SHAPE_OF_GRID as SHAPE_OF_GRID
+from .findings import SHAPE_OF_OPEN_SURFACE as SHAPE_OF_OPEN_SURFACE
+from .findings import SIGNATURE_NEEDS_POLYGONS as SIGNATURE_NEEDS_POLYGONS
+from .findings import WIRE_UNSUPPORTED as WIRE_UNSUPPORTED
+from .grid import MAX_SAMPLES as MAX_SAMPLES
+from .grid import Samples as Samples
+from .grid import ThresholdGrid as ThresholdGrid
+from .grid import ThresholdGridBody as ThresholdGridBody
+from .grid import density_body as density_body
+from .grid import threshold_grid_body as threshold_grid_body
+from .instances import area_of_instances as area_of_instances
+from .instances import each_once as each_once
+from .instances import findings_by_part as findings_by_part
+from .instances import group_by_similarity as group_by_similarity
+from .instances import instances_overlap as instances_overlap
+from .instances import merge_health as merge_health
+from .instances import singular_instances_message as singular_instances_message
+from .mesh_body import MAX_MASS_MOMENT as MAX_MASS_MOMENT
+from .mesh_body import MeshBody as MeshBody
+from .mesh_body import drawn_names as drawn_names
+from .mesh_body import extend_input_error as extend_input_error
+from .mesh_body import of_drawn as of_drawn
+from .mesh_body import sum_of_instances as sum_of_instances
+from .mesh_body import with_input_error as with_input_error
+from .reading import NO_VALUES as NO_VALUES
+from .reading import FaceAttributes as FaceAttributes
+from .reading import Part as Part
+from .reading import Reading as Reading
+from .reading import SplineReading as SplineReading
+from .reading import attribute_to_source as attribute_to_source
+from .reading import float64_matrix as float64_matrix
+from .reading import measure_reading as measure_reading
+from .reading import name_subject as name_subject
+from .reading import to_si as to_si
+from .wall import WallBody as WallBody
+from .wall import Walls as Walls
+from .wall import find_walls as find_walls
+
+__all__ = []
+
+def __getattr__(name: str) -> Any: ...

@@ -1,0 +1,41 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+from typing import Any
+
+from .blender_knots import bezier_curves as bezier_curves
+from .blender_knots import bezier_patches as bezier_patches
+from .blender_knots import bezier_space as bezier_space
+from .blender_knots import blender_space as blender_space
+from .blender_knots import display_parameters as display_parameters
+from .blender_knots import display_table as display_table
+from .curve_moments import length_moments as length_moments
+from .curve_moments import plane_moments as plane_moments
+from .findings import ERROR_ESTIMATE_LARGE as ERROR_ESTIMATE_LARGE
+from .findings import NON_FINITE_CONTROL_POINTS as NON_FINITE_CONTROL_POINTS
+from .findings import NON_POSITIVE_WEIGHTS as NON_POSITIVE_WEIGHTS
+from .flat_face import FlatFace as FlatFace
+from .flat_face import planar_region as planar_region
+from .patch_moments import area_moments as area_moments
+from .patch_moments import stored_area_moments as stored_area_moments
+from .patch_moments import vector_area as vector_area
+from .patch_moments import volume_moments as volume_moments
+from .seams import nearest_parameters as nearest_parameters
+from .seams import sharpest_crease as sharpest_crease
+from .solid import PatchIntegrals as PatchIntegrals
+from .solid import measure_patches as measure_patches
+from .solid import measure_sheet as measure_sheet
+from .splines import Curve as Curve
+from .splines import Face as Face
+from .splines import Patch as Patch
+from .splines import patches_size as patches_size
+from .tracked_solid import TrackedSolid as TrackedSolid
+
+__all__ = [
+    "Curve",
+    "Patch",
+    "length_moments",
+    "measure_patches",
+]
+
+def __getattr__(name: str) -> Any: ...

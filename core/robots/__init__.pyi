@@ -1,0 +1,39 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+from typing import Any
+
+from .audit import Audit as Audit
+from .audit import Auditor as Auditor
+from .audit import repaired_copy as repaired_copy
+from .findings import DESCRIPTION_UNKNOWN as DESCRIPTION_UNKNOWN
+from .findings import JOINT_VALUE_UNUSABLE as JOINT_VALUE_UNUSABLE
+from .findings import ROBOT_SCALED as ROBOT_SCALED
+from .findings import ROBOT_WITHOUT_LINKS as ROBOT_WITHOUT_LINKS
+from .findings import XML_ENTITIES as XML_ENTITIES
+from .formats import AUDITED_SUFFIXES as AUDITED_SUFFIXES
+from .formats import FORMATS as FORMATS
+from .formats import RobotFormat as RobotFormat
+from .links import Candidate as Candidate
+from .links import Connection as Connection
+from .links import assemble_robot as assemble_robot
+from .links import make_candidate as make_candidate
+from .links import robot_name as robot_name
+from .model import VALUES as VALUES
+from .model import Effect as Effect
+from .model import FreeAxis as FreeAxis
+from .model import Inertial as Inertial
+from .model import Link as Link
+from .model import Mimic as Mimic
+from .model import Pose as Pose
+from .model import Robot as Robot
+from .model import Shape as Shape
+from .model import compare as compare
+from .model import ratio as ratio
+from .primitives import equal_inertia_shape as equal_inertia_shape
+from .primitives import moments_of as moments_of
+from .primitives import primitive_moments as primitive_moments
+
+__all__ = []
+
+def __getattr__(name: str) -> Any: ...
