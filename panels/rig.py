@@ -226,9 +226,7 @@ def _numbers(layout: UILayout, bone: PoseBone) -> None:
 
 
 CLASSES = (
-    *in_both_places(
-        WeightPanel, "weight", options=frozenset(), shown_for=stands_for_meshes
-    ),
+    *in_both_places(WeightPanel, "weight", options=frozenset(), shown_for=stands_for_meshes),
     *in_both_places(BonesPanel, "bones"),
     BONE_PT_body_moments,
 )
