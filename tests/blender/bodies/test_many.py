@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 bpy = pytest.importorskip("bpy")
-from body_moments.blender.bodies.measure_object import measure_body
-from body_moments.blender.bodies.stacks import stack
-from body_moments.blender.bodies.stacks.many import measure_many
-from body_moments.blender.bodies.stacks.stack import Stacked
+from body_moments.blender.bodies import stack
+from body_moments.blender.bodies.measure_body import measure_body
+from body_moments.blender.bodies.measure_object import measure_many
+from body_moments.blender.bodies.stack import Stacked
 from body_moments.blender.settings.options import AS_SET, MeasureOptions
 from body_moments.blender.write import properties
 

@@ -15,20 +15,21 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.inertia import MassProperties, has_certain_total
-from ....core.inertia.third_moment_frames import third_moment_frames
-from ....core.measurement import Settings, build_measurement, find_large_bounds, fingerprint
-from ....core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
-from ....core.mesh import Surface
-from ....core.moments import Moments, are_similarities, are_singular, image, join_moments
-from ....core.numerics import Array, Mask, rotation_matrix
-from ....core.polyhedron import area_of_images
-from ....core.solid import SolidStack, can_be_stacked, measure_stack
-from ....core.solid.measure import SolidIntegrals, measure_left_over, measure_solid
-from ....core.verdict import DefectiveElements, Finding, MeshHealth, Method, Procedure
-from ...read.fingerprint import transform_key
-from ...read.mesh import MAX_DIGESTED_FACES, surface_digest
-from ...settings.accepted import accepted_codes, with_acceptance
+from ...core.inertia import MassProperties, has_certain_total
+from ...core.inertia.third_moment_frames import third_moment_frames
+from ...core.measurement import Settings, build_measurement, find_large_bounds, fingerprint
+from ...core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
+from ...core.mesh import Surface
+from ...core.moments import Moments, are_similarities, are_singular, image, join_moments
+from ...core.numerics import Array, Mask, rotation_matrix
+from ...core.polyhedron import area_of_images
+from ...core.solid import SolidStack, can_be_stacked, measure_stack
+from ...core.solid.measure import SolidIntegrals, measure_left_over, measure_solid
+from ...core.verdict import DefectiveElements, Finding, MeshHealth, Method, Procedure
+from ..read.fingerprint import transform_key
+from ..read.mesh import MAX_DIGESTED_FACES, surface_digest
+from ..settings.accepted import accepted_codes, with_acceptance
+from .measure_body import MeasuredBody, measure_body
 
 METHODS = {verdict: Method(verdict) for verdict in Procedure}
 
@@ -205,7 +206,7 @@ class MeasuredStack:
 
 @dataclass(frozen=True, eq=False)
 class Stacked:
-    """One object's measurement in a stack, the counterpart of `Measured`."""
+    """One object's measurement in a stack."""
 
     stack: MeasuredStack
     index: int
@@ -226,10 +227,11 @@ class Stacked:
     def method(self) -> Method:
         return self.stack.members[self.index].shape.method
 
-    @property
-    def shape_digest(self) -> bytes | None:
-        """Digest of the object's surface; None for a large one."""
+    def shape_digest(self, obj: bpy.types.Object) -> bytes | None:
         return self.stack.members[self.index].shape.digest
+
+    def alone(self, obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> MeasuredBody:
+        return measure_body(obj, depsgraph)
 
 
 def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> MeasuredStack | None:
