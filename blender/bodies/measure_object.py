@@ -111,8 +111,8 @@ class _Collector:
         self.members: list[StackMember] = []
         self.shapes: list[MeshShape] = []
         self.faces = 0
-        self._by_mesh: dict[bpy.types.Mesh, MeshShape | None] = {}
-        self._by_content: dict[tuple[bytes, ...], MeshShape] = {}
+        self._by_mesh: dict[bpy.types.Mesh, int | None] = {}
+        self._by_content: dict[tuple, int] = {}
         self._digests: dict[Settings, str] = {}
 
     def add(self, obj: bpy.types.Object) -> StackMember | None:
@@ -169,21 +169,20 @@ class _Collector:
             self._digests[settings] = settings.digest
         return self._digests[settings]
 
-    def _read(self, mesh: bpy.types.Mesh) -> MeshShape | None:
-        """Return the shape of a mesh; None if it has to be measured alone."""
+    def _read(self, mesh: bpy.types.Mesh) -> int | None:
+        """Return the index of the shape of a mesh; None if it has to be measured alone."""
         if not len(mesh.polygons) or len(mesh.polygons) > MAX_STACKED_FACES:
             return None
         surface = mesh_surface(mesh)
-        arrays = surface.points, surface.corner_vertices, surface.triangles, surface.quads
-        content = tuple([np.asarray(array).tobytes() for array in arrays])
+        content = surface.content
         if content in self._by_content:
             return self._by_content[content]
         if not np.isfinite(surface.points).all():
             return None
-        shape = self._by_content[content] = MeshShape(surface, len(mesh.polygons))
-        self.shapes.append(shape)
+        self.shapes.append(MeshShape(surface, len(mesh.polygons), content))
         self.faces += len(surface.triangles) + len(surface.quads)
-        return shape
+        self._by_content[content] = len(self.shapes) - 1
+        return len(self.shapes) - 1
 
     def measure(self) -> dict[int, Measured]:
         """Return the stacked measurements by member number; none if the stack fails and all must be

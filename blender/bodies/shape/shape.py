@@ -435,9 +435,7 @@ def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]
     linear = np.array([member.matrix[:3, :3] for member in stack.members])
     is_even = are_similarities(linear)
     determinant = np.linalg.det(linear)
-    solids = next(
-        (member.shape.solids for member in stack.members if member.shape.solids is not None), None
-    )
+    solids = next((shape.solids for shape in stack.shapes if shape.solids is not None), None)
     if solids is None:
         return found
     # A body is a shape in its own coordinates, or the unevenly mapped shape of a single object.
@@ -446,12 +444,13 @@ def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]
     maps = []
     of_member = {}
     for i, member in enumerate(stack.members):
-        if member.shape.solids is None:
+        shape = stack.shapes[member.shape]
+        if shape.solids is None:
             continue
-        key = (member.shape.row, -1 if is_even[i] else i)
+        key = (shape.row, -1 if is_even[i] else i)
         if key not in body_of:
             body_of[key] = len(rows)
-            rows.append(member.shape.row)
+            rows.append(shape.row)
             maps.append(np.eye(3) if is_even[i] else linear[i])
         of_member[i] = body_of[key]
     volume = solids.volume.at(np.array(rows))

@@ -94,7 +94,9 @@ def _store_stack(
     objects = [member.obj for member in part.members]
     about = {}
     for obj, member in zip(objects, part.members):
-        staleness.note_edits(obj, member.shape.digest if obj.mode == "OBJECT" else None)
+        staleness.note_edits(
+            obj, part.shapes[member.shape].digest if obj.mode == "OBJECT" else None
+        )
         if "body_reference" in obj:
             about[obj] = reference.stored_choice(obj)
     findings = list(part.findings)
@@ -108,14 +110,19 @@ def _store_stack(
         part.volume.raw[:, 0],
         part.area.raw[:, 0],
         part.error_bounds,
-        zip([member.shape.method for member in part.members], findings, part.fingerprints),
+        zip(
+            [part.shapes[member.shape].method for member in part.members],
+            findings,
+            part.fingerprints,
+        ),
     )
     for obj, member, refusal in zip(objects, part.members, refusals):
         if refusal is None:
-            if (defects := member.shape.defects) is None:
+            shape = part.shapes[member.shape]
+            if (defects := shape.defects) is None:
                 faults.forget(obj)
             else:
-                faults.remember_surface(obj, member.shape.surface, defects)
+                faults.remember_surface(obj, shape.surface, defects)
             if obj in about:
                 reference.follow(obj, scene, about[obj])
         yield obj, refusal
