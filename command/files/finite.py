@@ -36,6 +36,7 @@ from ...core.files import (
     refuse_line,
     refuse_non_finite,
 )
+from ...core.numerics import Array
 from ...core.verdict.finding import FileError, finding
 
 MALFORMED = (
@@ -58,7 +59,7 @@ _FBX_NUMBERS = re.compile(rb"(?>(?:[\s,]*+%b(?=[\s,}]|\Z))*)[\s,]*+" % SHORT)
 _FBX_WORD = re.compile(rb"[^\s,:{}]++(?!\s*:)")  # not the name of what follows
 _GLTF_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 _GLTF_TYPES = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
-_OF_NODES = ("matrix", "translation", "rotation", "scale")
+_VALUES = ("matrix", "translation", "rotation", "scale", "weights")  # of nodes and meshes
 
 
 def check_numbers(path: str, kind: str) -> None:
@@ -125,15 +126,19 @@ def check_gltf(data: Data, path: str) -> None:
     with suppress(*MALFORMED):
         buffers = Buffers(data, path)
         for number, node in enumerate(buffers.document.get("nodes", [])):
-            count = sum(
-                not abs(value) < MAX_FLOAT32 for key in _OF_NODES for value in node.get(key, ())
-            )
-            refuse_non_finite(count, "node", node.get("name") or number)
+            _check_values(node, "node", number)
+        for number, mesh in enumerate(buffers.document.get("meshes", [])):
+            _check_values(mesh, "mesh", number)
         for number, mesh in _placing_accessors(buffers.document).items():
             where = "accessor {}".format(number) if mesh is None else "mesh “{}”".format(mesh)
             with suppress(*MALFORMED):  # others may be whole
                 count, first = _bad_in_accessor(buffers, buffers.document["accessors"][number])
                 refuse_non_finite(count, where + ", row", first)
+
+
+def _check_values(entry: dict[str, Any], kind: str, number: int) -> None:
+    count = sum(not abs(value) < MAX_FLOAT32 for key in _VALUES for value in entry.get(key, ()))
+    refuse_non_finite(count, kind, entry.get("name") or number)
 
 
 def _placing_accessors(document: dict[str, Any]) -> dict[int, str | None]:
@@ -161,16 +166,9 @@ def _placing_accessors(document: dict[str, Any]) -> dict[int, str | None]:
 
 def _bad_in_accessor(buffers: Buffers, accessor: dict[str, Any]) -> tuple[int, int]:
     count, first = bad_in_table(buffers.table(accessor))
-    sparse = accessor.get("sparse")
-    if sparse:
-        size = {"count": sparse["count"]}
-        more, row = bad_in_table(
-            buffers.table(accessor | {"byteOffset": 0} | sparse["values"] | size)
-        )
-        if more and not count:
-            first = int(buffers.table({"type": "SCALAR"} | sparse["indices"] | size)[row, 0])
-        count += more
-    return count, first
+    rows, values = buffers.sparse(accessor)
+    more, row = bad_in_table(values)
+    return count + more, int(rows[row]) if more and not count else first
 
 
 def unquote(uri: str) -> str:
@@ -221,6 +219,32 @@ class Buffers:
         start += view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
         stride = view.get("byteStride") or width * kind.itemsize
         return np.ndarray((accessor["count"], width), kind, data, start, (stride, kind.itemsize))
+
+    def sparse(self, accessor: dict[str, Any]) -> tuple[NDArray, NDArray]:
+        """Return the rows of an accessor that are given by themselves, and their (n, k) numbers."""
+        sparse = accessor.get("sparse")
+        if not sparse:
+            return np.empty(0, np.intp), np.empty((0, 1))
+        size = {"count": sparse["count"]}
+        rows = self.table({"type": "SCALAR"} | sparse["indices"] | size)[:, 0]
+        return rows, self.table(accessor | {"byteOffset": 0} | sparse["values"] | size)
+
+    def numbers(self, number: int) -> Array:
+        """Return the (n, k) numbers of an accessor, normalized ones as fractions.
+
+        ValueError if an extension has compressed them.
+        """
+        accessor = self.document["accessors"][number]
+        table = self.table(accessor)
+        shape = accessor["count"], table.shape[1]
+        full = table.astype(np.float64) if "bufferView" in accessor else np.zeros(shape)
+        if full.shape != shape:
+            raise ValueError("compressed")
+        rows, values = self.sparse(accessor)
+        full[rows] = values
+        if accessor.get("normalized"):
+            full = np.maximum(full / np.iinfo(table.dtype).max, -1.0)
+        return full
 
     def _buffer(self, number: int) -> tuple[Data, int]:
         """Return the bytes that contain a buffer, and its start in them.

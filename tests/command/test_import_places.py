@@ -108,10 +108,14 @@ def test_usd_prototype_that_is_a_cage_is_reported(tmp_path):
     assert "usd_cage" in codes(found["objects"][0])
 
 
-def test_animated_usd_is_measured_at_its_first_frame(tmp_path):
+@pytest.mark.parametrize(
+    ("options", "size"),
+    [((), 2.0), (("--frame", "20"), 5.0), (("--at-frame", "11.333333333333"), 3.0)],
+)
+def test_animated_usd_is_measured_at_its_frame(tmp_path, options, size):
     samples = "double3 xformOp:scale.timeSamples = {7: (2, 1, 1), 20: (5, 1, 1)}"
     order = 'uniform token[] xformOpOrder = ["xformOp:scale"]'
-    found = measure(tmp_path, prim("Mesh", "m", MESH, samples, order))
+    found = measure(tmp_path, prim("Mesh", "m", MESH, samples, order), options=options)
     (body,) = found["objects"]
-    assert close(body["volume"], 12.0, 1e-6) and "frame_measured" in codes(body)
-    assert close(body["center_of_mass"][0], 1.0, 1e-6)
+    assert close(body["volume"], 6.0 * size, 1e-6) and "frame_measured" in codes(body)
+    assert close(body["center_of_mass"][0], size / 2.0, 1e-6)
