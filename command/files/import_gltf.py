@@ -18,11 +18,10 @@ import numpy as np
 from bpy.types import Object
 
 from ...core.cad import UPRIGHT
-from ...core.files import map_file
-from ...core.numerics import Array, rotation_matrix
+from ...core.files import MALFORMED, GltfFile, map_file, node_matrix
+from ...core.numerics import Array
 from ...core.verdict.finding import finding
 from ..findings import FILE_HIDES, PLACES_UNCHECKED
-from .finite import MALFORMED, Buffers
 from .placing import measure_at, place_objects
 from .references import Opened
 
@@ -77,7 +76,7 @@ def import_gltf(path: str, frame: float | None) -> Opened:
         bpy.data.objects[name].hide_render = True
     notes = measure_at(frame)
     try:
-        _correct(_Pose(Buffers(map_file(path), path), _seconds() if notes else 0.0), shown)
+        _correct(_Pose(GltfFile(map_file(path), path), _seconds() if notes else 0.0), shown)
     except MALFORMED:  # Such as compressed animations.
         notes = (*notes, finding(PLACES_UNCHECKED, cause="its nodes or animations are unreadable"))
     invisible = finding(FILE_HIDES, cause="it is invisible")
@@ -113,61 +112,47 @@ def _node_of(vnode: Any, gltf: Any) -> _Shown:
     if not is_instance:
         return _Shown(number, np.eye(4), keys, node.skin is not None)
     translation, rotation, scale = vnode.trs()
-    local = _placement(translation, rotation, scale)
+    local = node_matrix(
+        {"translation": translation, "rotation": np.roll(rotation, -1), "scale": scale}
+    )
     return _Shown(number, local, keys, False)
-
-
-def _placement(translation: Any, rotation: Any, scale: Any) -> Array:
-    """Return a (4, 4) matrix. rotation: w, x, y, z."""
-    matrix = np.eye(4)
-    matrix[:3, :3] = rotation_matrix(rotation) * np.array(scale, np.float64)
-    matrix[:3, 3] = translation
-    return matrix
 
 
 class _Pose:
     """The nodes of a glTF file at a time of its first animation, the one that Blender shows."""
 
-    def __init__(self, buffers: Buffers, seconds: float) -> None:
-        self._document = buffers.document
+    def __init__(self, file: GltfFile, seconds: float) -> None:
+        self._document = file.document
         self._nodes = self._document.get("nodes", [])
         self._parents = {
             child: number
             for number, node in enumerate(self._nodes)
             for child in node.get("children", ())
         }
-        self._animated: dict[tuple[int, str], Array] = {}
+        self._animated: dict[int, dict[str, Array]] = {}
         for animation in self._document.get("animations", [])[:1]:
             for channel in animation["channels"]:
                 target = _target(channel["target"])
                 if target is not None:
+                    number, part = target
                     sampler = animation["samplers"][channel["sampler"]]
-                    self._animated[target] = _sampled(buffers, sampler, seconds, target[1])
+                    values = _sampled(file, sampler, seconds, part)
+                    self._animated.setdefault(number, {})[part] = values
 
     def place(self, number: int) -> Array:
         """Return the (4, 4) place of a node in the world, in the file's axes."""
         matrix = np.eye(4)
         line: int | None = number
         while line is not None:
-            matrix = self._local(line) @ matrix
+            matrix = node_matrix(self._nodes[line] | self._animated.get(line, {})) @ matrix
             line = self._parents.get(line)
         return matrix
-
-    def _local(self, number: int) -> Array:
-        node = self._nodes[number]
-        if "matrix" in node:
-            return np.array(node["matrix"], np.float64).reshape(4, 4).T
-        translation, rotation, scale = (
-            np.array(self._animated.get((number, part), node.get(part, rest)))
-            for part, rest in zip(_PARTS, ((0.0,) * 3, (0.0, 0.0, 0.0, 1.0), (1.0,) * 3))
-        )
-        return _placement(translation, np.roll(rotation, 1), scale)
 
     def weights(self, number: int) -> Array:
         """Return the weights of the morph targets of a node's mesh, none if they are all 0."""
         node = self._nodes[number]
         rest = node.get("weights") or self._document["meshes"][node["mesh"]].get("weights", ())
-        return np.array(self._animated.get((number, "weights"), rest), np.float64)
+        return np.array(self._animated.get(number, {}).get("weights", rest), np.float64)
 
 
 def _target(target: dict[str, Any]) -> tuple[int, str] | None:
@@ -181,10 +166,10 @@ def _target(target: dict[str, Any]) -> tuple[int, str] | None:
     return (number, part) if number is not None and part in _PARTS else None
 
 
-def _sampled(buffers: Buffers, sampler: dict[str, Any], seconds: float, part: str) -> Array:
+def _sampled(file: GltfFile, sampler: dict[str, Any], seconds: float, part: str) -> Array:
     """Return the values of a sampler of an animation at a time: constant outside of its keys."""
-    times = buffers.numbers(sampler["input"])[:, 0]
-    values = buffers.numbers(sampler["output"])
+    times = file.numbers(sampler["input"])[:, 0]
+    values = file.numbers(sampler["output"])
     kind = sampler.get("interpolation", "LINEAR")
     of_key = values.reshape(len(times), 3 if kind == "CUBICSPLINE" else 1, -1)
     first = max(bisect_right(times, seconds) - 1, 0)

@@ -36,7 +36,7 @@ class _Prim(NamedTuple):
 
     hidden: the reason why a renderer does not show it. scheme: the subdivision of a mesh that is a
     cage. solid: the arguments of `revolved_solid`. place: (4, 4) its matrix in the scene.
-    is_member: of an instance. points: (n, 3) of a skinned mesh. members: of an instancer, the
+    is_member: of an instance. points: (n, 3) of a mesh that moves. members: of an instancer, the
     objects that it shows, each with its (k, 4, 4) places relative to it.
     """
 
@@ -142,6 +142,7 @@ class _Stage:
             importlib.import_module("pxr." + name) for name in ("Usd", "UsdGeom", "UsdSkel")
         )
         self._stage = stage
+        stage.SetInterpolationType(self._usd.InterpolationTypeLinear)  # Blender holds values.
         self.start = self._first_time()
         if self.start is not None and frame is not None:
             self.start = frame
@@ -181,30 +182,38 @@ class _Stage:
         prims |= {objects[block].name: prim for prim, block in pairs if block in objects}
         names = {prim.GetPath(): name for name, prim in prims.items()}
         facts = {name: self._facts(prim, names) for name, prim in prims.items()}
-        skinned = self._skinned_points()
+        moving = self._moving_points()
         return {
-            name: fact._replace(points=skinned.get(prims[name].GetPath()))
+            name: fact._replace(points=moving.get(prims[name].GetPath()))
             for name, fact in facts.items()
         }
 
-    def _skinned_points(self) -> dict[Any, Array]:
-        """Return the points of skinned meshes by their paths, in their own coordinates."""
+    def _moving_points(self) -> dict[Any, Array]:
+        """Return the points of skinned and animated meshes by their paths, in their own
+        coordinates.
+        """
+        meshes = [prim for prim in self._stage.Traverse() if prim.IsA(self._geom.Mesh)]
         bound = [
             prim
-            for prim in self._stage.Traverse()
-            if prim.IsA(self._geom.Mesh)
-            and (
-                self._skel.BindingAPI(prim).GetJointIndicesAttr().HasAuthoredValue()
-                or self._skel.BindingAPI(prim).GetBlendShapesAttr().HasAuthoredValue()
-            )
+            for prim in meshes
+            if self._skel.BindingAPI(prim).GetJointIndicesAttr().HasAuthoredValue()
+            or self._skel.BindingAPI(prim).GetBlendShapesAttr().HasAuthoredValue()
         ]
+        moving = {
+            *bound,
+            *(
+                prim
+                for prim in meshes
+                if self._geom.Mesh(prim).GetPointsAttr().GetNumTimeSamples() > 1
+            ),
+        }
         if bound:
             # Blender's modifiers may read the other layers again.
             self._stage.SetEditTarget(self._stage.GetSessionLayer())
             self._skel.BakeSkinning(self._stage.Traverse())
         return {
             prim.GetPath(): np.array(self._geom.Mesh(prim).GetPointsAttr().Get(self._time))
-            for prim in bound
+            for prim in moving
         }
 
     def unread(self, blocks: Mapping[str, list[bpy.types.ID]]) -> list[str]:

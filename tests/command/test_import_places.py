@@ -119,3 +119,11 @@ def test_animated_usd_is_measured_at_its_frame(tmp_path, options, size):
     (body,) = found["objects"]
     assert close(body["volume"], 6.0 * size, 1e-6) and "frame_measured" in codes(body)
     assert close(body["center_of_mass"][0], size / 2.0, 1e-6)
+
+
+def test_animated_points_of_usd_are_those_between_samples(tmp_path):
+    wide = BOX.partition("points = ")[2].replace("(1,", "(5,")
+    points = BOX.replace("points = ", "points.timeSamples = {{0: ").rstrip() + ", 8: {} }}"
+    lines = 'uniform token subdivisionScheme = "none"', points.format(wide)
+    found = measure(tmp_path, prim("Mesh", "m", *lines), options=("--frame", "2"))
+    assert close(found["objects"][0]["volume"], 12.0, 1e-6)
