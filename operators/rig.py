@@ -11,6 +11,7 @@ from ..blender import bodies, read, scene, session
 from ..blender.bodies.findings import BONE_PARTS_IMPOSSIBLE
 from ..blender.read.tracking import tracking_paused
 from ..blender.session import character, stored
+from ..blender.session.selected import armature_of
 from ..blender.session.tracking.armatures import stands_for_meshes
 from ..blender.write import reports
 from ..core.verdict import Severity, of_severity
@@ -22,15 +23,14 @@ BALANCED = "Nothing to do: the center of mass is over its target"
 
 
 class OnArmature:
-    """Base of operators that need an active armature."""
+    """Base of operators on the armature that the panel of bones shows."""
 
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        is_armature = context.object is not None and context.object.type == "ARMATURE"
-        return is_armature or reports.unavailable(
-            cls, "The active object is not an armature. Select one."
+        return armature_of(context) is not None or reports.unavailable(
+            cls, "No armature is selected, or several are. Select one."
         )
 
 
@@ -46,14 +46,14 @@ class InPoseMode:
 
 
 class OBJECT_OT_body_moments_measure_bones(OnArmature, Operator):
-    """Measure each bone's part of the active armature in rest pose; store it on the pose bone"""
+    """Measure each bone's part of the selected armature at rest; store it on the pose bone"""
 
     bl_idname = "object.body_moments_measure_bones"
     bl_label = "Measure Bones"
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
-        rig = bodies.measure_rig(context, read.rig.require_armature(context.object))
+        rig = bodies.measure_rig(context, read.rig.require_armature(armature_of(context)))
         failures = stored.results.store_rig(rig)
         done = reports.phrase(
             "{armature}: {mass:.7g} kg in the parts of {count} bone",
@@ -68,14 +68,14 @@ class OBJECT_OT_body_moments_measure_bones(OnArmature, Operator):
 
 
 class OBJECT_OT_body_moments_clear_bones(OnArmature, Operator):
-    """Remove the stored results of the active armature and its bones. Settings are kept"""
+    """Remove the stored results of the selected armature and its bones. Settings are kept"""
 
     bl_idname = "object.body_moments_clear_bones"
     bl_label = "Clear Results of Bones"
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
-        return report_cleared(self, context, stored.results.clear_rig(context.object))
+        return report_cleared(self, context, stored.results.clear_rig(armature_of(context)))
 
 
 class OBJECT_OT_body_moments_physics_rig(OnArmature, Operator):
@@ -92,7 +92,7 @@ class OBJECT_OT_body_moments_physics_rig(OnArmature, Operator):
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
-        rig = bodies.measure_rig(context, read.rig.require_armature(context.object))
+        rig = bodies.measure_rig(context, read.rig.require_armature(armature_of(context)))
         with tracking_paused():
             count, joints = scene.create_physics_rig(context, rig)
         missing = [
@@ -117,7 +117,7 @@ class OBJECT_OT_body_moments_rig_center(OnArmature, Operator):
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
-        rig = bodies.measure_rig(context, read.rig.require_armature(context.object))
+        rig = bodies.measure_rig(context, read.rig.require_armature(armature_of(context)))
         with tracking_paused():
             scene.add_center(context, rig)
         text = "Added the center of mass of “{armature}”, which follows its pose"

@@ -14,6 +14,8 @@ from bpy.types import Context, Object, OperatorProperties
 
 from ..blender.read.visibility import measurable
 from ..blender.scale import meters_per_unit
+from ..blender.session.displayed import shown_objects
+from ..blender.session.selected import subject
 from ..blender.session.stored.collider_tolerance import is_beyond_tolerance
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.session.tracking.stamps import of_colliders
@@ -52,17 +54,13 @@ class CollidersPanel:
 
     bl_label = "Colliders"
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        return context.object is not None and measurable(context.object)
-
     def draw(self, context: Context) -> None:
         layout = self.layout
-        body = _body(context.object)
-        layout.use_property_decorate = False
-        if body != context.object or len(context.selected_objects) > 1:
+        chosen = subject(context)
+        body = None if chosen is None else _body(chosen)
+        if body is not None and (body != chosen or len(shown_objects(context)) > 1):
             layout.label(text=body.name, icon="OBJECT_DATA", translate=False)
-        group = body.get(COLLIDERS)
+        group = None if body is None else body.get(COLLIDERS)
         stored = group if hasattr(group, "keys") and KEYS.issubset(group.keys()) else None
         row = layout.row(align=True)
         text = {} if stored is None else {"text": "Renew Colliders"}
@@ -138,4 +136,4 @@ def _body(obj: Object) -> Object:
     return obj.parent if COLLIDER in obj and obj.parent is not None else obj
 
 
-CLASSES = in_both_places(CollidersPanel, "colliders")
+CLASSES = in_both_places(CollidersPanel, "colliders", shown_for=measurable, of_all=True)

@@ -12,6 +12,8 @@ from bpy.types import Context, Panel, PoseBone, UILayout
 
 from ..blender.scale import meters_per_unit
 from ..blender.session import character
+from ..blender.session.displayed import shown_objects
+from ..blender.session.selected import armature_of
 from ..blender.session.tracking.armatures import stands_for_meshes
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.write import properties
@@ -34,11 +36,12 @@ class BonesPanel:
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return context.object is not None and context.object.type == "ARMATURE"
+        return armature_of(context) is not None
 
     def draw(self, context: Context) -> None:
-        layout, armature = self.layout, context.object
-        layout.use_property_decorate = False
+        layout, armature = self.layout, armature_of(context)
+        if len(shown_objects(context)) > 1:
+            layout.label(text=armature.name, icon="ARMATURE_DATA", translate=False)
         button = layout.row()
         button.scale_y = 1.4
         button.operator("object.body_moments_measure_bones", icon="BONE_DATA")
@@ -73,13 +76,8 @@ class WeightPanel:
 
     bl_label = "Weight"
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        return context.object is not None and stands_for_meshes(context.object)
-
     def draw(self, context: Context) -> None:
         layout, armature = self.layout, context.object
-        layout.use_property_decorate = False
         settings = armature.body_moments_weight
         column = layout.column()
         column.scale_y = 1.4
@@ -228,7 +226,7 @@ def _numbers(layout: UILayout, bone: PoseBone) -> None:
 
 
 CLASSES = (
-    *in_both_places(WeightPanel, "weight", options=frozenset()),
+    *in_both_places(WeightPanel, "weight", options=frozenset(), shown_for=stands_for_meshes),
     *in_both_places(BonesPanel, "bones"),
     BONE_PT_body_moments,
 )

@@ -239,7 +239,7 @@ TOTAL_COPIES_IN_PLACE = warning(
     "Copies at an equal place count again: {objects}. Delete or move those that were left behind.",
 )
 NO_ACTIVE_ARMATURE = error(
-    "no_active_armature", "The active object is not an armature. Select one."
+    "no_active_armature", "No armature is selected, or several are. Select one."
 )
 ARMATURE_IN_EDIT_MODE = error("armature_in_edit_mode", "The armature is in Edit Mode. Leave it.")
 REFERENCE_OBJECT_MISSING = error(

@@ -134,14 +134,15 @@ def target_of(
     by_shape: bool = True,
 ) -> SnapTarget:
     """Return the `snap_target` of a measured object; by_shape: moments to sixth order choose among
-    axes that lower ones leave open.
+    axes of equal moments, in whose plane the object's own axes may lie anywhere. Signs that third
+    moments leave open follow the object's own axes.
     """
     if measured.method.procedure == Procedure.OPEN:
         raise EditRefusedError(OPEN_OBJECT)
     unit = meters_per_unit(context.scene)
     body = measured.mass_properties
     principal = body.principal
-    if strict or (by_shape and not principal.is_unique):
+    if strict or (by_shape and not principal.is_unique and EQUAL_AXES[principal.symmetry]):
         # Measured alone, a body gets exact third moments if they are doubtful.
         own = measured
         if isinstance(own, Stacked):

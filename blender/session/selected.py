@@ -38,6 +38,17 @@ def subject(context: Context) -> Object | None:
     return shown[0] if len(shown) == 1 else None
 
 
+def armature_of(context: Context) -> Object | None:
+    """Return the armature whose bones are shown and measured: the active one if it is chosen or
+    edited, else the only chosen one.
+    """
+    active = context.object
+    chosen = [obj for obj in chosen_objects(context) if obj.type == "ARMATURE"]
+    if active in chosen or active is not None and armatures.stands_for_meshes(active):
+        return active
+    return chosen[0] if len(chosen) == 1 else None
+
+
 def require_subject(context: Context) -> Object:
     """Return the subject, which the poll of an operator has seen."""
     obj = subject(context)

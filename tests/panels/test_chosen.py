@@ -14,6 +14,10 @@ from tests.panels.drawing import labels, shown
 pytestmark = pytest.mark.usefixtures("scene")
 
 
+def buttons(record):
+    return [entry[1] for entry in record if entry[0] == "operator"]
+
+
 def set_of(obj):
     settings = obj.body_moments
     names = ("kind", "thickness", "mass_from", "mass", "density", "material", "overlap", "wall")
@@ -108,6 +112,29 @@ def test_total_without_some_numbers_is_incomplete(mixed):
     assert {"2 Objects", "Incomplete"} <= {*labels(shown())}
     bpy.ops.object.body_moments_measure()
     assert "Incomplete" not in labels(shown())
+
+
+def test_colliders_and_bones_are_those_of_the_selection(mixed):
+    first, second, active = mixed
+    for obj in (first, active):
+        only(obj)
+        bpy.ops.object.body_moments_make_colliders(shape="BOX")
+    active["body_colliders"]["count"] = 7
+    rig = bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig"))
+    bpy.context.scene.collection.objects.link(rig)
+    only(first, rig)
+    bpy.context.view_layer.objects.active = active
+    bpy.context.view_layer.update()
+    found = labels(shown())
+    assert "1 Collider" in found and "7 Colliders" not in found
+    assert "object.body_moments_measure_bones" in buttons(shown())
+    only(first, second)
+    bpy.context.view_layer.objects.active = rig
+    bpy.context.view_layer.update()
+    assert "1 Collider" not in labels(shown())
+    found = buttons(shown())
+    assert "object.body_moments_make_colliders" in found
+    assert "object.body_moments_measure_bones" not in found
 
 
 def test_density_that_nobody_set_stands_beside_mass(mixed):
