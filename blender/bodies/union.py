@@ -157,7 +157,9 @@ def _evaluate(body: Part, operands: Sequence[Part], solver: str) -> Surface:
         for index, (points, triangles) in enumerate((body, *operands)):
             made.append(mesh := bpy.data.meshes.new(""))
             mesh.vertices.add(len(points))
-            mesh.attributes["position"].data.foreach_set("vector", points.astype(np.float32).ravel())
+            mesh.attributes["position"].data.foreach_set(
+                "vector", points.astype(np.float32).ravel()
+            )
             mesh.loops.add(triangles.size)
             mesh.polygons.add(len(triangles))
             mesh.polygons.foreach_set("loop_start", np.arange(0, triangles.size, 3, np.int32))
