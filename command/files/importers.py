@@ -21,7 +21,8 @@ from mathutils import Matrix
 
 from ...blender.scene.imports import show_bodies
 from ...core.cad import FACES_NOT_READ, SurfaceFile, has_surfaces, read_surfaces
-from ...core.files import file_limits
+from ...core.files import FILE_UNREADABLE, file_limits
+from ...core.polyhedron import box_center
 from ...core.streams import KINDS, FileMesh, Placed, box_of_blocks, read_3mf
 from ...core.verdict.finding import FileError, Finding, finding
 from ..findings import FBX_INHERIT_TYPE, FILE_HIDES
@@ -29,6 +30,7 @@ from .references import Opened
 
 # Numbers of vertices with a meaning of their own; Blender makes attributes of all others.
 _KNOWN = {*("x", "y", "z", "nx", "ny", "nz", "s", "t"), *("red", "green", "blue", "alpha")}
+_MOVED = 1e-6  # by float32, relative to the body's size
 _SHEAR = 1e-6  # relative to the largest entry of a matrix; larger than the rounding of float32
 _OBJ_MESH = re.compile(rb"[ \t]*(?:f|l|curv)[ \t]")  # the elements that Blender's importer reads
 # Nodes of FBX that do not inherit their parents' scale, in text and binary files.
@@ -36,13 +38,32 @@ _NO_PARENT_SCALE = re.compile(
     rb'"InheritType",\s*"enum",\s*"",\s*"[^"\n]*",\s*2\b'
     rb"|InheritTypeS\x04\0\0\0enumS\0\0\0\0S[\0-\x09]\0\0\0[A-Z+]{0,9}I\x02\0\0\0"
 )
+# Errors of the glTF importer about a library, which the bpy module and some builds lack.
+_MISSING_DECODER = re.compile("(?:extern_|intern_|EXT_|KHR_)(draco|meshopt)|(Meshopt) decoder")
+_NO_DECODER = (
+    "this Blender lacks the library that decodes {} compression. Measure it with another "
+    "Blender 5 (blender -b, not the Python module bpy), or export it without compression"
+)
 GLTF_ADD_ON = "io_scene_gltf2"  # It comes with Blender, and may be switched off.
 
 
 def import_mesh(path: str) -> None:
-    """Add the mesh of an .stl or .ply file to the scene. Raises FileError."""
+    """Add the mesh of an .stl or .ply file to the scene. Raises FileError.
+
+    If float32 would move points noticeably, the object stands at the center of their box.
+    """
     mesh = KINDS[Path(path).suffix.lower()](Path(path)).mesh()
-    bpy.context.scene.collection.objects.link(bpy.data.objects.new(mesh.name, blender_mesh(mesh)))
+    center = np.zeros(3)
+    if len(mesh.points):
+        low, high = box_of_blocks([mesh.points], "vertex")
+        with np.errstate(over="ignore"):
+            moved = np.abs(mesh.points.astype(np.float32) - mesh.points).max()
+        if moved > _MOVED * (high - low).max():
+            center = box_center(low, high, np.dtype(np.float32))
+            mesh = replace(mesh, points=mesh.points - center)
+    obj = bpy.data.objects.new(mesh.name, blender_mesh(mesh))
+    obj.location = center
+    bpy.context.scene.collection.objects.link(obj)
     bpy.context.view_layer.update()
 
 
@@ -156,7 +177,9 @@ def import_fbx(path: str) -> Opened:
 
 
 def import_gltf(path: str) -> Opened:
-    """Import a .gltf or .glb file. Raise RuntimeError, and AttributeError without an importer."""
+    """Import a .gltf or .glb file. Raise FileError, RuntimeError, and AttributeError without an
+    importer.
+    """
     hidden: list[str] = []
 
     class NodeVisibility:
@@ -175,6 +198,13 @@ def import_gltf(path: str) -> Opened:
     try:
         # Without disable_bone_shape, it adds objects that would be measured.
         bpy.ops.import_scene.gltf(filepath=path, disable_bone_shape=True)
+    except RuntimeError as error:
+        missing = _MISSING_DECODER.search(str(error))
+        if missing is None:
+            raise
+        raise FileError(
+            FILE_UNREADABLE, error=_NO_DECODER.format((missing[1] or missing[2]).capitalize())
+        ) from error
     finally:
         del module.glTF2ImportUserExtension
     for name in hidden:

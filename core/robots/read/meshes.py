@@ -136,11 +136,14 @@ def _node_matrix(node: dict) -> Array:
 
 
 def _table(file: GltfFile, index: int) -> NDArray:
-    """Return the numbers of an accessor. ValueError if it is sparse or compressed."""
+    """Return the numbers of an accessor. ValueError if it is sparse, FileError if compressed."""
     accessor = file.document["accessors"][index]
     rows = file.table(accessor)
-    if "sparse" in accessor or len(rows) != accessor["count"]:
-        raise ValueError("accessor")
+    if len(rows) != accessor["count"]:
+        error = "it is compressed. Export it without Draco or meshopt compression"
+        raise FileError(FILE_UNREADABLE, error=error)
+    if "sparse" in accessor:
+        raise ValueError("sparse")
     return rows
 
 
