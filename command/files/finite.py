@@ -41,7 +41,7 @@ _FBX_VERTICES = re.compile(rb"\x08Vertices(?=[df])")
 _FBX_ARRAY = re.compile(rb"Vertices(?<!\wVertices)\s*:(?:\s*\*\d+\s*\{\s*a\s*:)?")
 _FBX_NUMBERS = re.compile(rb"(?>(?:[\s,]*+%b(?=[\s,}]|\Z))*)[\s,]*+" % SHORT)
 _FBX_WORD = re.compile(rb"[^\s,:{}]++(?!\s*:)")  # not the name of what follows
-_OF_NODES = ("matrix", "translation", "rotation", "scale")
+_VALUES = ("matrix", "translation", "rotation", "scale", "weights")  # of nodes and meshes
 
 
 def check_numbers(path: str, kind: str) -> None:
@@ -108,15 +108,19 @@ def check_gltf(data: Data, path: str) -> None:
     with suppress(*MALFORMED):
         file = GltfFile(data, path)
         for number, node in enumerate(file.document.get("nodes", [])):
-            count = sum(
-                not abs(value) < MAX_FLOAT32 for key in _OF_NODES for value in node.get(key, ())
-            )
-            refuse_non_finite(count, "node", node.get("name") or number)
+            _check_values(node, "node", number)
+        for number, mesh in enumerate(file.document.get("meshes", [])):
+            _check_values(mesh, "mesh", number)
         for number, mesh in _placing_accessors(file.document).items():
             where = "accessor {}".format(number) if mesh is None else "mesh “{}”".format(mesh)
             with suppress(*MALFORMED):  # others may be whole
                 count, first = _bad_in_accessor(file, file.document["accessors"][number])
                 refuse_non_finite(count, where + ", row", first)
+
+
+def _check_values(entry: dict[str, Any], kind: str, number: int) -> None:
+    count = sum(not abs(value) < MAX_FLOAT32 for key in _VALUES for value in entry.get(key, ()))
+    refuse_non_finite(count, kind, entry.get("name") or number)
 
 
 def _placing_accessors(document: dict[str, Any]) -> dict[int, str | None]:
@@ -144,14 +148,9 @@ def _placing_accessors(document: dict[str, Any]) -> dict[int, str | None]:
 
 def _bad_in_accessor(file: GltfFile, accessor: dict[str, Any]) -> tuple[int, int]:
     count, first = bad_in_table(file.table(accessor))
-    sparse = accessor.get("sparse")
-    if sparse:
-        size = {"count": sparse["count"]}
-        more, row = bad_in_table(file.table(accessor | {"byteOffset": 0} | sparse["values"] | size))
-        if more and not count:
-            first = int(file.table({"type": "SCALAR"} | sparse["indices"] | size)[row, 0])
-        count += more
-    return count, first
+    rows, values = file.sparse(accessor)
+    more, row = bad_in_table(values)
+    return count + more, int(rows[row]) if more and not count else first
 
 
 def bad_in_table(rows: NDArray) -> tuple[int, int]:

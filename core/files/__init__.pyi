@@ -28,6 +28,7 @@ from .findings import OTHERS_LEFT_OUT as OTHERS_LEFT_OUT
 from .findings import XML_ENTITIES as XML_ENTITIES
 from .gltf import GltfFile as GltfFile
 from .gltf import gltf_document as gltf_document
+from .gltf import node_matrix as node_matrix
 from .gltf import replace_gltf_document as replace_gltf_document
 from .gltf import to_glb as to_glb
 from .limits import DEFAULT_LIMITS as DEFAULT_LIMITS
