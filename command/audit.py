@@ -12,13 +12,12 @@ from pathlib import Path
 from typing import Any
 
 from ..blender.write.findings import FILE_NOT_WRITTEN
-from ..core.files import FILE_WITHOUT_OBJECTS
+from ..core.files import FILE_WITHOUT_OBJECTS, XML_ENTITIES
 from ..core.files.whole_file import whole_file
 from ..core.measurement import counted, print_message
 from ..core.robots import (
     AUDITED_SUFFIXES,
     DESCRIPTION_UNKNOWN,
-    XML_ENTITIES,
     Audit,
     Auditor,
     repaired_copy,

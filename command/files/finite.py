@@ -9,9 +9,6 @@ damage is left to Blender, which reports it.
 
 from __future__ import annotations
 
-import base64
-import json
-import os
 import re
 import struct
 import zlib
@@ -25,29 +22,17 @@ from numpy.typing import NDArray
 from ...core.cad import check_obj_text
 from ...core.files import (
     BLOCK,
-    DAMAGE_SIZE,
-    FILE_DAMAGED,
+    MALFORMED,
     MAX_FLOAT32,
-    MISSING_REFERENCES,
     SHORT,
     Data,
+    GltfFile,
     find_number_fault,
     map_file,
     refuse_line,
     refuse_non_finite,
 )
-from ...core.verdict.finding import FileError, finding
 
-MALFORMED = (
-    ValueError,
-    KeyError,
-    IndexError,
-    TypeError,
-    AttributeError,
-    RecursionError,
-    struct.error,
-    zlib.error,
-)
 _FBX_MAGIC = b"Kaydara FBX Binary  \0\x1a\0"
 _FBX_TYPES = {b"d": np.dtype("<f8"), b"f": np.dtype("<f4")}
 # The end of a node's head: its name behind its length, and the type of its first property, an
@@ -56,9 +41,7 @@ _FBX_VERTICES = re.compile(rb"\x08Vertices(?=[df])")
 _FBX_ARRAY = re.compile(rb"Vertices(?<!\wVertices)\s*:(?:\s*\*\d+\s*\{\s*a\s*:)?")
 _FBX_NUMBERS = re.compile(rb"(?>(?:[\s,]*+%b(?=[\s,}]|\Z))*)[\s,]*+" % SHORT)
 _FBX_WORD = re.compile(rb"[^\s,:{}]++(?!\s*:)")  # not the name of what follows
-_GLTF_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
-_GLTF_TYPES = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
-_OF_NODES = ("matrix", "translation", "rotation", "scale")
+_VALUES = ("matrix", "translation", "rotation", "scale", "weights")  # of nodes and meshes
 
 
 def check_numbers(path: str, kind: str) -> None:
@@ -123,17 +106,21 @@ def _fbx_array(data: Data, at: int) -> Iterator[tuple[int, NDArray]]:
 def check_gltf(data: Data, path: str) -> None:
     """Raise FileError if a number in a node or in an accessor that places points is not finite."""
     with suppress(*MALFORMED):
-        buffers = Buffers(data, path)
-        for number, node in enumerate(buffers.document.get("nodes", [])):
-            count = sum(
-                not abs(value) < MAX_FLOAT32 for key in _OF_NODES for value in node.get(key, ())
-            )
-            refuse_non_finite(count, "node", node.get("name") or number)
-        for number, mesh in _placing_accessors(buffers.document).items():
+        file = GltfFile(data, path)
+        for number, node in enumerate(file.document.get("nodes", [])):
+            _check_values(node, "node", number)
+        for number, mesh in enumerate(file.document.get("meshes", [])):
+            _check_values(mesh, "mesh", number)
+        for number, mesh in _placing_accessors(file.document).items():
             where = "accessor {}".format(number) if mesh is None else "mesh “{}”".format(mesh)
             with suppress(*MALFORMED):  # others may be whole
-                count, first = _bad_in_accessor(buffers, buffers.document["accessors"][number])
+                count, first = _bad_in_accessor(file, file.document["accessors"][number])
                 refuse_non_finite(count, where + ", row", first)
+
+
+def _check_values(entry: dict[str, Any], kind: str, number: int) -> None:
+    count = sum(not abs(value) < MAX_FLOAT32 for key in _VALUES for value in entry.get(key, ()))
+    refuse_non_finite(count, kind, entry.get("name") or number)
 
 
 def _placing_accessors(document: dict[str, Any]) -> dict[int, str | None]:
@@ -159,100 +146,11 @@ def _placing_accessors(document: dict[str, Any]) -> dict[int, str | None]:
     return found | {number: None for number in others if number is not None and number not in found}
 
 
-def _bad_in_accessor(buffers: Buffers, accessor: dict[str, Any]) -> tuple[int, int]:
-    count, first = bad_in_table(buffers.table(accessor))
-    sparse = accessor.get("sparse")
-    if sparse:
-        size = {"count": sparse["count"]}
-        more, row = bad_in_table(
-            buffers.table(accessor | {"byteOffset": 0} | sparse["values"] | size)
-        )
-        if more and not count:
-            first = int(buffers.table({"type": "SCALAR"} | sparse["indices"] | size)[row, 0])
-        count += more
-    return count, first
-
-
-def unquote(uri: str) -> str:
-    """Return a glTF's reference with escapes such as %20 replaced by their characters."""
-    data = re.sub(
-        rb"%([0-9a-fA-F]{2})", lambda match: bytes.fromhex(match[1].decode()), uri.encode()
-    )
-    return data.decode("utf-8", "surrogateescape")
-
-
-class Buffers:
-    """The document of a glTF file, and its buffers, including external files."""
-
-    def __init__(self, data: Data, path: str) -> None:
-        self.folder = os.path.dirname(path)
-        self.binary: tuple[Data, int] | None = None
-        self.opened: dict[int, tuple[Data, int]] = {}
-        text = data
-        # chunks of the text and of the first buffer, each behind its length and type
-        if data[:4] == b"glTF":
-            end = 20 + struct.unpack_from("<I", data, 12)[0]
-            text = data[20:end]
-            self.binary = (data, end + 8)
-        # An exporter may write null for a value that it leaves out.
-        self.document = json.loads(
-            text[:],
-            object_hook=lambda values: {
-                key: value for key, value in values.items() if value is not None
-            },
-        )
-
-    def table(self, accessor: dict[str, Any]) -> NDArray:
-        """Return the (n, k) numbers of an accessor without sparse ones; none if an extension has
-        compressed them.
-        """
-        kind = np.dtype(_GLTF_TYPES[accessor["componentType"]])
-        width = _GLTF_WIDTHS[accessor["type"]]
-        view = (
-            self.document["bufferViews"][accessor["bufferView"]]
-            if "bufferView" in accessor
-            else None
-        )
-        if view is None or any(
-            "meshopt_compression" in name for name in view.get("extensions", {})
-        ):
-            return np.empty((0, width), kind)
-        data, start = self._buffer(view["buffer"])
-        start += view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
-        stride = view.get("byteStride") or width * kind.itemsize
-        return np.ndarray((accessor["count"], width), kind, data, start, (stride, kind.itemsize))
-
-    def _buffer(self, number: int) -> tuple[Data, int]:
-        """Return the bytes that contain a buffer, and its start in them.
-
-        FileError if it is missing or too short.
-        """
-        if number in self.opened:
-            return self.opened[number]
-        buffer = self.document["buffers"][number]
-        uri = buffer.get("uri")
-        size = buffer["byteLength"]
-        if uri is None:
-            name = "BIN"
-            if self.binary is None:
-                raise FileError(MISSING_REFERENCES, names=[name])
-            data, start = self.binary
-        elif uri.startswith("data:"):
-            name = "data:"
-            data = base64.b64decode(uri.partition(",")[2])
-            start = 0
-        else:
-            name = unquote(uri)
-            try:
-                data = map_file(os.path.join(self.folder, name))
-                start = 0
-            except (OSError, ValueError) as error:  # ValueError: it is empty
-                raise FileError(MISSING_REFERENCES, names=[name]) from error
-        if len(data) - start < size:
-            cause = finding(DAMAGE_SIZE, bytes=len(data) - start, total=size)
-            raise FileError(FILE_DAMAGED, file=name, cause=cause.as_record())
-        self.opened[number] = data, start
-        return data, start
+def _bad_in_accessor(file: GltfFile, accessor: dict[str, Any]) -> tuple[int, int]:
+    count, first = bad_in_table(file.table(accessor))
+    rows, values = file.sparse(accessor)
+    more, row = bad_in_table(values)
+    return count + more, int(rows[row]) if more and not count else first
 
 
 def bad_in_table(rows: NDArray) -> tuple[int, int]:

@@ -16,10 +16,9 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ...core.files import file_limits, map_file
+from ...core.files import MALFORMED, GltfFile, file_limits, map_file
 from ...core.scans import data_file, read_header
 from ...core.verdict import MeasureError
-from ..files.finite import MALFORMED, Buffers, unquote
 from ..interruption import Progress
 from ..options.arguments import parse
 from ..options.checks import prepare
@@ -96,11 +95,7 @@ def _of_nrrd(path: Path) -> Iterator[str]:
 
 
 def _of_gltf(path: Path) -> Iterator[str]:
-    uris = [
-        buffer.get("uri")
-        for buffer in Buffers(map_file(str(path)), str(path)).document.get("buffers", ())
-    ]
-    yield from (unquote(uri) for uri in uris if uri and not uri.startswith("data:"))
+    yield from GltfFile(map_file(path), str(path)).references()
 
 
 def _of_usd(path: Path) -> Iterator[str]:

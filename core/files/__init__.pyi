@@ -3,6 +3,7 @@
 
 from typing import Any
 
+from .damage import MALFORMED as MALFORMED
 from .damage import check_length as check_length
 from .damage import damaged as damaged
 from .damage import refuse_non_finite as refuse_non_finite
@@ -24,6 +25,12 @@ from .findings import LINE_MISREAD as LINE_MISREAD
 from .findings import MISSING_REFERENCES as MISSING_REFERENCES
 from .findings import NAMED_FILE_MISSING as NAMED_FILE_MISSING
 from .findings import OTHERS_LEFT_OUT as OTHERS_LEFT_OUT
+from .findings import XML_ENTITIES as XML_ENTITIES
+from .gltf import GltfFile as GltfFile
+from .gltf import gltf_document as gltf_document
+from .gltf import node_matrix as node_matrix
+from .gltf import replace_gltf_document as replace_gltf_document
+from .gltf import to_glb as to_glb
 from .limits import DEFAULT_LIMITS as DEFAULT_LIMITS
 from .limits import Limits as Limits
 from .limits import file_limits as file_limits
@@ -53,6 +60,8 @@ from .text_fields import shorten as shorten
 from .whole_file import hidden_path as hidden_path
 from .whole_file import partial_file as partial_file
 from .whole_file import replace as replace
+from .xml import parse_xml as parse_xml
+from .xml import xml_parser as xml_parser
 
 __all__ = []
 

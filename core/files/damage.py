@@ -4,11 +4,25 @@
 
 from __future__ import annotations
 
+import struct
+import zlib
 from pathlib import Path
 from typing import Any
 
 from ..verdict.finding import FileError, finding
 from .findings import AT_ROW, DAMAGE_SIZE, FILE_DAMAGED, HEADER_FIELD, NON_FINITE_COORDINATES
+
+# Errors from reading a file whose structure is wrong.
+MALFORMED = (
+    ValueError,
+    LookupError,
+    TypeError,
+    AttributeError,
+    OverflowError,
+    RecursionError,
+    struct.error,
+    zlib.error,
+)
 
 
 def damaged(path: Path, code: str, **values: Any) -> FileError:

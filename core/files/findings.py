@@ -67,3 +67,7 @@ MISSING_REFERENCES = error(
     "The file refers to what cannot be found: {names}. Restore these files, or make linked data "
     "local.",
 )
+XML_ENTITIES = error(
+    "xml_entities",
+    "The file declares a document type, with which entities could be declared. Remove it.",
+)

@@ -105,10 +105,6 @@ USD_INERTIA_TOO_SMALL = warning(
     "newton:inertia, or use "
     "a stage in smaller units.",
 )
-XML_ENTITIES = error(
-    "xml_entities",
-    "The file declares a document type, with which entities could be declared. Remove it.",
-)
 DESCRIPTION_INVALID = error(
     "description_invalid", "The file is not {format}: line {line}, {error}."
 )

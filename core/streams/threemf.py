@@ -37,6 +37,8 @@ from ..files import (
     parse_number,
     parse_numbers,
     parse_whole,
+    parse_xml,
+    xml_parser,
 )
 from ..numerics import Array
 from ..verdict import FileError, system_reason
@@ -159,9 +161,9 @@ class _Package:
                 targets.append(values["Target"])
 
         if "/_rels/.rels" in self._names:
-            parser = _parser()
+            parser = xml_parser(" ")
             parser.StartElementHandler = start
-            _feed(parser, self.pieces("/_rels/.rels"))
+            parse_xml(parser, self.pieces("/_rels/.rels"))
         return posixpath.join("/", *targets[:1]) if targets else "/3D/3dmodel.model"
 
     def _placed(
@@ -200,22 +202,6 @@ class _Package:
         return self._arrays[key]
 
 
-def _parser() -> expat.XMLParserType:
-    def refuse(*_: object) -> None:
-        raise NotImplementedError("a document type, which 3MF forbids")
-
-    parser = expat.ParserCreate(namespace_separator=" ")
-    parser.buffer_text = True
-    parser.StartDoctypeDeclHandler = refuse
-    return parser
-
-
-def _feed(parser: expat.XMLParserType, pieces: Iterator[bytes]) -> None:
-    for piece in pieces:
-        parser.Parse(piece, False)
-    parser.Parse(b"", True)
-
-
 class _Model:
     """A model part: its objects by id, the items of its build (part, id, transform, why hidden),
     its unit.
@@ -228,13 +214,13 @@ class _Model:
         self.items: list[tuple[str, str, Array, str]] = []
         self._object = _Object("")
         self._spaces: dict[str, str] = {}
-        parser = _parser()
+        parser = xml_parser(" ")
         parser.StartNamespaceDeclHandler = lambda prefix, uri: self._spaces.__setitem__(
             prefix or "", uri or ""
         )
         parser.StartElementHandler = self._start
         try:
-            _feed(parser, pieces)
+            parse_xml(parser, pieces)
         except ValueError as error:  # with the text of a field
             place = {
                 "line": parser.CurrentLineNumber,

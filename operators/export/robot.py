@@ -20,6 +20,7 @@ from bpy_extras.io_utils import ExportHelper
 from ...blender import session
 from ...blender.write import reports
 from ...blender.write.findings import FILE_NOT_WRITTEN
+from ...core import files
 from ...core.robots import FORMATS, ROBOT_SCALED, RobotFormat, write
 from ...core.verdict import sentence
 from ...core.verdict.finding import EditRefusedError, FileError, Finding, finding, system_reason
@@ -242,15 +243,15 @@ class GltfExport(GeometryExport):
         self._run_exporter("export_scene.gltf", path, options)
         data = path.read_bytes()
         try:
-            document = write.gltf.read_json(data)
+            document = files.gltf_document(data)
         except ValueError as error:
             raise FileError(ROBOT_GEOMETRY_NOT_WRITTEN, error=path.name) from error
         findings += write.gltf.add_rigid_bodies(document, made.robot, made.unit)
-        selection.write_file(path, [write.gltf.replace_json(data, document)])
+        selection.write_file(path, [files.replace_gltf_document(data, document)])
         return findings
 
     def _encode(self, text: str, path: Path) -> bytes:
-        return write.gltf.to_glb(text) if path.suffix.lower() == ".glb" else text.encode("utf-8")
+        return files.to_glb(text) if path.suffix.lower() == ".glb" else text.encode("utf-8")
 
 
 BASES = {"usd": UsdExport, "gltf": GltfExport}  # The other formats are files of our own alone.

@@ -8,11 +8,11 @@ from xml.etree import ElementTree
 
 import numpy as np
 from body_moments.command import audit
+from body_moments.core.files import gltf_document
 from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.robots.read.descriptions import Roots, read_description
 from body_moments.core.robots.read.meshes import read_mesh
 from body_moments.core.robots.stated import rotation_of_angles
-from body_moments.core.robots.write import gltf
 
 SUFFIXES = {
     "urdf": ".urdf",
@@ -119,7 +119,7 @@ def _osim_link(body, roots):
 
 def _gltf_links(data):
     """In the axes of the scene, which are y up."""
-    document = gltf.read_json(data)
+    document = gltf_document(data)
     uri = document.get("buffers", [{}])[0].get("uri")
     start = 28 + int.from_bytes(data[12:16], "little")  # of the second chunk's bytes in a .glb
     binary = data[start:] if uri is None else base64.b64decode(uri.split(",", 1)[1])

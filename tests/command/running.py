@@ -4,21 +4,9 @@
 
 import math
 
-import pytest
 from body_moments.operators import batch
 
 from tests.blender import batch_files as files
-
-
-@pytest.fixture
-def main(tmp_path, capfd):
-    def run(*words):
-        with open(tmp_path / "standard output", "wb+") as out:
-            code = batch.main(list(map(str, words)), channel=out.fileno())
-            out.seek(0)
-            return code, out.read().decode(), capfd.readouterr().err
-
-    return run
 
 
 def box_moment(powers, center=files.CENTER, size=(1, 2, 3)):

@@ -136,3 +136,12 @@ def test_root_alone_has_no_public_names():
     alone = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(alone)
     assert not hasattr(alone, "setUpModule") and not hasattr(alone, "mass_properties")
+
+
+def test_no_test_module_imports_another():
+    """What several need is in a module of its own, which pytest does not collect."""
+    for path in (ROOT / "tests").rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom):
+                words = [*(node.module or "").split("."), *(alias.name for alias in node.names)]
+                assert not any(word.startswith("test_") for word in words), path

@@ -11,8 +11,6 @@ for is returned beside them.
 
 from __future__ import annotations
 
-import json
-import struct
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
@@ -25,28 +23,26 @@ from ...files import (
     FILE_TYPE,
     FILE_UNREADABLE,
     FILE_WITHOUT_OBJECTS,
+    MALFORMED,
+    GltfFile,
+    map_file,
+    node_matrix,
     parse_number,
     parse_numbers,
     parse_whole,
     parse_wholes,
 )
 from ...mesh import Surface
-from ...numerics import Array, rotation_matrix
+from ...numerics import Array
 from ...streams import StlFile
 from ...verdict.finding import FileError, finding, system_reason
 from ..findings import MESH_UNREADABLE
 from ..stated import MOST, rotation_about
-from ..write.gltf import BINARY, JSON, chunks
 from .xml import MAX_DEPTH, Node, parse
 
 Arrays = tuple[NDArray[np.floating], NDArray[np.integer]]
 MAX_MESH = 1 << 30  # bytes
 MAX_TRIANGLES = 50_000_000
-_COMPONENTS = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
-_DAMAGE = (
-    *(ValueError, IndexError, KeyError, TypeError, OverflowError, RecursionError, struct.error),
-    AttributeError,  # JSON with a text or a number in the place of an object.
-)
 TURNS = {
     "Y_UP": np.array([[1.0, 0, 0], [0, 0, -1.0], [0, 1.0, 0]]),
     "X_UP": np.array([[0, -1.0, 0], [0, 0, -1.0], [1.0, 0, 0]]),
@@ -66,7 +62,7 @@ def read_mesh(path: Path) -> tuple[Surface, Array | None]:
         cause = error.finding
     except OSError as error:
         cause = finding(FILE_UNREADABLE, error=system_reason(error))
-    except _DAMAGE as error:
+    except MALFORMED as error:
         cause = finding(FILE_UNREADABLE, error=type(error).__name__)
     raise FileError(MESH_UNREADABLE, name=path.name, cause=cause.as_record())
 
@@ -103,10 +99,8 @@ def read_glb(path: Path) -> Arrays:
     """Return points and triangles of a binary glTF, placed by its scene, with y up as other robot
     readers keep it.
     """
-    data = path.read_bytes()
-    parts = dict(chunks(data)) if data[:4] == b"glTF" else {}
-    document = json.loads(parts.get(JSON, b""))
-    binary = parts.get(BINARY, b"")
+    file = GltfFile(map_file(path), str(path))
+    document = file.document
     scene = document["scenes"][document.get("scene", 0)]
     gathered = Gathered()
     waiting = [(index, np.eye(4)) for index in scene.get("nodes", [])]
@@ -117,57 +111,17 @@ def read_glb(path: Path) -> Arrays:
         if visited > len(document["nodes"]):  # nodes are a tree
             raise ValueError("nodes")
         node = document["nodes"][index]
-        matrix = above @ _node_matrix(node)
+        matrix = above @ node_matrix(node)
         waiting += [(child, matrix) for child in node.get("children", [])]
         for primitive in document["meshes"][node["mesh"]]["primitives"] if "mesh" in node else ():
             if primitive.get("mode", 4) != 4:
                 continue
-            corners = _accessor(document, binary, primitive["attributes"]["POSITION"]).astype(
-                np.float64
-            )
+            corners = file.numbers(primitive["attributes"]["POSITION"])
             order = np.arange(len(corners))
             if "indices" in primitive:
-                order = _accessor(document, binary, primitive["indices"]).ravel().astype(np.int64)
+                order = file.numbers(primitive["indices"]).ravel().astype(np.int64)
             gathered.add(corners, order[: len(order) // 3 * 3].reshape(-1, 3), matrix)
     return gathered.arrays()
-
-
-def _node_matrix(node: dict) -> Array:
-    if "matrix" in node:
-        return np.array(node["matrix"], np.float64).reshape(4, 4).T
-    matrix = np.eye(4)
-    if "rotation" in node:
-        x, y, z, w = node["rotation"]
-        matrix[:3, :3] = rotation_matrix([w, x, y, z])
-    matrix[:3, :3] = matrix[:3, :3] * np.array(node.get("scale", (1.0, 1.0, 1.0)), np.float64)
-    matrix[:3, 3] = node.get("translation", (0.0, 0.0, 0.0))
-    return matrix
-
-
-def _accessor(document: dict, binary: bytes, index: int) -> NDArray:
-    accessor = document["accessors"][index]
-    view = document["bufferViews"][accessor["bufferView"]]
-    if document["buffers"][view.get("buffer", 0)].get("uri") or "sparse" in accessor:
-        raise ValueError("buffers")
-    width = {"SCALAR": 1, "VEC3": 3}[accessor["type"]]
-    item = np.dtype((_COMPONENTS[accessor["componentType"]], (width,)))
-    stride = view.get("byteStride", item.itemsize)
-    offset = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
-    count = accessor["count"]
-    if (
-        count < 0
-        or stride < item.itemsize
-        or offset + stride * (count - 1) + item.itemsize > len(binary)
-    ):
-        raise ValueError("accessor")
-    rows = np.ndarray(
-        (count, width),
-        _COMPONENTS[accessor["componentType"]],
-        binary,
-        offset,
-        (stride, item.base.itemsize),
-    )
-    return rows.copy()
 
 
 def read_dae(path: Path) -> tuple[*Arrays, Array | None]:

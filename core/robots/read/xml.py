@@ -16,10 +16,10 @@ from xml.parsers import expat
 
 import numpy as np
 
-from ...files import FILE_TOO_LARGE, parse_numbers
+from ...files import FILE_TOO_LARGE, parse_numbers, parse_xml, xml_parser
 from ...numerics import Array
 from ...verdict.finding import FileError, Finding, finding
-from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER, XML_ENTITIES
+from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER
 from ..model import Shape
 from ..stated import Place, StatedLink, StatedShape
 
@@ -92,14 +92,9 @@ def parse(data: bytes, file: str = "") -> Node:
     file: the name of an included file, whose elements have no bytes in the description's own.
     """
     document = Node("", {}, 0)
-    parser = expat.ParserCreate()
+    parser = xml_parser()
     waiting = [document]
     counts = itertools.count(1)
-
-    def refuse(*_: object) -> None:
-        raise FileError(
-            XML_ENTITIES, line=parser.CurrentLineNumber, column=parser.CurrentColumnNumber + 1
-        )
 
     def start(tag: str, attributes: dict[str, str]) -> None:
         check_size(len(waiting), next(counts))
@@ -118,13 +113,11 @@ def parse(data: bytes, file: str = "") -> Node:
     def add_text(text: str) -> None:
         waiting[-1].text += text
 
-    parser.buffer_text = True
     parser.StartElementHandler = start
     parser.EndElementHandler = end
     parser.CharacterDataHandler = add_text
-    parser.StartDoctypeDeclHandler = refuse
     try:
-        parser.Parse(data, True)
+        parse_xml(parser, [data])
     except (expat.ExpatError, ValueError, LookupError) as error:
         reason = " ".join(str(error).partition(": line")[0].split())
         line = parser.ErrorLineNumber

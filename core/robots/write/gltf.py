@@ -11,9 +11,6 @@ it; nodes without a motion of their own move with the node above.
 
 from __future__ import annotations
 
-import json
-import struct
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -27,10 +24,6 @@ from ..model import Inertial, Robot
 KHR, OMI = "KHR_physics_rigid_bodies", "OMI_physics_body"
 Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 UNIFORM_RTOL = 1e-6  # Relative; for scales that differ by float32 rounding alone.
-# a binary file, and kinds of its chunks
-_GLB = 0x46546C67
-JSON = 0x4E4F534A
-BINARY = 0x004E4942
 
 
 def body_extensions(
@@ -97,46 +90,3 @@ def add_rigid_bodies(
             )
             scene["nodes"] = [len(nodes) - 1]
     return findings
-
-
-def read_json(data: bytes) -> dict[str, Any]:
-    """Return the JSON document of the bytes of a .gltf or .glb file.
-
-    ValueError if they have none.
-    """
-    if data[:4] != b"glTF":
-        return json.loads(data)
-    return json.loads(dict(chunks(data)).get(JSON, b""))
-
-
-def replace_json(data: bytes, document: dict[str, Any]) -> bytes:
-    """Return the bytes of a file with another JSON document; other chunks of a .glb keep their
-    bytes.
-    """
-    text = json.dumps(document, ensure_ascii=False, separators=(",", ":"), allow_nan=False).encode()
-    if data[:4] != b"glTF":
-        return (
-            json.dumps(document, ensure_ascii=False, indent="\t", allow_nan=False).encode() + b"\n"
-        )
-    parts = [
-        (kind, text + b" " * (-len(text) % 4) if kind == JSON else chunk)
-        for kind, chunk in chunks(data)
-    ]
-    body = b"".join(struct.pack("<II", len(chunk), kind) + chunk for kind, chunk in parts)
-    return struct.pack("<III", _GLB, 2, 12 + len(body)) + body
-
-
-def to_glb(text: str) -> bytes:
-    """Return the JSON text of a document as the bytes of a .glb file."""
-    body = text.encode()
-    body += b" " * (-len(body) % 4)
-    return struct.pack("<IIIII", _GLB, 2, 20 + len(body), len(body), JSON) + body
-
-
-def chunks(data: bytes) -> Iterator[tuple[int, bytes]]:
-    """Yield kind and content of each chunk of a .glb file."""
-    start = 12
-    while start + 8 <= len(data):
-        length, kind = struct.unpack_from("<II", data, start)
-        yield kind, data[start + 8 : start + 8 + length]
-        start += 8 + length

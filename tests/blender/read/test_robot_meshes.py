@@ -120,8 +120,8 @@ def glb(document, binary):
         data += fill * (-len(data) % 4)
         return struct.pack("<II", len(data), kind) + data
 
-    body = chunk(0x12345678, b"what", b" ") + chunk(0x4E4F534A, json.dumps(document).encode(), b" ")
-    body += chunk(0x004E4942, binary, b"\0")
+    body = chunk(0x4E4F534A, json.dumps(document).encode(), b" ")
+    body += chunk(0x004E4942, binary, b"\0") + chunk(0x12345678, b"what", b" ")
     return struct.pack("<4sII", b"glTF", 2, 12 + len(body)) + body
 
 
@@ -204,6 +204,7 @@ def test_glb(tmp_path, seed):
         document["bufferViews"][-1]["byteOffset"]
         + 12 * {5121: 1, 5123: 2, 5125: 4}[document["accessors"][5]["componentType"]]
     )
+    document["buffers"][0]["byteLength"] = end - end % 4
     path.write_bytes(glb(document, binary[: end - end % 4]))
     check(path, expected) if not end % 4 else None
     whole = json.dumps(document)
