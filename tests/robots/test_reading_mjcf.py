@@ -209,7 +209,7 @@ def test_attached_file_keeps_the_rules_of_includes(tmp_path, name):
 
 def test_attached_model_without_its_body_is_a_finding(tmp_path):
     path = write_child(tmp_path)
-    for attach in ('model="m" body="none"', 'model="none" body="b"', 'body="own"'):
+    for attach in ('model="m" body="none"', 'model="none" body="b"', 'body="none"'):
         body = '<body name="own"><geom size="1"/>\n<attach {} prefix="p_"/></body>'.format(attach)
         path.write_text(MODEL.format('<asset><model name="m" file="child/c.xml"/></asset>', body))
         (link,) = read_description(path).links

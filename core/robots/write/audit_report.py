@@ -46,6 +46,7 @@ def document(file: str, audit: Audit, repaired: str | None) -> dict[str, Any]:
         {
             "name": one.link.name,
             **_inertial(one.link.inertial),
+            "from_shapes": one.link.from_shapes,
             "density": one.density,
             "colliders": None if one.colliders is None else one.colliders.as_record(),
             "line": one.link.place.line,

@@ -9,6 +9,7 @@ from fractions import Fraction
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.bodies import union
 from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.settings.options import MeasureOptions
 
@@ -157,6 +158,30 @@ def test_overlapping_shells_are_summed_with_a_warning_or_united():
         rtol=1e-5,
     )
     assert united.health.overlapping_components  # the input's
+
+
+@pytest.mark.parametrize("solver", ["MANIFOLD", "EXACT"])
+@pytest.mark.parametrize("scale", [1.0, (-1e-3, 2e-3, 1e-3)])
+def test_union_of_many_shells_has_exact_volume_and_area(solver, scale, monkeypatch):
+    if solver == "EXACT":  # as in a Blender that was built without the other solver
+        monkeypatch.setattr(union, "_by_manifold", lambda layers: None)
+    obj = add(
+        box((0, 0, 0), (2, 2, 2)),
+        box((1, 1, 1), (3, 3, 3)),
+        box((0.25, 0.25, 0.25), (0.75, 0.75, 0.75)),  # within the first
+        box((10, 10, 10), (11, 11, 11)),
+        box((11, 10, 10), (12, 11, 11)),  # touches the one before
+        box((20, 20, 20), (23, 23, 23)),
+        box((21, 21, 21), (22, 22, 22), turned=True),  # its cavity
+        box((21.5, 21.25, 21.25), (24, 21.75, 21.75)),  # from there through the wall
+        box((30, 0, 0), (31, 1, 1)),
+        scale=np.broadcast_to(scale, 3),
+    )
+    found = measure(obj, overlap="union")
+    assert close(found.volume, 44.375 * np.prod(np.abs(scale) * np.ones(3)), 1e-6)
+    if scale == 1.0:
+        assert close(found.area, 42.0 + 10.0 + 63.0 + 6.0, 1e-6)
+    assert str(found.method) == "union" and found.health.closed
 
 
 def test_distant_brick_is_exact_within_input_bound():
