@@ -14,9 +14,7 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 import numpy as np
-from body_moments.command.files import output
 from body_moments.command.measure.run import Run
-from body_moments.command.options.option_types import FORMATS
 from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.verdict.finding import finding
 from body_moments.operators import batch
@@ -26,6 +24,7 @@ from tests.blender.characters import PARENTS, armature_of, skin_of
 from tests.blender.exported_robots import SUFFIXES, assert_filled, exported_links
 from tests.blender.objects import add, mesh_body
 from tests.close import close
+from tests.command.robot_files import exported, text
 from tests.core import characters
 from tests.core.bodies import box
 from tests.core.mesh_files import stl
@@ -48,23 +47,6 @@ def arm(unit=1.0):
     upper.parent, forearm.parent = frame, upper
     bpy.context.view_layer.update()
     return upper, forearm, tool
-
-
-def text(*words):
-    line = Run(parsed(*words))
-    line.measure()
-    assert not line.errors
-    found = "".join(FORMATS[line.options.format](line.documents))
-    if line.options.output is not None:
-        assert output.write_result(found, line.options.output, -1)
-    return found
-
-
-def exported(folder, name, *words):
-    """The links of a robot written to a folder, read back."""
-    path = folder / ("robot" + SUFFIXES[name])
-    text("measure", "--format", name, "--output", path, *words)
-    return exported_links(path)
 
 
 def refused(*words):

@@ -15,7 +15,7 @@ from body_moments.operators import batch
 
 from tests.blender.batch_files import codes, in_process, sentence
 from tests.close import close
-from tests.command.test_process import script
+from tests.command.processes import script
 from tests.core.bodies import inverted, soup, torus, without
 from tests.core.mesh_files import ply, stl, stl_text, write_large_torus
 from tests.records import valid
