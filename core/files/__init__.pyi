@@ -8,6 +8,10 @@ from .damage import check_length as check_length
 from .damage import damaged as damaged
 from .damage import refuse_non_finite as refuse_non_finite
 from .damage import wrong_field as wrong_field
+from .fbx import FBX_MAGIC as FBX_MAGIC
+from .fbx import FbxNode as FbxNode
+from .fbx import fbx_array as fbx_array
+from .fbx import fbx_tree as fbx_tree
 from .findings import DAMAGE_CUT_SHORT as DAMAGE_CUT_SHORT
 from .findings import DAMAGE_INCOMPLETE as DAMAGE_INCOMPLETE
 from .findings import DAMAGE_INDEX as DAMAGE_INDEX
