@@ -28,12 +28,13 @@ NOTHING_RENDERED = error(
 )
 FILE_HIDES = note("file_hides", "The file does not show it: {cause:word}. Use --all to measure it.")
 FRAME_MEASURED = note(
-    "frame_measured", "The file is animated: measured at its first frame, {frame:g}."
+    "frame_measured",
+    "The file is animated: measured at frame {frame:g}. --at-frame chooses another.",
 )
-FBX_INHERIT_TYPE = warning(
-    "fbx_inherit_type",
-    "Nodes of the FBX file do not inherit the scale of their parents, which Blender's importer "
-    "ignores: sizes and places may be wrong. Apply the scales, or export as glTF or USD.",
+PLACES_UNCHECKED = warning(
+    "places_unchecked",
+    "Size and place may not be those of the file, as Blender's importer reads it differently, or "
+    "they could not be compared: {cause:word}. Apply the transforms, or export as USD.",
 )
 USD_CAGE = warning(
     "usd_cage",

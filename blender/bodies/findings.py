@@ -6,7 +6,7 @@ from ...core.verdict import error, note, warning
 
 UNION_BY_BOOLEAN = note(
     "union_by_boolean",
-    "Overlapping components were united by Blender's exact Boolean, accurate to 7 digits.",
+    "Overlapping components were united by Blender's Boolean, accurate to 7 digits.",
 )
 UNION_FAILED = error(
     "union_failed",

@@ -33,6 +33,7 @@ from ...core.measurement import Measurement, record
 from ...core.verdict import open_body_caveats
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
 from ..files.files import newer_version, open_file, requested_file
+from ..files.placing import measure_at
 from ..files.references import Opened, blocked_scripts, missing_links, scripts_of_open_file
 from ..files.saving import Place, write_assets
 from ..files.suffixes import file_suffix
@@ -268,12 +269,13 @@ class Scene:
         FileError if Blender has not loaded its file.
         """
         if self._path is not None:
-            opened = open_file(self._path)
+            opened = open_file(self._path, self.options.at_frame)
             self.has_opened = True
             return opened
         if open_name() and not bpy.data.filepath:
             raise FileError(FILE_UNREADABLE, error="it is missing or incomplete")
-        return Opened()
+        frame = self.options.at_frame
+        return Opened() if frame is None else Opened(notes=measure_at(frame))
 
     def _fourier(
         self, chosen: list[tuple[str, bpy.types.Object]], contents: Contents

@@ -132,6 +132,18 @@ def test_a_blend_files_own_unit_scale_counts(tmp_path):
     assert entry["center_of_mass"] == pytest.approx([0.01, 0.02, 0.03], rel=1e-6)
 
 
+def test_blend_is_measured_at_the_requested_frame(tmp_path):
+    files.empty_scene()
+    box = files.add_box()
+    for frame, size in ((1, 1.0), (11, 3.0)):
+        box.scale.x = size
+        box.keyframe_insert("scale", frame=frame)
+    bpy.context.scene.frame_set(1)
+    path = files.save(tmp_path / "t.blend")
+    volumes = [measured(*words, path)["volume"] for words in ((), ("--frame", 11))]
+    assert volumes == pytest.approx([6.0, 18.0], rel=1e-6)
+
+
 @needs_usd
 def test_a_usd_stages_unit_counts(tmp_path):
     entry = measured(files.write_text(tmp_path / "t.usda", files.usda_text(0.01)))

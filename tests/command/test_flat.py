@@ -16,7 +16,7 @@ from body_moments.core.shape.library import read_library
 from tests.blender.batch_files import add_box, document
 from tests.blender.flat_objects import sheet, text
 from tests.close import close
-from tests.command.test_shape import ask
+from tests.command.running import ask
 
 pytestmark = pytest.mark.usefixtures("scene")
 

@@ -17,7 +17,7 @@ from body_moments.command.measure import measuring
 
 from tests.blender import batch_files as files
 from tests.blender.batch_files import document, measured, run
-from tests.command.test_process import SCRIPT
+from tests.command.processes import SCRIPT
 
 pytestmark = pytest.mark.usefixtures("scene")
 

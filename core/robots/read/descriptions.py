@@ -170,7 +170,11 @@ def read_description(path: Path, roots: Roots | None = None) -> Description:
     data = _bytes(path)
     roots = roots or Roots.for_file(path)
     is_text = data.startswith(_USD.encode())
-    is_binary = data.startswith((b"PXR-USDC", b"PK"))
+    is_archive = data.startswith(b"PK")
+    if is_archive and path.suffix.lower() != ".usdz":
+        error = "it is a zip archive, as the MJZ files of MuJoCo are. Unpack it, and audit its .xml"
+        raise FileError(FILE_UNREADABLE, error=error)
+    is_binary = is_archive or data.startswith(b"PXR-USDC")
     is_composed = is_binary or is_text and _LAYERED.search(data) is not None
     if is_text or is_binary:
         description = AUDITED[_USD].reader_module.read(

@@ -7,33 +7,26 @@ transform and type.
 import bpy
 import numpy as np
 import pytest
-from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.read import vdb, volume
 from body_moments.blender.read.volume import volume_reading
 from body_moments.blender.session.tracking import staleness
-from body_moments.blender.settings.options import MeasureOptions
 from body_moments.blender.write import properties
 from body_moments.core.bodies.grid import Samples, density_body
 from body_moments.core.verdict.finding import MeasureError, ReadError
 
 from tests.blender.findings import refused, said
-from tests.blender.grids import linked, mesh_to_volume, vdb_grid, volume_object
+from tests.blender.grids import (
+    SHEARED,
+    depsgraph,
+    linked,
+    measure,
+    mesh_to_volume,
+    vdb_grid,
+    volume_object,
+)
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")
-
-SHEARED = np.array(
-    [[0.5, 0.125, 0.0, 3.0], [0.0, -0.25, 0.0625, -2.0], [0.25, 0.0, 1.0, 0.5], [0, 0, 0, 1]]
-)
-
-
-def depsgraph():
-    bpy.context.view_layer.update()
-    return bpy.context.evaluated_depsgraph_get()
-
-
-def measure(obj, **options):
-    return measure_object(obj, depsgraph(), MeasureOptions(**options))
 
 
 def dense(reading) -> np.ndarray:

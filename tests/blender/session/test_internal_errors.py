@@ -24,18 +24,14 @@ from body_moments.operators.measure.measure_selected import OBJECT_OT_body_momen
 
 from tests.blender import batch_files as files
 from tests.blender.objects import add, mesh_body, only, place
-from tests.blender.session import test_unkeyed
-from tests.operators.measure.test_stepwise import finished, pressed
+from tests.blender.operator_calls import OPERATORS as UNKEYED
+from tests.operators.modal_runs import finished, pressed
 
 pytestmark = pytest.mark.usefixtures("registered", "scene")
 
 ERRORS = [TypeError("planted"), RecursionError("planted"), NotImplementedError("planted")]
 OPERATORS = {
-    **{
-        name: run
-        for name, run in test_unkeyed.OPERATORS.items()
-        if name not in ("clear", "balance", "setting")
-    },
+    **{name: run for name, run in UNKEYED.items() if name not in ("clear", "balance", "setting")},
     "section": lambda: bpy.ops.object.body_moments_measure_section(),
 }
 

@@ -19,7 +19,8 @@ from body_moments.core.verdict.finding import FileError, finding
 from body_moments.tests.close import close
 from body_moments.tests.core.exact_splines import flux_moment, sphere, torus
 from body_moments.tests.core.iges_files import IgesFile, surface_fields, unrolled
-from body_moments.tests.core.nurbs.test_flat_faces import arcs, polygon
+
+from tests.core.polygons import arcs, polygon
 
 BALL = 4.0 / 3.0 * np.pi
 DONUT = 2.0 * np.pi**2 * 0.75 * 0.25**2

@@ -22,7 +22,7 @@ from hypothesis import given
 from tests.close import close
 from tests.core import bodies, rational
 from tests.core.findings import refused
-from tests.core.flat.test_polygon import rectangle, shape
+from tests.core.polygons import rectangle, shape
 from tests.core.strategies import holds, seeds
 
 LEVEL = Plane(np.zeros(3), np.eye(3), 0.0, "X")
