@@ -38,8 +38,9 @@ from ..files.saving import Place, write_assets
 from ..files.suffixes import file_suffix
 from ..findings import (
     FOURIER_OBJECT_COUNT,
+    NEEDS_BLEND,
     PART_UNAVAILABLE,
-    RESULTS_NEED_BLEND,
+    RESULTS_NOT_STORED,
     SOLID_OPERAND_MEASURED,
 )
 from ..options.checks import body_findings, density_of, file_findings, is_unitless
@@ -305,7 +306,7 @@ class Scene:
         that results fit.
         """
         if not bpy.data.filepath or self._path is not None and file_suffix(self._path) != BLEND:
-            raise FileError(RESULTS_NEED_BLEND)
+            raise FileError(RESULTS_NOT_STORED, cause=NEEDS_BLEND)
         for label, obj, one in contents.measured:
             with contents.attempt(label):
                 store(obj, one)

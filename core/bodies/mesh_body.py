@@ -20,14 +20,13 @@ from ..moments import sum_of_images
 from ..moments.moments import Moments, monomials, sum_moments
 from ..numerics import Array
 from ..polyhedron import polyhedron_moments
-from ..solid import DUPLICATE_FACES_COUNTED, NON_PLANAR_FACES
+from ..solid import DUPLICATE_FACES_COUNTED, NON_PLANAR_FACES, OVERLAP_OF_INSTANCES, UNCHECKED
 from ..solid.measure import SolidIntegrals, measure_solid
 from ..verdict import NEGLIGIBLE, Method, Procedure, least_trusted
 from ..verdict.finding import Finding, finding
 from .findings import (
     DRAWN_AS_POLYGONS,
     FLAT_SURFACES,
-    INSTANCE_OVERLAP_UNCHECKED,
     NON_PLANAR_FACES_OF_DISPLAY_MESH,
 )
 from .instances import (
@@ -207,7 +206,7 @@ def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -
                 overlapping_components=health.overlapping_components + overlapping,
             )
         else:
-            findings.append(finding(INSTANCE_OVERLAP_UNCHECKED))
+            findings.append(finding(UNCHECKED, subject=OVERLAP_OF_INSTANCES))
     of_solids = [procedure for procedure in procedures if procedure]
     if of_solids and len(of_solids) < len(procedures):
         flat_area = sum(
