@@ -165,9 +165,10 @@ class _Collector:
         return settings if settings.kind == "solid" and settings.overlap == "signed" else None
 
     def _digest(self, settings: Settings) -> str:
-        if settings not in self._digests:
-            self._digests[settings] = settings.digest
-        return self._digests[settings]
+        known = self._digests.get(settings)
+        if known is None:
+            known = self._digests[settings] = settings.digest
+        return known
 
     def _read(self, mesh: bpy.types.Mesh) -> int | None:
         """Return the index of the shape of a mesh; None if it has to be measured alone."""

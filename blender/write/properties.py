@@ -199,25 +199,14 @@ def _texts(method: Method, found: Iterable[Finding], mark: str) -> dict[str, str
 
 
 def _replace(obj: Owner, values: dict[str, Any]) -> None:
-    """Replace all results by `values`, or keep the earlier results on failure; add the tensor in
-    two parts.
+    """Replace all results by `values`, or none if Blender cannot hold one; add the tensor in two
+    parts.
     """
     entries = values["body_inertia"]
     values |= {"body_inertia_diagonal": entries[:3], "body_inertia_products": entries[3:]}
-    before = {key: obj[key] for key in DESCRIPTIONS if key in obj}
-    before = {
-        key: value.to_list() if hasattr(value, "to_list") else value
-        for key, value in before.items()
-    }
-    try:
-        _write(obj, values)
-    except BaseException:
-        _write(obj, before)
-        raise
-
-
-def _write(obj: Owner, values: dict[str, Any]) -> None:
-    """Write `values` in the order of DESCRIPTIONS, and delete all other results."""
+    for key, value in values.items():
+        if not isinstance(value, (float, str, list)):
+            raise TypeError("{}: {!r}".format(key, value))
     for key in DESCRIPTIONS:
         if key in values:
             _set(obj, key, values[key])
