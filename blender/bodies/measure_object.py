@@ -18,8 +18,8 @@ from ...core.verdict import internal_error
 from ..read.mesh import mesh_surface, plain_mesh
 from ..read.places import has_places, world_matrices
 from ..settings.options import AS_SET, MeasureOptions, object_settings
-from .measure_body import Measured, measure_body
-from .stack import MeshShape, Stacked, StackMember, measure_members
+from .measure_body import measure_body
+from .stack import Measured, MeshShape, Stacked, StackMember, measure_members
 
 MAX_OBJECTS_PER_STACK = 512
 MAX_STACKED_FACES = 20_000  # of one mesh
