@@ -299,7 +299,9 @@ def test_origin_of_a_hull_is_its_center_of_mass():
 @pytest.mark.parametrize("correct", ["NONE", "MASSES", "VERTICES"])
 @pytest.mark.parametrize("shape", ["AUTOMATIC", "BOX", "AXES_BOX", "CYLINDER", "HULL", "PIECES"])
 def test_flat_colliders_are_refused_with_a_remedy(shape, correct, turn):
-    corners = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]) @ np.array(Euler(turn).to_matrix())
+    corners = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]) @ np.array(
+        Euler(turn).to_matrix()
+    )
     mesh = bpy.data.meshes.new("Sheet")
     mesh.from_pydata(corners.tolist(), [], [(0, 1, 2), (0, 2, 3)])
     body = add(mesh, "Sheet", rotation=turn)
