@@ -8,7 +8,7 @@ import pytest
 from body_moments.core.robots.audit import Auditor
 from body_moments.core.robots.read.descriptions import Roots, read_description
 
-from tests.robots.test_reading_mjcf import check_links, matrix
+from tests.robots.mjcf_models import check_links, matrix
 
 MODEL = "<mujoco>{}<worldbody>{}</worldbody></mujoco>"
 
