@@ -28,12 +28,13 @@ NOTHING_RENDERED = error(
 )
 FILE_HIDES = note("file_hides", "The file does not show it: {cause:word}. Use --all to measure it.")
 FRAME_MEASURED = note(
-    "frame_measured", "The file is animated: measured at its first frame, {frame:g}."
+    "frame_measured",
+    "The file is animated: measured at frame {frame:g}. --at-frame chooses another.",
 )
-FBX_INHERIT_TYPE = warning(
-    "fbx_inherit_type",
-    "Nodes of the FBX file do not inherit the scale of their parents, which Blender's importer "
-    "ignores: sizes and places may be wrong. Apply the scales, or export as glTF or USD.",
+PLACES_UNCHECKED = warning(
+    "places_unchecked",
+    "Size and place may not be those of the file, as Blender's importer reads it differently, or "
+    "they could not be compared: {cause:word}. Apply the transforms, or export as USD.",
 )
 USD_CAGE = warning(
     "usd_cage",
@@ -61,12 +62,6 @@ SCRIPTS_ALLOWED = warning(
     "Blender with "
     "-Y, or name the file after “measure”.",
 )
-FILE_CHANGED_MEANWHILE = error(
-    "file_changed_meanwhile",
-    "The file cannot be saved: another program has saved it since it was opened; nothing was "
-    "overwritten. Measure "
-    "it again.",
-)
 ASSETS_NOT_MEASURED = warning(
     "assets_not_measured",
     "Assets without numbers in their metadata, because they are not rendered, or not in the scene "
@@ -85,10 +80,8 @@ STREAM_OPTIONS = error(
 UNIT_ASSUMED = warning(
     "unit_assumed", "The file has no unit: 1 unit was taken as 1 m. Use --unit-scale."
 )
-RESULTS_NEED_BLEND = error(
-    "results_need_blend",
-    "Results can only be stored in a .blend file that was saved before; --write did nothing.",
-)
+NEEDS_BLEND = "that needs a .blend file that was saved before"
+RESULTS_NOT_STORED = error("results_not_stored", "Results were not stored: {cause:word}.")
 FILE_CRASHED = error(
     "file_crashed",
     "Blender crashed on the file ({how}), {count} times. Save it again with the program that made "

@@ -13,19 +13,21 @@ from dataclasses import dataclass
 
 import bpy
 import numpy as np
-from bpy.types import Context, Object
+from bpy.types import Context, Mesh, Object
 
 from ...core.inertia import combine
 from ...core.measurement import NO_VOLUME
+from ...core.mesh import convex_hull, triangle_areas
 from ...core.verdict import EditRefusedError, Finding, MeasureError, Procedure
-from ..bodies.measure_object import Measured as MeasuredBody
-from ..bodies.stacks.many import measured_in_turn
-from ..bodies.stacks.stack import Stacked
+from ..bodies.measure_body import Measured as MeasuredObject
+from ..bodies.measure_object import measured_in_turn
+from ..read.mesh import mesh_surface
 from ..read.tracking import tracking_paused
 from ..scale import meters_per_unit
 from ..scene import reframe
 from ..scene.changes import require_storable_data
 from ..scene.colliders import apply_for_bullet, colliders_by_body
+from ..scene.empties import PLACE_RTOL
 from ..scene.findings import OPEN_OBJECT, RIGID_BODY_MASS_TOO_SMALL, RIGID_BODY_NEEDS_MESH
 from ..scene.rigid_world import (
     MIN_MASS,
@@ -50,6 +52,7 @@ from .tracking import staleness
 
 # Blender's collision shapes of colliders that are primitives; all others are convex hulls.
 COLLISION_SHAPES = {"box": "BOX", "sphere": "SPHERE", "capsule": "CAPSULE", "cylinder": "CYLINDER"}
+FLAT_RTOL = 1e-5  # of the size, and of the area
 PROBE_DENSITY = 1e6  # for Calculate Mass: high, as Blender's rigid bodies weigh no less than a gram
 
 
@@ -70,7 +73,7 @@ class Measured:
     body: Body
     target: SnapTarget
     density: float
-    parts: tuple[tuple[Object, MeasuredBody | Stacked], ...]
+    parts: tuple[tuple[Object, MeasuredObject], ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +106,7 @@ def make_rigid_bodies(
             except Exception as error:
                 found = error.finding.code if isinstance(error, MeasureError) else None
                 if type == "PASSIVE" and found in {OPEN_OBJECT, NO_VOLUME}:
-                    floors.append(body.obj)  # no engine asks for the mass of a passive body
+                    floors += body.obj, *body.members  # no engine asks for their mass
                     step(done)
                     continue
                 failures.append(reports.failure(body.obj.name_full, error))
@@ -116,12 +119,15 @@ def make_rigid_bodies(
     ):
         failures += _place(context, measured, frame)
         new = _add(context, measured, type, shape)
-        add_rigid_bodies(context, [obj for obj in floors if obj.rigid_body is None], type)
+        new_floors = [obj for obj in floors if obj.rigid_body is None]
+        add_rigid_bodies(context, new_floors, type)
+        depsgraph = context.evaluated_depsgraph_get()
         for obj in floors:
             obj.rigid_body.type = "PASSIVE"
-            obj.rigid_body.collision_shape = "MESH"
+            is_polygon = _is_convex_polygon(obj.evaluated_get(depsgraph).data)
+            obj.rigid_body.collision_shape = "CONVEX_HULL" if is_polygon else "MESH"
         calculated = _calculated_masses(context, measured)
-        for obj in new:
+        for obj in [*new, *new_floors]:
             obj.rigid_body.mesh_source = (
                 "FINAL"  # the mesh that was weighed; Calculate Mass takes the default
             )
@@ -198,7 +204,28 @@ def _add(context: Context, measured: dict[Object, Measured], type: str, shape: s
                 part.rigid_body.collision_shape = "COMPOUND"
             elif shape != "KEEP":
                 part.rigid_body.collision_shape = shape
+    for obj in (*new, *added):
+        scale = (obj.parent if COLLIDER in obj else obj).matrix_world.to_scale()
+        is_scaled = max(abs(size - 1.0) for size in scale) > PLACE_RTOL
+        if is_scaled and obj.rigid_body.collision_shape == "CONVEX_HULL":
+            # Blender shrinks hulls by the margin, times the scale; Bullet adds it without the scale
+            obj.rigid_body.use_margin = True
+            obj.rigid_body.collision_margin = 0.0
     return new
+
+
+def _is_convex_polygon(mesh: Mesh) -> bool:
+    """Return whether a mesh is flat and fills its hull, on which compounds come to rest: on meshes
+    Bullet rocks them for ever.
+    """
+    surface = mesh_surface(mesh, edges=False)
+    try:
+        hull = convex_hull(surface.points, FLAT_RTOL)
+    except MeasureError:
+        return False
+    area = triangle_areas(surface.points, surface.all_triangles()[0]).sum()
+    both_sides = triangle_areas(hull.points, hull.triangles).sum()
+    return hull.is_flat and abs(2.0 * area - both_sides) <= FLAT_RTOL * both_sides
 
 
 def _bodies(objects: Sequence[Object]) -> list[Body]:
@@ -218,15 +245,13 @@ def _bodies(objects: Sequence[Object]) -> list[Body]:
 
 def _measure_in_turn(
     context: Context, bodies: Iterable[Body]
-) -> Callable[[Object], MeasuredBody | Stacked]:
+) -> Callable[[Object], MeasuredObject]:
     """Return a function that measures the objects of the bodies, one at a time and in order."""
     parts = [part for body in bodies for part in (body.obj, *body.members)]
     return measured_in_turn(parts, context.evaluated_depsgraph_get())
 
 
-def _measured(
-    context: Context, body: Body, ask: Callable[[Object], MeasuredBody | Stacked]
-) -> Measured:
+def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredObject]) -> Measured:
     """Measure a body as it is now; raise EditRefusedError if it cannot be a rigid body."""
     require_rigid_world(context.scene, joints=body.obj.rigid_body_constraint is not None)
     parts = [(body.obj, _measured_part(body.obj, ask))]
@@ -249,9 +274,7 @@ def _measured(
     return Measured(body, target, target.mass / volume, tuple(parts))
 
 
-def _measured_part(
-    part: Object, ask: Callable[[Object], MeasuredBody | Stacked]
-) -> MeasuredBody | Stacked:
+def _measured_part(part: Object, ask: Callable[[Object], MeasuredObject]) -> MeasuredObject:
     """Measure a part of a body as it is now; raise EditRefusedError if it cannot belong to a rigid
     body.
     """

@@ -16,18 +16,19 @@ import sys
 import zlib
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from dataclasses import replace
 
 import bpy
 
 from ...core.files import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
-from ..findings import FILE_NEWER_VERSION, FILE_VERSION_UNSUPPORTED, FRAME_MEASURED
+from ..findings import FILE_NEWER_VERSION, FILE_VERSION_UNSUPPORTED
 from ..supervisor.listing import BLEND, USD
 from .finite import check_numbers
+from .import_fbx import import_fbx
+from .import_gltf import import_gltf
 from .import_usd import import_usd
-from .importers import import_3mf, import_fbx, import_gltf, import_iges, import_mesh, import_obj
-from .placing import first_frame, set_frame
+from .importers import import_3mf, import_iges, import_mesh, import_obj
+from .placing import measure_at
 from .references import Opened
 from .suffixes import check_file, file_suffix
 
@@ -36,39 +37,45 @@ _KNOWN_FORMAT = 1  # version of the .blend format
 _TRACEBACK = "Traceback (most recent call last)"
 _BLEND_WORD = re.compile(r"\.blend\d*$", re.IGNORECASE)
 
-_IMPORTERS: dict[str, Callable[[str], object]] = {
-    ".stl": import_mesh,
-    ".ply": import_mesh,
-    ".obj": import_obj,
+_ANIMATED: dict[str, Callable[[str, float | None], Opened]] = {
     ".fbx": import_fbx,
-    ".3mf": import_3mf,
-    ".igs": import_iges,
-    ".iges": import_iges,
     ".glb": import_gltf,
     ".gltf": import_gltf,
     **dict.fromkeys(USD, import_usd),
 }
+_IMPORTERS: dict[str, Callable[[str], object]] = {
+    ".stl": import_mesh,
+    ".ply": import_mesh,
+    ".obj": import_obj,
+    ".3mf": import_3mf,
+    ".igs": import_iges,
+    ".iges": import_iges,
+}
 
 
-def open_file(path: str) -> Opened:
-    """Open a file as the scene, and return the findings about it. Raises FileError."""
+def open_file(path: str, frame: float | None = None) -> Opened:
+    """Open a file as the scene at a frame, by default the first of an imported file, and return the
+    findings about it. Raises FileError.
+    """
     try:
-        return _opened(path)
+        return _opened(path, frame)
     except OSError as error:  # Such as from a failing disk.
         raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
 
 
-def _opened(path: str) -> Opened:
+def _opened(path: str, frame: float | None) -> Opened:
     kind = file_suffix(path)
     check_file(path)
     check_numbers(path, kind)
     absolute = os.path.abspath(path)
     if kind == BLEND:  # it replaces the open scene
         _open_blend(absolute)
-        return Opened()
+        return Opened() if frame is None else Opened(notes=measure_at(frame))
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     try:
-        found = _IMPORTERS[kind](absolute)
+        found = (
+            _ANIMATED[kind](absolute, frame) if kind in _ANIMATED else _IMPORTERS[kind](absolute)
+        )
     except AttributeError as error:
         raise FileError(
             FILE_UNREADABLE, error="it has no importer for {} files".format(kind)
@@ -76,12 +83,6 @@ def _opened(path: str) -> Opened:
     except RuntimeError as error:
         raise FileError(FILE_UNREADABLE, error=reason(error)) from error
     opened = found if isinstance(found, Opened) else Opened()
-    # Blender's importers leave the scene as it was before they set keys.
-    start = None if kind in USD else first_frame()
-    if start is not None:
-        set_frame(start)
-        animated = finding(FRAME_MEASURED, frame=start)
-        opened = replace(opened, notes=(*opened.notes, animated))
     if not bpy.context.scene.objects:
         raise FileError(
             opened.errors[0] if opened.errors else finding(FILE_WITHOUT_OBJECTS, content="objects")

@@ -10,9 +10,7 @@ damage is left to Blender, which reports it.
 from __future__ import annotations
 
 import re
-import struct
-import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
@@ -21,27 +19,26 @@ from numpy.typing import NDArray
 
 from ...core.cad import check_obj_text
 from ...core.files import (
-    BLOCK,
+    FBX_MAGIC,
     MALFORMED,
     MAX_FLOAT32,
     SHORT,
     Data,
     GltfFile,
+    fbx_array,
     find_number_fault,
     map_file,
     refuse_line,
     refuse_non_finite,
 )
 
-_FBX_MAGIC = b"Kaydara FBX Binary  \0\x1a\0"
-_FBX_TYPES = {b"d": np.dtype("<f8"), b"f": np.dtype("<f4")}
 # The end of a node's head: its name behind its length, and the type of its first property, an
 # array.
 _FBX_VERTICES = re.compile(rb"\x08Vertices(?=[df])")
 _FBX_ARRAY = re.compile(rb"Vertices(?<!\wVertices)\s*:(?:\s*\*\d+\s*\{\s*a\s*:)?")
 _FBX_NUMBERS = re.compile(rb"(?>(?:[\s,]*+%b(?=[\s,}]|\Z))*)[\s,]*+" % SHORT)
 _FBX_WORD = re.compile(rb"[^\s,:{}]++(?!\s*:)")  # not the name of what follows
-_OF_NODES = ("matrix", "translation", "rotation", "scale")
+_VALUES = ("matrix", "translation", "rotation", "scale", "weights")  # of nodes and meshes
 
 
 def check_numbers(path: str, kind: str) -> None:
@@ -56,13 +53,13 @@ def check_numbers(path: str, kind: str) -> None:
 
 def check_fbx(data: Data, _path: str) -> None:
     """Raise FileError if a vertex of a mesh or of its shape keys is not finite."""
-    if data[:23] != _FBX_MAGIC:
+    if data[: len(FBX_MAGIC)] != FBX_MAGIC:
         _check_ascii_fbx(data)
         return
     for vertices in _FBX_VERTICES.finditer(data):
         with suppress(*MALFORMED):
             count, first = 0, 0
-            for begin, numbers in _fbx_array(data, vertices.end()):
+            for begin, numbers in fbx_array(data, vertices.end()):
                 more, row = bad_in_table(numbers[:, None])
                 first = first if count else (begin + row) // 3
                 count += more
@@ -81,42 +78,24 @@ def _check_ascii_fbx(data: Data) -> None:
             numbers = None if word is None else _FBX_NUMBERS.match(data, word.end())
 
 
-def _fbx_array(data: Data, at: int) -> Iterator[tuple[int, NDArray]]:
-    """Yield the numbers of an array in blocks, each after the count of numbers before it."""
-    kind = _FBX_TYPES[data[at : at + 1]]
-    count, packed, size = struct.unpack_from("<3I", data, at + 1)
-    at += 13
-    if not packed:
-        yield 0, np.frombuffer(data, kind, count, at)
-        return
-    unpacker = zlib.decompressobj()
-    rest = b""
-    done = 0
-    for begin in range(at, at + size, BLOCK):
-        piece = data[begin : min(begin + BLOCK, at + size)]
-        while piece and done < count:
-            block = rest + unpacker.decompress(piece, BLOCK)
-            piece = unpacker.unconsumed_tail
-            whole = len(block) // kind.itemsize
-            yield done, np.frombuffer(block, kind, whole)
-            rest = block[whole * kind.itemsize :]
-            done = done + whole
-
-
 def check_gltf(data: Data, path: str) -> None:
     """Raise FileError if a number in a node or in an accessor that places points is not finite."""
     with suppress(*MALFORMED):
         file = GltfFile(data, path)
         for number, node in enumerate(file.document.get("nodes", [])):
-            count = sum(
-                not abs(value) < MAX_FLOAT32 for key in _OF_NODES for value in node.get(key, ())
-            )
-            refuse_non_finite(count, "node", node.get("name") or number)
+            _check_values(node, "node", number)
+        for number, mesh in enumerate(file.document.get("meshes", [])):
+            _check_values(mesh, "mesh", number)
         for number, mesh in _placing_accessors(file.document).items():
             where = "accessor {}".format(number) if mesh is None else "mesh “{}”".format(mesh)
             with suppress(*MALFORMED):  # others may be whole
                 count, first = _bad_in_accessor(file, file.document["accessors"][number])
                 refuse_non_finite(count, where + ", row", first)
+
+
+def _check_values(entry: dict[str, Any], kind: str, number: int) -> None:
+    count = sum(not abs(value) < MAX_FLOAT32 for key in _VALUES for value in entry.get(key, ()))
+    refuse_non_finite(count, kind, entry.get("name") or number)
 
 
 def _placing_accessors(document: dict[str, Any]) -> dict[int, str | None]:
@@ -144,14 +123,9 @@ def _placing_accessors(document: dict[str, Any]) -> dict[int, str | None]:
 
 def _bad_in_accessor(file: GltfFile, accessor: dict[str, Any]) -> tuple[int, int]:
     count, first = bad_in_table(file.table(accessor))
-    sparse = accessor.get("sparse")
-    if sparse:
-        size = {"count": sparse["count"]}
-        more, row = bad_in_table(file.table(accessor | {"byteOffset": 0} | sparse["values"] | size))
-        if more and not count:
-            first = int(file.table({"type": "SCALAR"} | sparse["indices"] | size)[row, 0])
-        count += more
-    return count, first
+    rows, values = file.sparse(accessor)
+    more, row = bad_in_table(values)
+    return count + more, int(rows[row]) if more and not count else first
 
 
 def bad_in_table(rows: NDArray) -> tuple[int, int]:

@@ -36,7 +36,7 @@ class _Prim(NamedTuple):
 
     hidden: the reason why a renderer does not show it. scheme: the subdivision of a mesh that is a
     cage. solid: the arguments of `revolved_solid`. place: (4, 4) its matrix in the scene.
-    is_member: of an instance. points: (n, 3) of a skinned mesh. members: of an instancer, the
+    is_member: of an instance. points: (n, 3) of a mesh that moves. members: of an instancer, the
     objects that it shows, each with its (k, 4, 4) places relative to it.
     """
 
@@ -57,18 +57,18 @@ _PURPOSES = {
 }
 
 
-def import_usd(path: str) -> Opened:
-    """Import a USD file: each object at the place that the file states at its first frame, solids
-    as exact surfaces, hidden prims as objects that are not rendered. Raise FileError.
+def import_usd(path: str, frame: float | None) -> Opened:
+    """Import a USD file: each object at the place that the file states at the frame, by default its
+    first, solids as exact surfaces, hidden prims as objects that are not rendered. Raise FileError.
     """
-    prims, missing, start = _import(path)
+    prims, missing, start = _import(path, frame)
     members = [prim for prim in prims.values() if prim.is_member]
     has_instancer = any(prim.members is not None for prim in prims.values())
     if members and (has_instancer or any(_is_special(prim) for prim in members)):
         # All instances show the same objects; objects of their own can be hidden, sheared and
         # reported.
         bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-        prims, missing, start = _import(path, support_scene_instancing=False)
+        prims, missing, start = _import(path, frame, support_scene_instancing=False)
     return _correct(prims, missing, start)
 
 
@@ -83,7 +83,7 @@ def _is_special(prim: _Prim) -> bool:
 
 
 def _import(
-    path: str, **options: bool
+    path: str, frame: float | None, **options: bool
 ) -> tuple[dict[str, _Prim], tuple[Finding, ...], float | None]:
     """Run Blender's importer, and return the prims of objects by name, and a finding about missing
     references.
@@ -101,7 +101,7 @@ def _import(
         @staticmethod
         def on_import(context: Any) -> bool:
             try:
-                stage = _Stage(context.get_stage())
+                stage = _Stage(context.get_stage(), frame)
                 blocks = context.get_prim_map()
                 facts = stage.prims(blocks)
                 results.append((stage.unit, facts, stage.unread(blocks), stage.start))
@@ -131,18 +131,21 @@ def _import(
 
 
 class _Stage:
-    """An open stage at the scene's frame, in meters per `unit`.
+    """An open stage at a frame, in meters per `unit`. start: that frame, None without animation.
 
     It is gone when Blender's importer returns.
     """
 
-    def __init__(self, stage: Any) -> None:
+    def __init__(self, stage: Any, frame: float | None) -> None:
         # Blender has these modules, and exposes them on request.
         self._usd, self._geom, self._skel = (
             importlib.import_module("pxr." + name) for name in ("Usd", "UsdGeom", "UsdSkel")
         )
         self._stage = stage
+        stage.SetInterpolationType(self._usd.InterpolationTypeLinear)  # Blender holds values.
         self.start = self._first_time()
+        if self.start is not None and frame is not None:
+            self.start = frame
         self._time = self._usd.TimeCode(
             bpy.context.scene.frame_current if self.start is None else self.start
         )
@@ -179,30 +182,38 @@ class _Stage:
         prims |= {objects[block].name: prim for prim, block in pairs if block in objects}
         names = {prim.GetPath(): name for name, prim in prims.items()}
         facts = {name: self._facts(prim, names) for name, prim in prims.items()}
-        skinned = self._skinned_points()
+        moving = self._moving_points()
         return {
-            name: fact._replace(points=skinned.get(prims[name].GetPath()))
+            name: fact._replace(points=moving.get(prims[name].GetPath()))
             for name, fact in facts.items()
         }
 
-    def _skinned_points(self) -> dict[Any, Array]:
-        """Return the points of skinned meshes by their paths, in their own coordinates."""
+    def _moving_points(self) -> dict[Any, Array]:
+        """Return the points of skinned and animated meshes by their paths, in their own
+        coordinates.
+        """
+        meshes = [prim for prim in self._stage.Traverse() if prim.IsA(self._geom.Mesh)]
         bound = [
             prim
-            for prim in self._stage.Traverse()
-            if prim.IsA(self._geom.Mesh)
-            and (
-                self._skel.BindingAPI(prim).GetJointIndicesAttr().HasAuthoredValue()
-                or self._skel.BindingAPI(prim).GetBlendShapesAttr().HasAuthoredValue()
-            )
+            for prim in meshes
+            if self._skel.BindingAPI(prim).GetJointIndicesAttr().HasAuthoredValue()
+            or self._skel.BindingAPI(prim).GetBlendShapesAttr().HasAuthoredValue()
         ]
+        moving = {
+            *bound,
+            *(
+                prim
+                for prim in meshes
+                if self._geom.Mesh(prim).GetPointsAttr().GetNumTimeSamples() > 1
+            ),
+        }
         if bound:
             # Blender's modifiers may read the other layers again.
             self._stage.SetEditTarget(self._stage.GetSessionLayer())
             self._skel.BakeSkinning(self._stage.Traverse())
         return {
             prim.GetPath(): np.array(self._geom.Mesh(prim).GetPointsAttr().Get(self._time))
-            for prim in bound
+            for prim in moving
         }
 
     def unread(self, blocks: Mapping[str, list[bpy.types.ID]]) -> list[str]:

@@ -2,19 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Importers of files that Blender's importers do not read, or not as they are.
 
-Blender has none for .3mf and IGES; that of .obj leaves out ``surf``, that of glTF ignores
-KHR_node_visibility.
+Blender has none for .3mf and IGES; that of .obj leaves out ``surf``.
 """
 
 from __future__ import annotations
 
-import mmap
 import re
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
-import addon_utils
 import bpy
 import numpy as np
 from mathutils import Matrix
@@ -22,27 +18,36 @@ from mathutils import Matrix
 from ...blender.scene.imports import show_bodies
 from ...core.cad import FACES_NOT_READ, SurfaceFile, has_surfaces, read_surfaces
 from ...core.files import file_limits
+from ...core.polyhedron import box_center
 from ...core.streams import KINDS, FileMesh, Placed, box_of_blocks, read_3mf
 from ...core.verdict.finding import FileError, Finding, finding
-from ..findings import FBX_INHERIT_TYPE, FILE_HIDES
+from ..findings import FILE_HIDES
 from .references import Opened
 
 # Numbers of vertices with a meaning of their own; Blender makes attributes of all others.
 _KNOWN = {*("x", "y", "z", "nx", "ny", "nz", "s", "t"), *("red", "green", "blue", "alpha")}
+_MOVED = 1e-6  # by float32, relative to the body's size
 _SHEAR = 1e-6  # relative to the largest entry of a matrix; larger than the rounding of float32
 _OBJ_MESH = re.compile(rb"[ \t]*(?:f|l|curv)[ \t]")  # the elements that Blender's importer reads
-# Nodes of FBX that do not inherit their parents' scale, in text and binary files.
-_NO_PARENT_SCALE = re.compile(
-    rb'"InheritType",\s*"enum",\s*"",\s*"[^"\n]*",\s*2\b'
-    rb"|InheritTypeS\x04\0\0\0enumS\0\0\0\0S[\0-\x09]\0\0\0[A-Z+]{0,9}I\x02\0\0\0"
-)
-GLTF_ADD_ON = "io_scene_gltf2"  # It comes with Blender, and may be switched off.
 
 
 def import_mesh(path: str) -> None:
-    """Add the mesh of an .stl or .ply file to the scene. Raises FileError."""
+    """Add the mesh of an .stl or .ply file to the scene. Raises FileError.
+
+    If float32 would move points noticeably, the object stands at the center of their box.
+    """
     mesh = KINDS[Path(path).suffix.lower()](Path(path)).mesh()
-    bpy.context.scene.collection.objects.link(bpy.data.objects.new(mesh.name, blender_mesh(mesh)))
+    center = np.zeros(3)
+    if len(mesh.points):
+        low, high = box_of_blocks([mesh.points], "vertex")
+        with np.errstate(over="ignore"):
+            moved = np.abs(mesh.points.astype(np.float32) - mesh.points).max()
+        if moved > _MOVED * (high - low).max():
+            center = box_center(low, high, np.dtype(np.float32))
+            mesh = replace(mesh, points=mesh.points - center)
+    obj = bpy.data.objects.new(mesh.name, blender_mesh(mesh))
+    obj.location = center
+    bpy.context.scene.collection.objects.link(obj)
     bpy.context.view_layer.update()
 
 
@@ -136,63 +141,3 @@ def _added(file: SurfaceFile) -> Opened:
     unread = (finding(FACES_NOT_READ, count=file.unread),) if file.unread else ()
     by_object: dict[str, tuple[Finding, ...]] = {obj.name: unread for obj in made}
     return Opened(file.refused, file.notes, by_object)
-
-
-def import_fbx(path: str) -> Opened:
-    """Import an .fbx file; objects that it hides are not rendered. Raise RuntimeError, and
-    AttributeError without an importer.
-    """
-    bpy.ops.wm.fbx_import(filepath=path)
-    hidden = [obj for obj in bpy.context.scene.objects if obj.hide_viewport]
-    for obj in hidden:  # Blender would not evaluate them
-        obj.hide_viewport = False
-        obj.hide_render = True
-    bpy.context.view_layer.update()
-    with open(path, "rb") as file:
-        inherits = _NO_PARENT_SCALE.search(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
-    notes = (finding(FBX_INHERIT_TYPE),) if inherits else ()
-    invisible = finding(FILE_HIDES, cause="it is invisible")
-    return Opened(notes=notes, hidden={obj.name: invisible for obj in hidden})
-
-
-def import_gltf(path: str) -> Opened:
-    """Import a .gltf or .glb file. Raise RuntimeError, and AttributeError without an importer."""
-    hidden: list[str] = []
-
-    class NodeVisibility:
-        """An extension of the importer, which ignores whether nodes are visible."""
-
-        def gather_import_node_after_hook(
-            self, vnode: Any, _node: Any, obj: bpy.types.Object, gltf: Any
-        ) -> None:
-            if any(_is_invisible(gltf.data.nodes[number]) for number in _line_of(vnode, gltf)):
-                hidden.append(obj.name)
-
-    # The importer looks for extensions in add-ons of the preferences, of which it is one itself.
-    is_known = GLTF_ADD_ON in bpy.context.preferences.addons
-    module = addon_utils.enable(GLTF_ADD_ON, default_set=not is_known)
-    module.glTF2ImportUserExtension = NodeVisibility
-    try:
-        # Without disable_bone_shape, it adds objects that would be measured.
-        bpy.ops.import_scene.gltf(filepath=path, disable_bone_shape=True)
-    finally:
-        del module.glTF2ImportUserExtension
-    for name in hidden:
-        bpy.data.objects[name].hide_render = True
-    return Opened(hidden=dict.fromkeys(hidden, finding(FILE_HIDES, cause="it is invisible")))
-
-
-def _line_of(vnode: Any, gltf: Any) -> list[int]:
-    """Return the numbers of a node and of those above it. vnode: the importer's node; its own ones
-    have no number.
-    """
-    line = [number for number, one in gltf.vnodes.items() if one is vnode]
-    while vnode.parent is not None:
-        line.append(vnode.parent)
-        vnode = gltf.vnodes[vnode.parent]
-    return [number for number in line if isinstance(number, int)]
-
-
-def _is_invisible(node: Any) -> bool:
-    extension = (node.extensions or {}).get("KHR_node_visibility", {})
-    return isinstance(extension, dict) and extension.get("visible", True) is False

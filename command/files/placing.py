@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Objects of an imported file, brought to its first frame and to the places that it states."""
+"""Objects of a file, brought to the frame to measure and to the places that the file states."""
 
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ from mathutils import Matrix
 from ...blender.read.places import set_places
 from ...core.bodies import float64_matrix
 from ...core.numerics import Array
+from ...core.verdict.finding import Finding, finding
+from ..findings import FRAME_MEASURED
 
 ANCHOR = "Imported Places"  # an empty at the world's origin
 _AGREEMENT = 1e-5  # of an axis, and of a location: larger than the rounding along chains of parents
@@ -25,14 +27,27 @@ def set_frame(frame: float) -> None:
     bpy.context.scene.frame_set(whole, subframe=frame - whole)
 
 
-def first_frame() -> float | None:
-    """Return the first frame of the animations in use, None if there are none."""
+def measure_at(frame: float | None) -> tuple[Finding, ...]:
+    """Evaluate the scene at a frame, or else the first one of its animations; return a note if
+    there are any.
+    """
     starts = [
         action.frame_range[0]
         for action in bpy.data.actions
         if action.users and action.frame_range[1] > action.frame_range[0]
     ]
-    return min(starts, default=None)
+    frame = min(starts, default=None) if frame is None else frame
+    if frame is not None:
+        set_frame(frame)
+    return (finding(FRAME_MEASURED, frame=frame),) if starts else ()
+
+
+def is_at(obj: bpy.types.Object, place: Array) -> bool:
+    """Return whether Blender shows an object at a (4, 4) place."""
+    size = np.abs(place[:3]).max(axis=0)
+    size = np.maximum(size, [*[size[:3].max()] * 3, 1e-30])
+    apart = np.abs(float64_matrix(obj.matrix_world)[:3] - place[:3])
+    return bool((apart <= _AGREEMENT * size).all())
 
 
 def place_objects(places: Mapping[str, Array]) -> None:
@@ -42,9 +57,7 @@ def place_objects(places: Mapping[str, Array]) -> None:
     for name, place in places.items():
         obj = bpy.data.objects[name]
         set_places(obj, place)
-        size = np.abs(place[:3]).max(axis=0)
-        apart = np.abs(float64_matrix(obj.matrix_world)[:3] - place[:3])
-        if (apart > _AGREEMENT * np.maximum(size, [*[size[:3].max()] * 3, 1e-30])).any():
+        if not is_at(obj, place):
             wrong.append(obj)
     if not wrong:
         return

@@ -12,6 +12,7 @@ import argparse
 import functools
 import os
 import pkgutil
+import re
 import tomllib
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -56,7 +57,7 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
     Raises SystemExit(2) after a message on the standard error, or HelpRequested.
     """
     parser = measure_parser()
-    options = parser.parse_intermixed_args(join_negative_values(argv))
+    options = parser.parse_intermixed_args(join_negative_values(name_frames(argv)))
     options.words = argv
     has_files = bool(options.files or options.manifest)
     options.resume |= options.retry_failed
@@ -93,6 +94,8 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
                 )
     if options.part is not None and options.manifest is None:
         fail("argument --part: needs the --manifest whose part it is")
+    if options.at_frame is not None and (options.write or options.asset_metadata):
+        fail("argument --at-frame: a file keeps only results at its own frame")
     if options.resume and options.output is None:
         fail("argument --resume: needs the --output of the run to go on with")
     _check_fourier(options)
@@ -184,6 +187,17 @@ def _check_fourier(options: argparse.Namespace) -> None:
             and os.path.realpath(first) == os.path.realpath(second)
         ):
             fail("argument --fourier: {} is used twice".format(first))
+
+
+def name_frames(argv: list[str]) -> list[str]:
+    """Write a `--frame` with a number as `--at-frame`."""
+    named = list(argv)
+    for number, word in enumerate(argv):
+        option, equals, value = word.partition("=")
+        value = value if equals else "".join(argv[number + 1 : number + 2])
+        if option == "--frame" and re.fullmatch(r"[+-]?\.?\d\S*", value):
+            named[number] = "--at-frame" + word.removeprefix("--frame")
+    return named
 
 
 def join_negative_values(argv: list[str]) -> list[str]:

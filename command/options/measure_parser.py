@@ -171,6 +171,13 @@ def _add_results(parser: Parser) -> None:
         "--frame", FRAMES, "of centers, tensors, axes and moments (world)", default="world"
     )
     parser.value(
+        "--at-frame",
+        types.scene_frame,
+        "N",
+        "the frame of an animation to measure; --frame N is the same (the frame that a .blend was "
+        "saved at, the first one of an imported file)",
+    )
+    parser.value(
         "--about",
         types.about,
         "POINT",

@@ -21,6 +21,7 @@ from ..parser import COMMANDS
 # none.
 MAX_ORDER = 30
 MAX_SPLINE_ORDER = 16
+MAX_FRAME = 1_048_574  # Blender's limit
 MAX_GRID = 256  # frequencies along an axis: its arrays take a few gigabytes
 ABOUT = ("center", "origin", "world")
 # by source: True if a name follows
@@ -92,6 +93,16 @@ def number(text: str) -> float:
     value = _float(text)
     if not math.isfinite(value):
         raise ArgumentTypeError("{!r} is not a finite number".format(text))
+    return value
+
+
+def scene_frame(text: str) -> float:
+    """Return a frame of a scene, which need not be whole."""
+    value = _float(text)
+    if not abs(value) <= MAX_FRAME:
+        raise ArgumentTypeError(
+            "{!r} is not a frame from {} to {}".format(text, -MAX_FRAME, MAX_FRAME)
+        )
     return value
 
 

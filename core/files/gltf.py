@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics import rotation_matrix
 from ..verdict.finding import FileError, finding
 from .findings import DAMAGE_SIZE, FILE_DAMAGED, MISSING_REFERENCES
 from .text_fields import Data, map_file
@@ -72,6 +73,17 @@ def _unquote(uri: str) -> str:
     return data.decode("utf-8", "surrogateescape")
 
 
+def node_matrix(node: dict[str, Any]) -> NDArray:
+    """Return the (4, 4) place of a node in the node above it."""
+    if "matrix" in node:
+        return np.array(node["matrix"], np.float64).reshape(4, 4).T
+    matrix = np.eye(4)
+    rotation = np.roll(node.get("rotation", (0.0, 0.0, 0.0, 1.0)), 1)
+    matrix[:3, :3] = rotation_matrix(rotation) * np.array(node.get("scale", (1.0,) * 3), np.float64)
+    matrix[:3, 3] = node.get("translation", (0.0, 0.0, 0.0))
+    return matrix
+
+
 class GltfFile:
     """The document of a glTF file, and its buffers, including external files."""
 
@@ -110,6 +122,32 @@ class GltfFile:
         if stride < size:
             raise ValueError("byteStride")
         return np.ndarray((accessor["count"], width), kind, data, start, (stride, kind.itemsize))
+
+    def sparse(self, accessor: dict[str, Any]) -> tuple[NDArray, NDArray]:
+        """Return the rows of an accessor that are given by themselves, and their (n, k) numbers."""
+        if "sparse" not in accessor:
+            return np.empty(0, np.intp), np.empty((0, 1))
+        sparse = accessor["sparse"]
+        size = {"count": sparse["count"]}
+        rows = self.table({"type": "SCALAR"} | sparse["indices"] | size)[:, 0]
+        return rows, self.table(accessor | {"byteOffset": 0} | sparse["values"] | size)
+
+    def numbers(self, number: int) -> NDArray:
+        """Return the (n, k) numbers of an accessor in float64, normalized ones as fractions.
+
+        ValueError if an extension has compressed them.
+        """
+        accessor = self.document["accessors"][number]
+        table = self.table(accessor)
+        shape = accessor["count"], table.shape[1]
+        full = table.astype(np.float64) if "bufferView" in accessor else np.zeros(shape)
+        if full.shape != shape:
+            raise ValueError("compressed")
+        rows, values = self.sparse(accessor)
+        full[rows] = values
+        if accessor.get("normalized"):
+            full = np.maximum(full / np.iinfo(table.dtype).max, -1.0)
+        return full
 
     def _buffer(self, number: int) -> Data | memoryview:
         """Return the bytes of a buffer. FileError if they are missing or too few."""

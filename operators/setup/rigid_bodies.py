@@ -123,7 +123,7 @@ class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Ope
             context, objects, self.type, self.shape, self.frame, self.compounds
         )
         self.comparison = _compare_masses(context, made)
-        count = len(made.measured) + len(made.floors)
+        count = len(made.measured)
         mass = float(sum(one.target.mass for one in made.measured.values()))
         done = reports.phrase(
             "{count} rigid body of {mass:.7g} kg",
@@ -134,12 +134,19 @@ class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Ope
         if made.calculated and all(made.calculated.values()):
             text = "; Calculate Mass would say {calculated:.7g} kg"
             done += reports.phrase(text, calculated=float(sum(made.calculated.values())))
+        if made.floors:
+            text = "{count} passive body without volume", "{count} passive bodies without volume"
+            floors = reports.phrase(*text, count=len(made.floors))
+            done = "; ".join([*([done] if count else ()), floors])
+            count += len(made.floors)
         findings = [
             one.target.finding.of_sources([obj.name])
             for obj, one in made.measured.items()
             if one.target.finding is not None and self.frame == "AXES"
         ]
         findings = [*_display_scaled(context, count), *findings]
+        if self.frame == "KEEP":
+            findings += _centers_elsewhere([one.target for one in made.measured.values()])
         return selection.summarize(
             self, count, count + len(made.failures), done, made.failures, findings
         )
@@ -240,11 +247,7 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(
             ]
         count = len(changed)
         findings += _display_scaled(context, count)
-        elsewhere = [
-            body.obj.name for body in bodies if scene.matrix_at_center(body.obj, body) is not None
-        ]
-        if elsewhere and count:
-            findings.append(finding(RIGID_BODY_CENTER_ELSEWHERE, objects=elsewhere))
+        findings += _centers_elsewhere(bodies) if count else []
         done = reports.phrase(
             "Set the rigid body mass of {count} object",
             "Set the rigid body mass of {count} objects",
@@ -252,6 +255,12 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(
         )
         idle = reports.phrase("the masses are equal")
         return selection.summarize(self, count, len(self._objects), done, failures, findings, idle)
+
+
+def _centers_elsewhere(bodies: "list[SnapTarget]") -> list[Finding]:
+    """Return the warning that names the bodies whose center of mass is not their origin, if any."""
+    names = [body.obj.name for body in bodies if scene.matrix_at_center(body.obj, body) is not None]
+    return [finding(RIGID_BODY_CENTER_ELSEWHERE, objects=names)] if names else []
 
 
 def _display_scaled(context: Context, count: int) -> list[str]:

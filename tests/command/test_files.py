@@ -17,6 +17,7 @@ pytest.importorskip("bpy")
 import bpy
 import numpy as np
 from body_moments.command.files import files as opening
+from body_moments.core.files import NOT_REGULAR
 from body_moments.core.streams.stl import BY_WORD
 from body_moments.core.verdict.finding import FileError
 
@@ -129,6 +130,18 @@ def test_a_blend_files_own_unit_scale_counts(tmp_path):
     entry = measured(files.save(tmp_path / "part.blend"))
     assert close(entry["volume"], 6e-9, rel=1e-6)
     assert entry["center_of_mass"] == pytest.approx([0.01, 0.02, 0.03], rel=1e-6)
+
+
+def test_blend_is_measured_at_the_requested_frame(tmp_path):
+    files.empty_scene()
+    box = files.add_box()
+    for frame, size in ((1, 1.0), (11, 3.0)):
+        box.scale.x = size
+        box.keyframe_insert("scale", frame=frame)
+    bpy.context.scene.frame_set(1)
+    path = files.save(tmp_path / "t.blend")
+    volumes = [measured(*words, path)["volume"] for words in ((), ("--frame", 11))]
+    assert volumes == pytest.approx([6.0, 18.0], rel=1e-6)
 
 
 @needs_usd
@@ -247,11 +260,11 @@ def test_usdz_checksums_are_verified(tmp_path):
 
 def test_folders_and_devices_are_errors(tmp_path):
     (tmp_path / "folder.blend").mkdir()
-    assert reason(tmp_path / "folder.blend") == sentence("file_not_regular")
+    assert reason(tmp_path / "folder.blend") == sentence("file_unreadable", error=NOT_REGULAR)
     assert reason(tmp_path / "missing.obj") == sentence("file_missing")
     if hasattr(os, "mkfifo"):
         os.mkfifo(tmp_path / "pipe.blend")
-        assert reason(tmp_path / "pipe.blend") == sentence("file_not_regular")
+        assert reason(tmp_path / "pipe.blend") == sentence("file_unreadable", error=NOT_REGULAR)
 
 
 @pytest.mark.parametrize("name", ["part.step", "part", "part.blend.zip"])

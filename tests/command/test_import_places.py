@@ -13,7 +13,7 @@ import bpy
 
 from tests.blender.batch_files import codes
 from tests.close import close
-from tests.command.test_usd import by_name, measure, moved, prim
+from tests.command.usd_files import by_name, measure, moved, prim
 
 pytestmark = [
     pytest.mark.usefixtures("registered"),
@@ -108,10 +108,22 @@ def test_usd_prototype_that_is_a_cage_is_reported(tmp_path):
     assert "usd_cage" in codes(found["objects"][0])
 
 
-def test_animated_usd_is_measured_at_its_first_frame(tmp_path):
+@pytest.mark.parametrize(
+    ("options", "size"),
+    [((), 2.0), (("--frame", "20"), 5.0), (("--at-frame", "11.333333333333"), 3.0)],
+)
+def test_animated_usd_is_measured_at_its_frame(tmp_path, options, size):
     samples = "double3 xformOp:scale.timeSamples = {7: (2, 1, 1), 20: (5, 1, 1)}"
     order = 'uniform token[] xformOpOrder = ["xformOp:scale"]'
-    found = measure(tmp_path, prim("Mesh", "m", MESH, samples, order))
+    found = measure(tmp_path, prim("Mesh", "m", MESH, samples, order), options=options)
     (body,) = found["objects"]
-    assert close(body["volume"], 12.0, 1e-6) and "frame_measured" in codes(body)
-    assert close(body["center_of_mass"][0], 1.0, 1e-6)
+    assert close(body["volume"], 6.0 * size, 1e-6) and "frame_measured" in codes(body)
+    assert close(body["center_of_mass"][0], size / 2.0, 1e-6)
+
+
+def test_animated_points_of_usd_are_those_between_samples(tmp_path):
+    wide = BOX.partition("points = ")[2].replace("(1,", "(5,")
+    points = BOX.replace("points = ", "points.timeSamples = {{0: ").rstrip() + ", 8: {} }}"
+    lines = 'uniform token subdivisionScheme = "none"', points.format(wide)
+    found = measure(tmp_path, prim("Mesh", "m", *lines), options=("--frame", "2"))
+    assert close(found["objects"][0]["volume"], 12.0, 1e-6)

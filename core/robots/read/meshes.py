@@ -26,13 +26,14 @@ from ...files import (
     MALFORMED,
     GltfFile,
     map_file,
+    node_matrix,
     parse_number,
     parse_numbers,
     parse_whole,
     parse_wholes,
 )
 from ...mesh import Surface
-from ...numerics import Array, rotation_matrix
+from ...numerics import Array
 from ...streams import StlFile
 from ...verdict.finding import FileError, finding, system_reason
 from ..findings import MESH_UNREADABLE
@@ -100,6 +101,9 @@ def read_glb(path: Path) -> Arrays:
     """
     file = GltfFile(map_file(path), str(path))
     document = file.document
+    if any("compression" in name for name in document.get("extensionsRequired", ())):
+        error = "it is compressed. Export it without Draco or meshopt compression"
+        raise FileError(FILE_UNREADABLE, error=error)
     scene = document["scenes"][document.get("scene", 0)]
     gathered = Gathered()
     waiting = [(index, np.eye(4)) for index in scene.get("nodes", [])]
@@ -110,38 +114,17 @@ def read_glb(path: Path) -> Arrays:
         if visited > len(document["nodes"]):  # nodes are a tree
             raise ValueError("nodes")
         node = document["nodes"][index]
-        matrix = above @ _node_matrix(node)
+        matrix = above @ node_matrix(node)
         waiting += [(child, matrix) for child in node.get("children", [])]
         for primitive in document["meshes"][node["mesh"]]["primitives"] if "mesh" in node else ():
             if primitive.get("mode", 4) != 4:
                 continue
-            corners = _table(file, primitive["attributes"]["POSITION"]).astype(np.float64)
+            corners = file.numbers(primitive["attributes"]["POSITION"])
             order = np.arange(len(corners))
             if "indices" in primitive:
-                order = _table(file, primitive["indices"]).ravel().astype(np.int64)
+                order = file.numbers(primitive["indices"]).ravel().astype(np.int64)
             gathered.add(corners, order[: len(order) // 3 * 3].reshape(-1, 3), matrix)
     return gathered.arrays()
-
-
-def _node_matrix(node: dict) -> Array:
-    if "matrix" in node:
-        return np.array(node["matrix"], np.float64).reshape(4, 4).T
-    matrix = np.eye(4)
-    if "rotation" in node:
-        x, y, z, w = node["rotation"]
-        matrix[:3, :3] = rotation_matrix([w, x, y, z])
-    matrix[:3, :3] = matrix[:3, :3] * np.array(node.get("scale", (1.0, 1.0, 1.0)), np.float64)
-    matrix[:3, 3] = node.get("translation", (0.0, 0.0, 0.0))
-    return matrix
-
-
-def _table(file: GltfFile, index: int) -> NDArray:
-    """Return the numbers of an accessor. ValueError if it is sparse or compressed."""
-    accessor = file.document["accessors"][index]
-    rows = file.table(accessor)
-    if "sparse" in accessor or len(rows) != accessor["count"]:
-        raise ValueError("accessor")
-    return rows
 
 
 def read_dae(path: Path) -> tuple[*Arrays, Array | None]:

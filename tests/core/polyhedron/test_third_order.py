@@ -19,7 +19,7 @@ from hypothesis import strategies as st
 
 from tests.close import close
 from tests.core import exact
-from tests.core.bodies import rotation
+from tests.core.bodies import grid_torus, rotation
 from tests.core.strategies import holds, random_meshes, seeds
 
 # open faces count as given
@@ -42,21 +42,6 @@ def path(request, monkeypatch):
     if request.param == "fast":
         monkeypatch.setattr(polyhedron, "MAX_TRIANGLES_EXACT_THIRD", 0)
     return request.param
-
-
-def grid_torus(n=12, m=8, noise=0.0, seed=0, major=1.0, minor=0.4):
-    """A closed torus of n x m quads with its points moved at random: points and quads."""
-    u, v = np.meshgrid(
-        np.arange(n) * (2 * np.pi / n), np.arange(m) * (2 * np.pi / m), indexing="ij"
-    )
-    ring = major + minor * np.cos(v)
-    points = np.stack([ring * np.cos(u), ring * np.sin(u), minor * np.sin(v)], axis=-1).reshape(
-        -1, 3
-    )
-    points = points + noise * np.random.default_rng(seed).standard_normal(points.shape)
-    i, j = np.meshgrid(np.arange(n), np.arange(m), indexing="ij")
-    corners = [(i, j), ((i + 1) % n, j), ((i + 1) % n, (j + 1) % m), (i, (j + 1) % m)]
-    return points, np.stack([(a * m + b).ravel() for a, b in corners], axis=1)
 
 
 def assert_within(moments, truth, error=None):

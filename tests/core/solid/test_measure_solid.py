@@ -19,6 +19,7 @@ from tests.core.bodies import (
     TOP,
     box,
     grid,
+    grid_torus,
     inertia,
     inverted,
     joined,
@@ -39,7 +40,6 @@ from tests.core.bodies import (
 )
 from tests.core.exact import volume_moments
 from tests.core.findings import codes, only, refused
-from tests.core.polyhedron.test_third_order import grid_torus
 
 CUBE = box()
 FAR_CUBE = box((1, 1, 1), (2, 2, 2))  # no face's plane contains the origin

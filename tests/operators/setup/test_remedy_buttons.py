@@ -9,23 +9,10 @@ import pytest
 
 from tests.blender.objects import add, only
 from tests.close import close
+from tests.operators.overlapping_boxes import boxes
 from tests.panels.drawing import findings_of, labels, shown
 
 pytestmark = pytest.mark.usefixtures("scene")
-
-
-def boxes(*sizes, reverse=()):
-    """A mesh of boxes about one center, with some faces reversed."""
-    import bmesh  # is there once bpy is
-
-    mesh, built = bpy.data.meshes.new("Boxes"), bmesh.new()
-    for size in sizes:
-        bmesh.ops.create_cube(built, size=size)
-    built.faces.ensure_lookup_table()
-    bmesh.ops.reverse_faces(built, faces=[built.faces[index] for index in reverse])
-    built.to_mesh(mesh)
-    built.free()
-    return mesh
 
 
 def buttons(record=None):

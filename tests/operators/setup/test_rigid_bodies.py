@@ -11,7 +11,7 @@ from body_moments.blender.session.tracking.staleness import stale_reason
 from body_moments.blender.session.tracking.stamps import of_colliders
 from mathutils import Matrix, Vector
 
-from tests.blender.bodies.test_assembly import box, boxes_inertia
+from tests.blender.boxes import box, boxes_inertia
 from tests.blender.objects import add, measured, mesh_body, only, place, seen
 from tests.close import close
 
@@ -214,23 +214,54 @@ def test_text_and_too_light_body_stay_with_a_reason(reported):
     assert {"rigid_body_needs_mesh", "rigid_body_mass_too_small"} <= set(reported.codes)
 
 
-@pytest.mark.parametrize("frame", ["AXES", "ORIGIN"])
-def test_bodies_with_colliders_rest_on_a_flat_floor(frame):
-    scales = ((1, 1, 1), (3, 3, 3), (3, 2, 1), (-2, 2, 2), (1, 2, -1.5))
+@pytest.mark.parametrize("frame", ["AXES", "ORIGIN", "KEEP"])
+@pytest.mark.parametrize("shape", ["HULL", "BOX", None])
+def test_six_props_fall_and_rest_on_a_flat_floor(frame, shape, reported):
+    scales = ((1, 1, 1), (3, 3, 3), (3, 2, 1), (-2, 2, 2), (1, 2, -1.5), (0.5, 0.5, 0.5))
     bodies = [
-        add(mesh_body(), "Body {:d}".format(i), (8 * i, 0, 5), (0.2, 0.1, 0.3), scale)
+        add(mesh_body(), "Body {:d}".format(i), (20 * i, 0, 5), (0.2, 0.1, 0.3), scale)
         for i, scale in enumerate(scales)
     ]
     only(*bodies)
-    bpy.ops.object.body_moments_make_colliders(shape="HULL")
+    if frame == "KEEP":
+        bpy.ops.object.body_moments_origin_to_center()
+    if shape is not None:
+        bpy.ops.object.body_moments_make_colliders(shape=shape)
     assert make(frame=frame) == {"FINISHED"}
     scene = bpy.context.scene
+    assert "rigid_body_center_elsewhere" not in reported.codes
     assert all(stale_reason(obj, scene, of_colliders) is None for obj in bodies)
     bpy.ops.mesh.primitive_plane_add(size=400)
     floor = bpy.context.object
     only(floor)
-    assert make(type="PASSIVE") == {"FINISHED"} and floor.rigid_body.collision_shape == "MESH"
-    for frame_number in range(1, 151):
+    assert make(type="PASSIVE") == {"FINISHED"} and floor.rigid_body.collision_shape != "MESH"
+    touching = [obj.children[0] if shape == "BOX" else obj for obj in bodies]
+    heights = []
+    for frame_number in range(1, 251):
         scene.frame_set(frame_number)
-    lowest = [float(seen(obj)[:, 2].min()) for obj in bodies]
-    assert min(lowest) > -0.03 and max(lowest) < 0.2, lowest
+        if frame_number in {230, 250}:
+            heights.append([float(seen(obj)[:, 2].min()) for obj in touching])
+    assert np.abs(heights).max() < 0.01 and np.ptp(heights, axis=0).max() < 1e-3, heights
+
+
+@pytest.mark.parametrize(
+    ("points", "shape"),
+    [
+        ([(0, 0, 0), (4, 0, 0), (4, 3, 1), (0, 3, 1)], "CONVEX_HULL"),
+        ([(0, 0, 0), (4, 0, 0), (1, 1, 0), (0, 4, 0)], "MESH"),
+    ],
+)
+def test_passive_floor_has_hull_if_flat_and_convex(points, shape, reported):
+    mesh = bpy.data.meshes.new("Floor")
+    mesh.from_pydata(points, [], [(0, 1, 2, 3)])
+    floor = add(mesh, "Floor")
+    only(floor)
+    assert make(type="PASSIVE") == {"FINISHED"}
+    assert floor.rigid_body.collision_shape == shape and floor.rigid_body.mesh_source == "FINAL"
+    assert "1 passive body without volume" in reported.texts
+
+
+def test_kept_origin_beside_the_center_is_a_warning(reported):
+    only(slanted())
+    assert make(frame="KEEP") == {"FINISHED"}
+    assert "rigid_body_center_elsewhere" in reported.codes

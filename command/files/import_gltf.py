@@ -1,0 +1,247 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""glTF files as objects of the open scene, corrected by the file's nodes.
+
+Blender's importer ignores KHR_node_visibility, drops the shear of a matrix, and clamps the weights
+of morph targets. Its hook tells the object of each node.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from bisect import bisect_right
+from typing import Any, NamedTuple
+
+import addon_utils
+import bpy
+import numpy as np
+from bpy.types import Object
+
+from ...core.cad import UPRIGHT
+from ...core.files import FILE_UNREADABLE, MALFORMED, GltfFile, map_file, node_matrix
+from ...core.numerics import Array
+from ...core.verdict.finding import FileError, finding
+from ..findings import FILE_HIDES, PLACES_UNCHECKED
+from .placing import measure_at, place_objects
+from .references import Opened
+
+ADD_ON = "io_scene_gltf2"  # It comes with Blender, and may be switched off.
+# Errors of the importer about a library, which the bpy module and some builds lack.
+_MISSING_DECODER = re.compile("(?:extern_|intern_|EXT_|KHR_)(draco|meshopt)|(Meshopt) decoder")
+_NO_DECODER = (
+    "this Blender lacks the library that decodes {} compression. Measure it with another "
+    "Blender 5 (blender -b, not the Python module bpy), or export it without compression"
+)
+_MOST_WEIGHT = 10.0  # Blender's limit of the value of a shape key
+_SAME_WEIGHT = 1e-6  # larger than the rounding of float32
+_PARTS = "translation", "rotation", "scale", "weights"
+
+
+class _Shown(NamedTuple):
+    """The node whose mesh an object shows.
+
+    number: of the node. local: (4, 4) the place of an instance in the node, in Blender's axes.
+    keys: the shape key of each morph target, None without one. is_skinned: joints place it.
+    """
+
+    number: int
+    local: Array
+    keys: tuple[str | None, ...]
+    is_skinned: bool
+
+
+def import_gltf(path: str, frame: float | None) -> Opened:
+    """Import a .gltf or .glb file: each object at the place, and each morph target with the weight,
+    that the file states at the frame, by default its first. Raise FileError, RuntimeError, and
+    AttributeError without an importer.
+    """
+    hidden: list[str] = []
+    shown: dict[str, _Shown] = {}
+
+    class Nodes:
+        """An extension of the importer, which is called for each object."""
+
+        def gather_import_node_after_hook(
+            self, vnode: Any, _node: Any, obj: Object, gltf: Any
+        ) -> None:
+            if any(_is_invisible(gltf.data.nodes[number]) for number in _line_of(vnode, gltf)):
+                hidden.append(obj.name)
+            if obj.type == "MESH":
+                shown[obj.name] = _node_of(vnode, gltf)
+
+    # The importer looks for extensions in add-ons of the preferences, of which it is one itself.
+    is_known = ADD_ON in bpy.context.preferences.addons
+    module = addon_utils.enable(ADD_ON, default_set=not is_known)
+    module.glTF2ImportUserExtension = Nodes
+    try:
+        # Without disable_bone_shape, it adds objects that would be measured.
+        bpy.ops.import_scene.gltf(filepath=path, disable_bone_shape=True)
+    except RuntimeError as error:
+        missing = _MISSING_DECODER.search(str(error))
+        if missing is None:
+            raise
+        name = (missing[1] or missing[2]).capitalize()
+        raise FileError(FILE_UNREADABLE, error=_NO_DECODER.format(name)) from error
+    finally:
+        del module.glTF2ImportUserExtension
+    for name in hidden:
+        bpy.data.objects[name].hide_render = True
+    notes = measure_at(frame)
+    try:
+        _correct(_Pose(GltfFile(map_file(path), path), _seconds() if notes else 0.0), shown)
+    except MALFORMED:  # Such as compressed animations.
+        notes = (*notes, finding(PLACES_UNCHECKED, cause="its nodes or animations are unreadable"))
+    invisible = finding(FILE_HIDES, cause="it is invisible")
+    return Opened(notes=notes, hidden=dict.fromkeys(hidden, invisible))
+
+
+def _seconds() -> float:
+    scene = bpy.context.scene
+    return scene.frame_current_final / (scene.render.fps * scene.render.fps_base)
+
+
+def _line_of(vnode: Any, gltf: Any) -> list[int]:
+    """Return the numbers of a node and of those above it. vnode: the importer's node; its own ones
+    have no number.
+    """
+    line = [number for number, one in gltf.vnodes.items() if one is vnode]
+    while vnode.parent is not None:
+        line.append(vnode.parent)
+        vnode = gltf.vnodes[vnode.parent]
+    return [number for number in line if isinstance(number, int)]
+
+
+def _is_invisible(node: Any) -> bool:
+    extension = (node.extensions or {}).get("KHR_node_visibility", {})
+    return isinstance(extension, dict) and extension.get("visible", True) is False
+
+
+def _node_of(vnode: Any, gltf: Any) -> _Shown:
+    is_instance = vnode.mesh_node_idx is None
+    number = vnode.parent if is_instance else vnode.mesh_node_idx
+    node = gltf.data.nodes[number]
+    keys = tuple(gltf.data.meshes[node.mesh].shapekey_names)
+    if not is_instance:
+        return _Shown(number, np.eye(4), keys, node.skin is not None)
+    translation, rotation, scale = vnode.trs()
+    local = node_matrix(
+        {"translation": translation, "rotation": np.roll(rotation, -1), "scale": scale}
+    )
+    return _Shown(number, local, keys, False)
+
+
+class _Pose:
+    """The nodes of a glTF file at a time of its first animation, the one that Blender shows."""
+
+    def __init__(self, file: GltfFile, seconds: float) -> None:
+        self._document = file.document
+        self._nodes = self._document.get("nodes", [])
+        self._parents = {
+            child: number
+            for number, node in enumerate(self._nodes)
+            for child in node.get("children", ())
+        }
+        self._animated: dict[int, dict[str, Array]] = {}
+        for animation in self._document.get("animations", [])[:1]:
+            for channel in animation["channels"]:
+                target = _target(channel["target"])
+                if target is not None:
+                    number, part = target
+                    sampler = animation["samplers"][channel["sampler"]]
+                    values = _sampled(file, sampler, seconds, part)
+                    self._animated.setdefault(number, {})[part] = values
+
+    def place(self, number: int) -> Array:
+        """Return the (4, 4) place of a node in the world, in the file's axes."""
+        matrix = np.eye(4)
+        line: int | None = number
+        while line is not None:
+            matrix = node_matrix(self._nodes[line] | self._animated.get(line, {})) @ matrix
+            line = self._parents.get(line)
+        return matrix
+
+    def weights(self, number: int) -> Array:
+        """Return the weights of the morph targets of a node's mesh, none if they are all 0."""
+        node = self._nodes[number]
+        rest = node.get("weights") or self._document["meshes"][node["mesh"]].get("weights", ())
+        return np.array(self._animated.get(number, {}).get("weights", rest), np.float64)
+
+
+def _target(target: dict[str, Any]) -> tuple[int, str] | None:
+    """Return the node and the part of it that a channel animates, None for other parts."""
+    pointer = target.get("extensions", {}).get("KHR_animation_pointer", {}).get("pointer", "")
+    words = pointer.split("/")
+    if len(words) == 4 and words[1] == "nodes" and words[2].isdecimal():
+        number, part = int(words[2]), words[3]
+    else:
+        number, part = target.get("node"), target["path"]
+    return (number, part) if number is not None and part in _PARTS else None
+
+
+def _sampled(file: GltfFile, sampler: dict[str, Any], seconds: float, part: str) -> Array:
+    """Return the values of a sampler of an animation at a time: constant outside of its keys."""
+    times = file.numbers(sampler["input"])[:, 0]
+    values = file.numbers(sampler["output"])
+    kind = sampler.get("interpolation", "LINEAR")
+    of_key = values.reshape(len(times), 3 if kind == "CUBICSPLINE" else 1, -1)
+    first = max(bisect_right(times, seconds) - 1, 0)
+    last = min(first + 1, len(times) - 1)
+    step = times[last] - times[first]
+    share = min(max((seconds - times[first]) / step, 0.0), 1.0) if step > 0.0 else 0.0
+    if kind == "CUBICSPLINE":
+        (_, start, leaving), (arriving, end, _) = of_key[first], of_key[last]
+        found = (
+            (1.0 + 2.0 * share) * (1.0 - share) ** 2 * start
+            + share * (1.0 - share) ** 2 * step * leaving
+            + share**2 * (3.0 - 2.0 * share) * end
+            + share**2 * (share - 1.0) * step * arriving
+        )
+    else:
+        start, end = of_key[first, 0], of_key[last, 0]
+        share = 0.0 if kind == "STEP" and share < 1.0 else share
+        angle = 0.0
+        if part == "rotation":
+            end = -end if start @ end < 0.0 else end
+            angle = 2.0 * math.atan2(np.linalg.norm(end - start), np.linalg.norm(end + start))
+        found = (
+            (math.sin((1.0 - share) * angle) * start + math.sin(share * angle) * end)
+            if math.sin(angle) > 0.0
+            else (1.0 - share) * start + share * end
+        )
+    return found / np.linalg.norm(found) if part == "rotation" else found
+
+
+def _correct(pose: _Pose, shown: dict[str, _Shown]) -> None:
+    """Bring objects to the places, and shape keys to the weights, that a file states."""
+    weighted: set[bpy.types.Key] = set()
+    for name, node in shown.items():
+        shapes = bpy.data.objects[name].data.shape_keys
+        if shapes is not None and shapes not in weighted:
+            weighted.add(shapes)
+            for key, weight in zip(node.keys, pose.weights(node.number)):
+                if key is not None:
+                    _set_weight(shapes, shapes.key_blocks[key], float(weight))
+    place_objects(
+        {
+            name: UPRIGHT @ pose.place(node.number) @ np.linalg.inv(UPRIGHT) @ node.local
+            for name, node in shown.items()
+            if not node.is_skinned
+        }
+    )
+
+
+def _set_weight(shapes: bpy.types.Key, block: bpy.types.ShapeKey, weight: float) -> None:
+    """Give a shape key its weight; if that is beyond Blender's limit, its offsets grow instead."""
+    if abs(block.value - weight) <= _SAME_WEIGHT * max(1.0, abs(weight)):
+        return
+    shapes.animation_data_clear()
+    growth = 2.0 ** max(0, math.ceil(math.log2(max(abs(weight), 1.0) / _MOST_WEIGHT)))
+    if growth > 1.0:
+        rest, offset = (np.empty(3 * len(one.data), np.float32) for one in (block, block))
+        block.relative_key.data.foreach_get("co", rest)
+        block.data.foreach_get("co", offset)
+        block.data.foreach_set("co", rest + np.float32(growth) * (offset - rest))
+    block.slider_min = -_MOST_WEIGHT
+    block.slider_max = _MOST_WEIGHT
+    block.value = weight / growth
