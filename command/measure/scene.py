@@ -16,8 +16,7 @@ import bpy
 
 from ...blender import session
 from ...blender.bodies.flat.flat import NO_BODY
-from ...blender.bodies.measure_object import Measured
-from ...blender.bodies.stacks.stack import Stacked
+from ...blender.bodies.measure_body import Measured
 from ...blender.read.assembly import operands_of, total_caveats
 from ...blender.read.tracking import tracking_paused
 from ...blender.session.tracking.staleness import mark_up_to_date
@@ -196,7 +195,7 @@ class Scene:
         self,
         label: str,
         obj: bpy.types.Object,
-        in_turn: Callable[[bpy.types.Object], Measured | Stacked] | None,
+        in_turn: Callable[[bpy.types.Object], Measured] | None,
         findings: tuple[Finding, ...],
         contents: Contents,
     ) -> None:

@@ -8,7 +8,8 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.bodies.flat.flat import flat_region
-from body_moments.blender.bodies.measure_object import measure_body, measure_object
+from body_moments.blender.bodies.measure_body import measure_body
+from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.read.splines import FALLOFFS
 from body_moments.blender.settings.options import MeasureOptions
 from mathutils import Matrix

@@ -9,7 +9,8 @@ from itertools import product
 import bpy
 import numpy as np
 import pytest
-from body_moments.blender.bodies.measure_object import measure_body, measure_object
+from body_moments.blender.bodies.measure_body import measure_body
+from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.session import memory
 from body_moments.blender.session.live import measuring as live
 from body_moments.blender.settings.options import MeasureOptions
