@@ -254,9 +254,8 @@ def collider_record(
     if reason is None and not is_same:
         reason = stamps.Stale.GEOMETRY
     shown = stored.keys() - {"fingerprint", "digest", "scale", "body", "limits"}
-    return {
-        **{key: stored[key] for key in stored if key in shown},
-        "out_of_date": reason and str(reason),
+    return {key: stored[key] for key in stored if key in shown} | {
+        "out_of_date": reason and str(reason)
     }
 
 

@@ -136,8 +136,8 @@ class _Document:
                 "componentType": component,
                 "type": kind,
                 "count": count,
-                **more,
             }
+            | more
         )
         return len(accessors) - 1
 
@@ -152,7 +152,7 @@ class _Document:
         self.nodes[own]["extensions"] = {KHR: {"joint": reference}}
         drives = _drives(joint, turn)
         more = {"drives": drives} if drives else {}
-        self.joints.append({"name": joint.name, "limits": _limits(joint, turn), **more})
+        self.joints.append({"name": joint.name, "limits": _limits(joint, turn)} | more)
 
     def text(self, remarks: Sequence[str]) -> str:
         children = self.unseen.union(*(node.get("children", ()) for node in self.nodes))
@@ -213,7 +213,7 @@ def _limits(joint: Joint, turn: NDArray) -> list[dict[str, Any]]:
         )
         ends = {name: value for name, value in (("min", low), ("max", high)) if abs(value) < inf}
         if ends:
-            limits.append({kind: [axis], **ends})
+            limits.append({kind: [axis]} | ends)
     return [
         *({kind: sorted(axes), "min": 0.0, "max": 0.0} for kind, axes in held.items() if axes),
         *limits,
@@ -230,7 +230,7 @@ def _drives(joint: Joint, turn: NDArray) -> list[dict[str, Any]]:
         if values:
             kind = "angular" if free.kind == "rotate" else "linear"
             drives.append(
-                {"type": kind, "mode": "force", "axis": _direction(free, turn)[1], **values}
+                {"type": kind, "mode": "force", "axis": _direction(free, turn)[1]} | values
             )
     return drives
 
