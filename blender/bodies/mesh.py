@@ -3,15 +3,13 @@
 """The body bounded by polygons, with all its instances: each surface is measured once and mapped to
 its places.
 
-Blender's own exact Boolean unites overlapping shells. The convex hull's corners are the possible
-ground contacts.
+The convex hull's corners are the possible ground contacts.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-import bpy
 import numpy as np
 from bpy.types import Depsgraph, Object
 
@@ -25,12 +23,11 @@ from ...core.bodies import (
     sum_of_instances,
 )
 from ...core.measurement import Body
-from ...core.mesh import ConvexHull, Surface, convex_hull, join_surfaces
+from ...core.mesh import ConvexHull, convex_hull
 from ...core.solid import HOLES_CAPPED, INVERTED_COMPONENTS, measure_solid
 from ...core.verdict import FLIPPED_FACES, Method, Procedure
 from ...core.verdict.finding import EditRefusedError, ReadError, finding
 from ..read.findings import SCALE_ZERO_AXIS
-from ..read.mesh import mesh_surface
 from ..read.objects import read_object
 from ..read.visibility import shows_flat_region
 from .density.varying_density import weigh
@@ -42,6 +39,7 @@ from .findings import (
     ZERO_SCALE,
 )
 from .request import Request
+from .union import unite
 
 MEASURED_AS = frozenset({"solid", "shell"})
 
@@ -123,12 +121,7 @@ def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
     before = sum_of_instances(reading, unit, False, threads)
     if not before.volume.total > 0.0:
         return before
-    repaired = [
-        solid.repaired_surface.transform(matrix[:3, :3], matrix[:3, 3])
-        for solid, matrices in before.solids
-        for matrix in matrices
-    ]
-    surface = union_surface(join_surfaces(repaired))
+    surface = unite(before)
     solid = measure_solid(surface, threads=threads) if surface.triangle_count else None
     if solid is None or solid.method == Procedure.OPEN:
         raise ReadError(UNION_FAILED)
@@ -171,40 +164,3 @@ def object_hull(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
     joined = np.concatenate(points)
     extent = float(np.ptp(joined, axis=0).max())
     return convex_hull(joined, max(HULL_RTOL, NOISE * noise / (extent or np.inf)), MAX_CORNERS)
-
-
-def union_surface(surface: Surface) -> Surface:
-    """Return the surface around the union of all shells, computed in float32 about their middle and
-    at unit size.
-    """
-    points = surface.points.astype(np.float64)
-    faces = surface.all_triangles()[0]
-    middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
-    scale = 2.0 ** np.ceil(np.log2(np.abs(points - middle).max()))  # a power of two rounds nothing
-
-    made = []
-    try:
-        made.append(mesh := bpy.data.meshes.new(""))
-        mesh.from_pydata((points - middle) / scale, [], faces)
-        made.append(body := bpy.data.objects.new(mesh.name, mesh))
-        # With no operand the solver still unites the object with itself.
-        made.append(nothing := bpy.data.collections.new(""))
-        made.append(scene := bpy.data.scenes.new(""))
-        scene.collection.objects.link(body)
-        boolean = body.modifiers.new("", "BOOLEAN")
-        boolean.operation = "UNION"
-        boolean.solver = "EXACT"
-        boolean.use_self = True
-        boolean.operand_type = "COLLECTION"
-        boolean.collection = nothing
-        scene.view_layers[0].update()
-        depsgraph = scene.view_layers[0].depsgraph
-        evaluated = body.evaluated_get(depsgraph)
-        united = mesh_surface(evaluated.to_mesh())
-        evaluated.to_mesh_clear()
-    finally:
-        bpy.data.batch_remove(made)
-    # Blender rounds the points to float32 before its boolean and after it, and the points
-    # themselves were rounded once.
-    united = united.transform(scale * np.eye(3), middle)
-    return replace(united, displacement=2.0 * united.coordinate_error + surface.coordinate_error)

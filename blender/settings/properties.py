@@ -215,7 +215,7 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
             "Count Each Shell",
             "Every component counts fully; shared space counts twice, with a warning",
         ),
-        ("UNION", "Count as Union", "Components are united first by Blender's exact Boolean"),
+        ("UNION", "Count as Union", "Components are united first by Blender's Boolean"),
     )
     material: _text("Material", "Material that the density was taken from")
     grid: _text("Grid", "Grid to measure. If empty, “density” or else the first suitable grid")

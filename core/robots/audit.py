@@ -26,6 +26,7 @@ from .findings import (
     AUDIT_ANGLES,
     AUDIT_DENSITY,
     AUDIT_NOT_UNIFORM,
+    AUDIT_OVERRIDDEN,
     AUDIT_UNIFORM_INSTEAD,
     AUDIT_UP_AXIS,
     INERTIAL_CENTER_OUTSIDE,
@@ -121,24 +122,27 @@ class Audit:
 
 @dataclass(frozen=True, eq=False)
 class _Piece:
-    """A measured shape in its own coordinates: hull points, moments if certain, and the rotation to
-    z up, if any.
+    """A measured shape in its own coordinates: hull points, moments if certain, the rotation to z
+    up, if any, and the moments of the mass that it states, kg, if any.
     """
 
     points: Array
     moments: Moments | None
     upright: Array | None = None
+    mass: Moments | None = None
 
     def turned(self) -> _Piece:
         """Return the piece rotated so that the up axis of its mesh file becomes z."""
         if self.upright is None:
             return self
-        moments = (
-            None
-            if self.moments is None
-            else self.moments.transform(Pose(rotation=self.upright).matrix)
+        return self.placed(Pose(rotation=self.upright))
+
+    def placed(self, pose: Pose) -> _Piece:
+        """Return the piece in the coordinates in which its own have a pose."""
+        moments, mass = (
+            None if one is None else one.transform(pose.matrix) for one in (self.moments, self.mass)
         )
-        return _Piece(self.points @ self.upright.T, moments)
+        return _Piece(pose.apply(self.points), moments, mass=mass)
 
 
 Pieces = dict[str, list[tuple[StatedShape, _Piece]]]
@@ -153,7 +157,41 @@ class Auditor:
 
     def audit(self, description: Description) -> Audit:
         """Return the findings about each link of a description."""
-        return Audit(description, tuple(map(self._link_alone, description.links)))
+        links = [self._use_rules(link) for link in description.links]
+        masses = [0.0 if link.inertial is None else link.inertial.mass for link in links]
+        pairs = [*zip(description.links, links)]
+        is_known = all(stated is not link for stated, link in pairs)
+        factor = 1.0
+        if description.total > 0.0 and is_known and sum(masses) > 0.0:
+            factor = description.total / sum(masses)
+        used = [_scaled(stated, link, factor) for stated, link in pairs]
+        return Audit(description, tuple(map(self._link_alone, used)))
+
+    def _use_rules(self, link: StatedLink) -> StatedLink:
+        """Return a link with the inertial that its format's program uses; the stated one if masses
+        of shapes are unknown.
+        """
+        if link.rules is None:
+            return link
+        try:
+            inertial = link.inertial
+            masses = []
+            if any(shape.weight for shape in link.shapes):
+                pieces, unread = self._pieces(link.shapes)
+                if unread or link.findings:
+                    return link
+                masses = [
+                    (piece.mass.transform(one.shape.pose.matrix), 1.0)
+                    for several in pieces.values()
+                    for one, piece in several
+                    if piece.mass is not None
+                ]
+            if masses:
+                body = combine(masses)
+                inertial = StatedInertial(body.mass, body.center, body.inertia)
+            return replace(link, inertial=link.rules.bound(inertial), from_shapes=bool(masses))
+        except Exception:  # An unforeseen error returns when the link is audited.
+            return link
 
     def _link_alone(self, link: StatedLink) -> LinkAudit:
         """Return the findings about one link; an unforeseen error is one of them, and ends nothing
@@ -169,23 +207,28 @@ class Auditor:
     def _link(self, link: StatedLink) -> LinkAudit:
         entries = _read_entries(link)
         place = link.inertial_place
-        if link.inertial is None:
+        inertial = link.inertial
+        if inertial is None:
             if link.moves and not entries:
                 entries.append(Entry(finding(INERTIAL_MISSING), link.place))
             return LinkAudit(link, tuple(entries))
-        if not link.shapes and not link.inertial.mass and not link.inertial.tensor.any():
+        if not link.shapes and not inertial.mass and not inertial.tensor.any():
             return LinkAudit(link, (*entries, Entry(finding(INERTIAL_OF_FRAME), place)))
         pieces, unread = self._pieces(link.shapes)
         # entries of the reader: about shapes, as there is an inertial
         incomplete = bool(unread or entries)
         entries += unread
-        found = _judge(link, link.inertial, pieces, incomplete)
+        entries += _describe_overridden(link, inertial)
+        if link.from_shapes:
+            entries += [Entry(one, place) for one in impossible(inertial, None)]
+            return LinkAudit(link, tuple(entries))
+        found = _judge(link, inertial, pieces, incomplete)
         if any(piece.upright is not None for several in pieces.values() for _, piece in several):
             turned = {
                 role: [(one, piece.turned()) for one, piece in several]
                 for role, several in pieces.items()
             }
-            other = _judge(link, link.inertial, turned, incomplete)
+            other = _judge(link, inertial, turned, incomplete)
             if (other.is_impossible, 2.0 * other.apart) < (found.is_impossible, found.apart):
                 found = other
                 entries.append(Entry(finding(AUDIT_UP_AXIS), place))
@@ -193,7 +236,7 @@ class Auditor:
         entries += found.entries
         drawn, collision = (_reference(pieces.get(role, ())) for role in ("visual", "collision"))
         effect = None
-        stated = found.repaired or link.inertial
+        stated = found.repaired or inertial
         if (
             collision is not None
             and not incomplete
@@ -226,17 +269,65 @@ class Auditor:
         read.
         """
         shape = stated.shape
+        weight = stated.weight
         if shape.kind != "mesh":
-            return _primitive(shape)
+            piece = _primitive(shape)
+            return replace(piece, mass=weight.moments(shape)) if weight else piece
         # Meshes of an included SDF model or an attached one of MJCF are beside its file.
         roots = self.roots.at(Path(stated.beside).parent) if stated.beside else self.roots
-        key = shape.surface, shape.file, shape.size, roots.base
+        key = shape.surface, shape.file, shape.size, roots.base, stated.fit, weight
         if key not in self._meshes:
             surface, upright = (
                 (shape.surface, None) if shape.surface else read_mesh(roots.find(shape.file))
             )
-            self._meshes[key] = _measured(surface.transform(np.diag(shape.size)), upright)
+            surface = surface.transform(np.diag(shape.size))
+            fit = stated.fit.shape(surface) if stated.fit else None
+            piece = _measured(surface, upright) if fit is None else _primitive(fit)
+            if weight:
+                solid = replace(shape, surface=surface) if fit is None else fit
+                piece = replace(piece, mass=weight.moments(solid))
+            self._meshes[key] = piece if fit is None else piece.placed(fit.pose)
         return self._meshes[key]
+
+
+def _scaled(stated: StatedLink, link: StatedLink, factor: float) -> StatedLink:
+    """Return a link with the used inertial times a factor, and the stated one if that is not
+    used.
+    """
+    used = link.inertial
+    if used is not None and factor != 1.0:
+        used = replace(used, mass=used.mass * factor, tensor=used.tensor * factor)
+    if used is stated.inertial:
+        return stated
+    return replace(link, inertial=used, overridden=stated.inertial, span=None)
+
+
+def _describe_overridden(link: StatedLink, used: StatedInertial) -> list[Entry]:
+    """Return the entry about a stated inertial that the format's program does not use, empty if
+    there is none.
+    """
+    stated = link.overridden
+    if stated is None:
+        return []
+    apart = inf
+    if used.mass > 0.0 and stated.mass > 0.0:
+        apart = Reference(1.0, used.center, used.inertia / used.mass).compare(stated)
+    if link.from_shapes:
+        apart = max(apart, abs(stated.mass / used.mass - 1.0))
+    if link.rules is None and apart <= DIFFERS:
+        return []
+    first, second, third = np.linalg.eigvalsh(used.inertia).tolist()
+    found = finding(
+        AUDIT_OVERRIDDEN,
+        slight=apart <= DIFFERS,
+        program="Newton" if link.rules is None else "MuJoCo",
+        cause="newton:inertia" if link.rules is None else "<compiler>",
+        mass=used.mass,
+        first=first,
+        second=second,
+        third=third,
+    )
+    return [Entry(found, link.inertial_place)]
 
 
 def _read_entries(link: StatedLink) -> list[Entry]:

@@ -202,6 +202,11 @@ AUDIT_UP_AXIS = warning(
     "they do. "
     "Export the mesh with z up.",
 )
+AUDIT_OVERRIDDEN = warning(
+    "audit_overridden",
+    "{program} uses another inertial, because of {cause}: {mass:.6g} kg, principal moments "
+    "{first:.6g}, {second:.6g} and {third:.6g} kg·m². State that one, or remove the cause.",
+)
 AUDIT_DENSITY = warning("audit_density", "The density is {density:.3g} kg/m³. Check mass and mesh.")
 AUDIT_UNIT = warning(
     "audit_unit", "Multiply the {part:word} by {factor:g}: {agree:word} then agree."

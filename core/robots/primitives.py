@@ -134,7 +134,14 @@ def primitive_moments(shape: Shape) -> Moments:
                 pi * radius**3 * (4.0 / 15.0 * radius**2 + length * radius / 2.0 + length**2 / 3.0)
             )
         second = np.array([across, across, along])
+    return second_moments(volume, np.zeros(3), np.diag(second))
+
+
+def second_moments(volume: float, center: Array, second: Array) -> Moments:
+    """Return the moments of a body from its volume, (3,) center and (3, 3) second moments about
+    it.
+    """
     raw = np.zeros(monomial_count(KNOWN_ORDER))
     raw[0] = volume
-    raw[np.diag(SECOND_MOMENT_INDEX)] = second
-    return Moments(raw, np.zeros(3), Measure.VOLUME)
+    raw[SECOND_MOMENT_INDEX] = second
+    return Moments(raw, center, Measure.VOLUME)

@@ -6,7 +6,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import NamedTuple
+from math import inf
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,9 @@ from numpy.typing import NDArray
 from ..numerics import Array, rotation_matrix
 from ..verdict import Finding
 from .model import Inertial, Shape
+
+if TYPE_CHECKING:
+    from .read.mjcf_meshes import Fit, Weight
 
 # The names of the tensor's entries in URDF and SDF.
 ENTRIES = (("ixx", 0, 0), ("ixy", 0, 1), ("ixz", 0, 2), ("iyy", 1, 1), ("iyz", 1, 2), ("izz", 2, 2))
@@ -83,9 +87,10 @@ class StatedShape:
 
     `shape`: for a mesh, its `file` is the name in the description. `angles`: roll, pitch and yaw,
     if the pose was stated so. `beside`: the file that the names of its meshes are relative to, ""
-    for the description itself. ValueError, with the numbers as text, if a size is not positive, a
-    factor of a mesh is zero, or a size or the place is not finite, or too large or small to compute
-    with.
+    for the description itself. `fit`: the primitive that stands for the mesh. `weight`: its mass,
+    if the link's inertial may come from its shapes. ValueError, with the numbers as text, if a size
+    is not positive, a factor of a mesh is zero, or a size or the place is not finite, or too large
+    or small to compute with.
     """
 
     shape: Shape
@@ -93,6 +98,8 @@ class StatedShape:
     angles: Angles | None = None
     place: Place = Place()
     beside: str = ""
+    fit: Fit | None = None
+    weight: Weight | None = None
 
     def __post_init__(self) -> None:
         shape = self.shape
@@ -104,6 +111,34 @@ class StatedShape:
                 raise ValueError(" ".join(map("{:.16g}".format, values.ravel()[:9])))
 
 
+class Rules(NamedTuple):
+    """The changes that MuJoCo's compiler makes to a body's inertial.
+
+    from_shapes: "true", "false", or "auto" if only a missing inertial comes from the shapes.
+    least_mass, least_moment: lower bounds, kg and kg·m². balances: True if moments that no body has
+    become their mean.
+    """
+
+    from_shapes: str = "auto"
+    least_mass: float = 0.0
+    least_moment: float = 0.0
+    balances: bool = False
+
+    def bound(self, stated: StatedInertial | None) -> StatedInertial | None:
+        """Return the inertial within the bounds; itself if nothing changes."""
+        if stated is None and not self.least_mass > 0.0 and not self.least_moment > 0.0:
+            return None
+        old = stated or StatedInertial(0.0, np.zeros(3), np.zeros((3, 3)))
+        moments, axes = np.linalg.eigh(old.inertia)
+        mass = max(old.mass, self.least_mass or -inf)
+        used = np.maximum(moments, self.least_moment or -inf)
+        if self.balances and used[2] > used[0] + used[1]:
+            used[:] = used.mean()
+        if mass == old.mass and (used == moments).all():
+            return stated
+        return old.along_link((axes * used) @ axes.T, mass=mass)
+
+
 @dataclass(frozen=True, eq=False)
 class StatedLink:
     """One link as its file states it.
@@ -111,7 +146,10 @@ class StatedLink:
     `place`, `inertial_place`: of the link and of its inertial, which is the link's if there is
     none. `span`: range of the inertial in the file, in bytes. `moves`: True if a missing inertial
     matters. `findings`: about content that the reader could not use. `local`: (4, 4) from the
-    file's coordinates to the link's axes, in the file's unit; None if they are the same.
+    file's coordinates to the link's axes, in the file's unit; None if they are the same. `rules`:
+    the changes that the format's own program makes to the inertial. `from_shapes`: True if the
+    inertial is that of the masses that its shapes state. `overridden`: a stated inertial that the
+    format's program does not use.
     """
 
     name: str
@@ -123,12 +161,15 @@ class StatedLink:
     local: Array | None = None
     place: Place = Place()
     inertial_place: Place = Place()
+    rules: Rules | None = None
+    from_shapes: bool = False
+    overridden: StatedInertial | None = None
 
 
 @dataclass(frozen=True, eq=False)
 class Description:
     """A robot description, with the whole file as `source`. scales: units of its "length" in m and
-    "mass" in kg.
+    "mass" in kg. total: the mass that all inertials are scaled to, kg; 0 if they stay.
     """
 
     name: str
@@ -136,6 +177,7 @@ class Description:
     links: tuple[StatedLink, ...]
     source: bytes = b""
     scales: Mapping[str, float] = field(default_factory=lambda: {"length": 1.0, "mass": 1.0})
+    total: float = 0.0
 
 
 def rotation_about(axis: NDArray, angle: float) -> Array:

@@ -27,16 +27,19 @@ from ..stated import (
     MOST,
     Angles,
     Description,
+    Rules,
     StatedInertial,
     StatedLink,
     StatedShape,
     rotation_about,
 )
 from .meshes import checked_surface
+from .mjcf_meshes import LEGACY, Fit, Weight, builtin_surface
 from .xml import FLAT_KINDS, Node, attempt, check_size, number, numbers, stated_link
 
 SQUARE_ATOL = 1e-9  # of the entries of a rotation between axes, which are 0 or 1
 LEAST_LENGTH = 1e-14  # of a direction; shorter ones are rounding errors, also for MuJoCo
+WATER = 1000.0  # kg/m³, of geoms that state neither mass nor density
 SIZES = {"sphere": 1, "ellipsoid": 3, "box": 3, "capsule": 2, "cylinder": 2}
 
 
@@ -47,23 +50,21 @@ class _Model:
 
     def __init__(self, root: Node, count: Iterator[int]) -> None:
         self.root, self.count = root, count
-        self.degrees = True
-        self.euler = "xyz"
-        self.mesh_folder = ""
+        self.compiler: dict[str, str] = {}
         self.meshes: dict[str, Node] = {}
         self.models: dict[str, _Model] = {}
         self._shapes: dict[Node, Shape] = {}  # those of the meshes that were read
         self._classes: dict[str, dict[str, dict[str, str]]] = {}
         for compiler in root.all("compiler"):
-            self.degrees = compiler.get("angle", "degree" if self.degrees else "radian") != "radian"
-            self.euler = compiler.get("eulerseq", self.euler)
-            self.mesh_folder = compiler.get("meshdir", compiler.get("assetdir", self.mesh_folder))
+            folder = {"meshdir": compiler.get("assetdir")} if compiler.get("assetdir") else {}
+            self.compiler |= folder | compiler.attributes
+        self.euler = self.compiler.get("eulerseq", "xyz")
         for defaults in root.all("default"):
             self._add_defaults(defaults, "main", {})
         for asset in (asset for assets in root.all("asset") for asset in assets.children):
             if asset.tag == "mesh":
-                file = asset.get("file").replace("\\", "/")
-                self.meshes[asset.get("name") or file.rpartition("/")[2].rpartition(".")[0]] = asset
+                name = asset.get("file").replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
+                self.meshes[asset.get("name") or name] = asset
             elif asset.tag == "model" and asset.children:
                 (inner,) = asset.children
                 self.models[asset.get("name") or inner.get("model")] = _Model(inner, count)
@@ -84,21 +85,39 @@ class _Model:
             self._classes.get(node.get("class") or current, {}).get(node.tag, {}) | node.attributes
         )
 
-    def mesh(self, node: Node) -> Shape:
-        """Return the mesh of an asset, which MuJoCo moves and turns before it scales it."""
+    def is_set(self, name: str) -> bool:
+        """Return whether an attribute of the compiler is true."""
+        return self.compiler.get(name) == "true"
+
+    def rules(self) -> Rules:
+        """Return the changes of inertials. ValueError, with the text, if a number is wrong."""
+        return Rules(
+            self.compiler.get("inertiafromgeom", "auto"),
+            number(self.compiler.get("boundmass", ""), 0.0),
+            number(self.compiler.get("boundinertia", ""), 0.0),
+            self.is_set("balanceinertia"),
+        )
+
+    def mesh(self, node: Node) -> Shape | None:
+        """Return the mesh of an asset, which MuJoCo moves and turns before it scales it; None if it
+        bounds no volume.
+        """
         if node not in self._shapes:
             values = self.attributes(node)
             scaled = _Frame(self, scale=numbers(values.get("scale", ""), 3, (1.0, 1.0, 1.0)))
             turn = _rotation({"quat": values["refquat"]} if "refquat" in values else {}, self)[0].T
             size = scaled.scale_along(turn, values.get("refquat", ""))
             pose = scaled.place(-turn @ numbers(values.get("refpos", ""), 3, (0.0, 0.0, 0.0)), turn)
-            file = values.get("file", "")
             surface = _surface(values) if "vertex" in values else None
-            path = (
-                file
-                if file.startswith("/") or not self.mesh_folder
-                else self.mesh_folder + "/" + file
-            )
+            if "builtin" in values:
+                surface = builtin_surface(values["builtin"], values.get("params", ""))
+                if surface is None:
+                    return None
+            path = values.get("file", "")
+            if self.is_set("strippath"):
+                path = path.replace("\\", "/").rpartition("/")[2]
+            folder = self.compiler.get("meshdir")
+            path = folder + "/" + path if folder and not path.startswith("/") else path
             self._shapes[node] = Shape("mesh", tuple(size.tolist()), pose, path, surface=surface)
         return self._shapes[node]
 
@@ -108,7 +127,7 @@ class _Frame(NamedTuple):
     class of its defaults.
 
     scale: (3,) along the frame's axes. mass: the factor of masses. prefix, suffix: of the names of
-    bodies.
+    bodies. attached: the elements `attach` that it is in.
     """
 
     model: _Model
@@ -118,6 +137,7 @@ class _Frame(NamedTuple):
     defaults: str = "main"
     prefix: str = ""
     suffix: str = ""
+    attached: tuple[Node, ...] = ()
 
     @property
     def is_plain(self) -> bool:
@@ -145,13 +165,24 @@ class _Frame(NamedTuple):
         )
 
     def attach(self, node: Node) -> tuple[list[Node], _Frame]:
-        """Return the elements of another model that an element `attach` names, and their frame."""
-        model = self.model.models.get(node.get("model"))
-        if model is None:
-            raise ValueError(node.get("model"))
-        worlds = model.root.all("worldbody")
+        """Return the elements of another model, or of this one, that an element `attach` names, and
+        their frame.
+        """
+        name = node.get("model")
         names = {tag: node.get(tag) for tag in ("body", "frame") if node.get(tag)}
-        inner = self._replace(model=model, defaults="main", prefix=self.prefix + node.get("prefix"))
+        # MuJoCo attaches a part of this model as it is at that place in the file.
+        if node in self.attached:
+            return [], self
+        model = self.model.models.get(name) if name or not names else self.model
+        if model is None:
+            raise ValueError(name)
+        worlds = model.root.all("worldbody")
+        inner = self._replace(
+            model=model,
+            defaults="main",
+            prefix=self.prefix + node.get("prefix"),
+            attached=(*self.attached, node),
+        )
         if not names:
             return [child for world in worlds for child in world.children], inner
         waiting = [(world, "main") for world in worlds]
@@ -214,7 +245,8 @@ def read(root: Node, data: bytes) -> Description:
             links.append(_link(body, outer, parts, len(links), refused))
             refused = []
             waiting += reversed([part for part in parts if part[0].tag == "body"])
-    return Description(root.get("model"), "mjcf", tuple(links), data)
+    total = parse_numbers(outside.model.compiler.get("settotalmass", ""))
+    return Description(root.get("model"), "mjcf", tuple(links), data, total=sum(total))
 
 
 def _parts(
@@ -251,19 +283,19 @@ def _link(
     findings = [*refused]
     node, frame = next((part for part in parts if part[0].tag == "inertial"), (None, outer))
     inertial = attempt(findings, node, _inertial, frame)
+    rules = attempt(findings, outer.model.root, lambda _: outer.model.rules())
+    weighs = rules and (rules.from_shapes == "true" or node is None and rules.from_shapes == "auto")
     read = (
-        attempt(findings, geom, _shape, inner, findings)
+        attempt(findings, geom, _shape, inner, findings, weighs)
         for geom, inner in parts
         if geom.tag == "geom"
     )
     shapes = tuple(shape for shape in read if shape is not None)
     name = outer.prefix + body.get("name") + outer.suffix
     name = name if body.get("name") else "body {}".format(count + 1)
-    # Without an inertial MuJoCo takes it from geoms. Numbers in a frame are not those of the body;
-    # no repair fits them.
-    link = stated_link(
-        body, node, findings, name=name, inertial=inertial, shapes=shapes, moves=False
-    )
+    values = {"inertial": inertial, "shapes": shapes, "moves": False, "rules": rules}
+    link = stated_link(body, node, findings, name=name, **values)
+    # Numbers in a frame are not those of the body; no repair fits them.
     return link if frame.is_plain else replace(link, span=None)
 
 
@@ -296,7 +328,7 @@ def _rotation(attributes: dict[str, str], model: _Model) -> Rotation:
     """Return the (3, 3) rotation, roll, pitch and yaw if stated, and the quaternion if stated, of
     an element.
     """
-    unit = radians(1.0) if model.degrees else 1.0
+    unit = 1.0 if model.compiler.get("angle") == "radian" else radians(1.0)
     if "quat" in attributes:
         values = numbers(attributes["quat"], 4, (1.0, 0.0, 0.0, 0.0))
         if not values.any():
@@ -343,18 +375,28 @@ def _direction(vector: NDArray, text: str) -> Array:
     return vector / length
 
 
-def _shape(geom: Node, frame: _Frame, findings: list[Finding]) -> StatedShape | None:
-    """Return the shape of a geom in its body. findings: gets those about its mesh."""
+def _shape(geom: Node, frame: _Frame, findings: list[Finding], weighs: bool) -> StatedShape | None:
+    """Return the shape of a geom in its body. findings: gets those about its mesh. weighs: True if
+    its mass may count.
+    """
     model = frame.model
     attributes = model.attributes(geom, frame.defaults)
     text = geom.get("name")
     rotation, angles, _ = _rotation(attributes, model)
     pose = Pose(numbers(attributes.get("pos", ""), 3, (0.0, 0.0, 0.0)), rotation)
-    kind = attributes.get("type", "mesh" if "mesh" in attributes else "sphere")
-    if kind == "mesh":
-        asset = model.meshes.get(attributes.get("mesh", ""))
+    kind = attributes.get("type", "sphere")
+    asset = model.meshes.get(attributes.get("mesh", ""))
+    inertia = "shell" if attributes.get("shellinertia") == "true" else ""
+    fit = None
+    if kind == "mesh" or "mesh" in attributes and kind in SIZES:
         shape = Shape("mesh") if asset is None else attempt(findings, asset, model.mesh)
         shape = shape and replace(shape, pose=pose @ shape.pose)
+        kinds = model.attributes(asset).get("inertia", LEGACY) if asset else LEGACY
+        if kind == "mesh":
+            inertia = kinds
+        else:
+            size = number(attributes.get("fitscale", ""), 1.0)
+            fit = Fit(kind, kinds, model.is_set("fitaabb"), size)
     else:
         shape = _primitive(kind, attributes, pose)
     if shape is None:
@@ -369,9 +411,21 @@ def _shape(geom: Node, frame: _Frame, findings: list[Finding]) -> StatedShape | 
     size = tuple((np.array(shape.size) * factors).tolist())
     shape = replace(shape, size=size, pose=frame.place(shape.pose.position, turn))
     collides = attributes.get("contype", "1") != "0" or attributes.get("conaffinity", "1") != "0"
-    angles = angles if frame.is_plain and not is_turned else None
+    groups = numbers(model.compiler.get("inertiagrouprange", ""), 2, (0.0, 5.0))
+    weight = None
+    if weighs and groups[0] <= number(attributes.get("group", ""), 0.0) <= groups[1]:
+        mass = attributes.get("mass")
+        size = float(frame.scale.prod()) ** (2.0 / 3.0 if inertia == "shell" else 1.0)
+        density = number(attributes.get("density", ""), WATER) * frame.mass / size
+        weight = Weight(None if mass is None else number(mass) * frame.mass, density, inertia)
     return StatedShape(
-        shape, "collision" if collides else "visual", angles, geom.place, model.root.place.file
+        shape,
+        "collision" if collides else "visual",
+        angles if frame.is_plain and not is_turned else None,
+        geom.place,
+        model.root.place.file,
+        fit,
+        weight,
     )
 
 

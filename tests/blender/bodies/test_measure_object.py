@@ -9,49 +9,14 @@ from fractions import Fraction
 import bpy
 import numpy as np
 import pytest
-from body_moments.blender.bodies.measure_object import measure_object
-from body_moments.blender.settings.options import MeasureOptions
+from body_moments.blender.bodies import union
 
 from tests.blender.findings import refused, said
+from tests.blender.measured_boxes import add, box, collection_of, measure
 from tests.close import close
-from tests.core.solid.test_self_intersection import bar
+from tests.core.bodies import bar
 
 pytestmark = pytest.mark.usefixtures("scene")
-
-CUBE = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-
-
-def corners(low, high):
-    return [
-        (x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])
-    ]
-
-
-def box(low=(0, 0, 0), high=(1, 2, 3), name="Box", turned=False):
-    return {
-        "points": corners(low, high),
-        "faces": [face[::-1] for face in CUBE] if turned else CUBE,
-        "name": name,
-    }
-
-
-def add(*shells, name="Box", **transform):
-    points, faces = [], []
-    for shell in shells:
-        faces += [tuple(i + len(points) for i in face) for face in shell["faces"]]
-        points += shell["points"]
-    mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata(points, [], faces)
-    obj = bpy.data.objects.new(name, mesh)
-    bpy.context.scene.collection.objects.link(obj)
-    for key, value in transform.items():
-        setattr(obj, key, value)
-    bpy.context.view_layer.update()
-    return obj
-
-
-def measure(obj, **options):
-    return measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(**options))
 
 
 def world(obj):
@@ -159,6 +124,30 @@ def test_overlapping_shells_are_summed_with_a_warning_or_united():
     assert united.health.overlapping_components  # the input's
 
 
+@pytest.mark.parametrize("solver", ["MANIFOLD", "EXACT"])
+@pytest.mark.parametrize("scale", [1.0, (-1e-3, 2e-3, 1e-3)])
+def test_union_of_many_shells_has_exact_volume_and_area(solver, scale, monkeypatch):
+    if solver == "EXACT":  # as in a Blender that was built without the other solver
+        monkeypatch.setattr(union, "_by_manifold", lambda layers: None)
+    obj = add(
+        box((0, 0, 0), (2, 2, 2)),
+        box((1, 1, 1), (3, 3, 3)),
+        box((0.25, 0.25, 0.25), (0.75, 0.75, 0.75)),  # within the first
+        box((10, 10, 10), (11, 11, 11)),
+        box((11, 10, 10), (12, 11, 11)),  # touches the one before
+        box((20, 20, 20), (23, 23, 23)),
+        box((21, 21, 21), (22, 22, 22), turned=True),  # its cavity
+        box((21.5, 21.25, 21.25), (24, 21.75, 21.75)),  # from there through the wall
+        box((30, 0, 0), (31, 1, 1)),
+        scale=np.broadcast_to(scale, 3),
+    )
+    found = measure(obj, overlap="union")
+    assert close(found.volume, 44.375 * np.prod(np.abs(scale) * np.ones(3)), 1e-6)
+    if scale == 1.0:
+        assert close(found.area, 42.0 + 10.0 + 63.0 + 6.0, 1e-6)
+    assert str(found.method) == "union" and found.health.closed
+
+
 def test_distant_brick_is_exact_within_input_bound():
     """The truth of the stored coordinates in rationals; the 5 cm that were meant lie within the
     input bound.
@@ -211,19 +200,6 @@ def test_principal_frames_of_copies_turn_with_the_copies():
     assert np.allclose(
         second.in_object_frame().inertia, first.in_object_frame().inertia, rtol=1e-5, atol=1e-2
     )
-
-
-def collection_of(*objects):
-    """An empty that shows a collection with these objects."""
-    members = bpy.data.collections.new("Members")
-    for obj in objects:
-        bpy.context.scene.collection.objects.unlink(obj)
-        members.objects.link(obj)
-    empty = bpy.data.objects.new("Instancer", None)
-    empty.instance_type, empty.instance_collection = "COLLECTION", members
-    bpy.context.scene.collection.objects.link(empty)
-    bpy.context.view_layer.update()
-    return empty
 
 
 def test_members_of_a_collection_are_compared_with_each_other():

@@ -7,7 +7,7 @@ stand.
 import bpy
 import numpy as np
 import pytest
-from body_moments.blender.bodies.mesh import union_surface
+from body_moments.blender.bodies.union import union_surface
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments.moments import FLOAT32_HALF_ULP
 from body_moments.core.polyhedron import polyhedron_moments

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from mathutils import Matrix, Quaternion, Vector
 
+from tests.blender.box_character import HEIGHT
 from tests.blender.figure import figure
-from tests.blender.session.test_character import HEIGHT
 from tests.operators.rig import simulate_jump
 
 PARABOLA, SPIN = bpy.ops.pose.body_moments_parabola, bpy.ops.pose.body_moments_keep_spin

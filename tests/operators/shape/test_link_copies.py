@@ -9,7 +9,7 @@ from body_moments.blender.session.stored import outcome
 from body_moments.blender.session.tracking import staleness
 from mathutils import Matrix
 
-from tests.blender.bodies.test_assembly import box_mesh
+from tests.blender.boxes import box_mesh
 from tests.blender.objects import add, only
 
 pytestmark = pytest.mark.usefixtures("scene")
