@@ -28,9 +28,10 @@ from ..core.verdict import FileError, MeasureError, internal_error, system_reaso
 from . import audit_gate
 from .files import output
 from .options import option_types
-from .parser import COMMANDS, Parser
+from .parser import COMMANDS, Parser, UsageError
 from .supervisor.progress import Progress
 
+NO_DESCRIPTION = "there is no robot description in {}"
 OTHER_FILES = {DESCRIPTION_UNKNOWN, FILE_WITHOUT_OBJECTS, XML_ENTITIES}
 _EPILOG = """\
 FILE is URDF, SDF, MJCF, USD or xacro; of a folder, all such files but xacro and .usdc are audited.
@@ -124,9 +125,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     options.names = dict(_find_files(options.files))
     options.root = [*options.root, *(path for path in options.files if path.is_dir())]
     if not options.names:
-        parser.error(
-            "there is no robot description in {}".format(", ".join(map(str, options.files)))
-        )
+        parser.error(NO_DESCRIPTION.format(", ".join(map(str, options.files))))
     options.known = None
     if options.baseline is not None:
         try:
@@ -171,7 +170,7 @@ def _find_files(paths: list[Path]) -> Iterator[tuple[Path, Path]]:
 
 def answer(options: argparse.Namespace) -> tuple[list[str], int]:
     """Return the report, and the exit code: 1 after findings or unread files, 70 after an internal
-    error.
+    error. UsageError if no file in the folders is a robot description.
     """
     documents = []
     internal = False
@@ -196,6 +195,8 @@ def answer(options: argparse.Namespace) -> tuple[list[str], int]:
         progress.count_file(document["status"])
         progress.show()
     progress.finish()
+    if not documents:
+        raise UsageError(NO_DESCRIPTION.format(", ".join(map(str, options.files))))
     if options.write_baseline is not None:
         try:
             audit_gate.write_baseline(options.write_baseline, documents)

@@ -104,7 +104,6 @@ def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
     from ..command.files import output
     from ..command.measure.run import Run
     from ..command.options import checks
-    from ..command.options.option_types import FORMATS
     from ..command.supervisor import processes
 
     arguments.check_blender(options, options.files)
@@ -115,8 +114,7 @@ def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
     output.check_targets(options, arguments.files_of_options(options, options.files, opened))
     run = Run(options, memory=processes.memory_share())
     run.measure()
-    text = FORMATS[options.format](run.documents)
-    is_written = output.write_result(text, options.output, channel, output.guard(options.force))
+    is_written = output.write_documents(run.documents, options, channel)
     if run.internal_errors:
         return INTERNAL_ERROR
     failed = run.errors and not options.errors_exit_0

@@ -13,7 +13,7 @@
 
 and what is run by hand, from the folder tools:
 
-    python3 tests/project.py benchmark    times and ratios against trimesh and libigl
+    python3 tests/project.py benchmark    times beside an earlier build and other programs
     python3 tests/project.py batch        the cost of measuring 400 files in one process or several
     python3 tests/project.py tables       the tables of Soldea, Elber and Rivlin beside ours
     python3 tests/project.py film         the film of the thrown crates in the manual
@@ -75,7 +75,7 @@ TOOLBOX = {
     "benchmark": (
         "benchmark.py",
         ("benchmark",),
-        "times and ratios against trimesh and libigl; --quick, --stream M",
+        "times beside an earlier build, trimesh, libigl, vtk and CoACD; --quick, --against COMMIT",
     ),
     "batch": (
         "benchmark_batch.py",

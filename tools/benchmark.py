@@ -3,7 +3,7 @@
 """Times and ratios against trimesh, libigl, Blender's BMesh and the floor of reading and gathering,
 from one run.
 
-    python tools/benchmark.py [--quick] [--stream M]
+    python tools/benchmark.py [--quick] [--stream M] [options of benchmark_tasks.py]
 
 Every table interleaves its rows in one process, so that its ratios hold whatever else the machine
 does. It prints medians and least times and asserts nothing: a busy machine is no failure. Programs
@@ -18,6 +18,7 @@ import io
 import os
 import platform
 import statistics
+import subprocess
 import sys
 import tempfile
 import time
@@ -579,11 +580,14 @@ def main() -> None:
     parser.add_argument(
         "--stream", type=float, metavar="M", help="only: a stream of M million triangles (try 50)"
     )
-    options = parser.parse_args()
+    options, others = parser.parse_known_args()
     if options.stream:
         stream(options.stream)
         return
     quick = options.quick
+    tasks = Path(__file__).with_name("benchmark_tasks.py")
+    rounds = "1" if quick else "3"
+    subprocess.run([sys.executable, str(tasks), "--rounds", rounds, *others], check=True)
     side, rounds = (316, 5) if quick else (1000, 9)
     print(
         "Python {:s}, numpy {:s}, {:s}, {:d} processors".format(

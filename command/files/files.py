@@ -24,9 +24,10 @@ from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..findings import FILE_NEWER_VERSION, FILE_VERSION_UNSUPPORTED
 from ..supervisor.listing import BLEND, USD
 from .finite import check_numbers
+from .import_fbx import import_fbx
 from .import_gltf import import_gltf
 from .import_usd import import_usd
-from .importers import import_3mf, import_fbx, import_iges, import_mesh, import_obj
+from .importers import import_3mf, import_iges, import_mesh, import_obj
 from .placing import measure_at
 from .references import Opened
 from .suffixes import check_file, file_suffix
@@ -40,8 +41,7 @@ _ANIMATED: dict[str, Callable[[str, float | None], Opened]] = {
     ".fbx": import_fbx,
     ".glb": import_gltf,
     ".gltf": import_gltf,
-    **dict.fromkeys(USD, import_usd),
-}
+} | dict.fromkeys(USD, import_usd)
 _IMPORTERS: dict[str, Callable[[str], object]] = {
     ".stl": import_mesh,
     ".ply": import_mesh,

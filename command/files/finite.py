@@ -10,9 +10,7 @@ damage is left to Blender, which reports it.
 from __future__ import annotations
 
 import re
-import struct
-import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
@@ -21,20 +19,19 @@ from numpy.typing import NDArray
 
 from ...core.cad import check_obj_text
 from ...core.files import (
-    BLOCK,
+    FBX_MAGIC,
     MALFORMED,
     MAX_FLOAT32,
     SHORT,
     Data,
     GltfFile,
+    fbx_array,
     find_number_fault,
     map_file,
     refuse_line,
     refuse_non_finite,
 )
 
-_FBX_MAGIC = b"Kaydara FBX Binary  \0\x1a\0"
-_FBX_TYPES = {b"d": np.dtype("<f8"), b"f": np.dtype("<f4")}
 # The end of a node's head: its name behind its length, and the type of its first property, an
 # array.
 _FBX_VERTICES = re.compile(rb"\x08Vertices(?=[df])")
@@ -56,13 +53,13 @@ def check_numbers(path: str, kind: str) -> None:
 
 def check_fbx(data: Data, _path: str) -> None:
     """Raise FileError if a vertex of a mesh or of its shape keys is not finite."""
-    if data[:23] != _FBX_MAGIC:
+    if data[: len(FBX_MAGIC)] != FBX_MAGIC:
         _check_ascii_fbx(data)
         return
     for vertices in _FBX_VERTICES.finditer(data):
         with suppress(*MALFORMED):
             count, first = 0, 0
-            for begin, numbers in _fbx_array(data, vertices.end()):
+            for begin, numbers in fbx_array(data, vertices.end()):
                 more, row = bad_in_table(numbers[:, None])
                 first = first if count else (begin + row) // 3
                 count += more
@@ -79,28 +76,6 @@ def _check_ascii_fbx(data: Data) -> None:
             if fault is not None:
                 refuse_line(data, numbers.end(), fault)
             numbers = None if word is None else _FBX_NUMBERS.match(data, word.end())
-
-
-def _fbx_array(data: Data, at: int) -> Iterator[tuple[int, NDArray]]:
-    """Yield the numbers of an array in blocks, each after the count of numbers before it."""
-    kind = _FBX_TYPES[data[at : at + 1]]
-    count, packed, size = struct.unpack_from("<3I", data, at + 1)
-    at += 13
-    if not packed:
-        yield 0, np.frombuffer(data, kind, count, at)
-        return
-    unpacker = zlib.decompressobj()
-    rest = b""
-    done = 0
-    for begin in range(at, at + size, BLOCK):
-        piece = data[begin : min(begin + BLOCK, at + size)]
-        while piece and done < count:
-            block = rest + unpacker.decompress(piece, BLOCK)
-            piece = unpacker.unconsumed_tail
-            whole = len(block) // kind.itemsize
-            yield done, np.frombuffer(block, kind, whole)
-            rest = block[whole * kind.itemsize :]
-            done = done + whole
 
 
 def check_gltf(data: Data, path: str) -> None:

@@ -9,6 +9,7 @@ of morph targets. Its hook tells the object of each node.
 from __future__ import annotations
 
 import math
+import re
 from bisect import bisect_right
 from typing import Any, NamedTuple
 
@@ -18,14 +19,20 @@ import numpy as np
 from bpy.types import Object
 
 from ...core.cad import UPRIGHT
-from ...core.files import MALFORMED, GltfFile, map_file, node_matrix
+from ...core.files import FILE_UNREADABLE, MALFORMED, GltfFile, map_file, node_matrix
 from ...core.numerics import Array
-from ...core.verdict.finding import finding
+from ...core.verdict.finding import FileError, finding
 from ..findings import FILE_HIDES, PLACES_UNCHECKED
 from .placing import measure_at, place_objects
 from .references import Opened
 
 ADD_ON = "io_scene_gltf2"  # It comes with Blender, and may be switched off.
+# Errors of the importer about a library, which the bpy module and some builds lack.
+_MISSING_DECODER = re.compile("(?:extern_|intern_|EXT_|KHR_)(draco|meshopt)|(Meshopt) decoder")
+_NO_DECODER = (
+    "this Blender lacks the library that decodes {} compression. Measure it with another "
+    "Blender 5 (blender -b, not the Python module bpy), or export it without compression"
+)
 _MOST_WEIGHT = 10.0  # Blender's limit of the value of a shape key
 _SAME_WEIGHT = 1e-6  # larger than the rounding of float32
 _PARTS = "translation", "rotation", "scale", "weights"
@@ -46,8 +53,8 @@ class _Shown(NamedTuple):
 
 def import_gltf(path: str, frame: float | None) -> Opened:
     """Import a .gltf or .glb file: each object at the place, and each morph target with the weight,
-    that the file states at the frame, by default its first. Raise RuntimeError, and AttributeError
-    without an importer.
+    that the file states at the frame, by default its first. Raise FileError, RuntimeError, and
+    AttributeError without an importer.
     """
     hidden: list[str] = []
     shown: dict[str, _Shown] = {}
@@ -70,6 +77,12 @@ def import_gltf(path: str, frame: float | None) -> Opened:
     try:
         # Without disable_bone_shape, it adds objects that would be measured.
         bpy.ops.import_scene.gltf(filepath=path, disable_bone_shape=True)
+    except RuntimeError as error:
+        missing = _MISSING_DECODER.search(str(error))
+        if missing is None:
+            raise
+        name = (missing[1] or missing[2]).capitalize()
+        raise FileError(FILE_UNREADABLE, error=_NO_DECODER.format(name)) from error
     finally:
         del module.glTF2ImportUserExtension
     for name in hidden:

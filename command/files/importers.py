@@ -7,7 +7,6 @@ Blender has none for .3mf and IGES; that of .obj leaves out ``surf``.
 
 from __future__ import annotations
 
-import mmap
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -19,27 +18,36 @@ from mathutils import Matrix
 from ...blender.scene.imports import show_bodies
 from ...core.cad import FACES_NOT_READ, SurfaceFile, has_surfaces, read_surfaces
 from ...core.files import file_limits
+from ...core.polyhedron import box_center
 from ...core.streams import KINDS, FileMesh, Placed, box_of_blocks, read_3mf
 from ...core.verdict.finding import FileError, Finding, finding
-from ..findings import FILE_HIDES, PLACES_UNCHECKED
-from .placing import measure_at
+from ..findings import FILE_HIDES
 from .references import Opened
 
 # Numbers of vertices with a meaning of their own; Blender makes attributes of all others.
 _KNOWN = {*("x", "y", "z", "nx", "ny", "nz", "s", "t"), *("red", "green", "blue", "alpha")}
+_MOVED = 1e-6  # by float32, relative to the body's size
 _SHEAR = 1e-6  # relative to the largest entry of a matrix; larger than the rounding of float32
 _OBJ_MESH = re.compile(rb"[ \t]*(?:f|l|curv)[ \t]")  # the elements that Blender's importer reads
-# Nodes of FBX that do not inherit their parents' scale, in text and binary files.
-_NO_PARENT_SCALE = re.compile(
-    rb'"InheritType",\s*"enum",\s*"",\s*"[^"\n]*",\s*2\b'
-    rb"|InheritTypeS\x04\0\0\0enumS\0\0\0\0S[\0-\x09]\0\0\0[A-Z+]{0,9}I\x02\0\0\0"
-)
 
 
 def import_mesh(path: str) -> None:
-    """Add the mesh of an .stl or .ply file to the scene. Raises FileError."""
+    """Add the mesh of an .stl or .ply file to the scene. Raises FileError.
+
+    If float32 would move points noticeably, the object stands at the center of their box.
+    """
     mesh = KINDS[Path(path).suffix.lower()](Path(path)).mesh()
-    bpy.context.scene.collection.objects.link(bpy.data.objects.new(mesh.name, blender_mesh(mesh)))
+    center = np.zeros(3)
+    if len(mesh.points):
+        low, high = box_of_blocks([mesh.points], "vertex")
+        with np.errstate(over="ignore"):
+            moved = np.abs(mesh.points.astype(np.float32) - mesh.points).max()
+        if moved > _MOVED * (high - low).max():
+            center = box_center(low, high, np.dtype(np.float32))
+            mesh = replace(mesh, points=mesh.points - center)
+    obj = bpy.data.objects.new(mesh.name, blender_mesh(mesh))
+    obj.location = center
+    bpy.context.scene.collection.objects.link(obj)
     bpy.context.view_layer.update()
 
 
@@ -133,23 +141,3 @@ def _added(file: SurfaceFile) -> Opened:
     unread = (finding(FACES_NOT_READ, count=file.unread),) if file.unread else ()
     by_object: dict[str, tuple[Finding, ...]] = {obj.name: unread for obj in made}
     return Opened(file.refused, file.notes, by_object)
-
-
-def import_fbx(path: str, frame: float | None) -> Opened:
-    """Import an .fbx file at a frame, by default its first; objects that it hides are not rendered.
-
-    Raise RuntimeError, and AttributeError without an importer.
-    """
-    bpy.ops.wm.fbx_import(filepath=path)
-    hidden = [obj for obj in bpy.context.scene.objects if obj.hide_viewport]
-    for obj in hidden:  # Blender would not evaluate them
-        obj.hide_viewport = False
-        obj.hide_render = True
-    bpy.context.view_layer.update()
-    with open(path, "rb") as file:
-        inherits = _NO_PARENT_SCALE.search(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
-    cause = "nodes do not inherit the scale of their parents"
-    notes = measure_at(frame)
-    notes += (finding(PLACES_UNCHECKED, cause=cause),) if inherits else ()
-    invisible = finding(FILE_HIDES, cause="it is invisible")
-    return Opened(notes=notes, hidden={obj.name: invisible for obj in hidden})

@@ -19,14 +19,16 @@ from argparse import Namespace
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from ...core.files.whole_file import whole_file
 from ...core.measurement import FLAT_SPECTRUM_ARRAYS, SPECTRUM_ARRAYS, print_message, to_csv
+from ...core.robots import FORMATS as ROBOT_FORMATS
 from ...core.robots.write.marker import is_audit, is_ours
 from ...core.verdict import system_reason
 from ..options.arguments import TARGETS
 from ..options.arguments import fail as fail_measure
+from ..options.option_types import FORMATS
 
 _STDOUT = {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}  # its descriptor may not be 1 any more
 _HEAD = 1 << 16  # bytes that hold a header, or the beginning of a document
@@ -91,6 +93,19 @@ def write_result(
         print_message("the result cannot be written: {}".format(system_reason(error)))
         return False
     return True
+
+
+def write_documents(
+    documents: Iterable[dict[str, Any]], options: Namespace, channel: int
+) -> bool | None:
+    """Write documents, which may be iterated twice, in the requested format, and return whether it
+    succeeded; None if there is no robot to write, and a file at --output stays as it was.
+    """
+    if options.format in ROBOT_FORMATS and not any("robot" in one for one in documents):
+        print_message("no robot was written, and no file was replaced")
+        return None
+    text = FORMATS[options.format](documents)
+    return write_result(text, options.output, channel, guard(options.force))
 
 
 def _write_all(channel: int, data: bytes) -> None:

@@ -42,6 +42,14 @@ def measure_at(frame: float | None) -> tuple[Finding, ...]:
     return (finding(FRAME_MEASURED, frame=frame),) if starts else ()
 
 
+def is_at(obj: bpy.types.Object, place: Array) -> bool:
+    """Return whether Blender shows an object at a (4, 4) place."""
+    size = np.abs(place[:3]).max(axis=0)
+    size = np.maximum(size, [*[size[:3].max()] * 3, 1e-30])
+    apart = np.abs(float64_matrix(obj.matrix_world)[:3] - place[:3])
+    return bool((apart <= _AGREEMENT * size).all())
+
+
 def place_objects(places: Mapping[str, Array]) -> None:
     """Give objects their (4, 4) places, and move those to them that stand elsewhere."""
     bpy.context.view_layer.update()
@@ -49,9 +57,7 @@ def place_objects(places: Mapping[str, Array]) -> None:
     for name, place in places.items():
         obj = bpy.data.objects[name]
         set_places(obj, place)
-        size = np.abs(place[:3]).max(axis=0)
-        apart = np.abs(float64_matrix(obj.matrix_world)[:3] - place[:3])
-        if (apart > _AGREEMENT * np.maximum(size, [*[size[:3].max()] * 3, 1e-30])).any():
+        if not is_at(obj, place):
             wrong.append(obj)
     if not wrong:
         return

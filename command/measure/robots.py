@@ -47,8 +47,8 @@ def complete(
     *,
     is_opened: bool,
 ) -> dict[str, Any]:
-    """Return a document with the text of its links as `robot`, or unchanged if no format of robots
-    is requested.
+    """Return a document with the text of its links as `robot`, without it if there is no link, or
+    unchanged if no format of robots is requested.
 
     Writes the meshes, and prints the format's findings. measure_options: the options of the
     measurements. is_opened: whether the file is the open scene, with its collections and bones.
@@ -88,7 +88,8 @@ def complete(
     for one in findings:
         print_message(sentence(one))
     refused = [failure(None, one) for one in findings if severity(one) == Severity.ERROR]
-    return document | {"robot": text, "errors": [*document["errors"], *refused]}
+    written = {"robot": text} if robot.links else {}
+    return document | written | {"errors": [*document["errors"], *refused]}
 
 
 def _by_object(

@@ -40,7 +40,6 @@ from ..options.arguments import (
     version,
 )
 from ..options.measure_parser import DEFAULT_TIMEOUT
-from ..options.option_types import FORMATS
 from ..parser import UsageError
 from ..supervisor import listing, processes
 from ..supervisor.journal import Journal, locked, state
@@ -167,6 +166,12 @@ class _Places:
             if path.exists():
                 os.replace(path, _old(path))
 
+    def restore(self) -> None:
+        """Put back an older result that was set aside. Raises OSError."""
+        for path in self._replaced[1:]:
+            if not path.exists() and _old(path).exists():
+                os.replace(_old(path), path)
+
 
 def _old(path: Path) -> Path:
     return path.with_name(path.name + ".old")
@@ -206,9 +211,12 @@ class _Supervised:
             with Journal(self._places.journal) as journal:
                 if self.tasks:
                     self._measure(pool, journal)
-                is_written = self._write(journal, channel)
+                documents = _Documents(journal, self._paths)
+                is_written = output.write_documents(documents, self._options, channel)
                 failed = any(journal.entries[path].status != "ok" for path in self.tasks)
-        if len(self._paths) == 1 and is_written:
+        if is_written is None:
+            self._places.restore()
+        if len(self._paths) == 1 and is_written is not False:
             self._places.journal.unlink()  # there is nothing to go on with
         if self._faults:
             return 70
@@ -222,7 +230,7 @@ class _Supervised:
         known = []
         if self._options.resume:
             entries = {path: journal.entries.get(path) for path in self.tasks}
-            keys = {path: {"path": path, **state(path), **common} for path in self.tasks}
+            keys = {path: ({"path": path} | state(path) | common) for path in self.tasks}
             given = run_of(self._options)["options"]
             retried = self._options.retry_failed
             reasons = {
@@ -243,11 +251,11 @@ class _Supervised:
             for outcome in pool.step():
                 status, reason, text = self._recorded(outcome, blender)
                 head = {
-                    "key": {
-                        "path": outcome.task,
-                        **outcome.head.get("state", state(outcome.task)),
-                        **common,
-                    },
+                    "key": (
+                        {"path": outcome.task}
+                        | outcome.head.get("state", state(outcome.task))
+                        | common
+                    ),
                     "status": status,
                     "attempts": outcome.attempts,
                     "seconds": round(outcome.seconds, 6),
@@ -298,13 +306,6 @@ class _Supervised:
         sys.stderr.write(
             "".join(line for line in lines if faults or line.startswith(PROGRAM + ": "))
         )
-
-    def _write(self, journal: Journal, channel: int) -> bool:
-        """Write the result, and return whether it could be written."""
-        options = self._options
-        documents = _Documents(journal, self._paths)
-        text = FORMATS[options.format](documents)
-        return output.write_result(text, options.output, channel, output.guard(options.force))
 
 
 @dataclass

@@ -57,9 +57,8 @@ def read_mesh(mesh: FileMesh, upright: Array) -> Reading:
     if not len(mesh.sides):
         raise ReadError(NO_GEOMETRY)
     with np.errstate(over="ignore"):
-        points = mesh.points.astype(np.float32)
-    box_of_blocks([points], "vertex")
-    part = Part(replace(mesh, points=points).surface(), upright[None])
+        box_of_blocks([mesh.points.astype(np.float32)], "vertex")
+    part = Part(mesh.surface(), upright[None])
     return Reading(mesh.name, "MESH", upright, upright[:3, :3], np.zeros(3), [part])
 
 

@@ -26,6 +26,11 @@ FRAMES = ("world", "object")
 MAX_ORDER = 30  # 5456 moments; the core knows no limit, but beyond it double precision says little
 STATUSES = ("ok", "error", "crashed", "timeout", "memory", "unsupported_version", "missing")
 
+# Keys of a total's numbers, all null if nothing was measured.
+TOTAL = (
+    *("mass", "volume", "area", "center_of_mass"),
+    *("inertia", "principal_moments", "principal_axes", "symmetry"),
+)
 # Content of the file of a Fourier transform.
 SPECTRUM_ARRAYS = ("q", "F", "error", "input", "method", "frame")
 # Additional arrays of a flat shape: its plane in the world.
@@ -78,7 +83,7 @@ def document(
     """
     errors = list(errors)
     if frame != "world":
-        total = {"frame": "world", **total}
+        total = {"frame": "world"} | total
     return {
         "schema": SCHEMA,
         "blender": blender,
@@ -97,11 +102,7 @@ def failed_document(file: str, reason: str, status: str, **values: Any) -> dict[
     """Return the document of a file that was not measured; values: of `document`, such as `blender`
     and `frame`.
     """
-    total: dict[str, Any] = {"mass": 0.0, "volume": 0.0, "area": 0.0}
-    total |= dict.fromkeys(
-        ("center_of_mass", "inertia", "principal_moments", "principal_axes", "symmetry")
-    )
-    total |= {"findings": [], "warnings": [], "notes": []}
+    total = dict.fromkeys(TOTAL) | {"findings": [], "warnings": [], "notes": []}
     errors = [{"name": None, "reason": reason}]
     return document([], total, errors, file=file, status=status, **values)
 

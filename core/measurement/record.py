@@ -28,7 +28,7 @@ from ..moments.moments import Moments, U, monomials
 from ..numerics import Array
 from ..polyhedron import multi_indices
 from ..verdict import Finding, MeasureError, Severity, find_verdict, sentence, severity
-from .documents import plain
+from .documents import TOTAL, plain
 from .measurement import UNIFORM_DENSITIES, Measurement
 
 MAX_ELEMENTS = 1000  # Limit for one finding.
@@ -140,18 +140,14 @@ def add_findings(entry: dict[str, Any], findings: Iterable[Finding]) -> None:
 
 
 def total(measurements: Sequence[Measurement], findings: Iterable[Finding] = ()) -> dict[str, Any]:
-    """Return the `total` entry: all objects as one body in the world frame, and findings about
-    it.
+    """Return the `total` entry: all objects as one body in the world frame, null if there are none;
+    and findings about it.
     """
-    entry = {
-        "mass": math.fsum(measurement.mass_properties.mass for measurement in measurements),
-        "volume": math.fsum(measurement.volume for measurement in measurements),
-        "area": math.fsum(measurement.area for measurement in measurements),
-        **dict.fromkeys(
-            ("center_of_mass", "inertia", "principal_moments", "principal_axes", "symmetry")
-        ),
-    }
+    entry: dict[str, Any] = dict.fromkeys(TOTAL)
     if measurements:
+        entry["mass"] = math.fsum(one.mass_properties.mass for one in measurements)
+        entry["volume"] = math.fsum(one.volume for one in measurements)
+        entry["area"] = math.fsum(one.area for one in measurements)
         with suppress(MeasureError):  # together they have no mass, and so no center
             entry.update(
                 _inertial(combine([measurement.mass_moments for measurement in measurements]))
@@ -208,7 +204,7 @@ def _moments_record(
         }
 
     bounds = {"error": tables("rounding_error"), "input": tables("input_error")}
-    return {"order": order, "about": about, **tables("raw"), **bounds}
+    return {"order": order, "about": about} | tables("raw") | bounds
 
 
 def flat_record(
@@ -243,10 +239,10 @@ def flat_record(
         "type": kind,
         "area": moments.total,
         "centroid": to_frame(centroid),
-        "plane": {
-            "origin": to_frame(plane.origin),
-            **{key: axes.T @ axis for key, axis in zip(("x", "y", "normal"), plane.axes.T)},
-        },
+        "plane": (
+            {"origin": to_frame(plane.origin)}
+            | {key: axes.T @ axis for key, axis in zip(("x", "y", "normal"), plane.axes.T)}
+        ),
         "second_moments": {"xx": central[2, 0, 0], "yy": central[0, 2, 0], "xy": central[1, 1, 0]},
     }
     if order is not None:

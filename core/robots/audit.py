@@ -24,9 +24,9 @@ from ..verdict.finding import Finding, MeasureError, Severity, finding
 from .diagnosis import DIFFERS, Diagnosis, Reference, diagnose, diagnose_density
 from .findings import (
     AUDIT_ANGLES,
-    AUDIT_COMPILER,
     AUDIT_DENSITY,
     AUDIT_NOT_UNIFORM,
+    AUDIT_OVERRIDDEN,
     AUDIT_UNIFORM_INSTEAD,
     AUDIT_UP_AXIS,
     INERTIAL_CENTER_OUTSIDE,
@@ -164,8 +164,8 @@ class Auditor:
         factor = 1.0
         if description.total > 0.0 and is_known and sum(masses) > 0.0:
             factor = description.total / sum(masses)
-        audits = [self._link_alone(stated, _scaled(link, factor)) for stated, link in pairs]
-        return Audit(description, tuple(audits))
+        used = [_scaled(stated, link, factor) for stated, link in pairs]
+        return Audit(description, tuple(map(self._link_alone, used)))
 
     def _use_rules(self, link: StatedLink) -> StatedLink:
         """Return a link with the inertial that its format's program uses; the stated one if masses
@@ -193,18 +193,18 @@ class Auditor:
         except Exception:  # An unforeseen error returns when the link is audited.
             return link
 
-    def _link_alone(self, stated: StatedLink, link: StatedLink) -> LinkAudit:
+    def _link_alone(self, link: StatedLink) -> LinkAudit:
         """Return the findings about one link; an unforeseen error is one of them, and ends nothing
         else.
         """
         try:
-            return self._link(stated, link)
+            return self._link(link)
         except Exception as error:
             return LinkAudit(
                 link, (*_read_entries(link), Entry(internal_error.finding_of(error), link.place))
             )
 
-    def _link(self, stated_link: StatedLink, link: StatedLink) -> LinkAudit:
+    def _link(self, link: StatedLink) -> LinkAudit:
         entries = _read_entries(link)
         place = link.inertial_place
         inertial = link.inertial
@@ -218,9 +218,7 @@ class Auditor:
         # entries of the reader: about shapes, as there is an inertial
         incomplete = bool(unread or entries)
         entries += unread
-        if inertial is not stated_link.inertial:
-            entries += _describe_rules(stated_link, link)
-            link = replace(link, span=None)
+        entries += _describe_overridden(link, inertial)
         if link.from_shapes:
             entries += [Entry(one, place) for one in impossible(inertial, None)]
             return LinkAudit(link, tuple(entries))
@@ -292,30 +290,38 @@ class Auditor:
         return self._meshes[key]
 
 
-def _scaled(link: StatedLink, factor: float) -> StatedLink:
-    """Return a link with its mass and inertia times a factor."""
-    stated = link.inertial
-    if stated is None or factor == 1.0:
-        return link
-    inertial = replace(stated, mass=stated.mass * factor, tensor=stated.tensor * factor)
-    return replace(link, inertial=inertial)
-
-
-def _describe_rules(stated: StatedLink, link: StatedLink) -> list[Entry]:
-    """Return the entry about an inertial that is stated, but not used; empty if none is."""
-    inertial = stated.inertial
+def _scaled(stated: StatedLink, link: StatedLink, factor: float) -> StatedLink:
+    """Return a link with the used inertial times a factor, and the stated one if that is not
+    used.
+    """
     used = link.inertial
-    if inertial is None or used is None:
+    if used is not None and factor != 1.0:
+        used = replace(used, mass=used.mass * factor, tensor=used.tensor * factor)
+    if used is stated.inertial:
+        return stated
+    return replace(link, inertial=used, overridden=stated.inertial, span=None)
+
+
+def _describe_overridden(link: StatedLink, used: StatedInertial) -> list[Entry]:
+    """Return the entry about a stated inertial that the format's program does not use, empty if
+    there is none.
+    """
+    stated = link.overridden
+    if stated is None:
         return []
     apart = inf
-    if used.mass > 0.0 and inertial.mass > 0.0:
-        apart = Reference(1.0, used.center, used.inertia / used.mass).compare(inertial)
+    if used.mass > 0.0 and stated.mass > 0.0:
+        apart = Reference(1.0, used.center, used.inertia / used.mass).compare(stated)
     if link.from_shapes:
-        apart = max(apart, abs(inertial.mass / used.mass - 1.0))
+        apart = max(apart, abs(stated.mass / used.mass - 1.0))
+    if link.rules is None and apart <= DIFFERS:
+        return []
     first, second, third = np.linalg.eigvalsh(used.inertia).tolist()
     found = finding(
-        AUDIT_COMPILER,
+        AUDIT_OVERRIDDEN,
         slight=apart <= DIFFERS,
+        program="Newton" if link.rules is None else "MuJoCo",
+        cause="newton:inertia" if link.rules is None else "<compiler>",
         mass=used.mass,
         first=first,
         second=second,

@@ -202,10 +202,10 @@ AUDIT_UP_AXIS = warning(
     "they do. "
     "Export the mesh with z up.",
 )
-AUDIT_COMPILER = warning(
-    "audit_compiler",
-    "MuJoCo's compiler uses another inertial: {mass:.6g} kg, principal moments {first:.6g}, "
-    "{second:.6g} and {third:.6g} kg·m². Its element <compiler> asks for that.",
+AUDIT_OVERRIDDEN = warning(
+    "audit_overridden",
+    "{program} uses another inertial, because of {cause}: {mass:.6g} kg, principal moments "
+    "{first:.6g}, {second:.6g} and {third:.6g} kg·m². State that one, or remove the cause.",
 )
 AUDIT_DENSITY = warning("audit_density", "The density is {density:.3g} kg/m³. Check mass and mesh.")
 AUDIT_UNIT = warning(

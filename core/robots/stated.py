@@ -148,7 +148,8 @@ class StatedLink:
     matters. `findings`: about content that the reader could not use. `local`: (4, 4) from the
     file's coordinates to the link's axes, in the file's unit; None if they are the same. `rules`:
     the changes that the format's own program makes to the inertial. `from_shapes`: True if the
-    inertial is that of the masses that its shapes state.
+    inertial is that of the masses that its shapes state. `overridden`: a stated inertial that the
+    format's program does not use.
     """
 
     name: str
@@ -162,6 +163,7 @@ class StatedLink:
     inertial_place: Place = Place()
     rules: Rules | None = None
     from_shapes: bool = False
+    overridden: StatedInertial | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,6 +13,6 @@ STL_CUT_SHORT = error(
 )
 THREEMF_EXTENSION = error(
     "threemf_extension",
-    "The 3MF file needs an extension that changes its shape and is not read: {name}. Export it as "
-    "plain meshes.",
+    "The 3MF file needs an extension that is not read, and that may change its shape: {name}. "
+    "Export it as plain meshes.",
 )

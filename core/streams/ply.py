@@ -192,13 +192,9 @@ class PlyFile:
         )
 
     def _empty_points(self) -> NDArray[np.floating]:
-        """Return (n, 3) points to be filled: float32 if the file has them as such or as text, else
-        float64.
-        """
-        is_exact = self._header.order and {
-            self._vertices.properties[axis].type for axis in self._axes
-        } != {"f4"}
-        return np.empty((self._vertices.rows, 3), np.float64 if is_exact else np.float32)
+        """Return (n, 3) points to be filled: float32 if the file has them as such, else float64."""
+        types = {self._vertices.properties[axis].type for axis in self._axes}
+        return np.empty((self._vertices.rows, 3), np.float32 if types == {"f4"} else np.float64)
 
     def _fill_points(
         self, points: NDArray[np.floating], rows: Index, columns: list[NDArray]

@@ -55,12 +55,18 @@ UNITS = {
     "foot": 0.3048,
     "meter": 1.0,
 }
-# read here, or without effect on the shape
+# Extensions that are read here, or have no effect on the shape, apart from coarser meshes.
 _KNOWN = (
     "core/2015/02",
     "material/2015/02",
     "production/2015/06",
+    "production/alternatives/2021/04",
+    "slice/2015/07",
+    "trianglesets/2021/07",
 )
+_RESOLUTIONS = "slice/2015/07 meshresolution", "alternatives/2021/04 modelresolution"
+# Elements of extensions that change the shape, which some writers do not name as required.
+_SHAPING = "beamlattice", "booleanshape", "displacementmesh", "levelset"
 _PACKAGE = "http://schemas.openxmlformats.org/package/2006/relationships"
 _DAMAGE = (
     *(zipfile.BadZipFile, zlib.error, EOFError, expat.ExpatError),
@@ -231,6 +237,8 @@ class _Model:
     def _start(self, name: str, values: dict[str, str]) -> None:
         space, _, tag = name.rpartition(" ")
         if not space.endswith("core/2015/02"):
+            if tag in _SHAPING:
+                raise FileError(THREEMF_EXTENSION, name=space)
             return
         self._tag = tag
         if tag == "vertex":
@@ -240,6 +248,9 @@ class _Model:
                 parse_whole(values.get(corner, "").strip(SPACES)) for corner in ("v1", "v2", "v3")
             )
         elif tag == "object":
+            for attribute, value in values.items():
+                if attribute.endswith(_RESOLUTIONS) and value != "fullres":
+                    raise FileError(THREEMF_EXTENSION, name=attribute.partition(" ")[0])
             self._object = self.objects[values["id"]] = _Object(
                 values.get("name", ""), values.get("type", MODEL)
             )

@@ -55,3 +55,32 @@ def converted(obj, name="Mesh"):
     copy.matrix_world = obj.matrix_world
     bpy.context.view_layer.update()
     return copy
+
+
+W, T, X, Y = 0.125, 1.75, 1.0, 2.0  # an I section whose corners float32 has exactly
+
+I_BEAM = [
+    (-X, -Y),
+    (X, -Y),
+    (X, -T),
+    (W, -T),
+    (W, T),
+    (X, T),
+    (X, Y),
+    (-X, Y),
+    (-X, T),
+    (-W, T),
+    (-W, -T),
+    (-X, -T),
+]
+
+
+def flat_mesh(*polygons, height=0.0):
+    mesh = bpy.data.meshes.new("Flat")
+    starts = np.cumsum([0] + [len(polygon) for polygon in polygons])
+    mesh.from_pydata(
+        [(x, y, height) for polygon in polygons for x, y in polygon],
+        [],
+        [tuple(range(a, b)) for a, b in zip(starts, starts[1:])],
+    )
+    return mesh

@@ -8,7 +8,9 @@ from pathlib import Path
 
 import bpy
 import numpy as np
+from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.read.vdb import openvdb
+from body_moments.blender.settings.options import MeasureOptions
 
 GRIDS = {
     "f4": "FloatGrid",
@@ -57,3 +59,17 @@ def mesh_to_volume(source, voxels: int = 32):
     modifier.object, modifier.voxel_amount = source, voxels
     modifier.interior_band_width = 100.0
     return obj
+
+
+SHEARED = np.array(
+    [[0.5, 0.125, 0.0, 3.0], [0.0, -0.25, 0.0625, -2.0], [0.25, 0.0, 1.0, 0.5], [0, 0, 0, 1]]
+)
+
+
+def depsgraph():
+    bpy.context.view_layer.update()
+    return bpy.context.evaluated_depsgraph_get()
+
+
+def measure(obj, **options):
+    return measure_object(obj, depsgraph(), MeasureOptions(**options))

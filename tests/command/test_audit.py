@@ -6,6 +6,7 @@ import csv
 import gzip
 import io
 import json
+import zipfile
 from pathlib import Path
 
 import fastjsonschema
@@ -146,6 +147,33 @@ def test_sarif_obeys_its_schema_and_names_the_places(tmp_path):
         "certain",
     )
     assert broken["locations"][0]["physicalLocation"]["region"]["startLine"] == 2
+
+
+def test_report_says_that_no_file_was_read(tmp_path):
+    """One is missing, one an archive of MuJoCo, whose signature is that of packed USD, too."""
+    archive = tmp_path / "x.mjz"
+    with zipfile.ZipFile(archive, "w") as packed:
+        packed.writestr("model.xml", "<mujoco/>")
+    words = tmp_path / "none.urdf", archive
+    found = json.loads(answer(*words)[0])
+    assert [one["errors"][0]["code"] for one in found] == ["file_missing", "file_unreadable"]
+    assert "MJZ" in found[1]["errors"][0]["message"] and answer(*words)[1] == 1
+    for form in ("text", "table", "html"):
+        text, code = answer("--format", form, *words)
+        assert audit_report.NONE_READ in text and "0 links" not in text and code == 1
+    log = json.loads(answer("--format", "sarif", *words)[0])
+    assert log["runs"][0]["invocations"] == [{"executionSuccessful": False}]
+    good = description(tmp_path / "r.urdf", RIGHT)
+    assert audit_report.NONE_READ not in answer("--format", "text", good, archive)[0]
+    assert json.loads(answer("--format", "sarif", good)[0])["runs"][0]["invocations"] == [
+        {"executionSuccessful": True}
+    ]
+
+
+def test_folder_of_other_files_is_wrong_usage(tmp_path, capfd):
+    (tmp_path / "a.xml").write_text("<other/>", encoding="utf-8")
+    assert batch.main(["audit", str(tmp_path)], channel=1) == 2
+    assert "no robot description" in capfd.readouterr().err
 
 
 def test_github_annotations_escape_what_ends_them(tmp_path):

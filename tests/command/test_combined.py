@@ -13,10 +13,10 @@ import pytest
 from body_moments.core.measurement import documents
 
 from tests.blender import batch_files as files
-from tests.blender.bodies.test_assembly import collection
+from tests.blender.boxes import collection
 from tests.close import close
-from tests.operators.assembly.test_assembly import assembly_of_boxes
-from tests.operators.rig.test_rig import character
+from tests.operators.assemblies import assembly_of_boxes
+from tests.operators.characters import character
 
 pytestmark = pytest.mark.usefixtures("registered", "scene")
 

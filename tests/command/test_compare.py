@@ -12,10 +12,8 @@ from body_moments.command.results.compare import differences
 
 from tests.blender.batch_files import add_box, document
 from tests.blender.flat_objects import sheet
-from tests.command.test_gather import main
 
 pytestmark = pytest.mark.usefixtures("scene")
-__all__ = ["main"]
 
 
 def bounds_of(entry, name):

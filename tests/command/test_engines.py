@@ -18,7 +18,7 @@ import pytest
 pytest.importorskip("bpy")
 
 from tests.command import slurm_controller
-from tests.command.test_process import BLENDER, ROOT, in_blender, process, script
+from tests.command.processes import BLENDER, ROOT, in_blender, process, script
 from tools.soak import commands
 
 ENGINES = ROOT / "docs" / "engines"

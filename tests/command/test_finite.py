@@ -13,6 +13,7 @@ import zlib
 import pytest
 
 pytest.importorskip("bpy")
+import bpy
 import numpy as np
 from body_moments.command.files import finite
 from body_moments.command.files.importers import import_mesh
@@ -275,6 +276,25 @@ def test_gltf_error_names_its_missing_or_short_buffer(tmp_path, gltf):
     text["buffers"][0]["uri"] = "no%20more.bin"
     files.write_text(tmp_path / "box.gltf", json.dumps(text))
     assert reason(tmp_path / "box.gltf") == sentence("missing_references", names=["no more.bin"])
+
+
+@pytest.mark.parametrize("name", ["draco_mesh", "meshopt"])
+def test_missing_gltf_decoder_is_named_with_a_remedy(tmp_path, gltf, name):
+    """The wheels of Blender lack the libraries, and 4.5 has no meshopt at all."""
+    if name == "draco_mesh" and bpy.app.version < (5, 0) or not bpy.app.module:
+        pytest.skip("this Blender has the decoder")
+    text, _ = gltf
+    extension = "KHR_{}_compression".format(name)
+    text["extensionsUsed"] = text["extensionsRequired"] = [extension]
+    view = {"buffer": 0, "byteLength": 8, "byteStride": 12, "count": 8, "mode": "ATTRIBUTES"}
+    for one in text["bufferViews"]:
+        one["extensions"] = {extension: view} if name == "meshopt" else {}
+    for mesh in text["meshes"]:
+        draco = {extension: {"bufferView": 0, "attributes": {"POSITION": 0}}}
+        mesh["primitives"][0]["extensions"] = draco if name == "draco_mesh" else {}
+    files.write_text(tmp_path / "box.gltf", json.dumps(text))
+    said = reason(tmp_path / "box.gltf")
+    assert name.partition("_")[0].capitalize() in said and "blender -b" in said
 
 
 def fbx_file(path, values, packed):

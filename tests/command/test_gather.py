@@ -19,7 +19,6 @@ from body_moments.command.parser import COMMANDS
 from body_moments.command.supervisor import listing
 from body_moments.core.measurement import documents
 from body_moments.core.measurement.page import to_html
-from body_moments.operators import batch
 
 from tests.blender import batch_files as files
 from tests.blender.batch_files import document, measured
@@ -29,17 +28,6 @@ from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")
 HOSTILE = "<script>document.title='run'</script>\"'&\u202e"
-
-
-@pytest.fixture
-def main(tmp_path, capfd):
-    def run(*words):
-        with open(tmp_path / "standard output", "wb+") as out:
-            code = batch.main(list(map(str, words)), channel=out.fileno())
-            out.seek(0)
-            return code, out.read().decode(), capfd.readouterr().err
-
-    return run
 
 
 def result(path, *found):

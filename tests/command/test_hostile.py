@@ -23,7 +23,7 @@ from body_moments.core.measurement.plain_text import visible
 from body_moments.operators import batch
 
 from tests.blender import batch_files as files
-from tests.command.test_process import BLENDER, SCRIPT, in_blender, process
+from tests.command.processes import BLENDER, SCRIPT, in_blender, process
 from tests.core.scan_files import written
 
 pytestmark = pytest.mark.usefixtures("scene")

@@ -13,7 +13,7 @@ import bpy
 
 from tests.blender.batch_files import codes
 from tests.close import close
-from tests.command.test_usd import by_name, measure, moved, prim
+from tests.command.usd_files import by_name, measure, moved, prim
 
 pytestmark = [
     pytest.mark.usefixtures("registered"),

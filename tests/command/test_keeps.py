@@ -147,7 +147,7 @@ def test_file_appearing_meanwhile_is_kept(tmp_path, main, monkeypatch, option):
 
 @pytest.mark.skipif(not Path("/dev/stdout").exists(), reason="not on this system: devices")
 def test_standard_output_follows_its_redirection(tmp_path):
-    from tests.command.test_process import script
+    from tests.command.processes import script
 
     part = files.box_file(tmp_path / "part.stl")
     with open(tmp_path / "log", "w") as log:

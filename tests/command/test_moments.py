@@ -18,7 +18,7 @@ from mathutils import Matrix
 from tests.blender import batch_files as files
 from tests.blender.batch_files import document, measured, sentence
 from tests.close import close
-from tests.command.test_options import box_moment
+from tests.command.running import box_moment
 
 pytestmark = pytest.mark.usefixtures("scene")
 

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The command line's options, on the scene that is open and on .blend files."""
 
-import math
 import os
 
 import pytest
@@ -10,6 +9,7 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 import numpy as np
+from body_moments.blender.read.findings import LINES_ONLY, NO_INSTANCES
 from body_moments.operators import batch
 from mathutils import Euler, Matrix
 
@@ -65,9 +65,9 @@ def test_object_without_surface_is_measured_only_by_name():
     found = document()
     assert names(found) == ["Text"] and found["errors"] == []
     assert errors(document("--object", "Circle", "--object", "Light", "--object", "Empty")) == {
-        "Circle": sentence("lines_only"),
+        "Circle": sentence("nothing_to_measure", cause=LINES_ONLY),
         "Light": sentence("object_without_geometry", type="Light"),
-        "Empty": sentence("empty_without_instances"),
+        "Empty": sentence("not_shown", cause=NO_INSTANCES),
     }
     assert names(document("--object", "Circle", "--kind", "shell")) == ["Circle"]
 
@@ -335,13 +335,6 @@ def test_the_frame_is_the_worlds_or_the_objects_own():
     assert world["center_of_mass"] == pytest.approx(expected, abs=1e-5)
     assert found["total"]["center_of_mass"] == pytest.approx(world["center_of_mass"])
     assert found["total"]["principal_moments"] == pytest.approx(entry["principal_moments"])
-
-
-def box_moment(powers, center=files.CENTER, size=(1, 2, 3)):
-    bounds = [(c - s / 2, c + s / 2) for c, s in zip(center, size, strict=True)]
-    return math.prod(
-        (b ** (n + 1) - a ** (n + 1)) / (n + 1) for (a, b), n in zip(bounds, powers, strict=True)
-    )
 
 
 def test_no_result_is_written_over_the_wave_vectors(tmp_path, capfd, standard_output):

@@ -8,10 +8,7 @@ As a script in Python with the bpy module, and, where there is one, in Blender i
 import io
 import json
 import os
-import shutil
-import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -19,24 +16,7 @@ import pytest
 pytest.importorskip("bpy")
 
 from tests.blender import batch_files as files
-
-ROOT = Path(__file__).resolve().parent.parent.parent
-SCRIPT = str(ROOT / "operators" / "batch.py")
-BLENDER = os.environ.get("BLENDER") or shutil.which("blender")
-in_blender = pytest.mark.skipif(
-    not BLENDER,
-    reason="needs a real Blender: put one on the PATH or name it with the variable BLENDER",
-)
-
-
-def process(*words, env=None, **options):
-    options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "timeout": 1200, **options}
-    return subprocess.run(list(map(str, words)), env={**os.environ, **(env or {})}, **options)
-
-
-def script(*words, **options):
-    """The script in this Python."""
-    return process(sys.executable, SCRIPT, *words, **options)
+from tests.command.processes import SCRIPT, process, script
 
 
 @pytest.fixture(scope="module")

@@ -16,7 +16,7 @@ from tests.blender.batch_files import add_box, document
 from tests.blender.characters import PARENTS, armature_of, skin_of
 from tests.blender.exported_robots import SUFFIXES, assert_filled
 from tests.close import close
-from tests.command.test_robots import exported, text
+from tests.command.robot_files import exported, text
 from tests.core import characters
 from tests.core.bodies import box
 from tests.core.mesh_files import stl

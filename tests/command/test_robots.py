@@ -14,17 +14,17 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 import numpy as np
-from body_moments.command.files import output
 from body_moments.command.measure.run import Run
-from body_moments.command.options.option_types import FORMATS
 from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.verdict.finding import finding
+from body_moments.operators import batch
 
 from tests.blender.batch_files import document, parsed
 from tests.blender.characters import PARENTS, armature_of, skin_of
 from tests.blender.exported_robots import SUFFIXES, assert_filled, exported_links
 from tests.blender.objects import add, mesh_body
 from tests.close import close
+from tests.command.robot_files import exported, text
 from tests.core import characters
 from tests.core.bodies import box
 from tests.core.mesh_files import stl
@@ -47,23 +47,6 @@ def arm(unit=1.0):
     upper.parent, forearm.parent = frame, upper
     bpy.context.view_layer.update()
     return upper, forearm, tool
-
-
-def text(*words):
-    line = Run(parsed(*words))
-    line.measure()
-    assert not line.errors
-    found = "".join(FORMATS[line.options.format](line.documents))
-    if line.options.output is not None:
-        assert output.write_result(found, line.options.output, -1)
-    return found
-
-
-def exported(folder, name, *words):
-    """The links of a robot written to a folder, read back."""
-    path = folder / ("robot" + SUFFIXES[name])
-    text("measure", "--format", name, "--output", path, *words)
-    return exported_links(path)
 
 
 def refused(*words):
@@ -379,6 +362,19 @@ def test_a_robot_without_links_is_an_error():
         "name": None,
         "reason": str(finding("robot_without_links")),
     }
+
+
+def test_existing_robot_is_kept_if_none_is_written(tmp_path, capfd):
+    path = tmp_path / "robot.urdf"
+    (tmp_path / "box.stl").write_bytes(stl(box()))
+    for form in ("urdf", "gltf"):
+        words = ["measure", "--format", form, "--output", str(path), "--force"]
+        assert batch.main([*words, str(tmp_path / "box.stl")], channel=1) == 0
+        before = path.read_bytes()
+        for more in ([], ["--no-supervisor"]):
+            assert batch.main([*words, *more, str(tmp_path / "none.stl")], channel=1) == 1
+            assert path.read_bytes() == before and not [*tmp_path.glob("*.journal")]
+            assert "no file was replaced" in capfd.readouterr().err
 
 
 def test_unwritable_meshes_are_an_error_beside_the_robot(tmp_path):

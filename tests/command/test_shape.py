@@ -16,6 +16,7 @@ from body_moments.operators import batch
 from tests.blender.batch_files import add_box, codes, document, sentence
 from tests.blender.objects import add, mesh_body, strip_mesh
 from tests.close import close
+from tests.command.running import ask
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -35,13 +36,6 @@ def shape_file(tmp_path, *flags):
     )
     os.close(channel)
     return path, code
-
-
-def ask(tmp_path, *words):
-    path = tmp_path / "answer.txt"
-    with open(path, "wb") as file:
-        code = batch.main(["similar", *map(str, words)], channel=file.fileno())
-    return code, path.read_text(encoding="utf-8")
 
 
 def test_copies_have_one_pose_and_its_matrix_aligns_them():

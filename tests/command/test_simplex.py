@@ -15,7 +15,7 @@ from body_moments.core.polyhedron import facets_of
 from body_moments.operators import batch
 
 from tests.blender.batch_files import sentence
-from tests.command.test_process import script
+from tests.command.processes import script
 from tests.records import valid
 
 

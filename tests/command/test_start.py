@@ -11,7 +11,7 @@ import pytest
 pytest.importorskip("bpy")
 
 from tests.blender import batch_files as files
-from tests.command.test_process import SCRIPT, process, script
+from tests.command.processes import SCRIPT, process, script
 
 # Run the script where some modules cannot be imported.
 WITHOUT = """

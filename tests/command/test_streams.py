@@ -8,6 +8,7 @@ import json
 
 import numpy as np
 import pytest
+from body_moments.command.findings import NEEDS_BLEND
 from body_moments.command.measure import bare
 from body_moments.command.supervisor import processes
 from body_moments.core.streams.stl import BY_COUNT, BY_WORD
@@ -15,7 +16,7 @@ from body_moments.operators import batch
 
 from tests.blender.batch_files import codes, in_process, sentence
 from tests.close import close
-from tests.command.test_process import script
+from tests.command.processes import script
 from tests.core.bodies import inverted, soup, torus, without
 from tests.core.mesh_files import ply, stl, stl_text, write_large_torus
 from tests.records import valid
@@ -45,6 +46,42 @@ def part(scale=0.1):
 def written(tmp_path, name="part.stl", body=None):
     (tmp_path / name).write_bytes(FORMS[name](body or part()))
     return tmp_path / name
+
+
+@pytest.mark.parametrize("form", ["ascii", "binary_little_endian", "obj"])
+@pytest.mark.parametrize("place", [(500_000.123, 4_649_776.456, 100.0), (0.1, 0.2, 0.3)])
+def test_double_coordinates_are_not_rounded(tmp_path, form, place):
+    """A box of 1 by 2 by 3, as photogrammetry places it."""
+    corners = np.stack(np.meshgrid([0, 1], [0, 2], [0, 3], indexing="ij"), -1).reshape(-1, 3)
+    corners = corners + place
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    path = tmp_path / "box.ply"
+    if form == "obj":
+        path = tmp_path / "box.obj"
+        lines = ["v {!r} {!r} {!r}".format(x, z, -y) for x, y, z in corners.tolist()]
+        lines += ["f " + " ".join(str(1 + i) for i in quad) for quad in quads]
+        path.write_text("\n".join(lines) + "\n")
+    else:
+        head = "ply\nformat {} 1.0\nelement vertex 8\n".format(form)
+        head += "".join("property double {}\n".format(axis) for axis in "xyz")
+        head += "element face 6\nproperty list uchar int vertex_indices\nend_header\n"
+        faces = np.array([(4, quad) for quad in quads], "u1, (4,)<i4")
+        if form == "ascii":
+            rows = [*corners.tolist(), *((4, *quad) for quad in quads)]
+            body = "".join(" ".join(map(repr, row)) + "\n" for row in rows).encode()
+        else:
+            body = corners.astype("<f8").tobytes() + faces.tobytes()
+        path.write_bytes(head.encode() + body)
+    center = np.array(place) + [0.5, 1.0, 1.5]
+    wordings = [["--stream", "never"], *([] if form == "obj" else [["--stream", "always"]])]
+    for words in wordings:
+        (entry,) = run(tmp_path, path, "--density", "1", *words)[1]["objects"]
+        assert close(entry["volume"], 6.0, 1e-8) and entry["method"] == "exact"
+        assert np.abs(entry["center_of_mass"] - center).max() < 1e-8
+    if form != "obj":  # As an object of Blender it stands where float32 does not move its points.
+        (entry,) = run(tmp_path, path, "--density", "1", "--pose")[1]["objects"]
+        assert close(entry["volume"], 6.0, 1e-6)
+        assert np.abs(entry["center_of_mass"] - center).max() < 1e-6
 
 
 @pytest.mark.parametrize("name", FORMS)
@@ -148,7 +185,7 @@ def test_the_usual_findings_are_there(tmp_path):
         (("--polynomial", "1 + x"), "stream_options"),
         (("--kind", "wire"), "stream_options"),
         (("--overlap", "union"), "stream_options"),
-        (("--write",), "results_need_blend"),
+        (("--write",), "results_not_stored"),
     ],
 )
 def test_options_that_need_the_mesh_are_refused(tmp_path, words, code):
@@ -156,7 +193,7 @@ def test_options_that_need_the_mesh_are_refused(tmp_path, words, code):
     options = (
         {"options": [words[-2] if "--wall" not in words else "--wall"]}
         if code == "stream_options"
-        else {}
+        else {"cause": NEEDS_BLEND}
     )
     assert exit_code == 1 and [error["reason"] for error in document["errors"]] == [
         sentence(code, **options)

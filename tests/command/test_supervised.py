@@ -21,7 +21,7 @@ import bpy
 from body_moments.command.supervisor import listing, processes
 
 from tests.blender import batch_files as files
-from tests.command.test_process import BLENDER, SCRIPT, in_blender, process, script
+from tests.command.processes import BLENDER, SCRIPT, in_blender, process, script
 from tools.soak import commands, hostile, kills
 
 on_linux = pytest.mark.skipif(

@@ -138,6 +138,42 @@ WRONG = {
 }
 
 
+MICROSOFT = "http://schemas.microsoft.com/3dmanufacturing/"
+EXTENSIONS = {
+    MICROSOFT + "trianglesets/2021/07": ("", True),
+    MICROSOFT + "slice/2015/07": ("", True),
+    MICROSOFT + "slice/2015/07 lowres": ('x:meshresolution="lowres"', False),
+    MICROSOFT + "production/alternatives/2021/04": ('x:modelresolution="fullres"', True),
+    MICROSOFT + "production/alternatives/2021/04 obfuscated": (
+        'x:modelresolution="obfuscated"',
+        False,
+    ),
+    MICROSOFT + "securecontent/2019/04": ("", False),
+    "http://schemas.3mf.io/3dmanufacturing/implicit/2023/12": ("", False),
+}
+
+
+@pytest.mark.parametrize("name", EXTENSIONS)
+def test_required_extension_counts_by_its_effect_on_the_shape(tmp_path, name):
+    attribute, is_read = EXTENSIONS[name]
+    space = name.partition(" ")[0]
+    attributes = 'unit="meter" xmlns:x="{}" requiredextensions="x"'.format(space)
+    text = model(ONE.replace("<object", "<object " + attribute), ITEM, attributes)
+    found = document(package(tmp_path / "a.3mf", text))
+    if is_read:
+        assert close(found["objects"][0]["volume"], 1.0, 1e-12)
+    else:
+        assert found["errors"][0]["reason"] == sentence("threemf_extension", name=space)
+
+
+def test_unannounced_beams_are_refused(tmp_path):
+    space = MICROSOFT + "beamlattice/2017/02"
+    beams = '<b:beamlattice xmlns:b="{}"/></mesh>'.format(space)
+    text = model(ONE.replace("</mesh>", beams), ITEM)
+    found = document(package(tmp_path / "a.3mf", text))
+    assert found["errors"][0]["reason"] == sentence("threemf_extension", name=space)
+
+
 @pytest.mark.parametrize("name", WRONG)
 def test_a_wrong_file_is_an_error_with_a_reason(tmp_path, name):
     found = document(package(tmp_path / "a.3mf", WRONG[name]))

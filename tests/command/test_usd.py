@@ -10,50 +10,21 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 
-from tests.blender import batch_files as files
-from tests.blender.batch_files import codes, document, sentence
+from tests.blender.batch_files import codes, sentence
 from tests.close import close
+from tests.command.usd_files import MATRIX, by_name, measure, moved, prim
 
 pytestmark = [
     pytest.mark.usefixtures("registered"),
     pytest.mark.skipif(not bpy.app.usd.supported, reason="this Blender is built without USD"),
 ]
 BALL = 4.0 * pi / 3.0
-# sheared, mirrored and moved
-MATRIX = (
-    (1, 0, 0, 0),
-    (0.5, 2, 0, 0),
-    (0, 0, -3, 0),
-    (10, 20, 30, 1),
-)
 CAGE = """
     int[] faceVertexCounts = [3, 3, 3, 3]
     int[] faceVertexIndices = [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2]
     point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
 """
 PLAIN = 'uniform token subdivisionScheme = "none"' + CAGE
-
-
-def prim(kind, name, *lines, arcs=""):
-    return 'def {} "{}" {}{{\n{}\n}}\n'.format(kind, name, arcs, "\n".join(lines))
-
-
-def moved(matrix=MATRIX):
-    order = 'uniform token[] xformOpOrder = ["xformOp:transform"]'
-    return "matrix4d xformOp:transform = {}\n{}".format(str(matrix), order)
-
-
-def measure(tmp_path, *prims, up="Z", unit=1, options=(), is_whole=True):
-    head = '#usda 1.0\n(\n upAxis = "{}"\n metersPerUnit = {}\n)\n'.format(up, unit)
-    found = document(
-        files.write_text(tmp_path / "t.usda", head + "".join(prims)), "--density", "1", *options
-    )
-    assert not is_whole or found["errors"] == []
-    return found
-
-
-def by_name(found):
-    return {entry["name"]: entry for entry in found["objects"]}
 
 
 # kind, attributes, volume, and the center of mass along the axis

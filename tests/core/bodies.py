@@ -5,9 +5,11 @@ measures.
 """
 
 import math
+from math import gamma
 
 import numpy as np
 from body_moments.core.mesh.surface import Surface
+from body_moments.core.moments.moments import monomials
 
 CORNERS = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
 SIDES = np.array(
@@ -188,3 +190,69 @@ def inertia(moments):
     """The diagonal of the inertia tensor about the centre."""
     second = moments.about_center().second()
     return np.trace(second) - np.diag(second)
+
+
+def grid_torus(n=12, m=8, noise=0.0, seed=0, major=1.0, minor=0.4):
+    """A closed torus of n x m quads with its points moved at random: points and quads."""
+    u, v = np.meshgrid(
+        np.arange(n) * (2 * np.pi / n), np.arange(m) * (2 * np.pi / m), indexing="ij"
+    )
+    ring = major + minor * np.cos(v)
+    points = np.stack([ring * np.cos(u), ring * np.sin(u), minor * np.sin(v)], axis=-1).reshape(
+        -1, 3
+    )
+    points = points + noise * np.random.default_rng(seed).standard_normal(points.shape)
+    i, j = np.meshgrid(np.arange(n), np.arange(m), indexing="ij")
+    corners = [(i, j), ((i + 1) % n, j), ((i + 1) % n, (j + 1) % m), (i, (j + 1) % m)]
+    return points, np.stack([(a * m + b).ravel() for a, b in corners], axis=1)
+
+
+def ball(order, radius=1.0):
+    """Raw moments of a ball about its center: Dirichlet's integral."""
+    raw = [
+        0.0
+        if any(n % 2 for n in row)
+        else 2.0
+        * np.prod([gamma((n + 1) / 2) for n in row])
+        / gamma((sum(row) + 3) / 2)
+        / (sum(row) + 3)
+        * radius ** (sum(row) + 3)
+        for row in monomials(order).tolist()
+    ]
+    return np.array(raw)
+
+
+def bar(turn, sections=90, sides=12, radius=0.2):
+    """A round bar bent about the z axis by so many full turns."""
+    around = np.linspace(0.0, 2.0 * np.pi * turn, sections + 1)
+    side = np.arange(sides) * 2.0 * np.pi / sides
+    distance, height = (
+        1.0 + radius * np.cos(side),
+        np.tile(radius * np.sin(side), (sections + 1, 1)),
+    )
+    points = np.stack(
+        [np.cos(around)[:, None] * distance, np.sin(around)[:, None] * distance, height], axis=-1
+    )
+    i, j = (k.ravel() for k in np.meshgrid(np.arange(sections), np.arange(sides), indexing="ij"))
+    after = (j + 1) % sides
+    mantle = np.stack(
+        [i * sides + j, (i + 1) * sides + j, (i + 1) * sides + after, i * sides + after], axis=1
+    )
+    ends = [(0, k, k + 1) for k in range(1, sides - 1)]
+    far = [
+        (sections * sides, sections * sides + k + 1, sections * sides + k)
+        for k in range(1, sides - 1)
+    ]
+    return points.reshape(-1, 3), np.concatenate([split(mantle), ends, far])
+
+
+def hourglass(heavy):
+    """A prism on two wedges that meet in a narrow waist.
+
+    All of its sides are seen from the middle of its box there; from its center, in the wider one of
+    the wedges, those of the other are seen from behind.
+    """
+    outline = [(-3.0, -heavy), (0.0, -0.05), (3.0, -1.5), (3.0, 1.5), (0.0, 0.05), (-3.0, heavy)]
+    points = np.array([(x, y, z) for z in (-1.0, 1.0) for x, y in outline])
+    lids = [(0, 5, 4, 1), (1, 4, 3, 2), (6, 7, 10, 11), (7, 8, 9, 10)]
+    return points, split(lids + [(k, (k + 1) % 6, (k + 1) % 6 + 6, k + 6) for k in range(6)])

@@ -11,7 +11,7 @@ from mathutils import Matrix, Quaternion
 
 from tests.blender import objects
 from tests.close import close
-from tests.operators.test_stability import box
+from tests.operators.standing import box
 
 
 def size_of(obj):

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import pytest
 
-from tests.blender.bodies.test_assembly import box_mesh
+from tests.blender.boxes import box_mesh
 from tests.blender.objects import add, measured, mesh_body, only, place
 
 pytestmark = pytest.mark.usefixtures("scene")

@@ -10,7 +10,7 @@ from body_moments.blender.write import section
 
 from tests.blender.objects import add, mesh_body
 from tests.close import close
-from tests.operators.setup.test_remedy_buttons import boxes
+from tests.operators.overlapping_boxes import boxes
 
 pytestmark = pytest.mark.usefixtures("scene")
 

@@ -15,7 +15,7 @@ import pytest
 from tests.blender.objects import add, measured, mesh_body, only
 from tests.core.exact_splines import sphere
 from tests.core.iges_files import IgesFile, unrolled
-from tests.operators.snap.test_balance import edit, figure
+from tests.operators.balancing import edit, figure
 
 pytestmark = pytest.mark.usefixtures("scene")
 

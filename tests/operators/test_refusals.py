@@ -7,12 +7,12 @@ from contextlib import suppress
 import bpy
 import pytest
 
-from tests.blender.bodies.test_assembly import box_mesh
+from tests.blender.boxes import box_mesh
 from tests.blender.objects import add, mesh_body, only, strip_mesh
-from tests.operators.assembly.test_assembly import assembly_of_boxes
-from tests.operators.rig.test_rig import character
-from tests.operators.setup.test_remedy_buttons import boxes
-from tests.operators.test_stability import wedge
+from tests.operators.assemblies import assembly_of_boxes, linked_assembly
+from tests.operators.characters import character
+from tests.operators.overlapping_boxes import boxes
+from tests.operators.standing import wedge
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -113,20 +113,6 @@ def linked_armature():
         bpy.context.scene.collection.objects.link(obj)
     bpy.context.view_layer.update()
     only(bpy.data.objects["Rig"])
-
-
-def linked_assembly():
-    """A collection of a library in the scene, the active one."""
-    root = assembly_of_boxes()
-    path = bpy.app.tempdir + "assembly.blend"
-    name = root.name
-    bpy.data.libraries.write(path, {root})
-    bpy.data.batch_remove([*bpy.data.objects, *bpy.data.meshes, *bpy.data.collections])
-    with bpy.data.libraries.load(path, link=True) as (_, names):
-        names.collections = [name]
-    bpy.context.scene.collection.children.link(names.collections[0])
-    layer = bpy.context.view_layer
-    layer.active_layer_collection = layer.layer_collection.children[name]
 
 
 def light_bones():
@@ -278,7 +264,7 @@ CASES = {  # scene, operator, options, code of the refusal (None: a text)
         {},
         "linked_object",
     ),
-    "bones being edited": (edited_bones, "object.measure_bones", {}, "armature_in_edit_mode"),
+    "bones being edited": (edited_bones, "object.measure_bones", {}, "armature_unavailable"),
     "physics rig that deform nothing": (no_bones, "object.physics_rig", {}, "rig_without_parts"),
     "physics rig too light": (light_bones, "object.physics_rig", {}, "rigid_body_mass_too_small"),
     "rigid bodies too light": (light_body, "object.rigid_bodies", {}, "rigid_body_mass_too_small"),

@@ -8,7 +8,7 @@ import bpy
 import pytest
 
 from tests.blender.objects import add, mesh_body, only
-from tests.operators.rig.test_rig import character
+from tests.operators.characters import character
 
 pytestmark = pytest.mark.usefixtures("scene")
 OPERATORS = {  # and whether they add joints

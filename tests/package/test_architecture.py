@@ -6,54 +6,14 @@ syntax trees.
 
 import ast
 import importlib.util
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent.parent
+from tests.package.modules import MODULES, ORDER, ROOT, WINGS
 
-# Each wing may import those before it and itself.
-WINGS = ("core", "blender", "command", "operators", "panels")
-# Each package of a wing may import those of the rows above its own and itself; those of one row do
-# not know each other, but for those of one row of the core.
-ORDER = {
-    "core": (
-        ("lazy",),
-        ("numerics", "verdict"),
-        ("files",),
-        ("moments",),
-        ("mesh", "inertia", "papers"),
-        ("polyhedron", "shape", "scans"),
-        ("solid", "flat", "fourier", "rig", "streams"),
-        ("density", "nurbs", "wall"),
-        ("statics", "cad"),
-        ("measurement",),
-        ("bodies",),
-        ("robots",),
-        ("colliders",),
-    ),
-    "blender": (
-        ("registration", "scale"),
-        ("settings", "write"),
-        ("read",),
-        ("bodies",),
-        ("scene",),
-        ("session",),
-    ),
-}
 MAY_KNOW_EACH_OTHER = ("mesh", "inertia", "papers")
 WITHOUT_WRITE = ("settings", "read", "bodies", "scene")  # These make findings and numbers only.
 # Blender is imported when it is needed: the package can be imported without it, and a script has to
 # be ready first.
 LATE = {"__init__.py", "core/verdict/finding.py", "operators/batch.py"}
-
-
-def shipped() -> dict[tuple[str, ...], Path]:
-    files = [ROOT / "__init__.py"]
-    for part in WINGS:
-        files += (ROOT / part).rglob("*.py")
-    return {path.relative_to(ROOT).with_suffix("").parts: path for path in files}
-
-
-MODULES = shipped()
 
 
 def imports(module: tuple[str, ...]) -> list[tuple[tuple[str, ...], int, bool, bool]]:
@@ -176,3 +136,12 @@ def test_root_alone_has_no_public_names():
     alone = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(alone)
     assert not hasattr(alone, "setUpModule") and not hasattr(alone, "mass_properties")
+
+
+def test_no_test_module_imports_another():
+    """What several need is in a module of its own, which pytest does not collect."""
+    for path in (ROOT / "tests").rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom):
+                words = [*(node.module or "").split("."), *(alias.name for alias in node.names)]
+                assert not any(word.startswith("test_") for word in words), path

@@ -16,7 +16,7 @@ from unittest.mock import MagicMock
 import numpy as np
 import pytest
 
-from tests.package.test_project import parsed
+from tests.package.parsed import parsed
 
 bpy = pytest.importorskip("bpy")
 

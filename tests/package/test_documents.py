@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.package.test_architecture import ORDER
+from tests.package.modules import ORDER
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]

@@ -11,7 +11,7 @@ from pathlib import Path, PurePosixPath
 
 import pytest
 
-from tests.package.test_architecture import WINGS
+from tests.package.modules import WINGS
 from tools import extension
 
 ROOT = Path(__file__).resolve().parent.parent.parent

@@ -3,33 +3,13 @@
 """The project's commands take the options that their texts name."""
 
 import re
-import subprocess
-import sys
 from contextlib import suppress
 from importlib import metadata
-from pathlib import Path
 
 import pytest
 from packaging.specifiers import SpecifierSet
 
-TESTS = Path(__file__).resolve().parent.parent
-PARSED = """\
-import sys
-sys.path.insert(0, sys.argv[1])
-import project
-options = project.parse(sys.argv[2:])
-values = (getattr(options, name, None) for name in ("subject", "k"))
-name = getattr(options, "tool", options.function.__name__)
-print(name, options.arguments, *values)
-"""
-
-
-def parsed(*words: str) -> str:
-    """Return the parsed command line, from a process of its own: no other module has the name
-    there.
-    """
-    command = [sys.executable, "-c", PARSED, str(TESTS), *words]
-    return subprocess.run(command, capture_output=True, encoding="utf-8", check=True).stdout.strip()
+from tests.package.parsed import TESTS, parsed
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from tests.package.test_architecture import WINGS
+from tests.package.modules import WINGS
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 SHIPPED = [

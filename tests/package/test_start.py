@@ -14,8 +14,8 @@ from tests.blender.characters import pose
 from tests.blender.flat_objects import sheet
 from tests.blender.grids import mesh_to_volume
 from tests.blender.objects import add, mesh_body, only
-from tests.operators.assembly.test_assembly import assembly_of_boxes
-from tests.operators.rig.test_rig import character
+from tests.operators.assemblies import assembly_of_boxes
+from tests.operators.characters import character
 
 ROOT = Path(__file__).resolve().parents[2]
 MAX_MODULES = 145  # of ours; the standard library adds five in a real Blender

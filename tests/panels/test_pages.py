@@ -9,11 +9,11 @@ import bpy
 import numpy as np
 import pytest
 
-from tests.blender.bodies.test_assembly import box_mesh
+from tests.blender.boxes import box_mesh
 from tests.blender.grids import vdb_grid, volume_object
 from tests.blender.objects import add, only
-from tests.operators.assembly.test_assembly import assembly_of_boxes
-from tests.operators.rig.test_rig import character
+from tests.operators.assemblies import assembly_of_boxes
+from tests.operators.characters import character
 from tests.panels.drawing import shown
 
 pytestmark = pytest.mark.usefixtures("scene")

@@ -8,7 +8,7 @@ import pytest
 from body_moments.core.robots.audit import Auditor
 from body_moments.core.robots.read.descriptions import Roots, read_description
 
-from tests.robots.test_reading_mjcf import check_links, matrix
+from tests.robots.mjcf_models import check_links, matrix
 
 MODEL = "<mujoco>{}<worldbody>{}</worldbody></mujoco>"
 
@@ -149,7 +149,7 @@ def test_compiler_settings_change_inertials_as_in_mujoco(tmp_path, seed):
     links = audited(tmp_path / "m.xml", MODEL.format(head, bodies))
     for one in links:
         codes = [entry.finding.code for entry in one.entries]
-        assert ("audit_compiler" in codes) <= (one.link.inertial is not None)
+        assert ("audit_overridden" in codes) <= (one.link.inertial is not None)
 
 
 BOX = '<inertial mass="48" pos="0 0 0" diaginertia="{}"/><geom type="box" size=".1 .2 .3"/>'
@@ -161,10 +161,10 @@ RIGHT, WRONG, IMPOSSIBLE = "2.08 1.6 .8", "2 2 3", "1 1 3"
     [
         ("", RIGHT, []),
         ('inertiafromgeom="auto"', RIGHT, []),
-        ('inertiafromgeom="true"', RIGHT, [("audit_compiler", "note")]),
-        ('inertiafromgeom="true"', WRONG, [("audit_compiler", "warning")]),
-        ('boundinertia="0.81"', RIGHT, [("audit_compiler", "note")]),
-        ('settotalmass="24"', RIGHT, [("audit_compiler", "note")]),
+        ('inertiafromgeom="true"', RIGHT, [("audit_overridden", "note")]),
+        ('inertiafromgeom="true"', WRONG, [("audit_overridden", "warning")]),
+        ('boundinertia="0.81"', RIGHT, [("audit_overridden", "note")]),
+        ('settotalmass="24"', RIGHT, [("audit_overridden", "note")]),
         ('balanceinertia="true"', RIGHT, []),
     ],
 )
@@ -181,7 +181,7 @@ def test_balanced_inertia_is_compared_with_the_geometry(tmp_path):
     head = '<compiler balanceinertia="true"/>'
     body = "<body>{}</body>".format(BOX.format(IMPOSSIBLE))
     (one,) = audited(tmp_path / "m.xml", MODEL.format(head, body))
-    assert [entry.finding.code for entry in one.entries][0] == "audit_compiler"
+    assert [entry.finding.code for entry in one.entries][0] == "audit_overridden"
     assert "inertial_triangle" not in [entry.finding.code for entry in one.entries]
 
 

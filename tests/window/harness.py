@@ -321,3 +321,27 @@ def _end(process: subprocess.Popen) -> None:
     except subprocess.TimeoutExpired:
         process.kill()
         process.wait()
+
+
+PACKAGE = "bl_ext.user_default.body_moments"
+
+
+CLOSE_OTHERS = """
+for name in ("inertia", "density", "apply", "stability", "assembly", "advanced"):
+    cls = getattr(bpy.types, "VIEW3D_PT_body_moments_" + name, None)
+    if cls is not None:
+        panels = bpy.types.Panel.__subclasses__()
+        name = cls.__name__
+        for child in [panel for panel in panels if getattr(panel, "bl_parent_id", "") == name]:
+            bpy.utils.unregister_class(child)
+        bpy.utils.unregister_class(cls)
+"""
+
+
+# opens the panel Stability, and closes the others
+OPEN_STABILITY = """
+panel = bpy.types.VIEW3D_PT_body_moments_stability
+bpy.utils.unregister_class(panel)
+panel.bl_options = set()
+bpy.utils.register_class(panel)
+"""

@@ -5,7 +5,7 @@ show.
 """
 
 from tests.window.conftest import OPEN
-from tests.window.test_selection import CLOSE_OTHERS
+from tests.window.harness import CLOSE_OTHERS
 
 CHAIR = """
 import bpy

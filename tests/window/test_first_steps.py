@@ -7,7 +7,7 @@ test_pictures.py).
 import pytest
 
 from tests.window.conftest import open_window
-from tests.window.test_stability import OPEN
+from tests.window.harness import OPEN_STABILITY
 
 EMPTY_SCENE = """
 for obj in list(bpy.data.objects):
@@ -34,7 +34,10 @@ def window(run_blender, cube_file, tmp_path_factory):
         run_blender, cube_file, tmp_path_factory.mktemp("log"), size=(1280, 800)
     ) as opened:
         opened.ask(
-            "bpy.context.preferences.system.viewport_aa = '8'\n" + EMPTY_SCENE + OPEN + ADD_CUBE
+            "bpy.context.preferences.system.viewport_aa = '8'\n"
+            + EMPTY_SCENE
+            + OPEN_STABILITY
+            + ADD_CUBE
         )
         yield opened
 

@@ -9,7 +9,8 @@ The tests run in the order of the file and go on from one another.
 import numpy as np
 import pytest
 
-PACKAGE = "bl_ext.user_default.body_moments"
+from tests.window.harness import PACKAGE
+
 SETTINGS = "bpy.context.scene.body_moments.overlay"
 EXACT, OUT_OF_DATE = (0.15, 0.85, 0.60), (0.68, 0.72, 0.76)
 FROM_SRGB = 0.06  # Rounding and the display change colors by as much.

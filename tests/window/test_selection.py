@@ -10,6 +10,7 @@ import io
 import pytest
 
 from tests.window.conftest import OPEN
+from tests.window.harness import CLOSE_OTHERS
 
 SCENE = """
 for obj in list(bpy.data.objects):
@@ -28,16 +29,6 @@ edited.to_mesh(mesh)
 bpy.ops.object.select_all(action="SELECT")
 bpy.ops.object.body_moments_measure("EXEC_DEFAULT", True)
 bpy.ops.view3d.view_selected()
-"""
-CLOSE_OTHERS = """
-for name in ("inertia", "density", "apply", "stability", "assembly", "advanced"):
-    cls = getattr(bpy.types, "VIEW3D_PT_body_moments_" + name, None)
-    if cls is not None:
-        panels = bpy.types.Panel.__subclasses__()
-        name = cls.__name__
-        for child in [panel for panel in panels if getattr(panel, "bl_parent_id", "") == name]:
-            bpy.utils.unregister_class(child)
-        bpy.utils.unregister_class(cls)
 """
 SELECTED = "sorted(obj.name for obj in bpy.context.selected_objects)"
 # Names in the order of their letters; by mass, C before B before A; B is repaired.

@@ -8,15 +8,9 @@ The tests run in the order of the file and go on from one another.
 
 import pytest
 
-from tests.window.test_overlay import PACKAGE
+from tests.window.harness import OPEN_STABILITY, PACKAGE
 
 CUBE = "bpy.data.objects['Cube']"
-OPEN = """
-panel = bpy.types.VIEW3D_PT_body_moments_stability
-bpy.utils.unregister_class(panel)
-panel.bl_options = set()
-bpy.utils.register_class(panel)
-"""
 SESSION = f"import sys\nstability = sys.modules['{PACKAGE}.blender.session.stored.stability']\n"
 SUPPORT = (
     SESSION
@@ -37,7 +31,7 @@ EMPTIES = "[obj.name for obj in bpy.context.scene.objects if 'body_balance_group
 
 def test_button_computes_stability_of_a_leaning_box(window):
     window.ask(
-        OPEN
+        OPEN_STABILITY
         + f"{CUBE}.scale.z = 2.0\n{CUBE}.rotation_euler.x = 0.5\nbpy.context.view_layer.update()"
     )
     window.open_tab("Moments")

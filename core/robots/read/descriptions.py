@@ -24,10 +24,10 @@ from typing import Any
 
 from ...files import (
     FILE_MISSING,
-    FILE_NOT_REGULAR,
     FILE_TOO_LARGE,
     FILE_UNREADABLE,
     FILE_WITHOUT_OBJECTS,
+    NOT_REGULAR,
 )
 from ...verdict import FileError, system_reason
 from ..findings import (
@@ -170,7 +170,11 @@ def read_description(path: Path, roots: Roots | None = None) -> Description:
     data = _bytes(path)
     roots = roots or Roots.for_file(path)
     is_text = data.startswith(_USD.encode())
-    is_binary = data.startswith((b"PXR-USDC", b"PK"))
+    is_archive = data.startswith(b"PK")
+    if is_archive and path.suffix.lower() != ".usdz":
+        error = "it is a zip archive, as the MJZ files of MuJoCo are. Unpack it, and audit its .xml"
+        raise FileError(FILE_UNREADABLE, error=error)
+    is_binary = is_archive or data.startswith(b"PXR-USDC")
     is_composed = is_binary or is_text and _LAYERED.search(data) is not None
     if is_text or is_binary:
         description = AUDITED[_USD].reader_module.read(
@@ -193,7 +197,7 @@ def read_description(path: Path, roots: Roots | None = None) -> Description:
 def _bytes(path: Path) -> bytes:
     try:
         if not stat.S_ISREG(path.stat().st_mode):
-            raise FileError(FILE_NOT_REGULAR)
+            raise FileError(FILE_UNREADABLE, error=NOT_REGULAR)
         with open(path, "rb") as file:
             data = file.read(MAX_DESCRIPTION + 1)
     except FileNotFoundError as error:

@@ -101,6 +101,9 @@ def read_glb(path: Path) -> Arrays:
     """
     file = GltfFile(map_file(path), str(path))
     document = file.document
+    if any("compression" in name for name in document.get("extensionsRequired", ())):
+        error = "it is compressed. Export it without Draco or meshopt compression"
+        raise FileError(FILE_UNREADABLE, error=error)
     scene = document["scenes"][document.get("scene", 0)]
     gathered = Gathered()
     waiting = [(index, np.eye(4)) for index in scene.get("nodes", [])]

@@ -243,12 +243,17 @@ def _visit(
     scales: Mapping[str, float],
     links: list[StatedLink],
     text: str,
+    is_within: bool = False,
 ) -> None:
+    """Add the links at and below a prim. is_within: True in a body, whose parts are no links."""
     matrix = _placed(prim, above)
-    if "PhysicsRigidBodyAPI" in prim.metadata or "PhysicsMassAPI" in prim.metadata:
+    is_body = "PhysicsRigidBodyAPI" in prim.metadata
+    is_fixed = "MassAPI" in prim.metadata and "PhysicsCollisionAPI" not in prim.metadata
+    if is_body or is_fixed and not is_within:
         links.append(_link(prim, matrix, path, scales, text))
     for child in prim.children:
-        _visit(child, matrix, path + "/" + child.name, scales, links, text)
+        below = path + "/" + child.name
+        _visit(child, matrix, below, scales, links, text, is_within or is_body)
 
 
 def _placed(prim: Prim, above: NDArray) -> Array:
@@ -308,7 +313,7 @@ def _link(
             )
             return None
 
-    inertial = attempt(prim, _inertial, to_link @ matrix, scales)
+    inertial, overridden = attempt(prim, _inertials, to_link @ matrix, scales) or (None, None)
     read_shapes = [
         attempt(part, _shape, to_link @ place, scales["length"])
         for part, place in _parts(prim, matrix)
@@ -317,7 +322,16 @@ def _link(
     span = len(text[: prim.start].encode()), len(text[: prim.end].encode())
     place = Place(prim.line)
     return StatedLink(
-        path, inertial, tuple(shapes), span, False, tuple(findings), to_link @ matrix, place, place
+        path,
+        inertial,
+        tuple(shapes),
+        span,
+        moves=False,
+        findings=tuple(findings),
+        local=to_link @ matrix,
+        place=place,
+        inertial_place=place,
+        overridden=overridden,
     )
 
 
@@ -327,25 +341,31 @@ def _turn(matrix: NDArray) -> Array:
     return -turn if np.linalg.det(turn) < 0.0 else turn
 
 
-def _inertial(prim: Prim, local: NDArray, scales: Mapping[str, float]) -> StatedInertial | None:
-    mass = prim.vector("physics:mass", (0.0,))
+def _inertials(
+    prim: Prim, local: NDArray, scales: Mapping[str, float]
+) -> tuple[StatedInertial | None, StatedInertial | None]:
+    """Return the stated inertial, and the one that `newton:inertia` overrides; None for those that
+    come from the colliders.
+    """
+    mass = prim.number("physics:mass", 0.0)
     diagonal = prim.vector("physics:diagonalInertia", (0.0, 0.0, 0.0))
-    if not mass[0] or not diagonal.any():
-        return None  # computed from the colliders
     center = prim.vector("physics:centerOfMass", (0.0, 0.0, 0.0))
     axes = prim.vector("physics:principalAxes", (1.0, 0.0, 0.0, 0.0))
     axes = axes if axes.any() else np.array([1.0, 0.0, 0.0, 0.0])
-    unit, kilograms = scales["length"], scales["mass"]
-    placed = local[:3, :3] @ center * unit
-    tensor = np.diag(diagonal) * unit**2 * kilograms
-    return StatedInertial(
-        float(mass[0]) * kilograms,
-        placed,
-        tensor,
-        rotation_matrix(axes),
-        None,
-        tuple(axes.tolist()),
-    )
+    kilograms = scales["mass"]
+    unit = scales["length"] ** 2 * kilograms
+    placed = local[:3, :3] @ center * scales["length"]
+    own = None
+    if mass and diagonal.any():
+        turn = rotation_matrix(axes)
+        tensor = np.diag(diagonal) * unit
+        own = StatedInertial(mass * kilograms, placed, tensor, turn, None, tuple(axes.tolist()))
+    entries = prim.values.get("newton:inertia", "None") if "NewtonMassAPI" in prim.metadata else ""
+    if not mass or not _FIELD.search(entries) or entries == "None":
+        return own, None
+    xx, yy, zz, xy, xz, yz = prim.vector("newton:inertia", (0.0,) * 6)
+    tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) * unit
+    return StatedInertial(mass * kilograms, placed, tensor), own
 
 
 def _parts(prim: Prim, matrix: NDArray) -> Iterator[tuple[Prim, NDArray]]:

@@ -82,7 +82,13 @@ def to_sarif(documents: Sequence[dict[str, Any]]) -> str:
             }
         )
     driver = {"name": "Body Moments", "rules": rules}
-    run = {"tool": {"driver": driver}, "columnKind": "unicodeCodePoints", "results": results}
+    is_read = not any(one["errors"] for one in documents)
+    run = {
+        "tool": {"driver": driver},
+        "invocations": [{"executionSuccessful": is_read}],
+        "columnKind": "unicodeCodePoints",
+        "results": results,
+    }
     log = {"$schema": SARIF_SCHEMA, "version": "2.1.0", "runs": [run]}
     return json.dumps(log, ensure_ascii=False, indent=2, allow_nan=False) + "\n"
 

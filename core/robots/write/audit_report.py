@@ -28,6 +28,7 @@ RESTS_ON = (
     "What is said of the geometry rests on one assumption: the drawn shapes of a link hold all of "
     "its mass."
 )
+NONE_READ = "No file could be read, so nothing was audited."
 _STYLE = (
     "body{font:15px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:75rem;"
     "color:#222;background:#fff}table{border-collapse:collapse;width:100%}"
@@ -58,7 +59,7 @@ def document(file: str, audit: Audit, repaired: str | None) -> dict[str, Any]:
     form = audit.description.format
     robot = audit.description.name
     head = {"schema": SCHEMA, "file": file, "status": "ok", "format": form, "robot": robot}
-    return with_status(plain({**head, "repaired": repaired, "links": links, "errors": []}))
+    return with_status(plain(head | {"repaired": repaired, "links": links, "errors": []}))
 
 
 def with_status(document: dict[str, Any]) -> dict[str, Any]:
@@ -78,9 +79,8 @@ def count_findings(document: dict[str, Any]) -> dict[str, int]:
         *(found for link in document["links"] for found in link["findings"]),
     ]
     levels = [one["severity"] for one in found if not one.get("known")]
-    return {
-        "links": len(document["links"]),
-        **{str(level) + "s": levels.count(level) for level in Severity},
+    return {"links": len(document["links"])} | {
+        str(level) + "s": levels.count(level) for level in Severity
     }
 
 
@@ -114,9 +114,8 @@ def _finding(one: Finding) -> dict[str, Any]:
 def _entry(one: Entry, link: LinkAudit, file: str) -> dict[str, Any]:
     """Return one fault as a record. file: of the description, which the place may differ from."""
     place = {"file": one.place.file or file, "line": one.place.line, "column": one.place.column}
-    head = {**_finding(one.finding), "severity": str(one.severity), "message": one.message, **place}
-    return {
-        **head,
+    head = _finding(one.finding) | {"severity": str(one.severity), "message": one.message} | place
+    return head | {
         "reasons": [_finding(reason) for reason in one.reasons],
         "stated": _inertial(link.link.inertial) if one.compares else None,
         "geometry": _inertial(link.geometry)
@@ -176,7 +175,7 @@ def to_html(documents: Sequence[dict[str, Any]]) -> str:
     lines += ["<style>{}</style>".format(_STYLE), "<h1>Audit of robot descriptions</h1>"]
     for one in documents:
         lines.append("<h2>{}</h2>".format(html.escape(str(one["file"]))))
-        lines.append("<p>{}: {}.</p>".format(*_summary(one)))
+        lines.append("<p>{}.</p>".format(_summary(one)))
         lines += [
             "<table>",
             "<tr><th>Link<th>Severity<th>Finding<th>Mass, kg<th>Density, kg/m³<th>Repair</tr>",
@@ -198,17 +197,22 @@ def to_html(documents: Sequence[dict[str, Any]]) -> str:
             ]
             lines.append("<tr>{}</tr>".format("".join(cells)))
         lines.append("</table>")
-    if _rests_on_geometry(documents):
-        lines.append("<p>{}</p>".format(RESTS_ON))
+    lines += map("<p>{}</p>".format, _remarks(documents))
     return "\n".join([*lines, "</html>", ""])
 
 
-def _summary(document: dict[str, Any]) -> tuple[str, str]:
+def _summary(document: dict[str, Any]) -> str:
     """Return the counts of links and of findings as text."""
+    if document["errors"]:
+        return "not read"
     counts = count_findings(document)
-    return counted(counts["links"], "link"), ", ".join(
-        counted(counts[str(one) + "s"], str(one)) for one in Severity
-    )
+    return ", ".join(counted(counts[one + "s"], one) for one in ("link", *map(str, Severity)))
+
+
+def _remarks(documents: Sequence[dict[str, Any]]) -> list[str]:
+    """Return the sentences about the report as a whole."""
+    remarks = [RESTS_ON] if _rests_on_geometry(documents) else []
+    return remarks if any(not one["errors"] for one in documents) else [NONE_READ]
 
 
 def _rests_on_geometry(documents: Iterable[dict[str, Any]]) -> bool:
@@ -257,15 +261,13 @@ def to_text(documents: Sequence[dict[str, Any]]) -> str:
                     lines.append("    shapes: {}".format(_numbers(found["geometry"])))
                 if found["change"] is not None:
                     lines.append("    change: {} ({})".format(found["change"], found["certainty"]))
-        lines.append("{}: {}, {}".format(one["file"], *_summary(one)))
+        lines.append("{}: {}".format(one["file"], _summary(one)))
         if one["repaired"]:
             lines.append("repaired copy: {}".format(one["repaired"]))
         elif any(link["repaired"] for link in one["links"]):
             count = sum(link["repaired"] is not None for link in one["links"])
             lines.append("{} can be repaired (--repair)".format(counted(count, "link")))
-    if _rests_on_geometry(documents):
-        lines.append(RESTS_ON)
-    return "\n".join(map(visible, [*lines, ""]))
+    return "\n".join(map(visible, [*lines, *_remarks(documents), ""]))
 
 
 def to_table(documents: Sequence[dict[str, Any]]) -> str:
@@ -279,16 +281,15 @@ def to_table(documents: Sequence[dict[str, Any]]) -> str:
         repairs = sum(link["repaired"] is not None for link in one["links"])
         numbers = [*(counts[key] for key in ("errors", "warnings", "notes", "links")), repairs]
         totals = [total + number for total, number in zip(totals, numbers)]
-        rows.append((*map(str, numbers), one["status"], visible(str(one["file"]))))
+        texts = [*map(str, numbers[:3]), *("--" if one["errors"] else map(str, numbers[3:]))]
+        rows.append((*texts, one["status"], visible(str(one["file"]))))
     rows.append((*map(str, totals), "", counted(len(documents), "file")))
     widths = [max(map(len, column)) for column in zip(*rows)]
     lines = [
         "  ".join(map(str.rjust, row[:5], widths)) + "  {}  {}".format(row[5].ljust(8), row[6])
         for row in rows
     ]
-    return "\n".join(
-        [AUDIT_TEXT, *lines, *([RESTS_ON] if _rests_on_geometry(documents) else []), ""]
-    )
+    return "\n".join([AUDIT_TEXT, *lines, *_remarks(documents), ""])
 
 
 FORMATS = {

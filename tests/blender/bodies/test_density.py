@@ -18,8 +18,8 @@ from body_moments.core.inertia.mass_properties import combine
 from body_moments.core.verdict.finding import MeasureError, finding
 
 from tests.blender import batch_files
-from tests.blender.bodies.test_measure_object import add, box, measure
 from tests.blender.findings import refused, said
+from tests.blender.measured_boxes import add, box, measure
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")

@@ -17,7 +17,7 @@ from body_moments.blender.write import properties
 from body_moments.core.verdict import sentences
 from body_moments.core.verdict.finding import Severity
 
-from tests.blender.bodies.test_many import KINDS, stored_on
+from tests.blender.many_objects import KINDS, stored_on
 from tests.blender.objects import only
 from tests.corpus import shapes as s
 

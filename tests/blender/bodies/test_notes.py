@@ -7,8 +7,8 @@ thing and a large one.
 import numpy as np
 import pytest
 
-from tests.blender.bodies.test_measure_object import add, box, collection_of, measure
 from tests.blender.findings import said
+from tests.blender.measured_boxes import add, box, collection_of, measure
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 from body_moments.blender.bodies.shape.shape import NoShapeError, shape_of
 
-from tests.blender.bodies.test_assembly import box_mesh
+from tests.blender.boxes import box_mesh
 from tests.blender.findings import refused
 from tests.blender.grids import vdb_grid, volume_object
 from tests.blender.objects import add, mesh_body, strip_mesh
 from tests.close import close
 from tests.core.bodies import rotation
-from tests.core.shape.test_symmetry import orbit_of
+from tests.core.point_groups import orbit_of
 
 pytestmark = pytest.mark.usefixtures("scene")
 

@@ -10,7 +10,7 @@ from body_moments.blender.bodies.shape.shape import signed_in_turn, surface_shap
 from body_moments.core.shape.signatures import Signature, similarity
 from body_moments.core.verdict.finding import MeasureError
 
-from tests.blender.bodies.test_many import KINDS, shards
+from tests.blender.many_objects import KINDS, shards
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")

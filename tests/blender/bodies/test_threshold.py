@@ -13,9 +13,8 @@ bpy = pytest.importorskip("bpy")
 from body_moments.blender.session.tracking import staleness
 from body_moments.blender.session.tracking.stamps import Stale
 
-from tests.blender.bodies.test_grid import SHEARED, measure
 from tests.blender.findings import said
-from tests.blender.grids import vdb_grid, volume_object
+from tests.blender.grids import SHEARED, measure, vdb_grid, volume_object
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")

@@ -14,6 +14,7 @@ from body_moments.core.nurbs.blender_knots import display_parameters
 from body_moments.core.nurbs.splines import Patch
 
 from tests.blender.objects import measured
+from tests.blender.surface_files import imported, written
 from tests.close import close
 from tests.core.exact_splines import sphere, torus
 from tests.core.iges_files import IgesFile, obj_text, unrolled
@@ -26,18 +27,6 @@ DONUT = 2.0 * np.pi**2 * 0.75 * 0.25**2
 def shown(obj):
     mesh = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
     return np.array([vertex.co for vertex in mesh.vertices], np.float64).reshape(-1, 3)
-
-
-def written(tmp_path, *patches, **more):
-    file = IgesFile(**more)
-    for patch in patches:
-        file.surface(patch)
-    return file.write(tmp_path / "body.igs")
-
-
-def imported(**arguments):
-    assert bpy.ops.object.body_moments_import_surfaces(**arguments) == {"FINISHED"}
-    return bpy.context.object
 
 
 def true_parameters(space, found):

@@ -12,10 +12,9 @@ import pytest
 from body_moments.blender.session.character import weight as character
 from body_moments.core.verdict.finding import MeasureError
 
+from tests.blender.box_character import HEIGHT, boxes, weight
 from tests.blender.figure import figure
 from tests.blender.objects import add, measured, mesh_body
-
-HEIGHT = 1.75
 
 
 def shown(rig):
@@ -24,47 +23,12 @@ def shown(rig):
     return weight(rig)
 
 
-def weight(rig):
-    bpy.context.view_layer.update()
-    return character.weight(rig, bpy.context.evaluated_depsgraph_get())
-
-
 def turn(rig, seed=1, size=0.4):
     rng = np.random.default_rng(seed)
     for name in ("hips", "spine", "head", "arm.L", "forearm.R", "hold.L"):
         rig.pose.bones[name].rotation_euler = rng.uniform(-size, size, 3)
     rig.pose.bones["hips"].location = 0.01, -0.05, 0.02
     bpy.context.view_layer.update()
-
-
-def boxes():
-    """An armature of three bones in a chain, and a mesh of three boxes, each on one of them
-    alone.
-    """
-    rig = bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig"))
-    bpy.context.scene.collection.objects.link(rig)
-    bpy.context.view_layer.objects.active = rig
-    bpy.ops.object.mode_set(mode="EDIT")
-    for number in range(3):
-        bone = rig.data.edit_bones.new("bone{:d}".format(number))
-        bone.head, bone.tail = (0, 0, number), (0.2, 0.1, number + 0.8)
-        bone.parent = rig.data.edit_bones[number - 1] if number else None
-    bpy.ops.object.mode_set(mode="OBJECT")
-    body = add(mesh_body())
-    points = np.array([vertex.co for vertex in body.data.vertices])
-    faces = [tuple(face.vertices) for face in body.data.polygons]
-    mesh, count = bpy.data.meshes.new("Boxes"), len(points)
-    places = np.concatenate([0.1 * points + (0, 0, number) for number in range(3)])
-    mesh.from_pydata(
-        places, [], [tuple(np.array(face) + count * k) for k in range(3) for face in faces]
-    )
-    bpy.data.objects.remove(body)
-    body = add(mesh, "Boxes")
-    for number in range(3):
-        group = body.vertex_groups.new(name="bone{:d}".format(number))
-        group.add(range(count * number, count * (number + 1)), 1.0, "REPLACE")
-    body.modifiers.new("Armature", "ARMATURE").object = rig
-    return rig, body
 
 
 def sum_over_bones(rig):

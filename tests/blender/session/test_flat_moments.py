@@ -14,8 +14,8 @@ import pytest
 from body_moments.core.verdict.finding import MeasureError, finding
 
 from tests.blender.flat_objects import sheet, text
+from tests.blender.moments import compute, settings
 from tests.blender.objects import add, mesh_body, only
-from tests.blender.session.test_moments import compute, settings
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")

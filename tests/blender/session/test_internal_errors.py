@@ -13,9 +13,7 @@ import pytest
 pytest.importorskip("bpy")
 import body_moments
 import bpy
-from body_moments.blender.bodies import measure_object as measure
-from body_moments.blender.bodies import request
-from body_moments.blender.bodies.stacks import many
+from body_moments.blender.bodies import measure_object, request
 from body_moments.blender.scene import empties, reframe
 from body_moments.blender.session.stored import outcome
 from body_moments.blender.write import properties, section
@@ -24,18 +22,14 @@ from body_moments.operators.measure.measure_selected import OBJECT_OT_body_momen
 
 from tests.blender import batch_files as files
 from tests.blender.objects import add, mesh_body, only, place
-from tests.blender.session import test_unkeyed
-from tests.operators.measure.test_stepwise import finished, pressed
+from tests.blender.operator_calls import OPERATORS as UNKEYED
+from tests.operators.modal_runs import finished, pressed
 
 pytestmark = pytest.mark.usefixtures("registered", "scene")
 
 ERRORS = [TypeError("planted"), RecursionError("planted"), NotImplementedError("planted")]
 OPERATORS = {
-    **{
-        name: run
-        for name, run in test_unkeyed.OPERATORS.items()
-        if name not in ("clear", "balance", "setting")
-    },
+    **{name: run for name, run in UNKEYED.items() if name not in ("clear", "balance", "setting")},
     "section": lambda: bpy.ops.object.body_moments_measure_section(),
 }
 
@@ -60,7 +54,7 @@ def three(flat=False):
 
 def plant(monkeypatch, error, *names, module=request, function="read_object"):
     """The error, wherever one of these objects is read, by itself or together with others."""
-    for place_, name in ((module, function), (many, "plain_mesh")):
+    for place_, name in ((module, function), (measure_object, "plain_mesh")):
         monkeypatch.setattr(place_, name, failing_for(names, error, getattr(place_, name)))
 
 
@@ -139,7 +133,7 @@ def unwritable(monkeypatch, *names):
     """Measurements of these objects of which Blender takes a part only: what comes before the
     fingerprint.
     """
-    real = measure.measure_body
+    real = measure_object.measure_body
 
     def damaged(obj, *args):
         measured = real(obj, *args)
@@ -147,9 +141,8 @@ def unwritable(monkeypatch, *names):
             return measured
         return replace(measured, measurement=replace(measured.measurement, fingerprint=object()))
 
-    monkeypatch.setattr(measure, "measure_body", damaged)
-    monkeypatch.setattr(many, "measure_body", damaged)
-    monkeypatch.setattr(many, "plain_mesh", lambda *_: None)
+    monkeypatch.setattr(measure_object, "measure_body", damaged)
+    monkeypatch.setattr(measure_object, "plain_mesh", lambda *_: None)
 
 
 @pytest.mark.parametrize("stored", [False, True])

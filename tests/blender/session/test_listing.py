@@ -15,7 +15,7 @@ import bpy
 from body_moments.blender.session import displayed
 from body_moments.blender.session.displayed import SortBy, listed_masses, listing
 
-from tests.blender.bodies.test_assembly import box_mesh
+from tests.blender.boxes import box_mesh
 from tests.blender.objects import add, mesh_body, only, strip_mesh
 from tests.close import close
 

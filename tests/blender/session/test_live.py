@@ -20,6 +20,7 @@ from body_moments.blender.session.tracking import armatures
 from body_moments.core.inertia.plain_body import add_bodies
 from mathutils import Euler, Matrix
 
+from tests.blender.boxes import armature_with, update
 from tests.blender.grids import vdb_grid, volume_object
 from tests.blender.objects import add, arrays, measured, mesh_body, only
 from tests.close import close
@@ -31,10 +32,6 @@ pytestmark = pytest.mark.usefixtures("scene")
 def _enough_time(monkeypatch):
     """A budget that a busy machine keeps."""
     monkeypatch.setattr(live, "_budget", lambda: 1.0)
-
-
-def update():
-    bpy.context.view_layer.update()
 
 
 def start(*objects):
@@ -261,22 +258,6 @@ def test_live_kinds_are_current_after_move_stretch_and_edit(kind, monkeypatch):
         update()
         assert tick(monkeypatch) is None
         assert_current(obj)
-
-
-def armature_with(*meshes):
-    data = bpy.data.armatures.new("Armature")
-    armature = add(data, "Armature")
-    only(armature)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bone = data.edit_bones.new("Bone")
-    bone.head, bone.tail = (0, 0, 0), (0, 0, 1)
-    bpy.ops.object.mode_set(mode="OBJECT")
-    for mesh in meshes:
-        mesh.parent = armature
-        mesh.modifiers.new("Armature", "ARMATURE").object = armature
-        mesh.vertex_groups.new(name="Bone").add(list(range(6, 12)), 1.0, "REPLACE")
-    update()
-    return armature
 
 
 def assert_bounds_hold(shown, parts):

@@ -13,7 +13,8 @@ from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.core.verdict.finding import MeasureError, finding
 
 from tests.blender import batch_files as files
-from tests.command.test_options import box_moment
+from tests.blender.moments import compute, settings
+from tests.command.running import box_moment
 from tests.panels.drawing import Layout, labels
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -29,20 +30,10 @@ def box():
     return obj
 
 
-def settings(**values):
-    for name, value in values.items():
-        setattr(bpy.context.scene.body_moments, name, value)
-
-
 def drawn():
     layout = Layout()
     bpy.types.VIEW3D_PT_body_moments_orders.draw(SimpleNamespace(layout=layout), bpy.context)
     return layout.record
-
-
-def compute(order=4):
-    settings(moments_order=order)
-    assert bpy.ops.object.body_moments_compute_moments() == {"FINISHED"}
 
 
 def rows():

@@ -14,9 +14,8 @@ from body_moments.blender.session.displayed import drawn
 from body_moments.blender.session.tracking import handlers
 from body_moments.core.inertia.mass_properties import combine
 
-from tests.blender.bodies.test_assembly import box, collection
+from tests.blender.boxes import armature_with, box, collection
 from tests.blender.objects import add, arrays, measured, mesh_body, only, strip_mesh
-from tests.blender.session.test_live import armature_with
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("registered")

@@ -15,7 +15,7 @@ from mathutils import Matrix
 
 from tests.blender.objects import add, measured, mesh_body, only, strip_mesh
 from tests.close import close
-from tests.operators.rig.test_rig import character
+from tests.operators.characters import character
 
 pytestmark = pytest.mark.usefixtures("scene")
 

@@ -8,7 +8,7 @@ import pytest
 from body_moments.blender.session.stored import faults
 
 from tests.blender.objects import add, only
-from tests.operators.setup.test_remedy_buttons import boxes
+from tests.operators.overlapping_boxes import boxes
 
 pytestmark = pytest.mark.usefixtures("scene")
 

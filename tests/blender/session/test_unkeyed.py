@@ -16,6 +16,7 @@ from body_moments.blender.session.tracking import staleness
 
 from tests.blender.grids import linked, mesh_to_volume
 from tests.blender.objects import add, measured, mesh_body, only
+from tests.blender.operator_calls import OPERATORS
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -27,24 +28,6 @@ CHANNELS = {
     "property": '["own"]',
     "influence": 'constraints["Copy Location"].influence',
     "shape key": 'data.shape_keys.key_blocks["Key"].value',
-}
-OPERATORS = {
-    "measure": lambda: bpy.ops.object.body_moments_measure(),
-    "clear": lambda: bpy.ops.object.body_moments_clear(),
-    "faults": lambda: bpy.ops.object.body_moments_select_faults(),
-    "origin": lambda: bpy.ops.object.body_moments_origin_to_center(),
-    "axes": lambda: bpy.ops.object.body_moments_axes_to_principal(),
-    "align": lambda: bpy.ops.object.body_moments_align_to_world(),
-    "match": lambda: bpy.ops.object.body_moments_match_pose(),
-    "empty": lambda: bpy.ops.object.body_moments_add_empty(),
-    "cursor": lambda: bpy.ops.view3d.body_moments_cursor_to_center(),
-    "rigid body": lambda: bpy.ops.object.body_moments_set_rigid_body_mass(add=True),
-    "balance": lambda: bpy.ops.object.body_moments_sculpt_balance(
-        target="POINT", point=(1.3, 1.0, 0.36)
-    ),
-    "symmetry": lambda: bpy.ops.object.body_moments_find_symmetry(),
-    "similar": lambda: bpy.ops.object.body_moments_find_similar(),
-    "setting": lambda: setattr(bpy.context.object.body_moments, "density", 500.0),
 }
 
 

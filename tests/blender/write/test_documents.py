@@ -8,29 +8,18 @@ import json
 from math import inf, nan
 
 import bpy
-import numpy as np
 import pytest
 from body_moments.blender.write import properties
 from body_moments.core.files import replace_gltf_document, to_glb
 from body_moments.core.measurement import documents
 from body_moments.core.measurement.page import to_html
-from body_moments.core.robots.model import Inertial
 from body_moments.core.robots.write import audit_report
 from body_moments.core.verdict.finding import finding
 
 from tests.blender import batch_files
-from tests.blender.bodies.test_assembly import box_mesh
+from tests.blender.boxes import box_mesh
+from tests.blender.flat_objects import I_BEAM, flat_mesh
 from tests.blender.objects import add, only
-from tests.operators.measure.test_section import I_BEAM, flat_mesh
-
-TURN = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
-
-
-def of_box(mass, sides, center=(0.0, 0.0, 0.0), turn=TURN):
-    moments = mass * (np.square(sides).sum() - np.square(sides)) / 12.0
-    order = np.argsort(moments)
-    axes = turn[:, order] * (1.0, 1.0, np.linalg.det(turn[:, order]))
-    return Inertial(mass, np.array(center), turn @ np.diag(moments) @ turn.T, moments[order], axes)
 
 
 @pytest.mark.parametrize("value", [nan, inf])

@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 from body_moments.blender.write.translations import read_po
 
-from tests.package.test_architecture import MODULES
+from tests.package.modules import MODULES
 
 ROOT = Path(__file__).resolve().parents[3]
 FILES = [pytest.param(path, id=path.stem) for path in sorted((ROOT / "locale").glob("*.po"))]

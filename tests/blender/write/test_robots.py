@@ -17,7 +17,7 @@ from body_moments.core.robots.model import Link, Robot
 from body_moments.core.robots.write import mjcf, stl, text, usd
 from body_moments.core.verdict.finding import finding
 
-from tests.blender.write.test_documents import of_box
+from tests.blender.documents import of_box
 
 
 def with_least(mass, moment):

@@ -19,7 +19,8 @@ from body_moments.core.verdict.finding import FileError, finding
 from body_moments.tests.close import close
 from body_moments.tests.core.exact_splines import flux_moment, sphere, torus
 from body_moments.tests.core.iges_files import IgesFile, surface_fields, unrolled
-from body_moments.tests.core.nurbs.test_flat_faces import arcs, polygon
+
+from tests.core.polygons import arcs, polygon
 
 BALL = 4.0 / 3.0 * np.pi
 DONUT = 2.0 * np.pi**2 * 0.75 * 0.25**2
@@ -496,8 +497,8 @@ def test_other_delimiters_and_line_ends_are_read(tmp_path):
     [
         ("", "file_unrecognized"),
         ("solid\n", "file_unrecognized"),
-        ("{:<72}B{:>7}\n".format("", 1), "iges_not_ascii"),
-        ("{:<72}C{:>7}\n".format("", 1), "iges_not_ascii"),
+        ("{:<72}B{:>7}\n".format("", 1), "file_unreadable"),
+        ("{:<72}C{:>7}\n".format("", 1), "file_unreadable"),
         ("\0" * 1000, "file_unrecognized"),
     ],
 )

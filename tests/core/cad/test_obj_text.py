@@ -7,7 +7,7 @@ from body_moments.core.cad.obj_text import check_obj_text
 from body_moments.core.files.text_fields import COUNT, NUMBER, VERTEX
 from body_moments.core.files.text_fields import WHOLE as WHOLE_NUMBER
 
-from tests.core.streams.test_misread import NO_NUMBERS, NO_WHOLES, NUMBERS, misread
+from tests.core.misread_files import NO_NUMBERS, NO_WHOLES, NUMBERS, misread
 
 START = """# v 1.0x0
 mtllib a\\b.mtl

@@ -25,19 +25,7 @@ from body_moments.core.polyhedron.n_dimensions import facet_moments, multi_indic
 from tests.close import close
 from tests.core import rational
 from tests.core.findings import refused
-
-
-def rectangle(x, y, width, height):
-    return [(x, y), (x + width, y), (x + width, y + height), (x, y + height)]
-
-
-def shape(*outlines):
-    """(points, loops)"""
-    starts = np.cumsum([0] + [len(one) for one in outlines])
-    return np.array([p for one in outlines for p in one], float), [
-        np.arange(a, b) for a, b in zip(starts, starts[1:])
-    ]
-
+from tests.core.polygons import rectangle, shape
 
 STAR = [(0, 0), (3, 1), (6, 0), (5, 3), (6, 6), (3, 5), (0, 6), (1, 3)]
 HOLED = shape(STAR, rectangle(2, 2, 1, 2)[::-1])

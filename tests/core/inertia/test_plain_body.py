@@ -18,7 +18,7 @@ from body_moments.core.moments import Measure, Moments
 from body_moments.core.moments.moments import SECOND_MOMENT_INDEX
 
 from tests.close import close
-from tests.core.inertia.test_reference import box
+from tests.core.boxes import box
 
 # of each symmetry, and of a flat body
 SPREADS = (

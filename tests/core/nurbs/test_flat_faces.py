@@ -12,30 +12,11 @@ from body_moments.core.nurbs.solid import measure_patches
 from body_moments.core.nurbs.splines import Curve, Patch
 
 from tests.close import close
+from tests.core.polygons import arcs, polygon
 
 Z = np.array([0.0, 0.0, 1.0])
 TURN = np.linalg.qr(np.array([[1.0, 2.0, 0.5], [-0.3, 1.0, 2.0], [1.0, -1.0, 0.7]]))[0]
 TURN *= np.sign(np.linalg.det(TURN))
-
-
-def arcs(radius, z=0.0, center=(0.0, 0.0), count=4):
-    """Quadratic rational arcs, counter-clockwise."""
-    half, made = np.pi / count, []
-    for k in range(count):
-        ring = [(2 * k - 1, 1.0), (2 * k, 1.0 / np.cos(half)), (2 * k + 1, 1.0)]
-        points = [
-            (*(center + radius * far * np.array([np.cos(t * half), np.sin(t * half)])), z)
-            for t, far in ring
-        ]
-        made.append(Curve(clamped_space(3), np.array(points), np.array([1.0, np.cos(half), 1.0])))
-    return made
-
-
-def polygon(*corners, z=0.0):
-    points = np.array([(*corner, z) for corner in corners], np.float64)
-    return [
-        Curve(clamped_space(2), np.array(pair)) for pair in zip(points, np.roll(points, -1, axis=0))
-    ]
 
 
 def wall(low, high, inward=False):

@@ -22,8 +22,8 @@ from hypothesis import strategies as st
 
 from tests.close import close
 from tests.core import exact
+from tests.core.bodies import grid_torus
 from tests.core.findings import refused
-from tests.core.polyhedron.test_third_order import grid_torus
 from tests.core.strategies import holds, random_meshes, seeds
 
 # open faces count as given

@@ -19,7 +19,7 @@ from hypothesis import strategies as st
 
 from tests.close import close
 from tests.core import exact
-from tests.core.bodies import rotation
+from tests.core.bodies import grid_torus, rotation
 from tests.core.strategies import holds, random_meshes, seeds
 
 # open faces count as given
@@ -36,27 +36,12 @@ def path(request, monkeypatch):
     """Both ways through the third order, in blocks of a few faces, and the way of small bodies."""
     if request.param == "few":
         return request.param
-    monkeypatch.setattr(polyhedron, "TRIANGLES_PER_BLOCK", 32)
+    monkeypatch.setattr(polyhedron, "FACES_PER_BLOCK", 32)
     monkeypatch.setattr(polyhedron, "MAX_SMALL_TRIANGLES", 16)
     monkeypatch.setattr(polyhedron, "MIN_TRIANGLES_PER_THREAD", 8)
     if request.param == "fast":
         monkeypatch.setattr(polyhedron, "MAX_TRIANGLES_EXACT_THIRD", 0)
     return request.param
-
-
-def grid_torus(n=12, m=8, noise=0.0, seed=0, major=1.0, minor=0.4):
-    """A closed torus of n x m quads with its points moved at random: points and quads."""
-    u, v = np.meshgrid(
-        np.arange(n) * (2 * np.pi / n), np.arange(m) * (2 * np.pi / m), indexing="ij"
-    )
-    ring = major + minor * np.cos(v)
-    points = np.stack([ring * np.cos(u), ring * np.sin(u), minor * np.sin(v)], axis=-1).reshape(
-        -1, 3
-    )
-    points = points + noise * np.random.default_rng(seed).standard_normal(points.shape)
-    i, j = np.meshgrid(np.arange(n), np.arange(m), indexing="ij")
-    corners = [(i, j), ((i + 1) % n, j), ((i + 1) % n, (j + 1) % m), (i, (j + 1) % m)]
-    return points, np.stack([(a * m + b).ravel() for a, b in corners], axis=1)
 
 
 def assert_within(moments, truth, error=None):
@@ -205,6 +190,22 @@ def test_third_moments_of_many_triangles_match_the_closed_form():
             assert_within(fine, truth)
             assert_within(coarse, truth)
             assert fine.rounding_error[10:].max() < 1e-10 < 1e-6 < coarse.rounding_error[10:].max()
+
+
+@pytest.mark.parametrize("cut", [False, True])
+def test_many_triangles_are_summed_to_the_last_digits(cut):
+    """Adding the same cones one after the other loses four digits."""
+    points, quads = fine_box(128)
+    surface = Surface(points / 3.0, quads=quads)
+    triangles = surface.all_triangles()[0]
+    volume = polyhedron_moments(Surface(surface.points, triangles) if cut else surface)[0]
+    corners = (surface.points - volume.about)[triangles]
+    naive = np.cumsum(np.linalg.det(corners))[-1] / 6.0
+    ends = ([Fraction(x) - Fraction(o) for x, o in zip(box, volume.about)] for box in surface.box)
+    truth = exact.box_moments(*ends)
+    for i in (0, 4, 7, 9):  # 1, xx, yy, zz
+        assert abs(Fraction(volume.raw[i]) / truth[i] - 1) < 8 * 2.0**-53
+    assert abs(Fraction(naive) / truth[0] - 1) > 10_000 * 2.0**-53
 
 
 def test_the_bound_is_not_vacuous_for_a_clean_body():

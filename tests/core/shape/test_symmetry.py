@@ -18,8 +18,9 @@ from body_moments.core.shape.symmetries import UNDECIDED, Symmetry, symmetry
 from body_moments.core.shape.zernike import disc_zernike
 
 from tests.core import bodies, shapes
+from tests.core.bodies import ball
+from tests.core.point_groups import ACROSS, POINT_GROUPS, UPRIGHT, X, Z, about, group_of, orbit_of
 from tests.core.recursion import moments
-from tests.core.shape.test_zernike import ball
 
 
 def placed(part, near):
@@ -75,43 +76,6 @@ def test_round_looking_polygon_has_mirror_lines_of_its_corners(tolerance):
     assert flat_symmetry(zernike, 8, corners, np.eye(3), holds).group == "C23v"
 
 
-def about(axis, n):
-    """The turn about an axis by an n-th of a whole one."""
-    x, y, z = np.array(axis) / np.linalg.norm(axis)
-    c, s = np.cos(2.0 * np.pi / n), np.sin(2.0 * np.pi / n)
-    return (
-        c * np.eye(3)
-        + s * np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-        + (1.0 - c) * np.outer([x, y, z], [x, y, z])
-    )
-
-
-def group_of(generators):
-    """All products of some matrices."""
-    found = [np.eye(3)]
-    for one in found:  # the list grows meanwhile
-        for other in generators:
-            product = other @ one
-            if min(np.abs(product - known).max() for known in found) > 1e-6:
-                found.append(product)
-    return np.array(found)
-
-
-X, Y, Z, DIAGONAL = [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]
-ACROSS, UPRIGHT, INVERSION = np.diag([1.0, 1.0, -1.0]), np.diag([1.0, -1.0, 1.0]), -np.eye(3)
-GOLDEN = (1.0 + 5.0**0.5) / 2.0
-POINT_GROUPS = {
-    "C1": (1, []),
-    "Cs": (2, [ACROSS]),
-    "Ci": (2, [INVERSION]),
-    "T": (12, [about(Z, 2), about(DIAGONAL, 3)]),
-    "Th": (24, [about(Z, 2), about(DIAGONAL, 3), INVERSION]),
-    "Td": (24, [about(Z, 4) @ ACROSS, about(DIAGONAL, 3)]),
-    "O": (24, [about(Z, 4), about(DIAGONAL, 3)]),
-    "Oh": (48, [about(Z, 4), about(DIAGONAL, 3), INVERSION]),
-    "I": (60, [about([0, 1, GOLDEN], 5), about(DIAGONAL, 3)]),
-    "Ih": (120, [about([0, 1, GOLDEN], 5), about(DIAGONAL, 3), INVERSION]),
-}
 for n in (2, 3, 4, 5, 6, 7, 10, 16):
     turn, both = about(Z, n), about(Z, 2 * n) @ ACROSS
     POINT_GROUPS |= {
@@ -135,21 +99,6 @@ def test_point_groups_have_their_schoenflies_symbols(name, seed):
     found = Symmetry(operations, np.empty((0, 3)), 6)
     assert found.group == name
     assert found.has_center == any(np.abs(one + np.eye(3)).max() < 1e-9 for one in operations)
-
-
-def orbit(operations, corners):
-    """The images of a tetrahedron under all operations, as one body."""
-    faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    images = [
-        (corners @ operation.T, faces if np.linalg.det(operation) > 0.0 else faces[:, ::-1])
-        for operation in operations
-    ]
-    return bodies.joined(*images)
-
-
-def orbit_of(name):
-    corners = np.array([[0.0, 0.0, 0.0], [0.35, 0.02, 0.05], [0.05, 0.3, 0.02], [0.03, 0.08, 0.4]])
-    return orbit(group_of(POINT_GROUPS[name][1]), corners + [1.1, 0.45, 0.7])
 
 
 @pytest.mark.parametrize("name", POINT_GROUPS)

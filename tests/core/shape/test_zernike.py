@@ -5,7 +5,7 @@ of the same body.
 """
 
 from fractions import Fraction
-from math import gamma, pi, sqrt
+from math import pi, sqrt
 
 import numpy as np
 import pytest
@@ -24,22 +24,8 @@ from body_moments.core.shape.zernike import (
 
 from tests.close import close
 from tests.core import bodies, shapes
+from tests.core.bodies import ball
 from tests.core.recursion import moments
-
-
-def ball(order, radius=1.0):
-    """Raw moments of a ball about its center: Dirichlet's integral."""
-    raw = [
-        0.0
-        if any(n % 2 for n in row)
-        else 2.0
-        * np.prod([gamma((n + 1) / 2) for n in row])
-        / gamma((sum(row) + 3) / 2)
-        / (sum(row) + 3)
-        * radius ** (sum(row) + 3)
-        for row in monomials(order).tolist()
-    ]
-    return np.array(raw)
 
 
 def in_ball(part):

@@ -18,6 +18,7 @@ from hypothesis import strategies as st
 from tests.close import close
 from tests.core.bodies import (
     CORNERS,
+    bar,
     box,
     grid,
     inverted,
@@ -35,30 +36,6 @@ from tests.core.bodies import (
 from tests.core.findings import codes, only
 from tests.core.shapes import L_PRISM, STEPPED
 from tests.core.strategies import holds, seeds
-
-
-def bar(turn, sections=90, sides=12, radius=0.2):
-    """A round bar bent about the z axis by so many full turns."""
-    around = np.linspace(0.0, 2.0 * np.pi * turn, sections + 1)
-    side = np.arange(sides) * 2.0 * np.pi / sides
-    distance, height = (
-        1.0 + radius * np.cos(side),
-        np.tile(radius * np.sin(side), (sections + 1, 1)),
-    )
-    points = np.stack(
-        [np.cos(around)[:, None] * distance, np.sin(around)[:, None] * distance, height], axis=-1
-    )
-    i, j = (k.ravel() for k in np.meshgrid(np.arange(sections), np.arange(sides), indexing="ij"))
-    after = (j + 1) % sides
-    mantle = np.stack(
-        [i * sides + j, (i + 1) * sides + j, (i + 1) * sides + after, i * sides + after], axis=1
-    )
-    ends = [(0, k, k + 1) for k in range(1, sides - 1)]
-    far = [
-        (sections * sides, sections * sides + k + 1, sections * sides + k)
-        for k in range(1, sides - 1)
-    ]
-    return points.reshape(-1, 3), np.concatenate([split(mantle), ends, far])
 
 
 def pushed(far, level=2):
@@ -118,18 +95,6 @@ CORNER = (
 @pytest.mark.parametrize("turned", [False, True])
 def test_convex_bodies_are_proved(part, scale, turned):
     assert_convex_is_proved(part, scale, turned)
-
-
-def hourglass(heavy):
-    """A prism on two wedges that meet in a narrow waist.
-
-    All of its sides are seen from the middle of its box there; from its center, in the wider one of
-    the wedges, those of the other are seen from behind.
-    """
-    outline = [(-3.0, -heavy), (0.0, -0.05), (3.0, -1.5), (3.0, 1.5), (0.0, 0.05), (-3.0, heavy)]
-    points = np.array([(x, y, z) for z in (-1.0, 1.0) for x, y in outline])
-    lids = [(0, 5, 4, 1), (1, 4, 3, 2), (6, 7, 10, 11), (7, 8, 9, 10)]
-    return points, split(lids + [(k, (k + 1) % 6, (k + 1) % 6 + 6, k + 6) for k in range(6)])
 
 
 @pytest.mark.parametrize(

@@ -14,8 +14,7 @@ from body_moments.core.verdict.health import Intersection
 from body_moments.core.verdict.method import Procedure
 
 from tests.close import close
-from tests.core.bodies import mesh, moved
-from tests.core.solid.test_self_intersection import hourglass
+from tests.core.bodies import hourglass, mesh, moved
 
 CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
 SIDES = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]

@@ -20,24 +20,8 @@ from body_moments.core.streams.ply_rows import parse_header
 from body_moments.core.streams.stl import check_stl_text
 
 from tests.core.findings import refused
+from tests.core.misread_files import NO_NUMBERS, NO_WHOLES, NUMBERS, misread
 
-NO_NUMBERS = [
-    "1.0x0",
-    "1.0D0",
-    "l.0",
-    "1,0",
-    "--1",
-    "+-1",
-    "1e",
-    "1e+",
-    "e1",
-    ".",
-    "+",
-    "1.0.0",
-    "0x1",
-    "0x1p3",
-    "1_0",
-]
 NO_NUMBERS += [
     "1e1.5",
     "1.0f",
@@ -55,21 +39,6 @@ NO_NUMBERS += [
     "1\xa0",
 ]
 NO_NUMBERS.append("\x001")
-NUMBERS = [
-    "+1",
-    ".5",
-    "5.",
-    "1E-3",
-    "-0",
-    "1e+000",
-    "1.e05",
-    "-.5e-3",
-    "0001",
-    "1" * 35,
-    "0." + "3" * 70,
-    "1e-999",
-]
-NO_WHOLES = ["1.0", "1e0", "x", "1_0", "٣", "--1", "1/1", "0x1", ""]
 
 FACET = (
     "facet normal {} {} {}\n outer loop\n  vertex {} {} {}\n  vertex {} {} {}\n  vertex {} {} {}\n "
@@ -107,10 +76,6 @@ ROWS = [
 def write(path, text):
     path.write_bytes(text.encode())
     return path
-
-
-def misread(line, expected, text):
-    return refused("line_misread", line=line, text=text, expected=expected)
 
 
 def test_decimal_numbers_follow_xml_schema():

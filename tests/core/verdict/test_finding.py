@@ -26,7 +26,7 @@ from body_moments.core.verdict.method import Method, Procedure, Source, least_tr
 from body_moments.core.verdict.sentences import sentence, truncate_list
 
 from tests.core.findings import declarations
-from tests.package.test_architecture import WINGS
+from tests.package.modules import WINGS
 
 ROOT = Path(__file__).resolve().parent.parent.parent.parent
 

@@ -16,33 +16,12 @@ from body_moments.blender.write import properties
 from body_moments.panels import overlay
 from mathutils import Matrix
 
-from tests.blender.bodies.test_assembly import box, boxes_inertia, collection, empty
+from tests.blender.boxes import box, boxes_inertia, empty
 from tests.blender.objects import only, place
 from tests.close import close
+from tests.operators.assemblies import BOXES, activate, assembly_of_boxes
 
 pytestmark = pytest.mark.usefixtures("registered", "scene")
-
-BOXES = [(7850, (1, 2, 4), (8, 0, -2)), (1000, (2, 2, 2), (-4, 6, 1))]
-
-
-def activate(made):
-    """Make a collection the active one."""
-
-    def found(layer):
-        if layer.collection == made:
-            return layer
-        return next(filter(None, map(found, layer.children)), None)
-
-    bpy.context.view_layer.active_layer_collection = found(bpy.context.view_layer.layer_collection)
-
-
-def assembly_of_boxes():
-    root = collection("Robot")
-    inner = collection("Arm", root)
-    for number, (density, size, at) in enumerate(BOXES):
-        box(inner if number else root, size, at, density, f"b{number}")
-    activate(root)
-    return root
 
 
 def test_the_total_is_stored_on_the_collection_and_drives(reported):

@@ -5,9 +5,9 @@
 import bpy
 import pytest
 
-from tests.blender.read.test_surface_files import imported, unrolled, written
+from tests.blender.surface_files import imported, written
 from tests.core.exact_splines import sphere
-from tests.core.iges_files import obj_text
+from tests.core.iges_files import obj_text, unrolled
 
 pytestmark = pytest.mark.usefixtures("scene")
 

@@ -14,7 +14,7 @@ from body_moments.core.inertia.plain_body import tensor_rows
 from body_moments.core.verdict.finding import Finding
 from mathutils import Euler
 
-from tests.blender.bodies.test_assembly import box, boxes_inertia, collection
+from tests.blender.boxes import box, boxes_inertia, collection
 from tests.blender.objects import only
 from tests.close import close
 

@@ -15,26 +15,12 @@ from body_moments.blender.session.tracking.stamps import Stale
 
 from tests.blender.findings import refused as refusal
 from tests.blender.findings import said
+from tests.blender.flat_objects import I_BEAM, T, W, X, Y, flat_mesh
 from tests.blender.objects import add, mesh_body
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")
 
-W, T, X, Y = 0.125, 1.75, 1.0, 2.0  # an I section whose corners float32 has exactly
-I_BEAM = [
-    (-X, -Y),
-    (X, -Y),
-    (X, -T),
-    (W, -T),
-    (W, T),
-    (X, T),
-    (X, Y),
-    (-X, Y),
-    (-X, T),
-    (-W, T),
-    (-W, -T),
-    (-X, -T),
-]
 I_AREA = 4 * X * (Y - T) + 4 * W * T
 I_X = (2 * X * (2 * Y) ** 3 - 2 * (X - W) * (2 * T) ** 3) / 12
 I_Y = (2 * (Y - T) * (2 * X) ** 3 + 2 * T * (2 * W) ** 3) / 12
@@ -42,17 +28,6 @@ I_Y = (2 * (Y - T) * (2 * X) ** 3 + 2 * T * (2 * W) ** 3) / 12
 
 def square(x, y, size):
     return [(x, y), (x + size, y), (x + size, y + size), (x, y + size)]
-
-
-def flat_mesh(*polygons, height=0.0):
-    mesh = bpy.data.meshes.new("Flat")
-    starts = np.cumsum([0] + [len(polygon) for polygon in polygons])
-    mesh.from_pydata(
-        [(x, y, height) for polygon in polygons for x, y in polygon],
-        [],
-        [tuple(range(a, b)) for a, b in zip(starts, starts[1:])],
-    )
-    return mesh
 
 
 def curve_of(*outlines, closed=True, kind="POLY"):
@@ -208,7 +183,7 @@ def test_extruded_or_offset_outline_is_refused(data, setting):
 
 
 def test_open_splines_are_left_out_or_refused():
-    assert refused(add(curve_of(square(0, 0, 1), closed=False)), "section_no_outline")
+    assert refused(add(curve_of(square(0, 0, 1), closed=False)), "no_section_area")
     curve = curve_of(square(0, 0, 2), square(5, 5, 1))
     curve.splines[1].use_cyclic_u = False
     section, _, findings = section_of(add(curve))
@@ -216,7 +191,7 @@ def test_open_splines_are_left_out_or_refused():
     space = curve_of(square(0, 0, 1))
     space.dimensions = "3D"
     assert refused(add(space), "section_extruded")
-    assert refused(add(text_of("")), "section_no_outline")
+    assert refused(add(text_of("")), "no_section_area")
 
 
 def test_a_curve_in_edit_mode_is_measured_as_it_is_now():
@@ -269,7 +244,7 @@ def test_selected_faces_of_a_body_are_a_section_in_any_plane():
         read_section(obj, bpy.context.evaluated_depsgraph_get()).description == "2 Selected Faces"
     )
     selected(obj, lambda face: False)
-    assert refused(obj, "section_no_selected_face")
+    assert refused(obj, "no_section_area")
     bpy.ops.object.mode_set(mode="OBJECT")
 
 

@@ -7,7 +7,7 @@ import pytest
 from body_moments.blender.session.tracking import staleness
 
 from tests.blender.objects import add, mesh_body, only, place
-from tests.operators.rig.test_rig import character, measured
+from tests.operators.characters import character, measured
 
 pytestmark = pytest.mark.usefixtures("scene")
 

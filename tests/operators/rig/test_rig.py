@@ -10,7 +10,6 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.bodies.measure_object import measure_object
-from body_moments.blender.bodies.rig import measure_rig
 from body_moments.blender.read.joints import bone_freedom, bone_parents
 from body_moments.blender.session.displayed import drawn, drawn_bone
 from body_moments.blender.session.robots import bone_links
@@ -19,25 +18,14 @@ from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.blender.write import properties
 from body_moments.core.polyhedron.integration import volume_and_center
 
-from tests.blender.bodies.test_assembly import box_mesh
-from tests.blender.characters import PARENTS, armature_of, pose, skin_of
+from tests.blender.boxes import box_mesh
+from tests.blender.characters import armature_of, pose, skin_of
 from tests.blender.objects import arrays, only
 from tests.close import close
 from tests.core import characters as made
+from tests.operators.characters import character, measured
 
 pytestmark = pytest.mark.usefixtures("registered", "scene")
-
-
-def character(shape=None, density=1000.0):
-    shape = shape or made.box_skeleton()
-    armature = armature_of(shape, parents=PARENTS if shape.names == made.NAMES else None)
-    skin = skin_of(shape, armature, density=density)
-    only(armature)
-    return armature, skin
-
-
-def measured(armature):
-    return measure_rig(bpy.context, armature)
 
 
 def codes(rig):

@@ -8,8 +8,8 @@ import bpy
 import numpy as np
 import pytest
 
+from tests.blender.box_character import HEIGHT, boxes, weight
 from tests.blender.figure import figure
-from tests.blender.session.test_character import HEIGHT, boxes, weight
 from tests.panels.drawing import shown
 
 SHOW, BALANCE = bpy.ops.pose.body_moments_show_weight, bpy.ops.pose.body_moments_balance_pose

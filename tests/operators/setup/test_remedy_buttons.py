@@ -9,23 +9,10 @@ import pytest
 
 from tests.blender.objects import add, only
 from tests.close import close
+from tests.operators.overlapping_boxes import boxes
 from tests.panels.drawing import findings_of, labels, shown
 
 pytestmark = pytest.mark.usefixtures("scene")
-
-
-def boxes(*sizes, reverse=()):
-    """A mesh of boxes about one center, with some faces reversed."""
-    import bmesh  # is there once bpy is
-
-    mesh, built = bpy.data.meshes.new("Boxes"), bmesh.new()
-    for size in sizes:
-        bmesh.ops.create_cube(built, size=size)
-    built.faces.ensure_lookup_table()
-    bmesh.ops.reverse_faces(built, faces=[built.faces[index] for index in reverse])
-    built.to_mesh(mesh)
-    built.free()
-    return mesh
 
 
 def buttons(record=None):
@@ -135,6 +122,7 @@ def test_accepted_warning_stays_a_note_after_measuring():
         ("hole", "holes_capped", "FILL_HOLES"),
         ("copy", "duplicate_faces_ignored", "DUPLICATES"),
         ("split", "vertices_welded", "MERGE"),
+        ("patch", "vertices_welded", "MERGE"),
     ],
 )
 def test_edits_repair_the_mesh_and_measure_again(fault, code, remedy):
@@ -144,6 +132,9 @@ def test_edits_repair_the_mesh_and_measure_again(fault, code, remedy):
         faces = faces[1:]
     elif fault == "copy":
         faces.append(faces[0])
+    elif fault == "patch":  # copies of three faces, on vertices of their own
+        points += points[:]
+        faces += [[8 + corner for corner in face] for face in faces[:3]]
     else:  # one face has corners of its own, a little aside
         points += [[x + 1e-6, y, z] for x, y, z in (points[corner] for corner in faces[0])]
         faces[0] = (8, 9, 10, 11)
@@ -151,6 +142,7 @@ def test_edits_repair_the_mesh_and_measure_again(fault, code, remedy):
     mesh.from_pydata(points, [], faces)
     obj = add(mesh)
     bpy.ops.object.body_moments_measure()
+    assert close(obj["body_volume"], 8.0, rel=1e-5)
     if code in findings_of(obj, "warning"):
         assert remedy in offered()
     assert code in findings_of(obj)

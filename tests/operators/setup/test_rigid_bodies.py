@@ -11,7 +11,7 @@ from body_moments.blender.session.tracking.staleness import stale_reason
 from body_moments.blender.session.tracking.stamps import of_colliders
 from mathutils import Matrix, Vector
 
-from tests.blender.bodies.test_assembly import box, boxes_inertia
+from tests.blender.boxes import box, boxes_inertia
 from tests.blender.objects import add, measured, mesh_body, only, place, seen
 from tests.close import close
 

@@ -14,48 +14,14 @@ from mathutils import Matrix
 
 from tests.blender.objects import add, measured, only
 from tests.close import close
+from tests.operators.balancing import balance, bmesh, edit, figure, points
 
-bmesh = pytest.importorskip("bmesh")  # only found once bpy is loaded
 pytestmark = pytest.mark.usefixtures("scene")
-
-balance = bpy.ops.object.body_moments_sculpt_balance
-
-
-def figure(**more):
-    """A sphere cut in quads, its upper half pulled to one side: it would fall over."""
-    mesh = bpy.data.meshes.new("Figure")
-    work = bmesh.new()
-    bmesh.ops.create_uvsphere(work, u_segments=20, v_segments=14, radius=1.0)
-    for vertex in work.verts:
-        if vertex.co.z > 0.0:
-            vertex.co.x += 0.6 * vertex.co.z
-    work.to_mesh(mesh)
-    work.free()
-    return add(mesh, "Figure", **more)
-
-
-def points(obj):
-    if obj.mode == "EDIT":
-        return np.array([v.co[:] for v in bmesh.from_edit_mesh(obj.data).verts], np.float64)
-    found = np.empty(3 * len(obj.data.vertices), np.float32)
-    obj.data.vertices.foreach_get("co", found)
-    return found.reshape(-1, 3).astype(np.float64)
 
 
 def world(obj, local):
     matrix = np.array(obj.matrix_world, np.float64)
     return local @ matrix[:3, :3].T + matrix[:3, 3]
-
-
-def edit(obj, chosen=lambda co: co.z > 0.1):
-    only(obj)
-    bpy.ops.object.mode_set(mode="EDIT")
-    mesh = bmesh.from_edit_mesh(obj.data)
-    for vertex in mesh.verts:
-        vertex.select = chosen(vertex.co)
-    mesh.select_flush_mode()
-    bmesh.update_edit_mesh(obj.data)
-    return np.array([v.select for v in mesh.verts])
 
 
 def group(obj, weight=lambda co: float(co.z > 0.1), name="Top"):
@@ -208,7 +174,7 @@ class TestRefused:
     def test_no_selection(self, reported):
         obj = figure()
         edit(obj, lambda co: False)
-        unchanged(obj, points(obj), "balance_no_vertices", reported)
+        unchanged(obj, points(obj), "balance_impossible", reported)
 
     def test_too_far(self, reported):
         obj = figure()
@@ -245,7 +211,7 @@ class TestRefused:
         mesh.faces.ensure_lookup_table()
         bmesh.ops.delete(mesh, geom=mesh.faces[:1], context="FACES")
         bmesh.update_edit_mesh(obj.data)
-        unchanged(obj, points(obj), "balance_unclean", reported)
+        unchanged(obj, points(obj), "balance_impossible", reported)
 
     def test_shape_keys(self, reported):
         obj = figure()
@@ -274,13 +240,13 @@ class TestRefused:
         obj = figure()
         group(obj)
         obj.vertex_groups.active_index = -1
-        unchanged(obj, points(obj), "balance_no_vertices", reported)
+        unchanged(obj, points(obj), "balance_impossible", reported)
 
     def test_a_wall(self, reported):
         obj = figure()
         obj.body_moments.kind, obj.body_moments.wall = "SHELL", "INWARD"
         edit(obj)
-        unchanged(obj, points(obj), "balance_settings", reported)
+        unchanged(obj, points(obj), "balance_impossible", reported)
 
     def test_a_zero_scale(self, reported):
         obj = figure(scale=(1, 1, 0))

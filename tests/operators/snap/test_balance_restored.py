@@ -12,7 +12,7 @@ from body_moments.blender.read.objects import read_object
 from body_moments.core.statics.balancing import balance as least_moves
 
 from tests.blender.objects import add
-from tests.operators.snap.test_balance import balance, points
+from tests.operators.balancing import balance, points
 
 pytestmark = pytest.mark.usefixtures("scene")
 

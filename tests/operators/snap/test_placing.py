@@ -12,9 +12,9 @@ import pytest
 from body_moments.blender.scene import empties
 from body_moments.core.inertia.findings import AXES_FREE_BY_SHAPE
 
-from tests.blender.bodies.test_assembly import box_mesh
+from tests.blender.boxes import box_mesh
 from tests.blender.objects import add, measured, mesh_body, only, place
-from tests.operators.test_refusals import linked_assembly
+from tests.operators.assemblies import linked_assembly
 
 pytestmark = pytest.mark.usefixtures("scene")
 

@@ -1,0 +1,210 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Places, levels of detail and hidden nodes of FBX files, against what their models state.
+
+The body is a box of 6 m3, centered at (0.5, 1, 1.5), in a file in centimeters with z up.
+"""
+
+import numpy as np
+import pytest
+
+pytest.importorskip("bpy")
+import bpy
+
+from tests.blender import batch_files as files
+from tests.blender.batch_files import codes, document, measured
+from tests.close import close
+
+pytestmark = [
+    pytest.mark.usefixtures("registered"),
+    pytest.mark.skipif(not hasattr(bpy.ops.wm, "fbx_import"), reason="no importer in C++"),
+]
+BOX = np.array([(x, y, z) for x in (0, 100) for y in (0, 200) for z in (0, 300)], float)
+QUADS = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+CORNERS = [corner for a, b, c, d in QUADS for corner in (a, b, c, -d - 1)]
+CENTER = np.array([50.0, 100.0, 150.0])
+AXES = {"Up": (2, 1), "Front": (1, -1), "Coord": (0, 1)}
+Y_UP = {"Up": (1, 1), "Front": (2, 1), "Coord": (0, 1)}
+TURNS = "Lcl Rotation", "PreRotation", "PostRotation"
+MOVES = "Lcl Translation", "RotationOffset", "RotationPivot", "ScalingOffset", "ScalingPivot"
+ACTIVE = {"RotationActive": 1, "InheritType": 1}
+
+
+def property_line(name, value):
+    numbers = ",".join(map(repr, np.ravel(value).tolist()))
+    return 'P: "{}", "", "", "A",{}\n'.format(name, numbers)
+
+
+def write(path, models, axes=AXES, unit=1.0, more=""):
+    """Write a text file. models: (name, kind, properties, number of the parent or 0), from number
+    2; a mesh shows the box.
+    """
+    settings = {"UnitScaleFactor": unit}
+    for name, (axis, sign) in axes.items():
+        settings |= {name + "Axis": axis, name + "AxisSign": sign}
+    text = "; FBX 7.4.0 project file\nFBXHeaderExtension: {\nFBXVersion: 7400\n}\n"
+    text += "GlobalSettings: {\nProperties70: {\n{}}}\n}}\nObjects: {{\n".replace("{\n", "{{\n", 2)
+    text = text.replace("Extension: {\n", "Extension: {{\n").replace("7400\n}", "7400\n}}")
+    text = text.format("".join(property_line(*pair) for pair in settings.items()))
+    text += 'Geometry: 1, "Geometry::g", "Mesh" {\nVertices: *24 {\na: '
+    text += ",".join(map(repr, BOX.ravel().tolist())) + "\n}\nPolygonVertexIndex: *24 {\na: "
+    text += ",".join(map(str, CORNERS)) + "\n}\nGeometryVersion: 124\n}\n"
+    links = ""
+    for number, (name, kind, properties, parent) in enumerate(models, 2):
+        lines = "".join(property_line(*pair) for pair in properties.items())
+        text += 'Model: {}, "Model::{}", "{}" {{\n'.format(number, name, kind)
+        text += "Version: 232\nProperties70: {\n" + lines + "}\n}\n"
+        links += 'C: "OO",{},{}\n'.format(number, parent)
+        links += 'C: "OO",1,{}\n'.format(number) if kind == "Mesh" else ""
+    return files.write_text(path, text + more + "}\nConnections: {\n" + links + "}\n")
+
+
+def by_name(found):
+    assert found["errors"] == []
+    return {entry["name"]: entry for entry in found["objects"]}
+
+
+def turn(degrees):
+    """A rotation about x, then y, then z."""
+    (a, b, c), (d, e, f) = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    x = np.array([[1, 0, 0], [0, a, -d], [0, d, a]])
+    y = np.array([[b, 0, e], [0, 1, 0], [-e, 0, b]])
+    return np.array([[c, -f, 0], [f, c, 0], [0, 0, 1]]) @ y @ x
+
+
+def draw(rng):
+    properties = {name: rng.uniform(-150, 150, 3) for name in TURNS}
+    properties |= {name: rng.uniform(-300, 300, 3) for name in MOVES}
+    properties |= {"GeometricTranslation": rng.uniform(-300, 300, 3)}
+    scale = rng.uniform(0.5, 2.0, 3) * rng.choice([-1, 1], 3)
+    return properties | {"Lcl Scaling": scale, "RotationOrder": rng.integers(6)} | ACTIVE
+
+
+@pytest.mark.parametrize("axes", [AXES, Y_UP])
+@pytest.mark.parametrize("is_shared", [False, True])
+@pytest.mark.parametrize("seed", range(3))
+def test_fbx_chain_of_pivots_stands_where_ufbx_places_it(tmp_path, seed, is_shared, axes):
+    rng = np.random.default_rng(seed)
+    models = [("top", "Null", draw(rng), 0), ("part", "Mesh", draw(rng), 2)]
+    models += [("below", "Mesh", draw(rng), 3)] * is_shared
+    path = write(tmp_path / "t.fbx", models, axes, unit=2.54)
+    bodies = by_name(document(path))
+    files.empty_scene()
+    bpy.ops.wm.fbx_import(filepath=path)
+    bpy.context.view_layer.update()
+    for obj in [obj for obj in bpy.data.objects if obj.type == "MESH"]:
+        center = obj.matrix_world @ (sum((v.co for v in obj.data.vertices), 0 * obj.location) / 8)
+        volume = 6e6 * abs(obj.matrix_world.determinant())
+        body = bodies[obj.name]
+        assert close(body["volume"], volume, 1e-5)
+        assert np.allclose(body["center_of_mass"], center, atol=1e-4)
+        assert "places_unchecked" not in codes(body)
+
+
+@pytest.mark.parametrize("far", [0.0, 1234567830.0])
+def test_fbx_place_has_the_digits_of_the_file(tmp_path, far):
+    outer = {"Lcl Translation": [far, -20.0, 3.0], "Lcl Rotation": [0, 0, 30], **ACTIVE}
+    inner = {"Lcl Translation": [0.1, 0.7, far], "Lcl Rotation": [10, 20, 30], **ACTIVE}
+    inner["Lcl Scaling"] = [-3.0, 1.0, 0.5]
+    path = write(tmp_path / "t.fbx", [("top", "Null", outer, 0), ("part", "Mesh", inner, 2)])
+    body = measured(path)
+    center = turn([10, 20, 30]) @ (CENTER * [-3, 1, 0.5]) + [0.1, 0.7, far]
+    center = turn([0, 0, 30]) @ center + [far, -20, 3]
+    assert close(body["volume"], 9.0, 1e-12)
+    assert np.allclose(body["center_of_mass"], center / 100, rtol=0, atol=1e-12 + far * 1e-17)
+
+
+@pytest.mark.parametrize("kind", [0, 1, 2])
+def test_fbx_scale_is_inherited_as_the_file_states(tmp_path, kind):
+    outer = {"Lcl Translation": [100, 0, 0], "Lcl Rotation": [0, 0, 90], "Lcl Scaling": [2, 3, 4]}
+    inner = {"Lcl Translation": [10, 20, 30], "Lcl Rotation": [0, 0, 45], "Lcl Scaling": [5, 1, 1]}
+    inner |= {"RotationActive": 1, "InheritType": kind}
+    models = [("top", "Null", outer | ACTIVE, 0), ("part", "Mesh", inner, 2)]
+    body = measured(write(tmp_path / "t.fbx", models))
+    quarter, eighth = turn([0, 0, 90]), turn([0, 0, 45])
+    parent, own = np.diag([2, 3, 4]), np.diag([5, 1, 1])
+    linear = (
+        quarter @ eighth @ parent @ own,
+        quarter @ parent @ eighth @ own,
+        quarter @ eighth @ own,
+    )[kind]
+    center = quarter @ parent @ [10, 20, 30] + [100, 0, 0] + linear @ CENTER
+    assert close(body["volume"], 720.0 if kind < 2 else 30.0, 1e-9)
+    assert np.allclose(body["center_of_mass"], center / 100, atol=1e-9)
+    assert "places_unchecked" not in codes(body)
+
+
+def test_fbx_scale_of_several_parents_is_doubtful(tmp_path):
+    scaled = {"Lcl Scaling": [2, 2, 2], **ACTIVE}
+    inner = {"RotationActive": 1, "InheritType": 2}
+    models = [("top", "Null", scaled, 0), ("middle", "Null", scaled, 2), ("part", "Mesh", inner, 3)]
+    body = measured(write(tmp_path / "t.fbx", models))
+    assert "places_unchecked" in codes(body) and body["verdict"] != "exact"
+
+
+@pytest.mark.parametrize("as_attribute", [True, False])
+def test_fbx_levels_of_detail_count_once(tmp_path, as_attribute):
+    attribute = 'NodeAttribute: 99, "NodeAttribute::", "LodGroup" {\nTypeFlags: "LodGroup"\n}\n'
+    group = "group", "Null" if as_attribute else "LodGroup", {}, 0
+    models = [group, ("empty", "Null", {}, 2), ("fine", "Null", {}, 2), ("part", "Mesh", {}, 4)]
+    models += [("coarse", "Mesh", {}, 2), ("below", "Mesh", {}, 6), ("coarser", "Mesh", {}, 2)]
+    path = write(tmp_path / "t.fbx", models, more=attribute if as_attribute else "")
+    if as_attribute:
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        files.write_text(
+            tmp_path / "t.fbx", text.replace("Connections: {", 'Connections: {\nC: "OO",99,2')
+        )
+    found = document(path)
+    assert [*by_name(found)] == ["part"] and close(found["total"]["volume"], 6.0, 1e-9)
+    assert {entry["name"] for entry in found["left_out"]} == {"coarse", "below", "coarser"}
+    assert all("level of detail" in entry["reason"] for entry in found["left_out"])
+    assert len(document(path, "--all")["objects"]) == 4
+
+
+def test_fbx_visibility_is_inherited(tmp_path):
+    own = {"Visibility Inheritance": 0}
+    models = [("top", "Null", {"Visibility": 0.0}, 0), ("hidden", "Mesh", {}, 2)]
+    models += [("shown", "Mesh", own, 2), ("part", "Mesh", {}, 0)]
+    found = document(write(tmp_path / "t.fbx", models))
+    assert {*by_name(found)} == {"shown", "part"}
+    (left_out,) = found["left_out"]
+    assert left_out["name"] == "hidden" and "invisible" in left_out["reason"]
+
+
+def test_fbx_of_equal_names_agrees_or_is_doubtful(tmp_path):
+    moved = {"Lcl Translation": [1000, 0, 0], **ACTIVE}
+    scaled = {"Lcl Scaling": [2, 2, 2], **ACTIVE}
+    models = [("part", "Mesh", {}, 0), ("part", "Mesh", moved, 0)]
+    found = document(write(tmp_path / "t.fbx", models))
+    assert close(found["total"]["volume"], 12.0, 1e-6)
+    assert close(found["total"]["center_of_mass"][0], 5.5, 1e-6)
+    assert not any("places_unchecked" in codes(body) for body in found["objects"])
+    models = [
+        ("top", "Null", scaled, 0),
+        *((one, kind, values, 2) for one, kind, values, _ in models),
+    ]
+    models[1][2].update({"InheritType": 2})
+    bodies = document(write(tmp_path / "t.fbx", models))["objects"]
+    assert any("places_unchecked" in codes(body) for body in bodies)
+
+
+def test_binary_fbx_of_blender_agrees_with_its_nodes(tmp_path):
+    files.empty_scene()
+    rng = np.random.default_rng(7)
+    parent = None
+    for number in range(4):
+        box = files.add_box("part.00{}".format(number))
+        box.location, box.rotation_euler = rng.uniform(-9, 9, (2, 3))
+        box.scale = rng.uniform(0.5, 2.0, 3) * [1, -1, 1]
+        box.parent = parent
+        parent = box
+    bpy.context.view_layer.update()
+    volumes = {obj.name: 6 * abs(obj.matrix_world.determinant()) for obj in bpy.data.objects}
+    path = str(tmp_path / "t.fbx")
+    bpy.ops.export_scene.fbx(filepath=path)
+    bodies = by_name(document(path))
+    assert {*bodies} == {*volumes}
+    for name, body in bodies.items():
+        assert "places_unchecked" not in codes(body)
+        assert close(body["volume"], volumes[name], 1e-4)

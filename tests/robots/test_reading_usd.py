@@ -1,0 +1,92 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Inertials of USD that Newton's schema states, and prims with a mass that are no links."""
+
+import numpy as np
+import pytest
+from body_moments.core.robots.audit import Auditor
+from body_moments.core.robots.read.descriptions import Roots, read_description
+from pxr import Gf
+
+from tests.robots.links import near, rotation
+from tests.robots.stage import stage_of
+
+HEAD = "#usda 1.0\n(\n metersPerUnit = 0.5\n kilogramsPerUnit = 3\n)\n"
+BODY = """def Cube "body" (
+    apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsCollisionAPI", "NewtonMassAPI"]
+)
+{{
+    float physics:mass = 6
+    {}
+    double3 xformOp:translate = (1, 2, 3)
+    quatd xformOp:orient = (0.5, 0.5, 0.5, 0.5)
+    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:orient"]
+}}
+"""
+CUBE = "float3 physics:diagonalInertia = (4, 4, 4)"  # a cube of side 2 and mass 6
+NEWTON = "double[] newton:inertia = [{}]"
+
+
+def audited(path, text):
+    path.write_text(HEAD + text)
+    return Auditor(Roots.for_file(path)).audit(read_description(path)).links
+
+
+def codes(one):
+    return [entry.finding.code for entry in one.entries]
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_newton_inertia_is_the_inertial_of_the_stage(tmp_path, seed):
+    """Both ways of one tensor, as pxr has them, are one inertial, without a finding about it."""
+    rng = np.random.default_rng(seed)
+    moments, axes = rng.uniform(1.0, 1.9, 3), rotation(rng)
+    entries = (axes * moments @ axes.T)[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+    turn = Gf.Matrix3d(*axes.T.ravel().tolist()).ExtractRotation().GetQuat()
+    numbers = turn.GetReal(), *turn.GetImaginary()
+    both = (
+        NEWTON.format(", ".join(map(repr, entries.tolist()))),
+        "float3 physics:diagonalInertia = {}".format(tuple(moments.tolist())),
+        "quatf physics:principalAxes = {}".format(numbers),
+    )
+    found = []
+    for lines in (both[:1], both[1:], both, (*both[1:], NEWTON.format(""))):
+        text = BODY.format("\n    ".join(lines))
+        (one,) = audited(tmp_path / "r.usda", text)
+        assert "audit_overridden" not in codes(one)
+        found.append(one.link.inertial)
+    stage = stage_of(HEAD + BODY.format("\n    ".join(both)))
+    xx, yy, zz, xy, xz, yz = stage.GetAttributeAtPath("/body.newton:inertia").Get()
+    truth = 0.5**2 * 3 * np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    assert near(found[0].inertia, truth) and near(found[2].inertia, truth)
+    assert all(near(one.inertia, truth, 1e-6) and one.mass == 18.0 for one in found)
+
+
+def test_newton_inertia_is_judged_before_the_diagonal_one(tmp_path):
+    wrong = "float3 physics:diagonalInertia = (4, 4, 8)"
+    (one,) = audited(tmp_path / "r.usda", BODY.format(wrong + "\n" + NEWTON.format("4,4,4,0,0,0")))
+    assert codes(one) == ["audit_overridden"]
+    assert one.entries[0].finding.values["program"] == "Newton"
+    (one,) = audited(tmp_path / "r.usda", BODY.format(CUBE + "\n" + NEWTON.format("4,4,9,0,0,0")))
+    assert codes(one)[:2] == ["audit_overridden", "inertial_triangle"]
+    text = BODY.replace("Newton", "Physics").format(CUBE + "\n" + NEWTON.format("4,4,9,0,0,0"))
+    (one,) = audited(tmp_path / "r.usda", text)
+    assert not one.entries  # Newton reads it only if the prim has its schema.
+
+
+@pytest.mark.parametrize("entries", ["1, 2, 3", "4, 4, four, 0, 0, 0", "1, 1, 1, 0, 0, 0, 0"])
+def test_wrong_newton_inertia_is_a_finding_at_its_line(tmp_path, entries):
+    (one,) = audited(tmp_path / "r.usda", BODY.format(CUBE + "\n" + NEWTON.format(entries)))
+    assert codes(one) == ["description_number"] and one.entries[0].place.line == 12
+
+
+def test_prims_with_a_mass_in_a_body_are_no_links(tmp_path):
+    """A collider's own mass is a part of its body's; a lone mass that is no collider is a link."""
+    mass = 'def {} "{}" ( apiSchemas = ["PhysicsMassAPI"{}] ) {{ float physics:mass = 1 {} }}\n'
+    collider, collides = ', "PhysicsCollisionAPI"', "float3 physics:diagonalInertia = (1, 1, 1)"
+    inner = mass.format("Cube", "part", collider, "") + mass.format("Xform", "frame", "", collides)
+    body = 'def Xform "body" ( apiSchemas = ["PhysicsRigidBodyAPI"] ) {{ {} }}\n'.format(inner)
+    text = body + mass.format("Cube", "ground", collider, "") + mass.format("Xform", "base", "", "")
+    links = audited(tmp_path / "r.usda", text)
+    assert [one.link.name for one in links] == ["body", "base"]
+    assert [shape.role for shape in links[0].link.shapes] == ["collision"]
