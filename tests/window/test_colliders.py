@@ -81,7 +81,9 @@ def test_buttons_of_colliders_stay_and_choose_another_shape(window):
     window.picture("colliders shapes")
     window.key("b")  # Box
     window.wait("bpy.context.object['body_colliders']['shape'] == 'box'")
-    assert window.get("[o['body_collider']['kind'] for o in bpy.context.object.children]") == ["box"]
+    assert window.get("[o['body_collider']['kind'] for o in bpy.context.object.children]") == [
+        "box"
+    ]
     window.ask("bpy.context.object.scale.x = 2.0\nbpy.context.view_layer.update()")
     window.redraw()
     window.picture("colliders out of date")

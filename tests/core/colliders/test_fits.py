@@ -221,7 +221,9 @@ def test_steps_of_a_division_can_be_left_early():
 
 def test_no_two_pieces_of_a_rock_have_a_common_hull_within_tolerance():
     directions = convex_hull(spread_directions(100))
-    radius = 1.0 + 0.25 * np.sin(directions.points @ [[4, 1, 0], [0, -3, 5], [-6, 2, 2]]).sum(axis=1)
+    radius = 1.0 + 0.25 * np.sin(directions.points @ [[4, 1, 0], [0, -3, 5], [-6, 2, 2]]).sum(
+        axis=1
+    )
     rock = directions.points * radius[:, None], directions.triangles
     surface = Surface.from_triangles(*rock)
     shapes = make(rock, "automatic", outward=0.15, inward=0.002, pieces=32, vertices=255)
