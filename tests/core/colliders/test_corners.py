@@ -19,7 +19,7 @@ from body_moments.core.robots.model import Pose, Shape
 from body_moments.core.verdict.finding import MeasureError
 
 from tests.core import bodies
-from tests.core.colliders.test_fits import run
+from tests.core.steps import run
 
 L_SHAPE = bodies.joined(bodies.box((0, 0, 0), (3, 1, 1)), bodies.box((0, 1, 0), (1, 3, 1)))
 

@@ -21,6 +21,7 @@ from body_moments.core.robots.primitives import moments_of
 from body_moments.core.verdict.finding import MeasureError
 
 from tests.core import bodies
+from tests.core.steps import run
 
 TURN = bodies.rotation(3)
 L_POINTS = np.array([[0, 0], [3, 0], [3, 1], [1, 1], [1, 3], [0, 3]], float)
@@ -38,17 +39,6 @@ def prism(outline, lid, height=1.0):
 
 L_SHAPE = prism(L_POINTS, [[0, 1, 2], [0, 2, 3], [0, 3, 5], [3, 4, 5]])
 TORUS = bodies.torus(24, 12, minor=0.35)
-
-
-def run(steps):
-    shares = []
-    while True:
-        try:
-            shares.append(next(steps))
-        except StopIteration as done:
-            assert shares == sorted(shares)
-            assert all(0.0 <= share <= 1.0 for share in shares)
-            return done.value
 
 
 def make(part, shape, outward=0.0, inward=0.0, pieces=16, vertices=64):
