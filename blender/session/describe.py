@@ -170,8 +170,7 @@ def _description(
     if not is_stored and entry["numbers"] is not None:
         calls.append("describe({!r}, store=True)".format(obj.name))
     kept = ("name", "verdict", "method", "kind", "numbers", "error_bound")
-    return {
-        **{name: entry[name] for name in kept if name in entry},
+    return {name: entry[name] for name in kept if name in entry} | {
         "units": UNITS,
         "frame": frame,
         "findings": findings,

@@ -210,8 +210,7 @@ class Shape:
             "unique": unique,
             "angle_bound": angle,
             "position_bound": position,
-            **pose,
-        }
+        } | pose
 
     def _point_group(self) -> dict[str, Any]:
         """Return the body's point group, and the order of the moments that show it.
