@@ -62,12 +62,6 @@ SCRIPTS_ALLOWED = warning(
     "Blender with "
     "-Y, or name the file after “measure”.",
 )
-FILE_CHANGED_MEANWHILE = error(
-    "file_changed_meanwhile",
-    "The file cannot be saved: another program has saved it since it was opened; nothing was "
-    "overwritten. Measure "
-    "it again.",
-)
 ASSETS_NOT_MEASURED = warning(
     "assets_not_measured",
     "Assets without numbers in their metadata, because they are not rendered, or not in the scene "
@@ -86,10 +80,8 @@ STREAM_OPTIONS = error(
 UNIT_ASSUMED = warning(
     "unit_assumed", "The file has no unit: 1 unit was taken as 1 m. Use --unit-scale."
 )
-RESULTS_NEED_BLEND = error(
-    "results_need_blend",
-    "Results can only be stored in a .blend file that was saved before; --write did nothing.",
-)
+NEEDS_BLEND = "that needs a .blend file that was saved before"
+RESULTS_NOT_STORED = error("results_not_stored", "Results were not stored: {cause:word}.")
 FILE_CRASHED = error(
     "file_crashed",
     "Blender crashed on the file ({how}), {count} times. Save it again with the program that made "

@@ -137,9 +137,6 @@ SECTION_FACES_OVERLAP = warning(
     "section_faces_overlap",
     "Faces overlap or cross themselves; the shared area counts for each. Separate them.",
 )
-SECTION_OVERLAP_UNCHECKED = warning(
-    "section_overlap_unchecked", "Too many edges to check all for overlap."
-)
 SECTION_PROJECTED = warning(
     "section_projected",
     "Points up to {share:percent} of the size off the plane were projected. Flatten the faces.",
@@ -181,8 +178,8 @@ RIG_WALL_THIN = note("rig_wall_thin", "The wall counts as a thin sheet: area tim
 RIG_MEAN_DENSITY = warning(
     "rig_mean_density", "The density varies; every bone's part has the mean density of the mesh."
 )
-CENTER_GIVEN = note("center_given", "The center of mass is given.")
-INERTIA_GIVEN = note("inertia_given", "The inertia is given.")
+INERTIA = "inertia"
+GIVEN = note("given", "Given: {quantity:word}.")
 GIVEN_INERTIA_IMPOSSIBLE = error(
     "given_inertia_impossible",
     "No body has the given inertia: its principal moments are {moments}, and none may be negative "

@@ -1,78 +1,200 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measurements of single objects: the first kind of body that can read an object is measured.
+"""Measurement of objects, one or many: solids that show one mesh each are measured as stacks, all
+others by `measure_body`.
 
-Each kind is a module with MEASURED_AS, the values of the setting Kind (solid, shell, wire) with
-which it is tried, and two functions: `read(request)` returns a reading, or None if the object is of
-another kind; `body(reading, request)` returns the body. Both raise MeasureError if nothing can be
-measured. `stacks.many` measures many objects together.
+Both ways give the same numbers. Large solids and varying densities join no stack.
 """
 
 from __future__ import annotations
 
-import os
-from contextlib import ExitStack
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
 
 import bpy
+import numpy as np
 
-from ...core.bodies import Reading, name_subject
-from ...core.inertia import MassProperties
-from ...core.measurement import Body, Measurement
-from ...core.verdict import Finding, Method
-from ..settings.options import AS_SET, MeasureOptions
-from . import grid, mesh, nurbs, wire
-from .assembly.given import point_measurement, read_point, with_given
-from .flat import flat
-from .request import Request, measurement_of
+from ...core.measurement import Measurement, Settings
+from ...core.verdict import internal_error
+from ..read.mesh import mesh_surface, plain_mesh
+from ..read.places import has_places, world_matrices
+from ..settings.options import AS_SET, MeasureOptions, object_settings
+from .measure_body import Measured, measure_body
+from .stack import MeshShape, Stacked, StackMember, measure_members
 
-THREADS = os.cpu_count() or 1  # for long measurements
-KINDS = (grid, wire, flat, mesh, nurbs)
+MAX_OBJECTS_PER_STACK = 512
+MAX_STACKED_FACES = 20_000  # of one mesh
+MAX_FACES_PER_STACK = 40_000
 
-
-@dataclass(frozen=True, eq=False)
-class Measured:
-    """One object's measurement, with its reading and body."""
-
-    measurement: Measurement
-    reading: Reading
-    body: Body
-
-    @property
-    def findings(self) -> tuple[Finding, ...]:
-        return self.measurement.findings
-
-    @property
-    def mass_properties(self) -> MassProperties:
-        return self.measurement.mass_properties
-
-    @property
-    def method(self) -> Method:
-        return self.measurement.method
+Outcome = Measured | Exception
 
 
 def measure_object(
     obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
 ) -> Measurement:
     """Return the mass properties of one evaluated object, SI, world axes, or raise MeasureError."""
-    return measure_body(obj, depsgraph, options).measurement
+    return measured_in_turn([obj], depsgraph, options)(obj).measurement
 
 
-def measure_body(
-    obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
-) -> Measured:
-    """Return the measurement of one evaluated object with its reading and body, or raise
-    MeasureError.
+def measure_many(
+    objects: Sequence[bpy.types.Object],
+    depsgraph: bpy.types.Depsgraph,
+    options: MeasureOptions = AS_SET,
+) -> Iterator[list[tuple[bpy.types.Object, Outcome]]]:
+    """Measure original objects in batches; yield pairs of an object and its measurement or
+    exception, in order.
     """
-    with name_subject(obj.name), ExitStack() as opened:
-        request = Request.resolve(obj, depsgraph, options, opened=opened)
-        point = read_point(request)
-        if point is not None:
-            measurement, body = point_measurement(point, request)
-            return Measured(measurement, point, body)
-        kinds = (kind for kind in KINDS if request.settings.kind in kind.MEASURED_AS)
-        found = ((kind, kind.read(request)) for kind in kinds)
-        # The last kind raises MeasureError in place of returning None.
-        kind, reading = next((kind, reading) for kind, reading in found if reading is not None)
-        body = with_given(kind.body(reading, request), reading, request)
-        return Measured(measurement_of(reading, body, request), reading, body)
+    pending: list[tuple[bpy.types.Object, StackMember | None]] = []
+    collector = _Collector(depsgraph, options)
+    for obj in objects:
+        pending.append((obj, collector.add(obj)))
+        if len(pending) >= MAX_OBJECTS_PER_STACK or collector.faces >= MAX_FACES_PER_STACK:
+            yield from _outcomes(pending, collector)
+            pending = []
+            collector = _Collector(depsgraph, options)
+    if pending:
+        yield from _outcomes(pending, collector)
+
+
+def measured_in_turn(
+    objects: Sequence[bpy.types.Object],
+    depsgraph: bpy.types.Depsgraph,
+    options: MeasureOptions = AS_SET,
+) -> Callable[[bpy.types.Object], Measured]:
+    """Return a function from each object, in the given order, to its measurement; it measures ahead
+    in batches.
+    """
+    waiting: dict[bpy.types.Object, Outcome] = {}
+    slices = measure_many(objects, depsgraph, options)
+
+    def measured(obj: bpy.types.Object) -> Measured:
+        while obj not in waiting:
+            waiting.update(next(slices))
+        outcome = waiting.pop(obj)
+        if isinstance(outcome, Exception):
+            raise outcome
+        return outcome
+
+    return measured
+
+
+def _outcomes(
+    pending: list[tuple[bpy.types.Object, StackMember | None]], collector: _Collector
+) -> Iterator[list[tuple[bpy.types.Object, Outcome]]]:
+    """Yield the outcomes of the collected objects: stacked objects together, others one by one."""
+    stacked = collector.measure()
+    together: list[tuple[bpy.types.Object, Outcome]] = []
+    for obj, member in pending:
+        outcome: Outcome | None = None if member is None else stacked.get(member.number)
+        if outcome is None:
+            if together:
+                yield together
+                together = []
+            try:
+                outcome = measure_body(obj, collector.depsgraph, collector.options)
+            except Exception as error:
+                outcome = error
+            yield [(obj, outcome)]
+        else:
+            together.append((obj, outcome))
+    if together:
+        yield together
+
+
+class _Collector:
+    """A collector of objects that are measured together."""
+
+    def __init__(self, depsgraph: bpy.types.Depsgraph, options: MeasureOptions):
+        self.depsgraph = depsgraph
+        self.options = options
+        self.scene = depsgraph.scene
+        self.unit = options.meters_per_unit(self.scene)
+        self.members: list[StackMember] = []
+        self.shapes: list[MeshShape] = []
+        self.faces = 0
+        self._by_mesh: dict[bpy.types.Mesh, int | None] = {}
+        self._by_content: dict[tuple, int] = {}
+        self._digests: dict[Settings, str] = {}
+
+    def add(self, obj: bpy.types.Object) -> StackMember | None:
+        """Return the object as a member of the stack, or None if it cannot be stacked or read."""
+        try:
+            return self._member(obj)
+        except Exception:
+            return None
+
+    def _member(self, obj: bpy.types.Object) -> StackMember | None:
+        settings = self._settings_of(obj)
+        mesh = None if settings is None else plain_mesh(obj, self.depsgraph)
+        if settings is None or mesh is None:
+            return None
+        try:
+            shape = self._by_mesh[mesh]
+        except KeyError:
+            shape = self._by_mesh[mesh] = self._read(mesh)
+        if shape is None:
+            return None
+        matrix = obj.evaluated_get(self.depsgraph).matrix_world
+        location, turn, _scale = matrix.decompose()
+        placed = world_matrices(obj)[0] if has_places(obj) else np.array(matrix)
+        member = StackMember(
+            len(self.members),
+            obj,
+            shape,
+            settings,
+            self._digest(settings),
+            placed,
+            tuple(placed[:3, 3].tolist()) if has_places(obj) else location.to_tuple(),
+            (turn.w, turn.x, turn.y, turn.z),
+        )
+        self.members.append(member)
+        return member
+
+    def _settings_of(self, obj: bpy.types.Object) -> Settings | None:
+        """Return the settings of a solid of one density or mass, or None for other objects."""
+        options = self.options
+        properties = obj.body_moments
+        if options.order is not None:
+            return None
+        if options.density is None and (
+            properties.use_center or properties.use_inertia
+            if properties.mass_from == "MASS"
+            else options.mass is None and properties.density_from != "VALUE"
+        ):
+            return None
+        settings = object_settings(obj, self.scene, options, self.unit)
+        return settings if settings.kind == "solid" and settings.overlap == "signed" else None
+
+    def _digest(self, settings: Settings) -> str:
+        if settings not in self._digests:
+            self._digests[settings] = settings.digest
+        return self._digests[settings]
+
+    def _read(self, mesh: bpy.types.Mesh) -> int | None:
+        """Return the index of the shape of a mesh; None if it has to be measured alone."""
+        if not len(mesh.polygons) or len(mesh.polygons) > MAX_STACKED_FACES:
+            return None
+        surface = mesh_surface(mesh)
+        content = surface.content
+        if content in self._by_content:
+            return self._by_content[content]
+        if not np.isfinite(surface.points).all():
+            return None
+        self.shapes.append(MeshShape(surface, len(mesh.polygons), content))
+        self.faces += len(surface.triangles) + len(surface.quads)
+        self._by_content[content] = len(self.shapes) - 1
+        return len(self.shapes) - 1
+
+    def measure(self) -> dict[int, Measured]:
+        """Return the stacked measurements by member number; none if the stack fails and all must be
+        measured alone.
+        """
+        try:
+            stack = measure_members(self.members, self.shapes) if self.members else None
+        except Exception as error:
+            internal_error.finding_of(error)
+            stack = None
+        return (
+            {}
+            if stack is None
+            else {member.number: Stacked(stack, i) for i, member in enumerate(stack.members)}
+        )

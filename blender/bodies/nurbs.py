@@ -18,7 +18,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.bodies import (
-    INSTANCE_OVERLAP_UNCHECKED,
     MeshBody,
     Part,
     Reading,
@@ -47,6 +46,7 @@ from ...core.nurbs import (
     stored_area_moments,
     volume_moments,
 )
+from ...core.solid import OVERLAP_OF_INSTANCES, UNCHECKED
 from ...core.verdict import Method, Procedure, Source, least_trusted
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from .findings import DISPLAY_MESH_NEEDED, WALL_CREASES, ZERO_SCALE
@@ -219,7 +219,7 @@ def _solid_findings(
     if reading.singular_instance_count:
         findings.append(singular_instances_message(reading))
     if instances_overlap(reading):
-        findings.append(finding(INSTANCE_OVERLAP_UNCHECKED))
+        findings.append(finding(UNCHECKED, subject=OVERLAP_OF_INSTANCES))
     return findings
 
 

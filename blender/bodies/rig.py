@@ -50,7 +50,8 @@ from .findings import (
     RIG_WITHOUT_PARTS,
     UNWEIGHTED_VERTICES,
 )
-from .measure_object import measure_body
+from .measure_body import measure_body
+from .measure_object import measure_object
 from .request import Request
 
 DENSITIES_FROM = {
@@ -207,7 +208,7 @@ class _Measuring:
             raise ReadError(NO_VOLUME)
         density = options.density or 0.0 if options.mass is None else options.mass / volume
         if options.mass is None and request.density is not None:
-            measurement = measure_body(obj, self.depsgraph, self.options).measurement
+            measurement = measure_object(obj, self.depsgraph, self.options)
             density = measurement.mass_properties.mass / measurement.volume
             self.findings.append(finding(RIG_MEAN_DENSITY).of_sources([obj.name]))
         if not density > 0.0:

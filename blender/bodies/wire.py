@@ -16,7 +16,7 @@ from ...core.numerics import Array
 from ...core.nurbs import Curve, length_moments
 from ...core.polyhedron import nothing
 from ...core.verdict import MeshHealth, Method, Procedure, ReadError
-from ..read.findings import NO_CURVE
+from ..read.findings import NO_SPLINE_LENGTH, NOTHING_TO_MEASURE
 from ..read.objects import read_lines
 from .request import Request
 
@@ -54,7 +54,7 @@ def body(reading: Reading, request: Request) -> Body:
     curves, stored = curves_in_world(reading.curves, reading.matrix, request.settings.unit)
     length = length_moments(curves)
     if not length.total > 0.0:
-        raise ReadError(NO_CURVE)
+        raise ReadError(NOTHING_TO_MEASURE, cause=NO_SPLINE_LENGTH)
     # an estimate for smooth curves: a length changes with its ends, and as much again by its
     # turning
     reach = max(float(np.abs(curve.points - length.about).max()) for curve in curves)

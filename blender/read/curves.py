@@ -17,7 +17,13 @@ from numpy.typing import NDArray
 from ...core.numerics import Array, SplineSpace
 from ...core.nurbs import NON_FINITE_CONTROL_POINTS, Curve, blender_space
 from ...core.verdict.finding import Finding, ReadError, finding
-from .findings import CURVE_MEASURED_WHOLE, NO_CURVE, SPLINES_LEFT_OUT, UNKNOWN_KNOTS
+from .findings import (
+    CURVE_MEASURED_WHOLE,
+    NO_SPLINE_LENGTH,
+    NOTHING_TO_MEASURE,
+    SPLINES_LEFT_OUT,
+    UNKNOWN_KNOTS,
+)
 from .mesh import read_array
 from .splines import deform, is_deformed, spline_modifiers, weighted_points
 from .visibility import evaluated_geometry
@@ -57,7 +63,7 @@ def read_curves(obj, depsgraph) -> tuple[list[Curve], list[Finding]]:
             finding(SPLINES_LEFT_OUT, count=len(curves) - len(usable), total=len(curves))
         )
     if not usable:
-        raise ReadError(NO_CURVE, subject=obj.name)
+        raise ReadError(NOTHING_TO_MEASURE, cause=NO_SPLINE_LENGTH, subject=obj.name)
     return usable, findings
 
 
@@ -74,7 +80,7 @@ def text_curves(obj, depsgraph) -> list[Curve]:
         obj.to_curve_clear()
     known = [curve for curve in curves if curve is not None]
     if not known or len(known) < len(curves):
-        raise ReadError(NO_CURVE, subject=obj.name)
+        raise ReadError(NOTHING_TO_MEASURE, cause=NO_SPLINE_LENGTH, subject=obj.name)
     return known
 
 

@@ -19,28 +19,27 @@ from .findings import (
     DISPLAY_MESH_FOR_WEIGHTS,
     DISPLAY_MESH_MEASURED,
     EDIT_MODE_SINGLE_SHAPE_KEY,
-    EMPTY_TEXT,
-    EMPTY_WITHOUT_INSTANCES,
     HIDDEN_OBJECT_MEASURED,
     INSTANCED_BY_PARENT,
-    INSTANCER_HIDDEN,
     INSTANCES_VANISHED,
     KIND_COUNT,
     LINES_ONLY,
+    MEMBERS_DIFFER_IN_RENDER,
     METABALL_FAMILY,
     METABALL_OF_FAMILY,
     MODIFIER_ERROR,
     MODIFIERS_LEFT_OUT,
+    NO_INSTANCES,
+    NO_SPLINE_SURFACE,
+    NOT_SHOWN,
+    NOTHING_TO_MEASURE,
     ONLY_WITHOUT_SURFACE,
     READ_IN_MODE,
     RENDER_DIFFERS,
     RENDER_LEVELS_DIFFER,
     RENDER_MODIFIER_DIFFERS,
-    RENDER_ONLY_MEMBERS,
     SCALE_ZERO_AXIS,
-    SPLINES_WITHOUT_SURFACE,
     SURFACELESS_LEFT_OUT,
-    VIEWPORT_ONLY_MEMBERS,
 )
 from .instances import InstanceCollector, shows_itself, visible_objects
 from .splines import nonpositive_weights, spline_modifiers
@@ -64,24 +63,30 @@ def why_empty(obj, gathered: InstanceCollector, depsgraph) -> Finding:
     if gathered.vanished_count:
         return finding(SCALE_ZERO_AXIS)
     if obj.type == "FONT" and not obj.data.body.strip():
-        return finding(EMPTY_TEXT)
+        return finding(NOTHING_TO_MEASURE, cause="the text is empty. Type a text")
     if obj.type in {"CURVE", "FONT"} and not obj.modifiers:
-        return finding(LINES_ONLY)
+        return finding(NOTHING_TO_MEASURE, cause=LINES_ONLY)
     if (
         obj.type == "SURFACE"
         and not obj.modifiers
         and obj.instance_type == "NONE"
         and obj.data.splines
     ):
-        return finding(LINES_ONLY if vertices else SPLINES_WITHOUT_SURFACE)
+        return finding(
+            NOTHING_TO_MEASURE,
+            cause=LINES_ONLY if vertices else NO_SPLINE_SURFACE,
+        )
     if gathered.left_out:
         return finding(ONLY_WITHOUT_SURFACE, kinds=_kinds(gathered.left_out))
     if vertices:
         return finding(ONLY_WITHOUT_SURFACE, kinds=_kinds({"vertices": vertices, "edges": edges}))
     if obj.instance_type == "COLLECTION":
-        return finding(EMPTY_WITHOUT_INSTANCES)
+        return finding(NOT_SHOWN, cause=NO_INSTANCES)
     if obj.type in SURFACE_TYPES and not shows_itself(obj, False):
-        return finding(INSTANCER_HIDDEN)
+        return finding(
+            NOT_SHOWN,
+            cause="the object hides its own geometry. Turn on Show Instancer in Object Properties",
+        )
     return finding(NO_GEOMETRY)
 
 
@@ -151,13 +156,13 @@ def _member_findings(collections) -> Iterator[Finding]:
         }
         for switch in ("hide_viewport", "hide_render")
     )
-    for code, here, there in (
-        (RENDER_ONLY_MEMBERS, rendered, shown),
-        (VIEWPORT_ONLY_MEMBERS, shown, rendered),
+    for treatment, here, there in (
+        ("Left out, as only the render shows them", rendered, shown),
+        ("Measured, although the render does not show them", shown, rendered),
     ):
         names = [member.name for member in here if member not in there]
         if names:
-            yield finding(code, objects=names)
+            yield finding(MEMBERS_DIFFER_IN_RENDER, treatment=treatment, objects=names)
 
 
 def _node_errors(obj) -> Iterator[Finding]:

@@ -14,23 +14,15 @@ NON_FINITE_INSTANCES = error(
     "{count} of {total} instance transforms is not finite. Fix what makes NaN or infinity.",
     "{count} of {total} instance transforms are not finite. Fix what makes NaN or infinity.",
 )
-INSTANCES_OF_HIDDEN_OBJECT = error(
-    "instances_of_hidden_object",
-    "Blender makes no instances of a hidden object. Show it in the viewport.",
+NO_INSTANCES = (
+    "the empty instances nothing with a surface. Choose a collection with one in Object "
+    "Properties > Instancing"
 )
+NOT_SHOWN = error("not_shown", "Nothing is shown: {cause:word}.")
 OBJECT_UNREADABLE = error("object_unreadable", "“{object}” cannot be read: {cause}")
 INSTANCED_BY_PARENT = note(
     "instanced_by_parent",
     "Shown only as instances of “{parent}”; measured once, at its own location.",
-)
-EMPTY_WITHOUT_INSTANCES = error(
-    "empty_without_instances",
-    "The empty instances nothing with a surface. Choose a collection with one in Object Properties "
-    "> Instancing.",
-)
-INSTANCER_HIDDEN = error(
-    "instancer_hidden",
-    "The object's own geometry is not shown. Turn on Show Instancer in Object Properties.",
 )
 NOT_IN_SCENE = error(
     "not_in_scene", "Not in the scene “{scene}”. Link the object to a collection of the scene."
@@ -38,9 +30,6 @@ NOT_IN_SCENE = error(
 HIDDEN_IN_VIEWPORT = error(
     "hidden_in_viewport",
     "“{name}” is not shown in the viewport. Turn on its {switch:word} in the Outliner.",
-)
-NOT_EVALUATED = error(
-    "not_evaluated", "Blender has not evaluated the object. Update the view layer."
 )
 HIDDEN_OBJECT_MEASURED = warning("hidden_object_measured", "Measured although not shown: {cause}")
 OBJECT_WITHOUT_GEOMETRY = error(
@@ -72,12 +61,7 @@ MODIFIER_ERROR = warning("modifier_error", "The modifier “{modifier}” report
 RENDER_DIFFERS = warning(
     "render_differs", "Measured as in the viewport; the render differs: {differences}."
 )
-RENDER_ONLY_MEMBERS = warning(
-    "render_only_members", "Left out, as only the render shows them: {objects}."
-)
-VIEWPORT_ONLY_MEMBERS = warning(
-    "viewport_only_members", "Measured, although the render does not show them: {objects}."
-)
+MEMBERS_DIFFER_IN_RENDER = warning("members_differ_in_render", "{treatment:word}: {objects}.")
 RENDER_MODIFIER_DIFFERS = note(
     "render_modifier_differs", "“{modifier}” is only in the {place:word}"
 )
@@ -89,19 +73,15 @@ ONLY_WITHOUT_SURFACE = error(
     "No surface, only {kinds}. Fill faces, or add a surface with a modifier.",
 )
 SURFACELESS_LEFT_OUT = warning("surfaceless_left_out", "Left out: {kinds}.")
-LINES_ONLY = error(
-    "lines_only",
-    "Lines without a surface. Add a bevel or extrusion, fill the curve or text, or set Kind to "
-    "Wire.",
+LINES_ONLY = (
+    "lines without a surface. Add a bevel or extrusion, fill the curve or text, or set Kind to Wire"
 )
-SPLINES_WITHOUT_SURFACE = error(
-    "splines_without_surface",
-    "No spline has a surface: too few points for the order or for Bézier ends. Add points, lower "
-    "Order, or "
-    "turn off "
-    "Bézier in Active Spline.",
+NO_SPLINE_LENGTH = "no spline has a length. Add points, or move them apart"
+NO_SPLINE_SURFACE = (
+    "no spline has a surface: too few points for the order or for Bézier ends. Add points, "
+    "lower Order, or turn off Bézier in Active Spline"
 )
-EMPTY_TEXT = error("empty_text", "The text is empty. Type a text.")
+NOTHING_TO_MEASURE = error("nothing_to_measure", "Nothing to measure: {cause:word}.")
 METABALL_OF_FAMILY = error(
     "metaball_of_family",
     "“{object}” holds the polygons of this metaball family. Measure that object.",
@@ -116,7 +96,6 @@ SPLINES_LEFT_OUT = warning(
     "{count} of {total} splines is left out: too few points for its order or for Bézier ends.",
     "{count} of {total} splines are left out: too few points for their order or for Bézier ends.",
 )
-NO_CURVE = error("no_curve", "No spline has a length. Add points, or move them apart.")
 UNKNOWN_KNOTS = error(
     "unknown_knots",
     "Blender does not expose the imported knots. Turn Endpoint off and on in Active Spline to make "
@@ -160,23 +139,18 @@ VOLUME_WITHOUT_GRIDS = error(
     "The volume has no grids. Choose a file, or add a modifier that makes grids.",
 )
 GRID_MISSING = error("grid_missing", "No grid “{grid}”; the volume has {grids}. Change Grid.")
-GRID_TYPE = error(
-    "grid_type", "The grid “{grid}” does not hold scalar numbers. Choose another grid."
+NO_SCALARS = "does not hold scalar numbers. Choose another grid"
+NEEDS_OPENVDB = (
+    "can only be read with the openvdb module, which this Blender lacks. Convert it to "
+    "floats, or a level set to a mesh by a Grid to Mesh node"
 )
+GRID_UNSUPPORTED = error("grid_unsupported", "The grid “{grid}” {fault:word}.")
 NO_SCALAR_GRID = error(
     "no_scalar_grid", "No grid holds scalar numbers; the volume has {grids}. Choose another volume."
 )
 GRID_UNREADABLE = error(
     "grid_unreadable",
     "The grid “{grid}” is missing or cannot be read: {error}. Choose another file or grid.",
-)
-GRID_FRUSTUM = error(
-    "grid_frustum",
-    "The grid “{grid}” has a frustum transform. Resample it with a linear transform.",
-)
-GRID_FAR_FROM_ORIGIN = error(
-    "grid_far_from_origin",
-    "The voxel indices of the grid “{grid}” are too far from zero. Move its origin nearer.",
 )
 GRID_NAMES_REPEATED = warning(
     "grid_names_repeated",
@@ -186,12 +160,6 @@ GRID_SIMPLIFIED = warning(
     "grid_simplified",
     "Simplify reduces the voxels to {share:percent} of their resolution. Turn off Simplify in "
     "Render Properties.",
-)
-GRID_NEEDS_OPENVDB = error(
-    "grid_needs_openvdb",
-    "The grid “{grid}” can only be read with the openvdb module, which this Blender lacks. Convert "
-    "it to floats, or a "
-    "level set to a mesh by a Grid to Mesh node.",
 )
 TEMPORARY_FOLDER_FULL = error(
     "temporary_folder_full",
@@ -212,16 +180,6 @@ SECTION_SPLINES_OPEN = warning(
 SECTION_NOT_FILLED = note(
     "section_not_filled", "The curve is not filled; its outlines were measured as if filled."
 )
-SECTION_NO_SELECTED_FACE = error(
-    "section_no_selected_face", "No face is selected. Select the faces of the section."
-)
-SECTION_NO_OUTLINE = error(
-    "section_no_outline", "No closed outline. Close the splines with Toggle Cyclic, or type a text."
-)
-SECTION_TEXT_ON_CURVE = error(
-    "section_text_on_curve",
-    "The text follows a curve and is not filled. Fill it, or use Object > Convert > Mesh.",
-)
 SECTION_EXTRUDED = error(
     "section_extruded",
     "The curve is 3D, extruded, beveled or offset. Set it to 2D, and Extrude, Bevel Depth and "
@@ -238,10 +196,7 @@ TOTAL_COPIES_IN_PLACE = warning(
     "total_copies_in_place",
     "Copies at an equal place count again: {objects}. Delete or move those that were left behind.",
 )
-NO_ACTIVE_ARMATURE = error(
-    "no_active_armature", "No armature is selected, or several are. Select one."
-)
-ARMATURE_IN_EDIT_MODE = error("armature_in_edit_mode", "The armature is in Edit Mode. Leave it.")
+ARMATURE_UNAVAILABLE = error("armature_unavailable", "No armature to measure: {cause:word}.")
 REFERENCE_OBJECT_MISSING = error(
     "reference_object_missing", "No object is chosen as the reference. Choose one in Object."
 )

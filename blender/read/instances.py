@@ -31,7 +31,7 @@ from ...core.mesh import Surface
 from ...core.moments import affine_matrices
 from ...core.numerics import Array
 from ...core.verdict import ReadError
-from .findings import INSTANCES_OF_HIDDEN_OBJECT, NON_FINITE_INSTANCES
+from .findings import NON_FINITE_INSTANCES, NOT_SHOWN
 from .mesh import face_slots, from_edit_mesh, mesh_surface, read_array, vertex_values
 from .places import world_matrices
 from .splines import spline_reading
@@ -220,7 +220,11 @@ class InstanceCollector:
         """Add the root and its instances from `depsgraph.object_instances`."""
         original = self.root.original
         if not original.visible_get(view_layer=self.depsgraph.view_layer):
-            raise ReadError(INSTANCES_OF_HIDDEN_OBJECT, subject=original.name)
+            raise ReadError(
+                NOT_SHOWN,
+                cause="Blender makes no instances of a hidden object. Show it in the viewport",
+                subject=original.name,
+            )
         if original.type in GEOMETRY_TYPES:
             geometry = self._geometry(self.root)
             if shows_itself(original, True):

@@ -22,6 +22,7 @@ import numpy as np
 from bpy.types import Depsgraph, Object
 from numpy.typing import NDArray
 
+from ...core.bodies import Reading
 from ...core.mesh import Surface
 from ...core.numerics import Array
 from ...core.verdict import ReadError
@@ -180,14 +181,7 @@ def shape_digest(obj: Object, depsgraph: Depsgraph) -> bytes | None:
     """Return a digest of a mesh object's faces; None for other types, modes, large meshes,
     instancers, node trees.
     """
-    if (
-        obj.type != "MESH"
-        or obj.mode != "OBJECT"
-        or obj.data.is_editmode
-        or obj.instance_type != "NONE"
-        or len(obj.particle_systems)
-        or "NODES" in [modifier.type for modifier in obj.modifiers]
-    ):
+    if not _shows_one_mesh(obj):
         return None
     try:
         geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
@@ -197,6 +191,27 @@ def shape_digest(obj: Object, depsgraph: Depsgraph) -> bytes | None:
     if mesh is None or len(mesh.polygons) > MAX_DIGESTED_FACES:
         return None
     return surface_digest(mesh_surface(mesh, edges=False))
+
+
+def read_digest(obj: Object, reading: Reading) -> bytes | None:
+    """Return the `shape_digest` of an object whose reading is fresh."""
+    if not _shows_one_mesh(obj) or len(reading.parts) != 1:
+        return None
+    surface = reading.parts[0].surface
+    is_large = len(surface.triangles) + len(surface.quads) > MAX_DIGESTED_FACES
+    return None if is_large else surface_digest(surface)
+
+
+def _shows_one_mesh(obj: Object) -> bool:
+    """Return whether an object shows one mesh, without instances, outside of its edit modes."""
+    return (
+        obj.type == "MESH"
+        and obj.mode == "OBJECT"
+        and not obj.data.is_editmode
+        and obj.instance_type == "NONE"
+        and not len(obj.particle_systems)
+        and "NODES" not in [modifier.type for modifier in obj.modifiers]
+    )
 
 
 def surface_digest(surface: Surface) -> bytes:

@@ -14,7 +14,7 @@ from bpy.types import Context, Depsgraph, Object, Scene
 
 from ...core.measurement import digest
 from ...core.verdict import ReadError
-from .findings import ARMATURE_IN_EDIT_MODE, NO_ACTIVE_ARMATURE
+from .findings import ARMATURE_UNAVAILABLE
 from .fingerprint import matrix_bytes, settings_hash
 from .tracking import tracking_paused
 from .visibility import measurable
@@ -138,7 +138,9 @@ def require_armature(obj: Object | None) -> Object:
     Mode.
     """
     if obj is None or obj.type != "ARMATURE":
-        raise ReadError(NO_ACTIVE_ARMATURE)
+        raise ReadError(ARMATURE_UNAVAILABLE, cause="none is selected, or several are. Select one")
     if obj.mode == "EDIT":
-        raise ReadError(ARMATURE_IN_EDIT_MODE, subject=obj.name)
+        raise ReadError(
+            ARMATURE_UNAVAILABLE, cause="it is in Edit Mode. Leave it", subject=obj.name
+        )
     return obj

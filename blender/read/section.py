@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.bodies import DRAWN_AS_POLYGONS, Reading
+from ...core.flat import NO_SECTION_AREA
 from ...core.mesh import Surface
 from ...core.numerics import Array, Index, Mask, polar_rotation
 from ...core.nurbs import Curve
@@ -30,11 +31,8 @@ from .findings import (
     RENDER_LEVELS_DIFFER,
     SECTION_EXTRUDED,
     SECTION_MODIFIED_FILL,
-    SECTION_NO_OUTLINE,
-    SECTION_NO_SELECTED_FACE,
     SECTION_NOT_FILLED,
     SECTION_SPLINES_OPEN,
-    SECTION_TEXT_ON_CURVE,
 )
 from .mesh import from_edit_mesh, mesh_surface, read_array
 from .objects import locate, read_object, require_finite
@@ -138,7 +136,11 @@ def _selected_faces(obj, depsgraph) -> SectionReading:
 
     chosen, surface = from_edit_mesh(obj.data, selected)
     if not chosen.any():
-        raise ReadError(SECTION_NO_SELECTED_FACE, subject=obj.name)
+        raise ReadError(
+            NO_SECTION_AREA,
+            fault="no face is selected. Select the faces of the section",
+            subject=obj.name,
+        )
     place = locate(obj, depsgraph)
     surface = surface.transform(place.matrix[:3, :3], place.matrix[:3, 3])
     triangles, faces = surface.all_triangles()
@@ -158,7 +160,13 @@ def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
         obj.update_from_editmode()
     local, loops, open_splines = _spline_outlines(obj, resolution)
     if not loops:
-        raise ReadError(SECTION_NO_OUTLINE, subject=obj.name)
+        raise ReadError(
+            NO_SECTION_AREA,
+            fault=(
+                "there is no closed outline. Close the splines with Toggle Cyclic, or type a text"
+            ),
+            subject=obj.name,
+        )
     place = locate(obj, depsgraph)
     linear = place.matrix[:3, :3]
     facing = np.cross(linear[:, 0], linear[:, 1]) * np.sign(np.linalg.det(linear) or 1.0)
@@ -168,7 +176,14 @@ def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
     if obj.type == "FONT" and obj.data.follow_curve is not None:
         # Only the evaluated text follows its curve, and only its fill is there to be read.
         if filled is None:
-            raise ReadError(SECTION_TEXT_ON_CURVE, subject=obj.name)
+            raise ReadError(
+                NO_SECTION_AREA,
+                fault=(
+                    "the text follows a curve and is not filled. Fill it, or use Object "
+                    "> Convert > Mesh"
+                ),
+                subject=obj.name,
+            )
         surface = filled.transform(linear, place.matrix[:3, 3])
         loops = None
         triangles, faces = surface.all_triangles()

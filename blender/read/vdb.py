@@ -22,7 +22,7 @@ from ...core.bodies import GRID_TOO_LARGE
 from ...core.mesh import Surface
 from ...core.moments import affine_matrices
 from ...core.verdict import ReadError
-from .findings import GRID_FAR_FROM_ORIGIN, GRID_FRUSTUM, GRID_TYPE, GRID_UNREADABLE
+from .findings import GRID_UNREADABLE, GRID_UNSUPPORTED, NO_SCALARS
 
 NODE_VOXELS = 128  # voxels along a side of the blocks that are read
 ROOT_VOXELS = 4096  # along a side of the largest nodes
@@ -65,11 +65,15 @@ class VdbGrid:
             raise ReadError(GRID_UNREADABLE, grid=name, error=str(error).rstrip(".")) from error
         dtype = DTYPES.get(self._grid.valueTypeName)
         if dtype is None:
-            raise ReadError(GRID_TYPE, grid=name)
+            raise ReadError(GRID_UNSUPPORTED, fault=NO_SCALARS, grid=name)
         self._dtype = dtype
         transform = self._grid.transform
         if not transform.isLinear:
-            raise ReadError(GRID_FRUSTUM, grid=name)
+            raise ReadError(
+                GRID_UNSUPPORTED,
+                fault="has a frustum transform. Resample it with a linear transform",
+                grid=name,
+            )
         self.background = float(self._grid.background)
         self.level_set = self._grid.gridClass == "level set"
         places = np.array(
@@ -88,7 +92,11 @@ class VdbGrid:
         if np.prod(high // ROOT_VOXELS - low // ROOT_VOXELS + 1.0) > MAX_ROOTS:
             raise ReadError(GRID_TOO_LARGE, grid=name, samples=self.shape.tolist())
         if np.abs([low, high]).max() > MAX_INDEX:
-            raise ReadError(GRID_FAR_FROM_ORIGIN, grid=name)
+            raise ReadError(
+                GRID_UNSUPPORTED,
+                fault="has voxel indices too far from zero. Move its origin nearer",
+                grid=name,
+            )
 
     def blocks(self) -> Iterator[tuple[tuple[int, int, int], NDArray]]:
         """Yield the stored voxels, as blocks, each with its offset in the box."""

@@ -15,10 +15,10 @@ from itertools import islice
 from ...core.verdict.finding import Finding, ReadError, finding
 from ..settings.given import GEOMETRY_TYPES, SURFACE_TYPES, is_point_mass, shows_collection
 from .findings import (
-    EMPTY_WITHOUT_INSTANCES,
     HIDDEN_IN_VIEWPORT,
-    NOT_EVALUATED,
+    NO_INSTANCES,
     NOT_IN_SCENE,
+    NOT_SHOWN,
     OBJECT_UNREADABLE,
     OBJECT_WITHOUT_GEOMETRY,
     SCULPTED_MESH,
@@ -105,7 +105,7 @@ def require_kind(obj) -> None:
     if obj.type in GEOMETRY_TYPES or obj.instance_type == "COLLECTION":
         return
     if obj.type == "EMPTY":
-        raise ReadError(EMPTY_WITHOUT_INSTANCES, subject=obj.name)
+        raise ReadError(NOT_SHOWN, cause=NO_INSTANCES, subject=obj.name)
     kind = obj.bl_rna.properties["type"].enum_items[obj.type].name
     raise ReadError(OBJECT_WITHOUT_GEOMETRY, subject=obj.name, type=kind)
 
@@ -139,7 +139,9 @@ def _shape_keys_fit(curve) -> bool:
 
 def why_not_evaluated(obj, depsgraph) -> Finding:
     """Return the reason why Blender has not evaluated the object."""
-    return hidden_reason(obj, depsgraph) or finding(NOT_EVALUATED)
+    return hidden_reason(obj, depsgraph) or finding(
+        NOT_SHOWN, cause="Blender has not evaluated the object. Update the view layer"
+    )
 
 
 def _sculpt_mode_reason(obj) -> Finding | None:

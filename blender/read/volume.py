@@ -31,13 +31,14 @@ from .decisions import modifier_findings
 from .findings import (
     GRID_MISSING,
     GRID_NAMES_REPEATED,
-    GRID_NEEDS_OPENVDB,
     GRID_SIMPLIFIED,
-    GRID_TYPE,
     GRID_UNREADABLE,
+    GRID_UNSUPPORTED,
     HIDDEN_OBJECT_MEASURED,
     KIND_COUNT,
+    NEEDS_OPENVDB,
     NO_SCALAR_GRID,
+    NO_SCALARS,
     SURFACELESS_LEFT_OUT,
     TEMPORARY_FOLDER_FULL,
     VOLUME_WITHOUT_GRIDS,
@@ -154,7 +155,7 @@ def _choose_grid(obj, volume: bpy.types.Volume, name: str, findings: list[Findin
         if name not in grids:
             raise ReadError(GRID_MISSING, subject=obj.name, grid=name, grids=list(grids))
         if grids[name].data_type not in SCALARS:
-            raise ReadError(GRID_TYPE, subject=obj.name, grid=name)
+            raise ReadError(GRID_UNSUPPORTED, fault=NO_SCALARS, subject=obj.name, grid=name)
         return grids[name]
     scalars = {grid_name: grid for grid_name, grid in grids.items() if grid.data_type in SCALARS}
     if not scalars:
@@ -207,7 +208,7 @@ class SampledGrid:
 
     def __init__(self, obj, depsgraph, grid, bound_box) -> None:
         if grid.data_type not in KINDS or (bpy.app.version < (5, 0) and grid.data_type != "FLOAT"):
-            raise ReadError(GRID_NEEDS_OPENVDB, grid=grid.name)
+            raise ReadError(GRID_UNSUPPORTED, fault=NEEDS_OPENVDB, grid=grid.name)
         self._obj = obj
         self._depsgraph = depsgraph
         self._name = grid.name
@@ -235,7 +236,7 @@ class SampledGrid:
                 yield (start, 0, 0), sample(self.low + (start, 0, 0), shape)
 
     def polygons(self) -> Surface:
-        raise ReadError(GRID_NEEDS_OPENVDB, grid=self._name)
+        raise ReadError(GRID_UNSUPPORTED, fault=NEEDS_OPENVDB, grid=self._name)
 
     @contextmanager
     def _sampler(self) -> Iterator[Callable[[NDArray, tuple[int, int, int]], NDArray]]:

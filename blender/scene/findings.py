@@ -9,25 +9,11 @@ OPEN_OBJECT = error(
     "The surface is open and cannot be capped, so it has no center of mass. Close it, or set Kind "
     "to Shell.",
 )
-BALANCE_NO_VERTICES = error(
-    "balance_no_vertices",
-    "No vertices may move. Select some in Edit Mode, or choose a vertex group that has some.",
+BALANCE_SETTINGS = (
+    "it needs uniform density and a thin shell or a solid. Set Density From to One "
+    "Value, and Wall to Thin"
 )
-BALANCE_SETTINGS = error(
-    "balance_settings",
-    "Balancing needs uniform density and a thin shell or a solid. Set Density From to One Value, "
-    "and Wall to Thin.",
-)
-BALANCE_TRIANGULATION_VARIES = error(
-    "balance_triangulation_varies",
-    "The triangulation changes with every move. Use Face > Triangulate Faces.",
-)
-BALANCE_UNCLEAN = error(
-    "balance_unclean",
-    "The mesh is not closed with all faces outward. Merge by distance, fill holes and recalculate "
-    "normals, or"
-    " set Kind to Shell.",
-)
+BALANCE_IMPOSSIBLE = error("balance_impossible", "Cannot be balanced: {cause:word}.")
 SHAPE_OF_MODIFIERS = error(
     "shape_of_modifiers",
     "The measured shape is made by {modifiers}, not by the mesh alone. Apply or hide them.",

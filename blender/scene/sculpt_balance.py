@@ -41,10 +41,8 @@ from ..read.objects import read_object
 from ..read.tracking import tracking_paused
 from ..scale import meters_per_unit
 from .findings import (
-    BALANCE_NO_VERTICES,
+    BALANCE_IMPOSSIBLE,
     BALANCE_SETTINGS,
-    BALANCE_TRIANGULATION_VARIES,
-    BALANCE_UNCLEAN,
     SHAPE_NOT_OF_MESH,
     SHAPE_OF_MODIFIERS,
 )
@@ -84,7 +82,13 @@ class _Vertices:
         self.movable = np.flatnonzero(weights > 0.0)
         self.weights = weights[self.movable]
         if not len(self.movable):
-            raise EditRefusedError(BALANCE_NO_VERTICES)
+            raise EditRefusedError(
+                BALANCE_IMPOSSIBLE,
+                cause=(
+                    "no vertices may move. Select some in Edit Mode, or choose a vertex "
+                    "group that has some"
+                ),
+            )
 
 
 class _EditedMesh(_Vertices):
@@ -212,7 +216,10 @@ def balance_mesh(
                     points=start.points,
                 )
         else:
-            raise EditRefusedError(BALANCE_TRIANGULATION_VARIES)
+            raise EditRefusedError(
+                BALANCE_IMPOSSIBLE,
+                cause="the triangulation changes with every move. Use Face > Triangulate Faces",
+            )
     except BaseException:
         if mesh.is_changed:
             mesh.set_points(mesh.start)
@@ -251,7 +258,7 @@ def _require_balanceable(obj: Object) -> None:
     if obj.data.shape_keys is not None:
         raise EditRefusedError(SHAPE_NOT_OF_MESH)
     if obj.body_moments.kind == "SHELL" and obj.body_moments.wall != "THIN":
-        raise EditRefusedError(BALANCE_SETTINGS)
+        raise EditRefusedError(BALANCE_IMPOSSIBLE, cause=BALANCE_SETTINGS)
 
 
 def _measure(context: Context, obj: Object) -> Measurement:
@@ -260,13 +267,19 @@ def _measure(context: Context, obj: Object) -> Measurement:
     """
     measurement = measure_object(obj, context.evaluated_depsgraph_get())
     if measurement.mass_moments[0].measure == Measure.MASS:
-        raise EditRefusedError(BALANCE_SETTINGS)
+        raise EditRefusedError(BALANCE_IMPOSSIBLE, cause=BALANCE_SETTINGS)
     is_union = measurement.method == Method(Procedure.UNION)
     is_clean = measurement.method == Method(Procedure.EXACT) or (
         is_union and not of_severity(measurement.findings, Severity.WARNING)
     )
     if measurement.kind == "solid" and (not is_clean or measurement.health.welded):
-        raise EditRefusedError(BALANCE_UNCLEAN)
+        raise EditRefusedError(
+            BALANCE_IMPOSSIBLE,
+            cause=(
+                "the mesh is not closed with all faces outward. Merge by distance, fill "
+                "holes and recalculate normals, or set Kind to Shell"
+            ),
+        )
     return measurement
 
 

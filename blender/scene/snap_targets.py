@@ -23,10 +23,9 @@ from ...core.inertia import EQUAL_AXES, MassProperties, PrincipalFrame, zhang_ch
 from ...core.numerics import Array, polar_rotation
 from ...core.shape import MAX_FIT_RTOL, RigidMatch
 from ...core.verdict import EditRefusedError, Finding, Procedure
-from ..bodies.measure_object import Measured, measure_body
+from ..bodies.measure_body import Measured, MeasuredBody
+from ..bodies.measure_object import measured_in_turn
 from ..bodies.shape.shape import NoShapeError, shape_of_measured
-from ..bodies.stacks.many import measured_in_turn
-from ..bodies.stacks.stack import Stacked
 from ..scale import meters_per_unit
 from ..settings.given import COLLIDER
 from . import reframe
@@ -123,13 +122,14 @@ def snap_target(context: Context, obj: Object, strict: bool = False) -> SnapTarg
     """Measure an object for snapping, or raise EditRefusedError; strict: by Zhang and Chen's
     rule.
     """
-    return target_of(context, obj, measure_body(obj, context.evaluated_depsgraph_get()), strict)
+    measured = measured_in_turn([obj], context.evaluated_depsgraph_get())(obj)
+    return target_of(context, obj, measured, strict)
 
 
 def target_of(
     context: Context,
     obj: Object,
-    measured: Measured | Stacked,
+    measured: Measured,
     strict: bool = False,
     by_shape: bool = True,
 ) -> SnapTarget:
@@ -144,9 +144,7 @@ def target_of(
     principal = body.principal
     if strict or (by_shape and not principal.is_unique and EQUAL_AXES[principal.symmetry]):
         # Measured alone, a body gets exact third moments if they are doubtful.
-        own = measured
-        if isinstance(own, Stacked):
-            own = measure_body(obj, context.evaluated_depsgraph_get())
+        own = measured.alone(obj, context.evaluated_depsgraph_get())
         if strict:
             moments, _ = own.measurement.mass_moments
             is_varying = own.measurement.kind == "shell" or own.body.mass is not None
@@ -156,7 +154,7 @@ def target_of(
     return SnapTarget.of_body(obj, body, principal, unit)
 
 
-def _frame_by_shape(measured: Measured) -> PrincipalFrame:
+def _frame_by_shape(measured: MeasuredBody) -> PrincipalFrame:
     """Return the principal frame that the shape fixes; the measured one if it has no shape."""
     try:
         return shape_of_measured(measured, 1).principal_frame()

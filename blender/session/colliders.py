@@ -29,7 +29,7 @@ from ...core.moments import are_singular
 from ...core.numerics import Array, polar_rotation
 from ...core.robots import Pose, Shape
 from ...core.verdict import ReadError
-from ..bodies.measure_object import Measured, measure_body
+from ..bodies.measure_body import MeasuredBody, measure_body
 from ..read.findings import OBJECT_WITHOUT_GEOMETRY, SCALE_ZERO_AXIS
 from ..read.fingerprint import colliders_digest, scale_products
 from ..scale import meters_per_unit
@@ -89,10 +89,11 @@ def plan_colliders(
     hull = convex_hull(surface.points)
     shapes = yield from make_colliders(surface, body, wanted, hull)
     shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
+    masses = uniform_masses(measurement.density, shapes)
     if correct == "VERTICES":
         shapes = correct_vertices(body, shapes, surface, wanted.outward, wanted.inward)
         shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
-    masses = uniform_masses(measurement.density, shapes)
+        masses = uniform_masses(measurement.density, shapes)
     if correct == "MASSES":
         masses = correct_masses(body, shapes)
     elif correct == "VERTICES" or wanted.shape.startswith("equal_"):
@@ -113,7 +114,7 @@ def plan_colliders(
     return known[key]
 
 
-def _mesh_key(obj: Object, measured: Measured) -> str:
+def _mesh_key(obj: Object, measured: MeasuredBody) -> str:
     """Return a key that is equal for objects with the same settings and meshes in the same places
     of their frames.
     """
@@ -134,7 +135,7 @@ def _mesh_key(obj: Object, measured: Measured) -> str:
     return digest(settings + b"".join(np.ascontiguousarray(part).tobytes() for part in parts))
 
 
-def _surface(obj: Object, measured: Measured) -> Surface:
+def _surface(obj: Object, measured: MeasuredBody) -> Surface:
     """Return the measured surface, repaired if it is a solid's, in the object's frame in m."""
     measurement = measured.measurement
     pieces = [*measured.body.surfaces(measurement.kind == "shell")]
@@ -254,9 +255,8 @@ def collider_record(
     if reason is None and not is_same:
         reason = stamps.Stale.GEOMETRY
     shown = stored.keys() - {"fingerprint", "digest", "scale", "body", "limits"}
-    return {
-        **{key: stored[key] for key in stored if key in shown},
-        "out_of_date": reason and str(reason),
+    return {key: stored[key] for key in stored if key in shown} | {
+        "out_of_date": reason and str(reason)
     }
 
 

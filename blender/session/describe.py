@@ -14,9 +14,8 @@ from bpy.types import Object
 
 from ...core.measurement import FRAMES, record
 from ...core.verdict import internal_error
-from ..bodies.measure_object import Measured
-from ..bodies.stacks.many import measure_many
-from ..bodies.stacks.stack import Stacked
+from ..bodies.measure_body import Measured
+from ..bodies.measure_object import measure_many
 from ..settings.options import MeasureOptions
 from ..write.remedies import REMEDIES, REPAIR, remedies_of
 from .stored.density import noted
@@ -135,7 +134,7 @@ def _chosen(objects: Object | str | Iterable[Object | str] | None) -> list[Objec
 
 def _description(
     obj: Object,
-    found: Measured | Stacked | Exception,
+    found: Measured | Exception,
     frame: str,
     is_stored: bool,
     is_overridden: bool,
@@ -171,8 +170,7 @@ def _description(
     if not is_stored and entry["numbers"] is not None:
         calls.append("describe({!r}, store=True)".format(obj.name))
     kept = ("name", "verdict", "method", "kind", "numbers", "error_bound")
-    return {
-        **{name: entry[name] for name in kept if name in entry},
+    return {name: entry[name] for name in kept if name in entry} | {
         "units": UNITS,
         "frame": frame,
         "findings": findings,

@@ -19,9 +19,8 @@ from ...core.inertia import combine
 from ...core.measurement import NO_VOLUME
 from ...core.mesh import convex_hull, triangle_areas
 from ...core.verdict import EditRefusedError, Finding, MeasureError, Procedure
-from ..bodies.measure_object import Measured as MeasuredBody
-from ..bodies.stacks.many import measured_in_turn
-from ..bodies.stacks.stack import Stacked
+from ..bodies.measure_body import Measured as MeasuredObject
+from ..bodies.measure_object import measured_in_turn
 from ..read.mesh import mesh_surface
 from ..read.tracking import tracking_paused
 from ..scale import meters_per_unit
@@ -74,7 +73,7 @@ class Measured:
     body: Body
     target: SnapTarget
     density: float
-    parts: tuple[tuple[Object, MeasuredBody | Stacked], ...]
+    parts: tuple[tuple[Object, MeasuredObject], ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -246,15 +245,13 @@ def _bodies(objects: Sequence[Object]) -> list[Body]:
 
 def _measure_in_turn(
     context: Context, bodies: Iterable[Body]
-) -> Callable[[Object], MeasuredBody | Stacked]:
+) -> Callable[[Object], MeasuredObject]:
     """Return a function that measures the objects of the bodies, one at a time and in order."""
     parts = [part for body in bodies for part in (body.obj, *body.members)]
     return measured_in_turn(parts, context.evaluated_depsgraph_get())
 
 
-def _measured(
-    context: Context, body: Body, ask: Callable[[Object], MeasuredBody | Stacked]
-) -> Measured:
+def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredObject]) -> Measured:
     """Measure a body as it is now; raise EditRefusedError if it cannot be a rigid body."""
     require_rigid_world(context.scene, joints=body.obj.rigid_body_constraint is not None)
     parts = [(body.obj, _measured_part(body.obj, ask))]
@@ -277,9 +274,7 @@ def _measured(
     return Measured(body, target, target.mass / volume, tuple(parts))
 
 
-def _measured_part(
-    part: Object, ask: Callable[[Object], MeasuredBody | Stacked]
-) -> MeasuredBody | Stacked:
+def _measured_part(part: Object, ask: Callable[[Object], MeasuredObject]) -> MeasuredObject:
     """Measure a part of a body as it is now; raise EditRefusedError if it cannot belong to a rigid
     body.
     """

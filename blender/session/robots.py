@@ -31,8 +31,8 @@ from ...core.robots import (
 from ...core.robots.write.shapes import with_colliders
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from ..bodies.assembly.assembly import measure_assembly
+from ..bodies.measure_object import measured_in_turn
 from ..bodies.rig import measure_rig
-from ..bodies.stacks.many import measured_in_turn
 from ..read.joints import (
     bone_freedom,
     bone_parents,

@@ -10,9 +10,8 @@ from bpy.types import Context, Object
 from numpy.typing import NDArray
 
 from ...core.verdict import Finding, internal_error
-from ..bodies.measure_object import Measured
-from ..bodies.stacks.many import measure_many, measured_in_turn
-from ..bodies.stacks.stack import Stacked
+from ..bodies.measure_body import Measured
+from ..bodies.measure_object import measure_many, measured_in_turn
 from ..read.tracking import tracking_paused
 from ..scene import reframe
 from ..scene.snap_targets import SnapTarget, target_of
@@ -25,7 +24,7 @@ from .tracking import staleness
 def remeasure(
     context: Context,
     objects: Sequence[Object],
-    known: Mapping[Object, Measured | Stacked] | None = None,
+    known: Mapping[Object, Measured] | None = None,
 ) -> None:
     """Measure and store results anew after objects have moved; known: measurements of those that
     have not.
@@ -59,7 +58,7 @@ def reframe_objects(
     """
 
     def plans_of(
-        chosen: Sequence[Object], right: dict[Object, Measured | Stacked], by_shape: bool
+        chosen: Sequence[Object], right: dict[Object, Measured], by_shape: bool
     ) -> tuple[list[reframe.Plan], list[Finding]]:
         """Return plans and refusals; measurements of unchanged objects with stored results go to
         `right`. by_shape: moments to sixth order choose among axes that lower ones leave open.
@@ -85,7 +84,7 @@ def reframe_objects(
         return plans, failures
 
     plans, failures = plans_of(objects, {}, not move_only)
-    known: dict[Object, Measured | Stacked] = {}
+    known: dict[Object, Measured] = {}
     with assembly.kept_up_to_date(context):
         with tracking_paused(), reports.progress(len(plans)) as step:
             changed, refused = reframe.reframe(context, plans, step)

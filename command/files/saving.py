@@ -20,7 +20,7 @@ from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...core.files import partial_file, replace
 from ...core.measurement import Measurement
 from ...core.verdict.finding import FileError, Finding, finding
-from ..findings import ASSETS_NOT_MEASURED, FILE_CHANGED_MEANWHILE
+from ..findings import ASSETS_NOT_MEASURED, RESULTS_NOT_STORED
 from ..supervisor.listing import COPY_SUFFIX
 from .files import reason
 
@@ -66,7 +66,13 @@ class Place:
             with partial_file(self.path) as partial:
                 _save_as(partial, compress=packed)
                 if _digest(self.path) != self.digest:
-                    raise FileError(FILE_CHANGED_MEANWHILE)
+                    raise FileError(
+                        RESULTS_NOT_STORED,
+                        cause=(
+                            "another program has saved the file since it was opened. "
+                            "Measure it again"
+                        ),
+                    )
                 replace(partial, self.path)
         except (RuntimeError, OSError) as error:
             raise FileError(FILE_NOT_WRITTEN, file=self.path.name, error=reason(error)) from error

@@ -4,16 +4,14 @@
 
 from __future__ import annotations
 
-import os
 import zipfile
 from pathlib import Path
 
 from ...core.files import (
     DAMAGE_INCOMPLETE,
-    FILE_MISSING,
-    FILE_NOT_REGULAR,
     FILE_TYPE,
     FILE_UNREADABLE,
+    check_regular,
     damaged,
 )
 from ...core.scans import formats as scans
@@ -33,10 +31,7 @@ def check_file(path: str) -> None:
     kind = file_suffix(path)
     if kind != BLEND and kind not in IMPORTED:
         raise FileError(FILE_TYPE, suffixes=" ".join((BLEND, *IMPORTED, *scans.SUFFIXES)))
-    if not os.path.exists(path):
-        raise FileError(FILE_MISSING)
-    if not os.path.isfile(path):
-        raise FileError(FILE_NOT_REGULAR)
+    check_regular(path)
     try:
         with open(path, "rb") as file:
             is_empty = not file.read(1)

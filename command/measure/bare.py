@@ -45,7 +45,7 @@ from ...core.verdict.finding import (
 )
 from .. import measure
 from ..files.suffixes import STREAMED, check_file, file_suffix
-from ..findings import FOURIER_OBJECT_COUNT, RESULTS_NEED_BLEND, STREAM_OPTIONS
+from ..findings import FOURIER_OBJECT_COUNT, NEEDS_BLEND, RESULTS_NOT_STORED, STREAM_OPTIONS
 from ..options.arguments import NEEDS_BLENDER, boolean_and_wire, options_of_blender, words
 from ..options.checks import OF_ARRAYS, body_findings, density_of, file_findings, unused
 from ..supervisor.listing import UNITLESS
@@ -100,7 +100,7 @@ class BareFile:
     def store(self, contents: Contents) -> None:
         """Refuse to store results."""
         if self.options.write:
-            raise FileError(RESULTS_NEED_BLEND)
+            raise FileError(RESULTS_NOT_STORED, cause=NEEDS_BLEND)
 
     def complete(self, document: dict[str, Any], contents: Contents) -> dict[str, Any]:
         """Return a document with its text as a robot, if one is requested, which needs Blender."""

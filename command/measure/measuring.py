@@ -19,10 +19,9 @@ import numpy as np
 from ...blender.bodies.flat.flat import area_findings, clearer_refusal, flat_region
 from ...blender.bodies.flat.flat_shape import flat_shape_of
 from ...blender.bodies.fourier import flat_transform, object_transform
-from ...blender.bodies.measure_object import Measured, measure_object
+from ...blender.bodies.measure_body import Measured
+from ...blender.bodies.measure_object import measure_object, measured_in_turn
 from ...blender.bodies.shape.shape import NoShapeError, shape_of
-from ...blender.bodies.stacks.many import measured_in_turn
-from ...blender.bodies.stacks.stack import Stacked
 from ...blender.read.assembly import left_out_reasons
 from ...blender.read.objects import read_object
 from ...blender.read.visibility import measurable, measurable_objects
@@ -50,7 +49,7 @@ HU_ORDER = 3  # order for Hu's invariants
 
 def measured_together(
     objects: Sequence[bpy.types.Object], options: Namespace, measure_options: MeasureOptions
-) -> Callable[[bpy.types.Object], Measured | Stacked] | None:
+) -> Callable[[bpy.types.Object], Measured] | None:
     """Return a function that measures objects in batches, or None if they have to be measured one
     by one.
 

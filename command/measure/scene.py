@@ -16,8 +16,7 @@ import bpy
 
 from ...blender import session
 from ...blender.bodies.flat.flat import NO_BODY
-from ...blender.bodies.measure_object import Measured
-from ...blender.bodies.stacks.stack import Stacked
+from ...blender.bodies.measure_body import Measured
 from ...blender.read.assembly import operands_of, total_caveats
 from ...blender.read.tracking import tracking_paused
 from ...blender.session.tracking.staleness import mark_up_to_date
@@ -39,8 +38,9 @@ from ..files.saving import Place, write_assets
 from ..files.suffixes import file_suffix
 from ..findings import (
     FOURIER_OBJECT_COUNT,
+    NEEDS_BLEND,
     PART_UNAVAILABLE,
-    RESULTS_NEED_BLEND,
+    RESULTS_NOT_STORED,
     SOLID_OPERAND_MEASURED,
 )
 from ..options.checks import body_findings, density_of, file_findings, is_unitless
@@ -195,7 +195,7 @@ class Scene:
         self,
         label: str,
         obj: bpy.types.Object,
-        in_turn: Callable[[bpy.types.Object], Measured | Stacked] | None,
+        in_turn: Callable[[bpy.types.Object], Measured] | None,
         findings: tuple[Finding, ...],
         contents: Contents,
     ) -> None:
@@ -306,7 +306,7 @@ class Scene:
         that results fit.
         """
         if not bpy.data.filepath or self._path is not None and file_suffix(self._path) != BLEND:
-            raise FileError(RESULTS_NEED_BLEND)
+            raise FileError(RESULTS_NOT_STORED, cause=NEEDS_BLEND)
         for label, obj, one in contents.measured:
             with contents.attempt(label):
                 store(obj, one)

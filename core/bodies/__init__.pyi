@@ -16,7 +16,6 @@ from .findings import GRID_DENSITY as GRID_DENSITY
 from .findings import GRID_EMPTY as GRID_EMPTY
 from .findings import GRID_IS_LEVEL_SET as GRID_IS_LEVEL_SET
 from .findings import GRID_TOO_LARGE as GRID_TOO_LARGE
-from .findings import INSTANCE_OVERLAP_UNCHECKED as INSTANCE_OVERLAP_UNCHECKED
 from .findings import MASS_OVERFLOW as MASS_OVERFLOW
 from .findings import NO_GEOMETRY as NO_GEOMETRY
 from .findings import SAMPLES_POSITIONED as SAMPLES_POSITIONED

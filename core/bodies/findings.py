@@ -14,12 +14,6 @@ FLAT_SURFACES = warning(
     "{count} of {total} surfaces is flat: its area counts, its volume does not.",
     "{count} of {total} surfaces are flat: their areas count, their volumes do not.",
 )
-INSTANCE_OVERLAP_UNCHECKED = warning(
-    "instance_overlap_unchecked",
-    "Overlap was not checked between instances whose bounding boxes overlap. Use Object > Apply > "
-    "Make Instances Real "
-    "and join them.",
-)
 WALL_UNORIENTED = warning(
     "wall_unoriented",
     "The surface is not closed; “inward” is behind its faces as they are. Use Mesh > Normals > "
@@ -34,10 +28,6 @@ WALL_FACES_WITHOUT_AREA = warning(
     "wall_faces_without_area",
     "{count} face without area moved with its neighbors.",
     "{count} faces without area moved with their neighbors.",
-)
-WALL_OVERLAP_UNCHECKED = warning(
-    "wall_overlap_unchecked",
-    "Overlap of the walls was not checked at this thickness. Press Measure.",
 )
 WALLS_OVERLAP = warning(
     "walls_overlap",

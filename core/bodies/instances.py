@@ -28,7 +28,8 @@ from ..polyhedron import area_of_images
 from ..solid import (
     COMPONENTS_NESTED,
     COMPONENTS_OVERLAP,
-    OVERLAP_UNCHECKED,
+    OVERLAP_OF_COMPONENTS,
+    UNCHECKED,
     SolidIntegrals,
     classify_pairs,
 )
@@ -189,7 +190,9 @@ def overlap_findings(
                 elements += [[face, name] for face in np.unique(parts.face[of_these]).tolist()]
             findings.append(finding(code, elements, slight=slight, count=len(components)))
     if comparison.undecided_pairs:
-        findings.append(finding(OVERLAP_UNCHECKED, count=comparison.undecided_pairs))
+        findings.append(
+            finding(UNCHECKED, subject=OVERLAP_OF_COMPONENTS, count=comparison.undecided_pairs)
+        )
     return findings
 
 

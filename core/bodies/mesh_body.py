@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from typing import ClassVar
 
 import numpy as np
@@ -19,14 +20,13 @@ from ..moments import sum_of_images
 from ..moments.moments import Moments, monomials, sum_moments
 from ..numerics import Array
 from ..polyhedron import polyhedron_moments
-from ..solid import DUPLICATE_FACES_COUNTED, NON_PLANAR_FACES
+from ..solid import DUPLICATE_FACES_COUNTED, NON_PLANAR_FACES, OVERLAP_OF_INSTANCES, UNCHECKED
 from ..solid.measure import SolidIntegrals, measure_solid
 from ..verdict import NEGLIGIBLE, Method, Procedure, least_trusted
 from ..verdict.finding import Finding, finding
 from .findings import (
     DRAWN_AS_POLYGONS,
     FLAT_SURFACES,
-    INSTANCE_OVERLAP_UNCHECKED,
     NON_PLANAR_FACES_OF_DISPLAY_MESH,
 )
 from .instances import (
@@ -42,6 +42,7 @@ from .reading import Part, Reading, to_si
 
 MAX_MASS_MOMENT = 1e100  # kg m^n; squares of much larger moments would overflow
 MAX_COMPARED_TRIANGLES = 200_000  # triangles up to which instances are compared with each other
+MAX_KEPT_TRIANGLES = 100_000  # of a surface whose measurement is kept
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,6 +132,20 @@ def extend_input_error(moments: Moments, known: Moments) -> Moments:
     return replace(moments, input_error=swept * reach ** monomials(moments.order).sum(axis=1))
 
 
+@dataclass(frozen=True)
+class _KnownSurface:
+    """A surface that equals others of the same content."""
+
+    content: tuple
+    surface: Surface = field(compare=False)
+    threads: int = field(compare=False)
+
+
+@lru_cache(maxsize=2)  # Objects are often measured again with the same surface.
+def _measure_known(known: _KnownSurface) -> SolidIntegrals:
+    return measure_solid(known.surface, threads=known.threads)
+
+
 def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -> MeshBody:
     """Return the sum of all parts, each measured once in its own coordinates, and mapped to its
     places.
@@ -148,7 +163,12 @@ def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -
 
     measured = measured_area if shell else None
     for part in reading.parts:
-        solid = measure_solid(part.surface, shell=shell, threads=threads)
+        surface = part.surface
+        solid = (
+            measure_solid(surface, shell=shell, threads=threads)
+            if shell or surface.triangle_count > MAX_KEPT_TRIANGLES
+            else _measure_known(_KnownSurface(surface.content, surface, threads))
+        )
         matrices = to_si(part.matrices, unit)
         volumes.append(sum_of_images(solid.volume, matrices))
         image_areas = list(area_of_instances(solid.given_surface, solid.area, matrices, measured))
@@ -186,7 +206,7 @@ def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -
                 overlapping_components=health.overlapping_components + overlapping,
             )
         else:
-            findings.append(finding(INSTANCE_OVERLAP_UNCHECKED))
+            findings.append(finding(UNCHECKED, subject=OVERLAP_OF_INSTANCES))
     of_solids = [procedure for procedure in procedures if procedure]
     if of_solids and len(of_solids) < len(procedures):
         flat_area = sum(

@@ -22,16 +22,14 @@ from ..moments import KNOWN_ORDER, placed_boxes, sum_of_images
 from ..moments.moments import Measure, Moments, monomials, sum_moments
 from ..numerics import Array
 from ..polyhedron import polyhedron_moments
-from ..solid import INVERTED_COMPONENTS
+from ..solid import INVERTED_COMPONENTS, OVERLAP_OF_INSTANCES, UNCHECKED
 from ..solid.measure import SolidIntegrals
 from ..verdict import FLIPPED_FACES, NEGLIGIBLE, Procedure
 from ..verdict.finding import Finding, ReadError, finding, unique
 from ..wall import WALL_MEASURED, OffsetSolid, offset_solid, split_thickness, wall_moments
 from .findings import (
-    INSTANCE_OVERLAP_UNCHECKED,
     WALL_FACES_WITHOUT_AREA,
     WALL_FOLDS,
-    WALL_OVERLAP_UNCHECKED,
     WALL_THICKNESS_VARIES,
     WALL_UNORIENTED,
     WALLS_OVERLAP,
@@ -179,13 +177,17 @@ class Walls:
         if ignored:
             findings.append(finding(WALL_FACES_WITHOUT_AREA, count=ignored))
         if not looked:
-            findings.append(finding(WALL_OVERLAP_UNCHECKED))
+            findings.append(
+                finding(
+                    UNCHECKED, subject="the overlap of the walls at this thickness. Press Measure"
+                )
+            )
         elif any(piece.self_intersects(self.side, thickness) for piece in self.pieces):
             findings.append(finding(WALLS_OVERLAP))
         else:
             centers, extents = zip(*(piece.boxes(self.side, thickness) for piece in self.pieces))
             if boxes_overlap(np.concatenate(centers), np.concatenate(extents)):
-                findings.append(finding(INSTANCE_OVERLAP_UNCHECKED))
+                findings.append(finding(UNCHECKED, subject=OVERLAP_OF_INSTANCES))
         return findings
 
     def _unevenness(self) -> float:

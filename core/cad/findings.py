@@ -4,9 +4,6 @@
 
 from ..verdict import error, note, warning
 
-IGES_NOT_ASCII = error(
-    "iges_not_ascii", "The IGES file is binary or compressed. Save it in fixed ASCII form."
-)
 IGES_DAMAGED = error(
     "iges_damaged",
     "The IGES file is damaged: its {section:word} has “{text}”, which is not complete or not "
@@ -15,9 +12,6 @@ IGES_DAMAGED = error(
 )
 IGES_UNIT = error(
     "iges_unit", "The IGES file has the unknown unit “{unit}”. Export it in millimeters or meters."
-)
-OBJ_CALL = error(
-    "obj_call", "The file runs another one by “call”, which is not followed. Insert the other file."
 )
 NO_SURFACE_KEPT = error("no_surface_kept", "No surface of the file can be kept: {causes}")
 SURFACE_TRIMMED = warning(

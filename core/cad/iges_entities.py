@@ -20,11 +20,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..files import FILE_UNRECOGNIZED
+from ..files import FILE_UNREADABLE, FILE_UNRECOGNIZED
 from ..numerics import Array, SplineSpace, clamped_space
 from ..nurbs import Curve, bezier_curves
 from ..verdict import FileError
-from .findings import IGES_DAMAGED, IGES_NOT_ASCII, IGES_UNIT
+from .findings import IGES_DAMAGED, IGES_UNIT
 
 FORMAT = "IGES (fixed ASCII form)"
 COLUMNS = 80  # columns
@@ -99,7 +99,9 @@ class IgesText:
         for line in lines:
             letter = line[SECTION : SECTION + 1]
             if letter in ("B", "C") and not sections["S"]:
-                raise FileError(IGES_NOT_ASCII)
+                raise FileError(
+                    FILE_UNREADABLE, error="it is binary or compressed. Save it in fixed ASCII form"
+                )
             if letter not in sections:
                 raise FileError(FILE_UNRECOGNIZED, format=FORMAT)
             sections[letter].append(line)

@@ -20,12 +20,19 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..files import FILE_TOO_LARGE, map_file, parse_decimals, parse_number, parse_whole
+from ..files import (
+    FILE_TOO_LARGE,
+    FILE_UNREADABLE,
+    map_file,
+    parse_decimals,
+    parse_number,
+    parse_whole,
+)
 from ..numerics import Array, Index
 from ..nurbs import Face
 from ..streams import FileMesh, name_of_file, without_repeats
 from ..verdict import FileError
-from .findings import OBJ_CALL, SURFACE_ORDER, SURFACE_TRIMMED, SURFACE_UNSUPPORTED
+from .findings import SURFACE_ORDER, SURFACE_TRIMMED, SURFACE_UNSUPPORTED
 from .obj_text import Lines, blocks, check_obj_text
 from .surfaces import (
     MAX_ORDER,
@@ -137,7 +144,13 @@ class ObjReader:
             elif word in ("end", "curv", "curv2"):
                 current = None
             elif word == "call":
-                raise FileError(OBJ_CALL)
+                raise FileError(
+                    FILE_UNREADABLE,
+                    error=(
+                        "it runs another one by “call”, which is not followed. Insert "
+                        "the other file"
+                    ),
+                )
             elif current is not None and word == "parm":
                 current.knots.setdefault("".join(rest[:1]), []).extend(rest[1:])
             elif current is not None and word in TRIMS:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..files import DEFAULT_LIMITS, FILE_MISSING, FILE_NOT_REGULAR, FILE_TYPE, Limits
+from ..files import DEFAULT_LIMITS, FILE_TYPE, Limits, check_regular
 from ..numerics import Array
 from ..streams import KINDS, FileMesh, box_of_blocks
 from ..verdict import FileError
@@ -61,6 +61,5 @@ def _existing_file(path: str | Path, suffixes: Sequence[str]) -> tuple[Path, str
     suffix = path.suffix.lower()
     if suffix not in suffixes:
         raise FileError(FILE_TYPE, suffixes=" ".join(suffixes))
-    if not path.is_file():
-        raise FileError(FILE_NOT_REGULAR if path.exists() else FILE_MISSING)
+    check_regular(path)
     return path, suffix

@@ -63,6 +63,7 @@ LEAST_RADIUS = 1e-6
 MIN_AREA = 1e-3  # relative to the largest share: corners with less move as if they had so much
 # of the effect of all moves: how far sums that cannot be reached may be from the nearest ones
 SLACK = 1e-9
+FLAT_RTOL = 3e-7  # a few roundings to single precision
 TINY = float(np.finfo(np.float64).tiny)
 
 
@@ -84,8 +85,23 @@ def effect(body: MassProperties, shapes: Sequence[Shape], volume: float) -> Effe
 
 
 def uniform_masses(density: float, shapes: Sequence[Shape]) -> list[float]:
-    """Return the masses of colliders of one density, kg/m³."""
+    """Return the masses of colliders of one density, kg/m³; MeasureError if all of them are flat
+    within rounding.
+    """
+    if all(_is_flat(shape) for shape in shapes):
+        raise MeasureError(COLLIDERS_FLAT)
     return [density * float(moments_of(shape).total) for shape in shapes]
+
+
+def _is_flat(shape: Shape) -> bool:
+    """Return whether a collider's least extent is within the rounding of its largest one."""
+    extents = np.array(shape.size)
+    if shape.surface is not None:
+        offsets = shape.surface.points - shape.surface.points.mean(axis=0)
+        extents = np.ptp(offsets @ np.linalg.eigh(offsets.T @ offsets)[1], axis=0)
+    elif shape.kind == "capsule":  # a sphere if it has no length
+        extents = extents[:1]
+    return bool(extents.min() <= FLAT_RTOL * extents.max())
 
 
 def correct_masses(body: MassProperties, shapes: Sequence[Shape]) -> list[float]:

@@ -21,15 +21,10 @@ POLYNOMIAL_NOT_ALLOWED = error(
     "whole "
     "powers with **, and parentheses.",
 )
-POLYNOMIAL_DIVISION_BY_ZERO = error("polynomial_division_by_zero", "“{part}” divides by zero.")
-POLYNOMIAL_EXPONENT = error(
-    "polynomial_exponent", "The exponent in “{part}” must be a whole number from 0 to {limit}."
+POLYNOMIAL_PART = error("polynomial_part", "“{part}” {fault:word}.")
+POLYNOMIAL_DEGREE = error(
+    "polynomial_degree", "The degree of “{part}” must be a whole number from 0 to {limit}."
 )
-POLYNOMIAL_DEGREE = error("polynomial_degree", "“{part}” has a degree above {limit}.")
-POLYNOMIAL_NOT_CONSTANT = error(
-    "polynomial_not_constant", "“{part}” must be a number, without x, y and z."
-)
-POLYNOMIAL_OVERFLOW = error("polynomial_overflow", "“{part}” is outside the range of numbers.")
 POLYNOMIAL_BEYOND_NUMBERS = error(
     "polynomial_beyond_numbers",
     "The polynomial has values outside the range of numbers at the object. Use smaller "

@@ -31,12 +31,9 @@ from ..verdict import MeasureError
 from .findings import (
     POLYNOMIAL_BEYOND_NUMBERS,
     POLYNOMIAL_DEGREE,
-    POLYNOMIAL_DIVISION_BY_ZERO,
     POLYNOMIAL_EMPTY,
-    POLYNOMIAL_EXPONENT,
     POLYNOMIAL_NOT_ALLOWED,
-    POLYNOMIAL_NOT_CONSTANT,
-    POLYNOMIAL_OVERFLOW,
+    POLYNOMIAL_PART,
     POLYNOMIAL_SYNTAX,
     POLYNOMIAL_TOO_LONG,
 )
@@ -181,7 +178,11 @@ def _terms(node: ast.expr, text: str) -> dict[Exponents, Fraction]:
     """Return the terms of a part of an expression."""
     if isinstance(node, ast.Constant) and type(node.value) in (int, float):
         if isinstance(node.value, float) and not math.isfinite(node.value):
-            raise MeasureError(POLYNOMIAL_OVERFLOW, part=_source_text(node, text))
+            raise MeasureError(
+                POLYNOMIAL_PART,
+                fault="is outside the range of numbers",
+                part=_source_text(node, text),
+            )
         # the decimal that was typed
         number = Fraction(node.value if isinstance(node.value, int) else str(node.value))
         return _validated(_nonzero({(0, 0, 0): number}), node, text)
@@ -209,7 +210,9 @@ def _operation(node: ast.BinOp, text: str) -> dict[Exponents, Fraction]:
     if isinstance(node.op, ast.Div):
         divisor = _constant(right, node.right, text)
         if not divisor:
-            raise MeasureError(POLYNOMIAL_DIVISION_BY_ZERO, part=_source_text(node, text))
+            raise MeasureError(
+                POLYNOMIAL_PART, fault="divides by zero", part=_source_text(node, text)
+            )
         return {powers: value / divisor for powers, value in left.items()}
     if isinstance(node.op, ast.Pow):
         return _power(left, _constant(right, node.right, text), node, text)
@@ -220,7 +223,7 @@ def _power(
     base: dict[Exponents, Fraction], exponent: Fraction, node: ast.BinOp, text: str
 ) -> dict[Exponents, Fraction]:
     if exponent.denominator != 1 or not 0 <= exponent <= MAX_DEGREE:
-        raise MeasureError(POLYNOMIAL_EXPONENT, part=_source_text(node, text), limit=MAX_DEGREE)
+        raise MeasureError(POLYNOMIAL_DEGREE, part=_source_text(node, text), limit=MAX_DEGREE)
     result = {(0, 0, 0): Fraction(1)}
     for _ in range(int(exponent)):
         result = _validated(_multiply(result, base, node, text), node, text)
@@ -247,7 +250,11 @@ def _nonzero(terms: dict[Exponents, Fraction]) -> dict[Exponents, Fraction]:
 
 def _constant(terms: dict[Exponents, Fraction], node: ast.expr, text: str) -> Fraction:
     if set(terms) - {(0, 0, 0)}:
-        raise MeasureError(POLYNOMIAL_NOT_CONSTANT, part=_source_text(node, text))
+        raise MeasureError(
+            POLYNOMIAL_PART,
+            fault="must be a number, without x, y and z",
+            part=_source_text(node, text),
+        )
     return terms.get((0, 0, 0), Fraction(0))
 
 
@@ -258,7 +265,11 @@ def _validated(
         above = value.numerator.bit_length()
         below = value.denominator.bit_length()
         if max(above, below) > MAX_LENGTH or abs(above - below) > MAX_EXPONENT:
-            raise MeasureError(POLYNOMIAL_OVERFLOW, part=_source_text(node, text))
+            raise MeasureError(
+                POLYNOMIAL_PART,
+                fault="is outside the range of numbers",
+                part=_source_text(node, text),
+            )
     return terms
 
 

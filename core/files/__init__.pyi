@@ -4,7 +4,9 @@
 from typing import Any
 
 from .damage import MALFORMED as MALFORMED
+from .damage import NOT_REGULAR as NOT_REGULAR
 from .damage import check_length as check_length
+from .damage import check_regular as check_regular
 from .damage import damaged as damaged
 from .damage import refuse_non_finite as refuse_non_finite
 from .damage import wrong_field as wrong_field
@@ -18,7 +20,6 @@ from .findings import DAMAGE_INDEX as DAMAGE_INDEX
 from .findings import DAMAGE_SIZE as DAMAGE_SIZE
 from .findings import FILE_DAMAGED as FILE_DAMAGED
 from .findings import FILE_MISSING as FILE_MISSING
-from .findings import FILE_NOT_REGULAR as FILE_NOT_REGULAR
 from .findings import FILE_TOO_LARGE as FILE_TOO_LARGE
 from .findings import FILE_TYPE as FILE_TYPE
 from .findings import FILE_UNREADABLE as FILE_UNREADABLE

@@ -4,13 +4,24 @@
 
 from __future__ import annotations
 
+import os
 import struct
 import zlib
 from pathlib import Path
 from typing import Any
 
 from ..verdict.finding import FileError, finding
-from .findings import AT_ROW, DAMAGE_SIZE, FILE_DAMAGED, HEADER_FIELD, NON_FINITE_COORDINATES
+from .findings import (
+    AT_ROW,
+    DAMAGE_SIZE,
+    FILE_DAMAGED,
+    FILE_MISSING,
+    FILE_UNREADABLE,
+    HEADER_FIELD,
+    NON_FINITE_COORDINATES,
+)
+
+NOT_REGULAR = "it is not a regular file"
 
 # Errors from reading a file whose structure is wrong.
 MALFORMED = (
@@ -39,6 +50,14 @@ def wrong_field(format: str, name: str, wanted: str, *values: float) -> FileErro
         wanted=wanted,
         text=" ".join(map("{:g}".format, values)),
     )
+
+
+def check_regular(path: str | Path) -> None:
+    """Raise FileError unless a path is that of a regular file."""
+    if not os.path.exists(path):
+        raise FileError(FILE_MISSING)
+    if not os.path.isfile(path):
+        raise FileError(FILE_UNREADABLE, error=NOT_REGULAR)
 
 
 def check_length(path: Path, held: int, wanted: int) -> None:

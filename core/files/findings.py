@@ -5,7 +5,6 @@
 from ..verdict import error, note, warning
 
 FILE_MISSING = error("file_missing", "No such file.")
-FILE_NOT_REGULAR = error("file_not_regular", "Not a regular file.")
 FILE_TYPE = error("file_type", "Unsupported file type. Supported: {suffixes}.")
 FILE_UNRECOGNIZED = error(
     "file_unrecognized", "This is no {format} file, or its header is damaged. Export it again."

@@ -3,6 +3,7 @@
 
 from typing import Any
 
+from .findings import NO_SECTION_AREA as NO_SECTION_AREA
 from .findings import SECTION_NOT_FLAT as SECTION_NOT_FLAT
 from .polygon import directed_edges as directed_edges
 from .polygon import find_defects as find_defects

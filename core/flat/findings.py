@@ -4,10 +4,8 @@
 
 from ..verdict import error
 
-SECTION_NO_AREA = error("section_no_area", "The faces have no area. Select other faces.")
-SECTION_ENCLOSES_NOTHING = error(
-    "section_encloses_nothing", "The outlines enclose no area. Close them."
-)
+OUTLINES_ENCLOSE_NONE = "the outlines enclose none. Close them"
+NO_SECTION_AREA = error("no_section_area", "No area: {fault:word}.")
 SECTION_NOT_FLAT = error(
     "section_not_flat",
     "Not flat: points are up to {share:percent} of the size off a plane. Select faces of one "

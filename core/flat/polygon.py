@@ -36,7 +36,7 @@ from ..numerics import (
 )
 from ..polyhedron import SimplexMoments, enclosed_moments, multi_indices
 from ..verdict import MeasureError
-from .findings import OUTLINE_OPEN, OUTLINES_COINCIDE, SECTION_ENCLOSES_NOTHING
+from .findings import NO_SECTION_AREA, OUTLINE_OPEN, OUTLINES_COINCIDE, OUTLINES_ENCLOSE_NONE
 
 SAMPLES_PER_OUTLINE = (
     16  # Edge midpoints of an outline that are tested for lying in other outlines.
@@ -389,7 +389,7 @@ def region_moments(
         first = area_moments(points, edges, 1)
         bounds = first.rounding_error + _swept(points, edges, first.about, rounded, 1)
         if not abs(first.raw[0]) > bounds[0]:
-            raise MeasureError(SECTION_ENCLOSES_NOTHING)
+            raise MeasureError(NO_SECTION_AREA, fault=OUTLINES_ENCLOSE_NONE)
         about = first.about + first.raw[1:] / first.raw[0]
     flat = area_moments(points, edges, order, about)
     positions = plane_positions(order)

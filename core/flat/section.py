@@ -16,7 +16,7 @@ from ..moments import U
 from ..numerics import Array, Index, check_type, float_array, index_array
 from ..polyhedron import facet_moments
 from ..verdict import MeasureError
-from .findings import SECTION_ENCLOSES_NOTHING, SECTION_NO_AREA, SECTION_NOT_FLAT
+from .findings import NO_SECTION_AREA, OUTLINES_ENCLOSE_NONE, SECTION_NOT_FLAT
 from .polygon import edge_arrays, outline_areas, plane_positions, region_moments
 from .section_properties import Plane, Section
 
@@ -88,7 +88,7 @@ def fit_plane(
     vectors = normals(points, triangles)
     sizes = np.sqrt((vectors * vectors).sum(axis=1))
     if not (sizes > 0.0).any():
-        raise MeasureError(SECTION_NO_AREA)
+        raise MeasureError(NO_SECTION_AREA, fault="the faces have none. Select other faces")
     used = points[np.unique(triangles)]
     size = float(np.sqrt(((used.max(axis=0) - used.min(axis=0)) ** 2).sum()))
     largest = int(np.argmax(sizes))
@@ -192,7 +192,7 @@ def measure_section(
     rounded = projection_rounding(plane, points, used)
     moments = region_moments(flat, edges, 2, rounded=rounded, stored=error)
     if not moments.total > 0.0:
-        raise MeasureError(SECTION_ENCLOSES_NOTHING)
+        raise MeasureError(NO_SECTION_AREA, fault=OUTLINES_ENCLOSE_NONE)
     about = moments.about[:2]
     positions = plane_positions(2)
     raw = moments.raw[positions]

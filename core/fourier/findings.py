@@ -17,7 +17,4 @@ WAVE_VECTORS_SHAPE = error(
 WAVE_VECTORS_RANGE = error(
     "wave_vectors_range", "Some wave vectors are not finite, or exceed 1e100 rad/m."
 )
-FREQUENCY_RANGE = error(
-    "frequency_range", "The largest frequency must be positive and at most 1e100 rad/m."
-)
-FREQUENCY_COUNT = error("frequency_count", "A grid needs at least two frequencies along each axis.")
+FREQUENCIES_INVALID = error("frequencies_invalid", "A grid of frequencies needs {need:word}.")

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..moments import U
 from ..numerics import Array
 from ..verdict import MeasureError
-from .findings import FREQUENCY_COUNT, FREQUENCY_RANGE, WAVE_VECTORS_RANGE, WAVE_VECTORS_SHAPE
+from .findings import FREQUENCIES_INVALID, WAVE_VECTORS_RANGE, WAVE_VECTORS_SHAPE
 
 MAX_FREQUENCY = 1e100  # its square is still a number, for any size of the body
 
@@ -62,9 +62,11 @@ class FrequencyGrid:
 
     def __post_init__(self) -> None:
         if self.count < 2:
-            raise MeasureError(FREQUENCY_COUNT)
+            raise MeasureError(FREQUENCIES_INVALID, need="at least two along each axis")
         if not 0.0 < self.largest <= MAX_FREQUENCY:
-            raise MeasureError(FREQUENCY_RANGE)
+            raise MeasureError(
+                FREQUENCIES_INVALID, need="a largest one that is positive and at most 1e100 rad/m"
+            )
 
     @property
     def half(self) -> int:

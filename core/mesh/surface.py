@@ -10,7 +10,7 @@ are cut along the diagonal that Blender draws, so that the body measured is the 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 
 import numpy as np
@@ -132,6 +132,14 @@ class Surface:
             return np.zeros(3)
         low, high = self.box
         return half_ulp(np.maximum(high, -low))
+
+    @property
+    def content(self) -> tuple[tuple[str, bytes] | None, ...]:
+        """All arrays as bytes; equal for surfaces of equal numbers."""
+        arrays = [getattr(self, each.name) for each in fields(self)]
+        return tuple(
+            [None if array is None else (array.dtype.str, array.tobytes()) for array in arrays]
+        )
 
     @property
     def triangle_count(self) -> int:

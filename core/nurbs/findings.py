@@ -13,25 +13,7 @@ NON_POSITIVE_WEIGHTS = error(
     "non_positive_weights",
     "Some control points have weights that are not positive. Set their weights above zero.",
 )
-CURVE_OPEN = error(
-    "curve_open",
-    "A curve is open and bounds no region. Close it with Toggle Cyclic, or set Kind to Wire.",
-)
-CURVES_NOT_COPLANAR = error(
-    "curves_not_coplanar",
-    "The curves are not in one plane and bound no flat region. Flatten them, or set Kind to Wire.",
-)
-CURVE_TOO_SMALL = error(
-    "curve_too_small",
-    "A curve is smaller than the rounding of its coordinates. Delete it, move it nearer to the "
-    "origin, or set"
-    " Kind to "
-    "Wire.",
-)
-CURVES_CROSS = error(
-    "curves_cross",
-    "The curves cross or touch, so the region is ambiguous. Separate them, or set Kind to Wire.",
-)
+CURVES_BOUND_NOTHING = error("curves_bound_nothing", "{fault:word}, or set Kind to Wire.")
 NO_EXTENT = error("no_extent", "All control points coincide. Move them apart.")
 DISCONTINUOUS_PATCH = error(
     "discontinuous_patch",

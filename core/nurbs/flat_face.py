@@ -21,7 +21,7 @@ from ..moments.moments import Measure, Moments, U, monomials
 from ..numerics import Array, SplineSpace
 from ..verdict import WELDING_RTOL, MeasureError
 from .curve_moments import curves_center, plane_moments
-from .findings import CURVE_OPEN, CURVE_TOO_SMALL, CURVES_CROSS, CURVES_NOT_COPLANAR
+from .findings import CURVES_BOUND_NOTHING
 from .splines import Curve, Face, Patch
 
 SAME_HEIGHT_RTOL = (
@@ -218,12 +218,18 @@ def planar_loops(
             for before, after in zip(ends, [*ends[1:], ends[0]])
         ]
         if max(gaps) > tolerance or any(curve.space.is_discontinuous for curve in loop):
-            raise MeasureError(CURVE_OPEN)
+            raise MeasureError(
+                CURVES_BOUND_NOTHING,
+                fault="A curve is open and bounds no region. Close it with Toggle Cyclic",
+            )
     points = np.concatenate([curve.points for curve in curves]) - center
     points -= points.mean(axis=0)  # The middle of a box need not be in the plane.
     _, _, axes = np.linalg.svd(np.concatenate([points, np.zeros((3, 3))]), full_matrices=False)
     if np.abs(points @ axes[2]).max() > tolerance:
-        raise MeasureError(CURVES_NOT_COPLANAR)
+        raise MeasureError(
+            CURVES_BOUND_NOTHING,
+            fault="The curves are not in one plane and bound no flat region. Flatten them",
+        )
     normal = axes[2]
     leading = next(axis for axis in (2, 1, 0) if abs(normal[axis]) > 1e-6)
     normal = normal * np.sign(normal[leading])
@@ -235,12 +241,21 @@ def planar_loops(
 
     flat = polygons(SAMPLES_PER_SPAN)
     if min(map(len, flat)) < 3:
-        raise MeasureError(CURVE_TOO_SMALL)
+        raise MeasureError(
+            CURVES_BOUND_NOTHING,
+            fault=(
+                "A curve is smaller than the rounding of its coordinates. Delete it, "
+                "move it nearer to the origin"
+            ),
+        )
     spans = sum(len(curve.space.spans) for curve in curves)
     finer = [each for each in FINER_SAMPLES if spans * each <= MAX_CHORDS]
     while chords_cross(flat, tolerance):
         if not finer:
-            raise MeasureError(CURVES_CROSS)
+            raise MeasureError(
+                CURVES_BOUND_NOTHING,
+                fault="The curves cross or touch, so the region is ambiguous. Separate them",
+            )
         flat = polygons(finer.pop(0))
     starts = np.cumsum([0, *map(len, flat)])
     edges = orient_loops(np.concatenate(flat), np.split(np.arange(starts[-1]), starts[1:-1]))

@@ -30,7 +30,8 @@ from ..solid import (
     COMPONENTS_OVERLAP,
     FLAT_COMPONENTS,
     FLAT_SURFACE,
-    OVERLAP_UNCHECKED,
+    OVERLAP_OF_COMPONENTS,
+    UNCHECKED,
     ComponentComparison,
     ComponentRelations,
     classify_pairs,
@@ -320,7 +321,9 @@ def _component_findings(comparison: ComponentComparison | None, size: float) -> 
         if which.any()
     ]
     if comparison.undecided_pairs:
-        findings.append(finding(OVERLAP_UNCHECKED, count=int(comparison.undecided_pairs)))
+        findings.append(
+            finding(UNCHECKED, subject=OVERLAP_OF_COMPONENTS, count=int(comparison.undecided_pairs))
+        )
     return findings
 
 

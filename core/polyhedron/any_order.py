@@ -44,7 +44,7 @@ from ..moments.exponents import (
 from ..numerics import Array, batches, cross, dot, indices_in_range
 from ..verdict import MeasureError, check_size
 from .any_order_kernel import UNDERFLOW_BOUND, AnyOrderKernel, Sums, absolute_sums, row_count
-from .third_order import NO_VERTEX, box_center, finite_box, nothing
+from .third_order import NO_VERTEX, box_center, finite_box, nothing, paired_corners
 
 SCRATCH_NUMBERS = (
     1_400_000  # limit of a block's scratch; with smaller blocks, two threads wait for each other
@@ -199,7 +199,7 @@ class StreamIntegrator:
         """
         corners = faces.shape[1]
         # The kernel takes two triangles that share an edge as one face.
-        ours = 2 if corners == 3 and _quad_corners(faces[:2]) is not None else 1
+        ours = 2 if corners == 3 and paired_corners(faces[:2]) is not None else 1
         most = ours * max(
             SCRATCH_NUMBERS // row_count(corners + ours - 1, self.order, 1), MIN_FACES_PER_BLOCK
         )
@@ -248,7 +248,7 @@ class StreamIntegrator:
             faces = task.faces[start : start + task.size]
             if faces.shape[1] == 4:
                 faces = turned_quads(task.points, faces)
-            halves = _quad_corners(faces) if faces.shape[1] == 3 else None
+            halves = paired_corners(faces) if faces.shape[1] == 3 else None
             yield (faces.T, task.size) if halves is None else (halves, task.size // 2)
 
     def _moments(self, total: _CompensatedSum, of: Measure) -> Moments:
@@ -368,22 +368,3 @@ def _coefficients(a: NDArray, b: NDArray, c: NDArray, order: int) -> Array:
         grown[:, 2] += grown[:, 1]
         out[monomial_count(degree - 1) : monomial_count(degree)] = grown[:, 2]
     return out
-
-
-def _quad_corners(triangles: NDArray) -> list[NDArray] | None:
-    """Return (k/2,) corners of quads, if triangles 2i and 2i+1 are always halves of a quad; else
-    None.
-    """
-    first = triangles[0::2]
-    second = triangles[1::2]
-    if not len(second) or len(first) != len(second):
-        return None
-    for i in range(3):
-        for j in range(3):
-            ends = ((i, j), (i - 1, (j + 1) % 3))
-            if all(
-                first[0, a] == second[0, b] and np.array_equal(first[:, a], second[:, b])
-                for a, b in ends
-            ):
-                return [first[:, i], first[:, (i + 1) % 3], first[:, i - 1], second[:, (j + 2) % 3]]
-    return None

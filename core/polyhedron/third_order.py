@@ -20,13 +20,16 @@ weights are positive.
 Edges are taken before the reference point is subtracted, so that a determinant's error is relative
 to the product of its edges. With u = 2^-53, edges e and e' and vertices within `reach` of the
 reference point, a determinant is off by at most 9 u reach·τ, where τ_x = |e_y e'_z| + |e_z e'_y|
-bounds |normal_x|. Triangles are summed in segments, each with a bound of its edges: a small body is
-one segment, a large one has many, in blocks whose arrays stay in the cache.
+bounds |normal_x|. Small bodies are summed in stacks, a large one in blocks whose arrays stay in the
+cache, and whose parts have a bound of their edges each.
+
+Triangles a, b, c and a, c, d with a common base a, c and determinants v and w share its terms: with
+u = v + w, Z = u q + 2 (v b + w d) and H = u (a a' + c c') + 2 (v b b' + w d d').
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from math import isfinite
@@ -37,14 +40,18 @@ from numpy.typing import NDArray
 from ..mesh import PlanarityAccumulator, Surface, has_flipped_corners
 from ..moments import PAIRWISE_SUM_ROUNDINGS, Measure, Moments, U, unchecked_moments
 from ..moments.exponents import monomial_count, monomials
-from ..numerics import Array, Index, batches, cross, indices_in_range
+from ..numerics import Array, Index, batches, indices_in_range
 from ..verdict import check_size
 
 # Up to this number of triangles the third order is always exact, which takes half as long again.
 MAX_TRIANGLES_EXACT_THIRD = 100_000
-MAX_SMALL_TRIANGLES = 1024  # triangles of a body in a stack, and of a segment of a large mesh
-SLICES = 16  # parts of a whole segment, whose products are added up
-TRIANGLES_PER_BLOCK = 8192  # triangles whose products stay in the cache
+MAX_SMALL_TRIANGLES = 1024  # triangles of a body in a stack
+FACES_PER_BLOCK = 5120  # faces whose products stay in the cache
+MIN_FLIP_COSINE = 1e-6  # float32 may choose a quad's other diagonal if the cosine is below this
+FLOAT32_OVERFLOW = 1e9  # edges from which the fourth powers in that decision leave its range
+FLOAT32_UNDERFLOW = 1e-36  # products below this may have underflowed there
+FACES_PER_PART = 1024  # faces of a block with one bound of their edges
+SLICES = 32  # slices of a block, whose products are added up
 # Triangles that are worth a thread: with fewer, calls are short, and wait for the interpreter.
 MIN_TRIANGLES_PER_THREAD = 250_000
 # Reaches beyond this, or below its inverse, are scaled, so that a product of six does not overflow
@@ -130,37 +137,31 @@ def integrate(
         return volume.at(0), areas.at(0)
     exact = exact or count <= MAX_TRIANGLES_EXACT_THIRD
     coordinates = np.ascontiguousarray(points.T)
-    centers = center[None]
 
     def sum_block(block: tuple[int, NDArray]) -> _Sums:
         start, faces = block
-        corners = coordinates.take(faces.T, axis=1)
-        is_quad = len(corners[0]) == 4
+        is_quad = faces.shape[1] == 4
+        halves = None if is_quad else paired_corners(faces)
+        corners = coordinates.take(faces.T if halves is None else halves, axis=1, mode="wrap")
+        sides = _Faces(corners.astype(np.float64, copy=False))
         if is_quad:
-            flipped = np.flatnonzero(has_flipped_corners(*corners.swapaxes(0, 1)))
-            corners[:, :, flipped] = np.roll(corners[:, :, flipped], -1, axis=1)
-            corners = corners[:, [[0, 0], [1, 2], [2, 3]]].reshape(3, 3, -1)
-        corners = corners.astype(np.float64, copy=False)
+            sides.turn_quads(points.dtype)
+        lengths = sides.lengths() if area else None
+        if is_quad and planarity is not None:
+            normal = np.add.reduce(sides.normals, axis=1)
+            tetrahedra = np.abs(np.einsum("it,it->t", sides.normals[:, 0], sides.edges[:, 2]))
+            planarity.add_quads(start, np.sqrt(np.einsum("it,it->t", normal, normal)), tetrahedra)
+        elif planarity is not None and lengths is not None:
+            planarity.add_triangles(start, lengths.T.ravel())
+        starts = np.arange(0, corners.shape[2], FACES_PER_PART)
+        return _face_sums(sides, lengths, center[:, None], starts, True, area_moments, exact)
 
-        def observe(edges: NDArray, normals: NDArray, lengths: NDArray) -> None:
-            if planarity is None:
-                return
-            if is_quad:
-                k = len(faces)
-                normal = normals[:, :k] + normals[:, k:]
-                tetrahedra = np.abs(np.add.reduce(normals[:, :k] * edges[:, 1, k:]))
-                planarity.add_quads(start, np.sqrt(np.add.reduce(normal * normal)), tetrahedra)
-            else:
-                planarity.add_triangles(start, lengths)
-
-        widths = _segment_counts(corners.shape[2])
-        return _segment_sums(corners, widths, centers, area, area_moments, exact, observe)
-
+    rows = 1 if paired_corners(surface.triangles[:2]) is None else 2
     blocks = [
         (start, faces[start : start + size])
         for faces, size in (
-            (surface.triangles, TRIANGLES_PER_BLOCK),
-            (surface.quads, TRIANGLES_PER_BLOCK // 2),
+            (surface.triangles, rows * FACES_PER_BLOCK),
+            (surface.quads, FACES_PER_BLOCK),
         )
         for start in range(0, len(faces), size)
     ]
@@ -170,14 +171,10 @@ def integrate(
             sums = list(pool.map(sum_block, blocks))
     else:
         sums = [sum_block(block) for block in blocks]
-    widths = np.concatenate(
-        [_segment_counts(len(faces) * (faces.shape[1] - 2)) for _, faces in blocks]
-    )
     volume, areas, cones = _moments(
         sums,
-        widths,
         np.zeros(1, np.intp),
-        centers,
+        center[None],
         reach[None],
         surface.coordinate_error[None],
         area=area,
@@ -210,13 +207,16 @@ def small_moments(
     coordinates = np.ascontiguousarray(points.T)
     ends = np.cumsum(counts)
     sums = []
-    for part in batches(counts, TRIANGLES_PER_BLOCK):
+    for part in batches(counts, FACES_PER_BLOCK):
         rows = triangles[ends[part.start] - counts[part.start] : ends[part.stop - 1]]
         corners = coordinates.take(rows.T, axis=1).astype(np.float64, copy=False)
-        sums.append(_segment_sums(corners, counts[part], center[part], area, area_moments, True))
+        block = _Faces(corners)
+        lengths = block.lengths() if area else None
+        middle = np.repeat(center[part].T, counts[part], axis=1)
+        starts = np.cumsum(counts[part]) - counts[part]
+        sums.append(_face_sums(block, lengths, middle, starts, False, area_moments, True))
     return _moments(
         sums,
-        counts,
         np.arange(len(counts)),
         center,
         reach,
@@ -227,100 +227,149 @@ def small_moments(
     )
 
 
-def _products(first: NDArray, second: NDArray) -> Array:
-    """Return (6, t) products xx, xy, xz, yy, yz, zz of (3, t) vectors."""
-    return np.concatenate([first[0] * second, first[1] * second[1:], first[2:] * second[2:]])
+def paired_corners(triangles: NDArray) -> list[NDArray] | None:
+    """Return (k/2,) corners of quads, if triangles 2i and 2i+1 are always halves of a quad; else
+    None.
+    """
+    first = triangles[0::2]
+    second = triangles[1::2]
+    if not len(second) or len(first) != len(second):
+        return None
+    for i in range(3):
+        for j in range(3):
+            ends = ((i, j), (i - 1, (j + 1) % 3))
+            if all(
+                first[0, a] == second[0, b] and np.array_equal(first[:, a], second[:, b])
+                for a, b in ends
+            ):
+                return [first[:, i], first[:, (i + 1) % 3], first[:, i - 1], second[:, (j + 2) % 3]]
+    return None
 
 
-def _segment_counts(count: int) -> Index:
-    """Return the number of triangles in each segment of a block of `count` triangles."""
-    starts = np.arange(0, count, MAX_SMALL_TRIANGLES)
-    return np.minimum(count - starts, MAX_SMALL_TRIANGLES)
+class _Faces:
+    """Rows of t faces: triangles a, b, c, perhaps a, c, d.
+
+    corners: (3, c, t). edges: (3, c-1, t) from a. normals: (3, c-2, t), doubled areas long.
+    """
+
+    def __init__(self, corners: Array):
+        self.corners = corners
+        self.edges = corners[:, 1:] - corners[:, :1]
+        first = self.edges[:, :-1]
+        second = self.edges[:, 1:]
+        self.normals = np.empty(first.shape)
+        for x, y, z in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+            np.multiply(first[y], second[z], self.normals[x])
+            self.normals[x] -= first[z] * second[y]
+
+    def lengths(self) -> Array:
+        """Return the (c-2, t) doubled areas."""
+        return np.sqrt(np.einsum("ift,ift->ft", self.normals, self.normals))
+
+    def turn_quads(self, dtype: np.dtype) -> None:
+        """Turn quads so that a, c is the diagonal that Blender, in float32, draws."""
+        suspects = np.arange(self.corners.shape[2])
+        if dtype == np.float32:
+            cosine = np.einsum("it,it->t", self.normals[:, 0], self.normals[:, 1])
+            squares = np.einsum("ict,ict->ct", self.edges, self.edges)
+            limit = squares[1] * np.sqrt(squares[0] * squares[2])
+            np.maximum(MIN_FLIP_COSINE * limit, FLOAT32_UNDERFLOW, out=limit)
+            limit[np.maximum.reduce(squares) > FLOAT32_OVERFLOW**2] = np.inf
+            suspects = suspects[cosine <= limit]
+        if not len(suspects):
+            return
+        flipped = suspects[has_flipped_corners(*self.corners[:, :, suspects].swapaxes(0, 1))]
+        turned = _Faces(np.roll(self.corners[:, :, flipped], -1, axis=1))
+        self.corners[:, :, flipped] = turned.corners
+        self.edges[:, :, flipped] = turned.edges
+        self.normals[:, :, flipped] = turned.normals
 
 
-def _segment_sums(
-    corners: NDArray,
-    counts: NDArray[np.integer],
-    center: NDArray,
-    area: bool,
+def _face_sums(
+    faces: _Faces,
+    lengths: Array | None,
+    middle: Array,
+    starts: Index,
+    is_joint: bool,
     area_moments: bool,
     exact: bool,
-    observe: Callable[[NDArray, NDArray, NDArray], None] | None = None,
 ) -> _Sums:
-    """Return the sums of s segments with `counts` triangles. corners: (3, 3, t) x, y, z of a, b, c.
+    """Return the sums of faces, whose corners are overwritten. lengths: doubled areas, (f, t).
 
-    center: (1 or s, 3). observe: called with (3, 2, t) edges b-a and c-a, (3, t) normals and (t,)
-    their lengths.
+    middle: (3, 1 or t) reference points. starts: (s,) first faces of the parts, of one body if
+    `is_joint`, else of a body each.
     """
-    starts = np.cumsum(counts) - counts
-    edges = corners[:, 1:] - corners[:, :1]
-    normals = np.array(cross(edges[:, 0], edges[:, 1]))
-    middle = center.T if len(center) == 1 else np.repeat(center.T, counts, axis=1)
-    nodes = corners - middle[:, None]
-    det = np.einsum("it,it->t", normals, nodes[:, 0])
-    sizes = np.zeros((2, len(det)))
-    np.abs(det, sizes[0])
-    if area:
-        np.sqrt(np.einsum("it,it->t", normals, normals), sizes[1])
-    if observe is not None:
-        observe(edges, normals, sizes[1])
-    a = nodes[:, 0]
-    b = nodes[:, 1]
-    c = nodes[:, 2]
-    q = a + c
-    local = tips = None
+    edges = faces.edges
+    nodes = np.subtract(faces.corners, middle[:, None], faces.corners)
+    det = np.einsum("ift,it->ft", faces.normals, nodes[:, 0])
+    lengths = np.zeros(det.shape) if lengths is None else lengths
+    apexes = nodes[:, 1::2]
+    q = nodes[:, 0] + nodes[:, 2]
+    tips = local = np.empty(0)
     if exact:
-        tips = 2.0 * b - q
+        tips = 2.0 * apexes - q[:, None]
         base = edges[:, 1]
-        local = _products(tips, tips) + _products(base, base)
+        local = np.empty((6, *det.shape))  # f f' + e e'
+        row = 0
+        for i in range(3):
+            for j in range(i, 3):
+                np.multiply(tips[i], tips[j], local[row])
+                local[row] += base[i] * base[j]
+                row += 1
+    body_starts = starts[:1] if is_joint else starts
 
-    is_even = len(center) == 1 < len(counts) and counts[-1] == MAX_SMALL_TRIANGLES
-
-    def scalar_products(first: NDArray, second: NDArray) -> Array:
-        """Return the (m n, s) scalar products of m rows with n in each segment."""
+    def scalar_products(first: Array, second: Array) -> Array:
+        """Return the (m n, bodies) scalar products of m rows with n."""
         count = len(first) * len(second)
-        if not is_even:
-            products = (first[:, None] * second).reshape(count, -1)
-            return np.add.reduceat(products, starts, axis=1)
-        # einsum adds slices in one pass, into rows that stay in the cache.
-        shape = -1, len(counts), SLICES, int(counts[0]) // SLICES
-        first = first.reshape(shape)
-        second = second.reshape(shape)
-        return np.add.reduce(np.einsum("msjt,nsjt->mnst", first, second), axis=3).reshape(count, -1)
+        if is_joint and first.shape[-1] % SLICES == 0:
+            # einsum adds slices in one pass, into rows that stay in the cache.
+            first = first.reshape(len(first), SLICES, -1)
+            second = second.reshape(len(second), SLICES, -1)
+            return np.add.reduce(np.einsum("mjt,njt->mnt", first, second), axis=2).reshape(count, 1)
+        products = (first[:, None] * second).reshape(count, -1)
+        return np.add.reduceat(products, body_starts, axis=1)
 
-    def weighted_sums(weight: NDArray) -> Array:
-        heavy = nodes * weight
-        heavy[:, 1] *= 2.0
-        table = np.empty((9, len(weight)))  # H and Z
-        np.einsum("ct,dct->dt", heavy[0], nodes, out=table[:3])
-        np.einsum("ct,dct->dt", heavy[1], nodes[1:], out=table[3:5])
-        np.einsum("ct,ct->t", heavy[2], nodes[2], out=table[5])
+    def weighted_sums(weight: Array) -> Array:
+        both = np.add.reduce(weight)
+        heavy = np.empty_like(nodes)
+        np.multiply(nodes[:, ::2], both, heavy[:, ::2])
+        np.multiply(apexes, 2.0 * weight, heavy[:, 1::2])
+        table = np.empty((9, len(both)))  # H and Z
+        row = 0
+        for axis in range(3):
+            rows = table[row : row + 3 - axis]
+            row += len(rows)
+            np.einsum("ct,dct->dt", heavy[axis], nodes[axis:], out=rows)
         of_q = heavy[:, 0] + heavy[:, 2]
         np.add(of_q, heavy[:, 1], table[6:])
+        if len(weight) == 2:
+            table[6:] += heavy[:, 3]
         products = scalar_products(q, table)
         third = np.add.reduce(products.take(CUBE, 0))
-        if tips is not None:
-            of_tips = scalar_products(tips, weight * local)
+        if exact:
+            of_tips = scalar_products((tips * weight).reshape(3, -1), local.reshape(6, -1))
             third += 0.1 * np.add.reduce(of_tips.take(LOCAL_CUBE, 0))
-        first = 0.5 * np.add.reduceat(of_q + table[6:], starts, axis=1)
-        second = np.add.reduceat(table[:6], starts, axis=1)
-        second += 0.5 * np.add.reduce(products.take(SQUARE, 0))
-        total = np.add.reduceat(weight, starts)[None]
+        sums = np.add.reduceat(table, body_starts, axis=1)
+        first = 0.5 * (np.add.reduceat(of_q, body_starts, axis=1) + sums[6:])
+        second = sums[:6] + 0.5 * np.add.reduce(products.take(SQUARE, 0))
+        total = np.add.reduceat(both, body_starts)[None]
         return np.concatenate([total, first, second, third]).T
 
     largest = np.maximum.reduceat(np.abs(edges), starts, axis=2)
     return (
         weighted_sums(det),
-        weighted_sums(sizes[1]) if area_moments else np.empty((len(counts), 0)),
-        largest[:, 0].T,
+        weighted_sums(lengths) if area_moments else np.empty((len(body_starts), 0)),
+        np.diff(starts, append=nodes.shape[2])[:, None] * len(det),
+        np.maximum.reduce(largest[:, ::2], axis=1).T,
         largest[:, 1].T,
-        np.add.reduceat(sizes, starts, axis=1).T,
+        np.array(
+            [np.add.reduceat(np.add.reduce(size), starts) for size in (np.abs(det), lengths)]
+        ).T,
     )
 
 
 def _moments(
     blocks: Sequence[_Sums],
-    widths: NDArray[np.integer],
     starts: Index,
     center: Array,
     reach: Array,
@@ -330,10 +379,10 @@ def _moments(
     area_moments: bool,
     exact: bool,
 ) -> tuple[Moments, Moments, Array]:
-    """Return the stacked volumes, areas and sums of cones of n bodies from the sums of their
-    segments, `widths` triangles each; `starts` are the bodies' first segments.
+    """Return the stacked volumes, areas and sums of cones of n bodies, whose first blocks and parts
+    are `starts`.
     """
-    of_volume, of_area, side, base, sizes = (
+    of_volume, of_area, number, side, base, sizes = (
         blocks[0] if len(blocks) == 1 else map(np.concatenate, zip(*blocks))
     )
 
@@ -342,7 +391,6 @@ def _moments(
             return values
         return np.add.reduceat(np.ascontiguousarray(values.T), starts, axis=1).T
 
-    number = widths[:, None]
     tau = total(
         number
         * np.array([side[:, i] * base[:, j] + side[:, j] * base[:, i] for i, j in AXIS_PAIRS]).T

@@ -42,6 +42,8 @@ from .stated import StatedInertial, rotation_of_angles
 # Relative differences: below the first equal; above the second not by rounded digits.
 AGREES = 5e-3
 DIFFERS = 1e-2
+UNEQUAL = 0.05  # Least difference of principal moments that were exchanged.
+MIXED = 0.618  # Factor of one of two tensors in a sum, in which equal sums are unlikely.
 ROUNDING = 1e-9  # Relative differences below are none, and do not choose between changes.
 INCH, POUND = 0.0254, 0.45359237
 LENGTH_UNITS = (1e-3, 1e-2, 1e3, 1e2, INCH, 1.0 / INCH)
@@ -201,12 +203,12 @@ def _best_change(stated: StatedInertial, references: Sequence[Reference]) -> Dia
     """
     apart = min(reference.compare(stated) for reference in references)
     best: tuple[float, Diagnosis] | None = None
-    fits: list[StatedInertial] = []
+    fits: list[tuple[dict, StatedInertial]] = []
     for reference in references:
         for code, values, repaired in _changes(stated, reference):
             now = reference.compare(repaired)
             if now < AGREES and now < 0.1 * apart:
-                fits.append(repaired)
+                fits.append((values, repaired))
                 if best is None or max(now, ROUNDING) < 0.1 * best[0]:
                     best = (
                         now,
@@ -216,8 +218,12 @@ def _best_change(stated: StatedInertial, references: Sequence[Reference]) -> Dia
                     )
     if best is None:
         return None
-    masses = [one.mass for one in fits]  # Inertials per kg agree, but the masses need not.
-    return replace(best[1], is_certain=max(masses) <= (1.0 + DIFFERS) * min(masses))
+    masses = [one.mass for _, one in fits]  # Inertials per kg agree, but the masses need not.
+    part = best[1].finding.values.get("part")
+    # Equal moments have no order of their own.
+    orders = {values.get("order") for values, _ in fits if values.get("part") == part}
+    is_certain = max(masses) <= (1.0 + DIFFERS) * min(masses) and len(orders) <= 1
+    return replace(best[1], is_certain=is_certain)
 
 
 def _center_changes(stated: StatedInertial, references: Sequence[Reference]) -> Iterator[Diagnosis]:
@@ -273,7 +279,7 @@ def _with_density(found: Diagnosis, stated: StatedInertial, reference: Reference
 
 def _finding(code: str, values: dict, agree: str = "inertial and geometry") -> Finding:
     """Return the finding about a change. agree: what agrees after a change of units."""
-    more: dict[str, Any] = {**values, "agree": agree} if code == AUDIT_UNIT else values
+    more: dict[str, Any] = (values | {"agree": agree}) if code == AUDIT_UNIT else values
     return finding(code, **more)
 
 
@@ -298,6 +304,7 @@ def _changes(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
     yield from _frames(stated)
     yield from _signs(stated)
     yield from _orders(stated)
+    yield from _moments(stated, reference)
     yield from _transposed(stated)
 
 
@@ -441,20 +448,13 @@ def _orders(stated: StatedInertial) -> Iterator[Change]:
     """Yield changes that reorder the axes of the tensor, the center or both, or turn them by 90
     degrees.
     """
-    diagonal = np.diag(np.diag(stated.inertia))
     for order in AXES:
-        swapped = stated.inertia[np.ix_(order, order)]
-        other_diagonal = np.diag(np.diag(swapped))
-        axes = "".join("xyz"[axis] for axis in order)
-        # Products alone, such as ixz before ixy, have the order of the pairs of axes.
-        pairs = " ".join("".join(sorted(axes[i] + axes[j])) for i, j in ((0, 1), (0, 2), (1, 2)))
-        parts = "axes of the inertia", CENTER_AXES, "axes of the inertial"
-        for part, changed in zip(parts, _mapped(stated, np.eye(3)[order])):
-            yield AUDIT_ORDER, {"part": part, "order": axes}, changed
-        changed = stated.along_link(stated.inertia - diagonal + other_diagonal)
-        yield AUDIT_ORDER, {"part": "diagonal of the inertia", "order": axes}, changed
-        changed = stated.along_link(diagonal + (swapped - other_diagonal))
-        yield AUDIT_ORDER, {"part": PRODUCTS, "order": pairs}, changed
+        axes = {"order": "".join("xyz"[axis] for axis in order)}
+        _, center, both = _mapped(stated, np.eye(3)[order])
+        for values, tensor in _reordered(stated.inertia, order, ""):
+            yield AUDIT_ORDER, values, stated.along_link(tensor)
+        yield AUDIT_ORDER, {"part": CENTER_AXES, **axes}, center
+        yield AUDIT_ORDER, {"part": "axes of the inertial", **axes}, both
     # A quarter turn, such as y up instead of z up.
     for axis, way in product(range(3), (1.0, -1.0)):
         along = np.eye(3)[axis]
@@ -463,6 +463,43 @@ def _orders(stated: StatedInertial) -> Iterator[Change]:
         )
         yield AUDIT_TURNED, {"part": "inertial", "axis": "xyz"[axis]}, both
         yield AUDIT_TURNED, {"part": "inertia", "axis": "xyz"[axis]}, tensor
+    if (stated.rotation != np.eye(3)).any():
+        for order in AXES:
+            for values, tensor in _reordered(stated.tensor, order, " in its own frame"):
+                yield AUDIT_ORDER, values, replace(stated, tensor=tensor)
+
+
+def _moments(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
+    """Yield changes that exchange the principal moments along axes that the inertia shares with
+    the geometry.
+    """
+    tensor = stated.inertia
+    # Tensors with the same axes share them with their sums, also if each has equal moments.
+    axes = np.linalg.eigh(reference.inertia + MIXED / stated.mass * tensor)[1]
+    moments = np.diag(axes.T @ tensor @ axes)
+    rising = np.argsort(moments)
+    axes = axes[:, rising]
+    moments = moments[rising]
+    for order in AXES:
+        swapped = moments[order]
+        if np.abs(swapped - moments).max() > UNEQUAL * moments[2]:
+            values = {"part": "principal moments", "order": " ".join(map(str, order + 1))}
+            yield AUDIT_ORDER, values, stated.along_link((axes * swapped) @ axes.T)
+
+
+def _reordered(tensor: NDArray, order: NDArray, where: str) -> Iterator[tuple[dict, Array]]:
+    """Yield a (3, 3) tensor with its axes, its diagonal or its products in another order, each
+    after the values of the finding. where: the frame, as it is named there.
+    """
+    swapped = tensor[np.ix_(order, order)]
+    diagonal = np.diag(np.diag(tensor))
+    other = np.diag(np.diag(swapped))
+    axes = "".join("xyz"[axis] for axis in order)
+    # Products alone, such as ixz before ixy, have the order of the pairs of axes.
+    pairs = " ".join("".join(sorted(axes[i] + axes[j])) for i, j in ((0, 1), (0, 2), (1, 2)))
+    yield {"part": "axes of the inertia" + where, "order": axes}, swapped
+    yield {"part": "diagonal of the inertia" + where, "order": axes}, tensor - diagonal + other
+    yield {"part": PRODUCTS + where, "order": pairs}, diagonal + (swapped - other)
 
 
 def _transposed(stated: StatedInertial) -> Iterator[Change]:

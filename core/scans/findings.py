@@ -26,9 +26,6 @@ SCAN_SIZE = error(
 SCAN_SAMPLE_TYPE = error(
     "scan_sample_type", "Samples of type {type:.40s} are not supported real numbers."
 )
-SCAN_OUT_OF_MEMORY = error(
-    "scan_out_of_memory", "The samples do not fit into memory. Decompress the file."
-)
 SCAN_OWN_UNIT = warning(
     "scan_own_unit",
     "The file has its own unit; the unit scale applies only to the given spacing and origin.",

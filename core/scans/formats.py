@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 
 from ..files import (
     DEFAULT_LIMITS,
-    FILE_MISSING,
-    FILE_NOT_REGULAR,
     FILE_TYPE,
+    FILE_UNREADABLE,
     NAMED_FILE_MISSING,
     Limits,
+    check_regular,
     wrong_field,
 )
 from ..numerics import Array, check_type, float_array
@@ -27,7 +27,6 @@ from .findings import (
     POSITIONS_COUNT,
     POSITIONS_NOT_ASCENDING,
     SCAN_IN_MILLIMETERS,
-    SCAN_OUT_OF_MEMORY,
     SCAN_OWN_UNIT,
     SCAN_PLACEMENT_OVERRIDDEN,
     SCAN_UNSTATED,
@@ -87,14 +86,15 @@ def read_scan(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> Scan:
     read = READERS.get(scan_suffix(path))
     if read is None:
         raise FileError(FILE_TYPE, suffixes=" ".join(SUFFIXES))
-    if not path.is_file():
-        raise FileError(FILE_NOT_REGULAR if path.exists() else FILE_MISSING)
+    check_regular(path)
     with open(path, "rb"):
         pass  # raises OSError with the reason; a reader would call the file damaged
     try:
         scan = read(path, limits)
     except MemoryError as error:
-        raise FileError(SCAN_OUT_OF_MEMORY) from error
+        raise FileError(
+            FILE_UNREADABLE, error="its samples do not fit into memory. Decompress it"
+        ) from error
     limits.check(path, "samples", scan.samples.size)
     rows = scan.matrix[:3]
     scaling = (scan.slope, scan.intercept)

@@ -15,7 +15,4 @@ RECORD_WITHOUT_SHAPE = error(
 RECORD_WITHOUT_SIGNATURE = error(
     "record_without_signature", "{name}: no signature. Measure with --signature."
 )
-SIGNATURE_UNRECOGNIZED = error(
-    "signature_unrecognized", "The signature was not written by --signature."
-)
-SIGNATURE_INCOMPLETE = error("signature_incomplete", "The signature is incomplete.")
+SIGNATURE_INVALID = error("signature_invalid", "The signature {fault:word}.")

@@ -37,7 +37,7 @@ from ..moments import Measure, Moments, U, along_first, complex_moments, couple,
 from ..moments.exponents import monomial_count, monomials
 from ..numerics import Array, Mask, PerBody, check_type
 from ..verdict import FileError
-from .findings import SIGNATURE_INCOMPLETE, SIGNATURE_UNRECOGNIZED
+from .findings import SIGNATURE_INVALID
 from .zernike import (
     MAX_ORDER_BY_MOMENTS,
     Multiplets,
@@ -86,7 +86,7 @@ class Signature:
     def as_record(self) -> dict:
         """Return the arrays and the size by name, for JSON."""
         dimension = {} if self.dimension == 3 else {"dimension": self.dimension}
-        return {**dimension, "size": self.size, **{name: getattr(self, name) for name in ARRAYS}}
+        return dimension | {"size": self.size} | {name: getattr(self, name) for name in ARRAYS}
 
     @classmethod
     def from_record(cls, record: dict) -> Signature:
@@ -100,7 +100,7 @@ class Signature:
             )
             lengths = _lengths(dimension)
         except (KeyError, TypeError, ValueError, OverflowError) as error:
-            raise FileError(SIGNATURE_UNRECOGNIZED) from error
+            raise FileError(SIGNATURE_INVALID, fault="was not written by --signature") from error
         is_complete = (
             (np.abs(np.concatenate(arrays)) < MAX_DESCRIPTOR).all()  # false if one is NaN
             and 1.0 / MAX_SIZE < result.size < MAX_SIZE
@@ -108,7 +108,7 @@ class Signature:
             and (len(result.invariants), len(result.chirality)) == lengths
         )
         if not is_complete:
-            raise FileError(SIGNATURE_INCOMPLETE)
+            raise FileError(SIGNATURE_INVALID, fault="is incomplete")
         return result
 
 

@@ -18,8 +18,10 @@ from .findings import NON_FINITE_VERTICES as NON_FINITE_VERTICES
 from .findings import NON_MANIFOLD_COMPONENTS as NON_MANIFOLD_COMPONENTS
 from .findings import NON_PLANAR_FACES as NON_PLANAR_FACES
 from .findings import ONE_SIDED_COMPONENTS as ONE_SIDED_COMPONENTS
-from .findings import OVERLAP_UNCHECKED as OVERLAP_UNCHECKED
+from .findings import OVERLAP_OF_COMPONENTS as OVERLAP_OF_COMPONENTS
+from .findings import OVERLAP_OF_INSTANCES as OVERLAP_OF_INSTANCES
 from .findings import SELF_INTERSECTING as SELF_INTERSECTING
+from .findings import UNCHECKED as UNCHECKED
 from .findings import VERTICES_WELDED as VERTICES_WELDED
 from .measure import measure_left_over as measure_left_over
 from .measure import measure_solid as measure_solid

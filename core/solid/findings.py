@@ -88,11 +88,12 @@ COMPONENTS_OVERLAP = warning(
     "components_overlap",
     "{count} components overlap; the shared space counts twice. Set Overlaps to Count as Union.",
 )
-OVERLAP_UNCHECKED = warning(
-    "overlap_unchecked",
-    "{count} pair of components was not checked for overlap, which would take too long.",
-    "{count} pairs of components were not checked for overlap, which would take too long.",
+OVERLAP_OF_INSTANCES = (
+    "the overlap of instances whose bounding boxes overlap. Use Object > Apply > Make "
+    "Instances Real and join them"
 )
+OVERLAP_OF_COMPONENTS = "the overlap of some components, which would take too long"
+UNCHECKED = warning("unchecked", "Not checked: {subject:word}.")
 FLAT_COMPONENTS = warning(
     "flat_components",
     "{count} of {total} components is flat and has no volume. Delete it, or set Kind to Shell.",
@@ -105,9 +106,6 @@ SELF_INTERSECTING = warning(
     "self_intersecting",
     "The surface intersects itself and regions count as negative. Set Overlaps to Count as Union, "
     "or repair the mesh.",
-)
-SELF_INTERSECTION_UNCHECKED = note(
-    "self_intersection_unchecked", "Whether the surface intersects itself was not checked."
 )
 NON_PLANAR_FACES = warning(
     "non_planar_faces",

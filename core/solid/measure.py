@@ -3,12 +3,13 @@
 """Measurement of a surface's body: its kind, the repairs that it needed, and its moments.
 
 A mesh whose own edges prove it closed is measured as it stands. Any other is repaired on a copy,
-one decision after the other, and each decision is reported: equal positions are welded, then, along
-open edges only, positions that differ by rounding; copies of faces that keep edges from closing are
-left out; faces that run against the rest of their part are turned; gaps without area (T-junctions)
-close; other boundary loops are capped. Then the components are compared: one that is inside out and
-in no other's material is turned. A surface still not closed is measured as a signed sum about the
-reference point, and called open.
+one decision after the other, and each decision is reported: patches that lie on a closed part are
+welded onto it; in open parts equal positions are welded, then, along open edges only, positions
+that differ by rounding; copies of faces that keep edges from closing are left out; faces that run
+against the rest of their part are turned; gaps without area (T-junctions) close; other boundary
+loops are capped. Then the components are compared: one that is inside out and in no other's
+material is turned. A surface still not closed is measured as a signed sum about the reference
+point, and called open.
 """
 
 from __future__ import annotations
@@ -42,6 +43,7 @@ from .weld_open_parts import (
     split_into_triangles,
     weld_equal_positions,
     weld_near_positions,
+    weld_patches,
     without_faces,
 )
 
@@ -49,6 +51,7 @@ MAX_WELDED_SHARE = (
     0.1  # Share of the volume: a weld that may change more closes no gap left by rounding.
 )
 STEPS: tuple[Callable[[RepairedMesh, float], RepairedMesh], ...] = (
+    weld_patches,
     weld_equal_positions,  # in parts with odd edges: one face, or three
     weld_near_positions,  # along the edges that are then still odd
     drop_collapsed_triangles,

@@ -28,9 +28,9 @@ from .findings import (
     HOLES_CAPPED,
     INVERTED_COMPONENTS,
     NON_PLANAR_FACES,
-    OVERLAP_UNCHECKED,
+    OVERLAP_OF_COMPONENTS,
     SELF_INTERSECTING,
-    SELF_INTERSECTION_UNCHECKED,
+    UNCHECKED,
     VERTICES_WELDED,
 )
 from .orientation import ClosedParts, ComponentComparison, OrientedSolid
@@ -341,7 +341,9 @@ def _component_findings(
                 finding(code, mesh.faces_of(which), slight=slight, count=int(which.sum()), **values)
             )
     if comparison.undecided_pairs:
-        findings.append(finding(OVERLAP_UNCHECKED, count=int(comparison.undecided_pairs)))
+        findings.append(
+            finding(UNCHECKED, subject=OVERLAP_OF_COMPONENTS, count=int(comparison.undecided_pairs))
+        )
     return findings
 
 
@@ -362,7 +364,7 @@ def _intersection_findings(intersection: SelfIntersection, volume: float) -> lis
         slight = intersection.effect < NEGLIGIBLE
         return [finding(SELF_INTERSECTION, slight=slight, share=intersection.volume / volume)]
     return (
-        [finding(SELF_INTERSECTION_UNCHECKED)]
+        [finding(UNCHECKED, slight=True, subject="self-intersection of the surface")]
         if intersection.state is Intersection.NOT_CHECKED
         else []
     )

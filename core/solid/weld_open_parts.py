@@ -27,7 +27,7 @@ from ..numerics import Array, Index, Mask, connected_components, first_occurrenc
 from ..verdict import NEGLIGIBLE, MeshHealth
 from ..verdict.finding import finding
 from .boundary_loops import distinct_vertex_pairs, has_distinct_vertices, side_ends
-from .findings import DUPLICATE_FACES_COUNTED, DUPLICATE_FACES_IGNORED
+from .findings import DUPLICATE_FACES_COUNTED, DUPLICATE_FACES_IGNORED, VERTICES_WELDED
 from .repaired_mesh import UNKNOWN, OpenParts, RepairedMesh, RepairState, copy_with
 
 
@@ -49,6 +49,53 @@ def split_into_triangles(surface: Surface) -> RepairedMesh:
         caps=np.zeros((0, 3)),
         report=MeshHealth(closed=False, components=0),
         state=RepairState(triangles, edges or UNKNOWN, open_parts=open_parts),
+    )
+
+
+def weld_patches(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
+    """Weld the open parts whose faces are all copies of faces of closed parts onto these."""
+    parts = mesh.state.open_parts
+    if parts is None or parts.are_all:
+        return mesh
+    is_open = np.zeros(len(mesh.triangles), bool)
+    is_open[parts.rows] = True
+    closed = np.flatnonzero(~is_open & has_distinct_vertices(mesh.triangles))
+    loose = _unique_sorted(mesh.triangles[parts.rows], len(mesh.points))
+    places = mesh.points[loose].astype(np.float64)
+    low, high = places.min(axis=0) - tolerance, places.max(axis=0) + tolerance
+    fixed = np.setdiff1d(_unique_sorted(mesh.triangles[closed], len(mesh.points)), loose)
+    fixed = fixed[((mesh.points[fixed] >= low) & (mesh.points[fixed] <= high)).all(axis=1)]
+    vertices = np.concatenate([fixed, loose])  # so that the first of a cluster is a fixed one
+    same = first_at_near_position(
+        mesh.points[vertices], vertex_tolerance(mesh.points, mesh.triangles, vertices, tolerance)
+    )[len(fixed) :]
+    onto = np.arange(len(mesh.points))
+    is_met = same < len(fixed)
+    onto[loose[is_met]] = fixed[same[is_met]]
+    triangles = mesh.triangles.copy()
+    triangles[parts.rows] = onto[triangles[parts.rows]]
+    rows = np.concatenate([closed, parts.rows])
+    group = same_vertices_groups(triangles[rows], mesh.face[rows])
+    is_copy = np.isin(group[len(closed) :], group[: len(closed)])
+    given = mesh.triangles[parts.rows]
+    part, number = connected_components(len(parts.rows), *find_edges(given).adjacency())
+    is_patch = (np.bincount(part, is_copy, number) == np.bincount(part, minlength=number))[part]
+    if not is_patch.any():
+        return mesh
+    left = parts.rows[~is_patch]
+    welded = mesh.triangles.copy()
+    welded[parts.rows[is_patch]] = triangles[parts.rows[is_patch]]
+    moved = (
+        mesh.points[given[is_patch]].astype(np.float64) - mesh.points[welded[parts.rows[is_patch]]]
+    )
+    size = np.linalg.norm(np.ptp(mesh.points, axis=0))
+    share = float(np.linalg.norm(moved, axis=2).max() / size)
+    open_parts = copy_with(
+        parts, rows=left, vertices=np.intersect1d(parts.vertices, given[~is_patch])
+    )
+    mesh = copy_with(mesh, triangles=welded).with_findings(finding(VERTICES_WELDED, share=share))
+    return mesh.with_report(welded=True).with_state(
+        edges=UNKNOWN, open_parts=open_parts if len(left) else None
     )
 
 

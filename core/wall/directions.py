@@ -31,7 +31,7 @@ from ..moments import U
 from ..numerics import Array, Mask
 from ..solid import vertex_pairs
 from ..verdict import MeasureError
-from .findings import NO_FACE_AREA, WALL_INCONSISTENT_FACES, WALL_NON_MANIFOLD
+from .findings import NO_FACE_AREA, WALL_WITHOUT_SIDES
 
 TRIANGLES_PER_BLOCK = 4096  # triangles at a time
 # Relative to the largest eigenvalue of Σ θ n n'; φ²/4 for planes φ apart. Less is one plane.
@@ -93,13 +93,13 @@ def weld_equal(surface: Surface) -> tuple[Array, NDArray[np.integer]]:
     misoriented = (edges.count == 2) & (
         edges.signed_use_count(np.zeros(len(triangles), bool)) != 0.0
     )
-    for code, wrong in (
-        (WALL_NON_MANIFOLD, edges.count > 2),
-        (WALL_INCONSISTENT_FACES, misoriented),
+    for fault, wrong in (
+        ("more than two faces meet there. Separate the parts", edges.count > 2),
+        ("the normals there are opposite. Use Mesh > Normals > Recalculate Outside", misoriented),
     ):
         if wrong.any():
             pairs = used[vertex_pairs(triangles, edges.first[wrong])]
-            raise MeasureError(code, elements=pairs, count=len(pairs))
+            raise MeasureError(WALL_WITHOUT_SIDES, elements=pairs, count=len(pairs), fault=fault)
     return surface.points[used].astype(np.float64), triangles
 
 

@@ -7,17 +7,10 @@ from ..verdict import error, note
 NO_FACE_AREA = error(
     "no_face_area", "All faces have zero area. Move their vertices apart, or select another object."
 )
-WALL_NON_MANIFOLD = error(
-    "wall_non_manifold",
-    "{count} edge has more than two faces. Separate the parts, or set Wall to Thin.",
-    "{count} edges have more than two faces. Separate the parts, or set Wall to Thin.",
-)
-WALL_INCONSISTENT_FACES = error(
-    "wall_inconsistent_faces",
-    "{count} edge joins faces with opposite normals. Use Mesh > Normals > Recalculate Outside, or "
-    "set Wall to Thin.",
-    "{count} edges join faces with opposite normals. Use Mesh > Normals > Recalculate Outside, or "
-    "set Wall to Thin.",
+WALL_WITHOUT_SIDES = error(
+    "wall_without_sides",
+    "No sides at {count} edge: {fault:word}, or set Wall to Thin.",
+    "No sides at {count} edges: {fault:word}, or set Wall to Thin.",
 )
 WALL_PRECISION_LOST = error(
     "wall_precision_lost",

@@ -72,7 +72,7 @@ class OBJECT_OT_body_moments_select_faults(Operator):
 
         def measure(obj: Object) -> None:
             scene.require_editable_mesh(obj)
-            measurements[obj] = bodies.measure_body(obj, depsgraph).measurement
+            measurements[obj] = bodies.measured_in_turn([obj], depsgraph)(obj).measurement
 
         def store(obj: Object) -> None:
             staleness.note_edits(obj)

@@ -132,7 +132,8 @@ class OBJECT_OT_body_moments_remedy(_OnSubject, Operator):
                 else scene.merge_by_distance(obj.data)
             )
         scene.require_editable_mesh(obj)
-        measurement = bodies.measure_body(obj, context.evaluated_depsgraph_get()).measurement
+        depsgraph = context.evaluated_depsgraph_get()
+        measurement = bodies.measured_in_turn([obj], depsgraph)(obj).measurement
         if self.remedy == DUPLICATES:
             return scene.delete_faces(
                 obj.data, scene.defects_by_kind(measurement).get("duplicate_faces", ())

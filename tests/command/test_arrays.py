@@ -9,6 +9,7 @@ import json
 
 import numpy as np
 import pytest
+from body_moments.command.findings import NEEDS_BLEND
 from body_moments.core.density.smooth_threshold import smooth_threshold_body
 from body_moments.core.density.threshold import threshold_body
 from body_moments.operators import batch
@@ -94,7 +95,7 @@ def damaged(file: str, code: str, **values) -> str:
         (nrrd(box("f4", 0.0)), (), sentence("grid_empty")),
         (nrrd(box("f4", np.nan)), (), sentence("density_non_finite")),
         (nrrd(box()), ("--kind", "shell"), sentence("grid_as_shell")),
-        (nrrd(box()), ("--write",), sentence("results_need_blend")),
+        (nrrd(box()), ("--write",), sentence("results_not_stored", cause=NEEDS_BLEND)),
         (
             nrrd(box(), encoding="gzip")[:-1] + b"!",
             (),

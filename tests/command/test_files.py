@@ -17,6 +17,7 @@ pytest.importorskip("bpy")
 import bpy
 import numpy as np
 from body_moments.command.files import files as opening
+from body_moments.core.files import NOT_REGULAR
 from body_moments.core.streams.stl import BY_WORD
 from body_moments.core.verdict.finding import FileError
 
@@ -259,11 +260,11 @@ def test_usdz_checksums_are_verified(tmp_path):
 
 def test_folders_and_devices_are_errors(tmp_path):
     (tmp_path / "folder.blend").mkdir()
-    assert reason(tmp_path / "folder.blend") == sentence("file_not_regular")
+    assert reason(tmp_path / "folder.blend") == sentence("file_unreadable", error=NOT_REGULAR)
     assert reason(tmp_path / "missing.obj") == sentence("file_missing")
     if hasattr(os, "mkfifo"):
         os.mkfifo(tmp_path / "pipe.blend")
-        assert reason(tmp_path / "pipe.blend") == sentence("file_not_regular")
+        assert reason(tmp_path / "pipe.blend") == sentence("file_unreadable", error=NOT_REGULAR)
 
 
 @pytest.mark.parametrize("name", ["part.step", "part", "part.blend.zip"])

@@ -147,7 +147,7 @@ def test_faces_that_cover_nothing_have_no_transform(tmp_path, reported):
     path = tmp_path / "out.npz"
     with pytest.raises(RuntimeError):
         bpy.ops.object.body_moments_fourier(filepath=str(path), of="FLAT")
-    assert reported.codes == ["section_encloses_nothing"] and not path.exists()
+    assert reported.codes == ["no_section_area"] and not path.exists()
 
 
 def test_operator_writes_transform_and_picture_of_a_flat_shape(tmp_path):

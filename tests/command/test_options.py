@@ -9,6 +9,7 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 import numpy as np
+from body_moments.blender.read.findings import LINES_ONLY, NO_INSTANCES
 from body_moments.operators import batch
 from mathutils import Euler, Matrix
 
@@ -64,9 +65,9 @@ def test_object_without_surface_is_measured_only_by_name():
     found = document()
     assert names(found) == ["Text"] and found["errors"] == []
     assert errors(document("--object", "Circle", "--object", "Light", "--object", "Empty")) == {
-        "Circle": sentence("lines_only"),
+        "Circle": sentence("nothing_to_measure", cause=LINES_ONLY),
         "Light": sentence("object_without_geometry", type="Light"),
-        "Empty": sentence("empty_without_instances"),
+        "Empty": sentence("not_shown", cause=NO_INSTANCES),
     }
     assert names(document("--object", "Circle", "--kind", "shell")) == ["Circle"]
 

@@ -12,6 +12,7 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 import numpy as np
+from body_moments.command.findings import NEEDS_BLEND
 from body_moments.command.measure import measuring
 
 from tests.blender import batch_files as files
@@ -159,7 +160,9 @@ def test_only_a_blend_file_can_be_written(tmp_path):
     found = document(path, "--write", "--unit-scale", "1")
     assert len(found["objects"]) == 1 and path.read_bytes() == before
     (error,) = found["errors"]
-    assert error["name"] is None and error["reason"] == files.sentence("results_need_blend")
+    assert error["name"] is None and error["reason"] == files.sentence(
+        "results_not_stored", cause=NEEDS_BLEND
+    )
 
 
 def test_a_scene_that_was_never_saved_cannot_be_written():
@@ -167,7 +170,9 @@ def test_a_scene_that_was_never_saved_cannot_be_written():
     line = run("--write")
     (found,) = line.documents
     assert len(found["objects"]) == 1 and line.errors == 1 and not line.has_saved
-    assert found["errors"] == [{"name": None, "reason": files.sentence("results_need_blend")}]
+    assert found["errors"] == [
+        {"name": None, "reason": files.sentence("results_not_stored", cause=NEEDS_BLEND)}
+    ]
     assert "body_mass" not in bpy.data.objects[files.BOX_NAME]
 
 

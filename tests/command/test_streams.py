@@ -8,6 +8,7 @@ import json
 
 import numpy as np
 import pytest
+from body_moments.command.findings import NEEDS_BLEND
 from body_moments.command.measure import bare
 from body_moments.command.supervisor import processes
 from body_moments.core.streams.stl import BY_COUNT, BY_WORD
@@ -184,7 +185,7 @@ def test_the_usual_findings_are_there(tmp_path):
         (("--polynomial", "1 + x"), "stream_options"),
         (("--kind", "wire"), "stream_options"),
         (("--overlap", "union"), "stream_options"),
-        (("--write",), "results_need_blend"),
+        (("--write",), "results_not_stored"),
     ],
 )
 def test_options_that_need_the_mesh_are_refused(tmp_path, words, code):
@@ -192,7 +193,7 @@ def test_options_that_need_the_mesh_are_refused(tmp_path, words, code):
     options = (
         {"options": [words[-2] if "--wall" not in words else "--wall"]}
         if code == "stream_options"
-        else {}
+        else {"cause": NEEDS_BLEND}
     )
     assert exit_code == 1 and [error["reason"] for error in document["errors"]] == [
         sentence(code, **options)

@@ -264,7 +264,7 @@ CASES = {  # scene, operator, options, code of the refusal (None: a text)
         {},
         "linked_object",
     ),
-    "bones being edited": (edited_bones, "object.measure_bones", {}, "armature_in_edit_mode"),
+    "bones being edited": (edited_bones, "object.measure_bones", {}, "armature_unavailable"),
     "physics rig that deform nothing": (no_bones, "object.physics_rig", {}, "rig_without_parts"),
     "physics rig too light": (light_bones, "object.physics_rig", {}, "rigid_body_mass_too_small"),
     "rigid bodies too light": (light_body, "object.rigid_bodies", {}, "rigid_body_mass_too_small"),

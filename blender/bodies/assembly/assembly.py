@@ -64,14 +64,13 @@ from ..findings import (
     MEMBERS_LEFT_OUT,
     MEMBERS_NOT_MEASURED,
 )
-from ..measure_object import Measured
-from ..stacks.many import measure_many
-from ..stacks.stack import Stacked
+from ..measure_body import Measured
+from ..measure_object import measure_many
 from .given import given_moments
 
 NOTHING: Extent = (0.0, 0.0, 0.0)
 POWERS = {"solid": 3, "shell": 2, "wire": 1, "point": 0}
-Results = dict[Object, Measured | Stacked | Finding]
+Results = dict[Object, Measured | Finding]
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +87,7 @@ class MemberBody:
     masses: Mapping[int, Moments] = field(default_factory=dict)
     volume: Extent = NOTHING
     area: Extent = NOTHING
-    measured: Measured | Stacked | None = None
+    measured: Measured | None = None
     measurement: Measurement | None = None
     refusal: Finding | None = None
     parts: tuple[MemberBody, ...] = ()
@@ -255,7 +254,7 @@ _LEFT_OUT: dict[str, str] = {
 }
 
 
-def _object_body(member: Member, result: Measured | Stacked | Finding) -> MemberBody:
+def _object_body(member: Member, result: Measured | Finding) -> MemberBody:
     if isinstance(result, Finding):
         return MemberBody(member, refusal=result)
     measurement = result.measurement

@@ -25,7 +25,7 @@ from ....core.verdict.finding import Finding, ReadError, finding
 from ...read.fingerprint import matrix_hash
 from ...read.objects import locate
 from ...settings.given import GivenPart, is_point_mass
-from ..findings import CENTER_GIVEN, GIVEN_CENTER_OUTSIDE, GIVEN_INERTIA_IMPOSSIBLE, INERTIA_GIVEN
+from ..findings import GIVEN, GIVEN_CENTER_OUTSIDE, GIVEN_INERTIA_IMPOSSIBLE, INERTIA
 from ..request import Request
 
 COUNT = monomial_count(KNOWN_ORDER)
@@ -58,7 +58,7 @@ def given_moments(
         raw[1:4] = 0.0
         rounding[1:4] = 0.0
         inputs[1:4] = 0.0
-        findings.append(finding(CENTER_GIVEN))
+        findings.append(finding(GIVEN, quantity="center of mass"))
     if given.inertia is not None:
         raw[4:] = 0.0
         rounding[4:] = 0.0
@@ -66,7 +66,7 @@ def given_moments(
         second = rotation @ _second_moments(np.array(given.inertia)) @ rotation.T
         raw[SECOND_MOMENT_INDEX] = (second + second.T) / 2.0
         rounding[4:10] = 16.0 * U * np.trace(given.inertia)
-        findings.append(finding(INERTIA_GIVEN))
+        findings.append(finding(GIVEN, quantity=INERTIA))
     return Moments(raw, np.asarray(center, np.float64), Measure.MASS, rounding, inputs), findings
 
 

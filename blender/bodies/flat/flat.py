@@ -45,6 +45,7 @@ from ....core.moments import Measure, Moments, affine_matrices
 from ....core.moments.exponents import monomial_count, monomials
 from ....core.numerics import Array, Index
 from ....core.nurbs import Curve, length_moments, planar_region, plane_moments
+from ....core.solid import UNCHECKED
 from ....core.verdict import NEGLIGIBLE, MeshHealth, Method, Procedure, Source
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...read.findings import FLAT_OF_TYPE, RENDER_DIFFERS, SECTION_EXTRUDED, SECTION_NOT_FILLED
@@ -58,7 +59,6 @@ from ..findings import (
     SECTION_FACES_OVERLAP,
     SECTION_FACES_REVERSED,
     SECTION_FILL_WRONG,
-    SECTION_OVERLAP_UNCHECKED,
     SECTION_PROJECTED,
 )
 from ..request import Request
@@ -190,7 +190,9 @@ def _region_of(reading: SectionReading, kind: str, unit: float) -> FlatRegion:
     if are_crossed:
         findings.append(finding(SECTION_FACES_OVERLAP))
     if defects.too_many_pairs:
-        findings.append(finding(SECTION_OVERLAP_UNCHECKED))
+        findings.append(
+            finding(UNCHECKED, subject="the overlap of some edges, as there are too many")
+        )
     return FlatRegion(
         reading.name,
         kind,

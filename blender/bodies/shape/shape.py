@@ -60,9 +60,9 @@ from ....core.shape.signatures import Signature, signature, signatures
 from ....core.verdict import OBJECT_TOO_LARGE, Procedure, Source
 from ....core.verdict.finding import Finding, ReadError, finding
 from ...settings.options import MeasureOptions
-from ..measure_object import THREADS, Measured, measure_body
-from ..stacks.many import measured_in_turn
-from ..stacks.stack import MeasuredStack, Stacked
+from ..measure_body import THREADS, MeasuredBody, measure_body
+from ..measure_object import measured_in_turn
+from ..stack import MeasuredStack
 from .surface_distance import EXACT_DISTANCE
 
 EQUAL_AXES_ATOL = 1e-12  # cosine: harmonics about axes nearer to each other are equal
@@ -210,8 +210,7 @@ class Shape:
             "unique": unique,
             "angle_bound": angle,
             "position_bound": position,
-            **pose,
-        }
+        } | pose
 
     def _point_group(self) -> dict[str, Any]:
         """Return the body's point group, and the order of the moments that show it.
@@ -370,7 +369,7 @@ def surface_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> S
     return surface_shape(measure_body(obj, depsgraph, SURFACE_OPTIONS))
 
 
-def surface_shape(measured: Measured) -> Shape:
+def surface_shape(measured: MeasuredBody) -> Shape:
     """Return the shape of a body that was measured with SURFACE_OPTIONS, which must have
     polygons.
     """
@@ -390,7 +389,7 @@ def shape_of(
     return shape_of_measured(measure_body(obj, depsgraph, options), options.threads)
 
 
-def shape_of_measured(measured: Measured, threads: int) -> Shape:
+def shape_of_measured(measured: MeasuredBody, threads: int) -> Shape:
     """Return the shape of a measured body, or raise NoShapeError if it has none."""
     measurement, body = measured.measurement, measured.body
     if body.mass is not None and not body.has_surface:
@@ -417,8 +416,8 @@ def signed_in_turn(
 
     def signed(obj: bpy.types.Object) -> Signature | Shape:
         outcome = measured(obj)
-        if not isinstance(outcome, Stacked):
-            return surface_shape(outcome)
+        if outcome.stack is None:
+            return surface_shape(outcome.alone(obj, depsgraph))
         if outcome.stack not in known:
             known.clear()
             known[outcome.stack] = stack_signatures(outcome.stack, order)
@@ -435,9 +434,7 @@ def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]
     linear = np.array([member.matrix[:3, :3] for member in stack.members])
     is_even = are_similarities(linear)
     determinant = np.linalg.det(linear)
-    solids = next(
-        (member.shape.solids for member in stack.members if member.shape.solids is not None), None
-    )
+    solids = next((shape.solids for shape in stack.shapes if shape.solids is not None), None)
     if solids is None:
         return found
     # A body is a shape in its own coordinates, or the unevenly mapped shape of a single object.
@@ -446,12 +443,13 @@ def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]
     maps = []
     of_member = {}
     for i, member in enumerate(stack.members):
-        if member.shape.solids is None:
+        shape = stack.shapes[member.shape]
+        if shape.solids is None:
             continue
-        key = (member.shape.row, -1 if is_even[i] else i)
+        key = (shape.row, -1 if is_even[i] else i)
         if key not in body_of:
             body_of[key] = len(rows)
-            rows.append(member.shape.row)
+            rows.append(shape.row)
             maps.append(np.eye(3) if is_even[i] else linear[i])
         of_member[i] = body_of[key]
     volume = solids.volume.at(np.array(rows))

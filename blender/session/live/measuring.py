@@ -32,7 +32,7 @@ from ....core.numerics import Array
 from ....core.nurbs import Patch, TrackedSolid
 from ....core.polyhedron import volume_and_center
 from ....core.verdict import MeasureError, Method, Procedure, ReadError, Source, internal_error
-from ...bodies.measure_object import Measured, measure_body
+from ...bodies.measure_body import MeasuredBody, measure_body
 from ...bodies.request import Request, measurement_of
 from ...read.fingerprint import has_transform, settings_hash, transform_key
 from ...read.mesh import mesh_points
@@ -253,7 +253,7 @@ class MovingSurface:
     corners: NDArray[np.integer]
 
     @classmethod
-    def from_measured(cls, measured: Measured) -> MovingSurface | None:
+    def from_measured(cls, measured: MeasuredBody) -> MovingSurface | None:
         """Return the faces of a measured body, or None unless it is one exact or repaired mesh in
         its own place.
         """

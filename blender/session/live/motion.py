@@ -22,7 +22,7 @@ from ....core.moments import Measure, Moments, are_similarities, are_singular
 from ....core.numerics import Array
 from ....core.statics import Mixes, fit_mixes, sample_count
 from ....core.verdict import EditRefusedError, Method, Procedure
-from ...bodies.measure_object import measure_body
+from ...bodies.measure_object import measure_object
 from ...bodies.mesh import object_hull
 from ...read.objects import read_object
 from ...scale import meters_per_unit
@@ -124,7 +124,7 @@ class Motion:
         keys = _mixed_keys(obj)
         if not keys or sample_count(len(keys)) > min(self.frames, MAX_SAMPLES):
             return
-        measurement = measure_body(obj, depsgraph).measurement
+        measurement = measure_object(obj, depsgraph)
         if measurement.method != Method(Procedure.EXACT) or measurement.health.welded:
             return
         blocks = obj.data.shape_keys.key_blocks
@@ -202,7 +202,7 @@ def _measured(
     """Measure an object, keep its moments if its matrices can map them, and return them in the
     world.
     """
-    measurement = measure_body(obj, depsgraph).measurement
+    measurement = measure_object(obj, depsgraph)
     if measurement.method.procedure == Procedure.OPEN:
         raise EditRefusedError(OPEN_OBJECT, subject=obj.name)
     moments, factor = measurement.mass_moments

@@ -22,8 +22,7 @@ from ....core.verdict import internal_error, of_severity, sentence
 from ....core.verdict.finding import Finding, Severity, finding
 from ...bodies.assembly.assembly import Assembly, MemberBody, assembly_measurement
 from ...bodies.findings import ASSEMBLY_MASS_GIVEN, MEMBERS_DENSITY_UNSET
-from ...bodies.measure_object import Measured
-from ...bodies.stacks.stack import Stacked
+from ...bodies.measure_body import Measured
 from ...read.assembly import (
     Member,
     MemberKind,
@@ -68,7 +67,7 @@ def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
     reference.follow(root, scene, about)
     done: dict[Root, None] = {root: None}
     failures: list[tuple[str, Finding]] = []
-    measured: list[tuple[Object, Measured | Stacked]] = []
+    measured: list[tuple[Object, Measured]] = []
     for (
         part
     ) in assembly.root.walk():  # an assembly comes before the point mass that it may be itself

@@ -17,7 +17,7 @@ from bpy.types import Context, Object, PropertyGroup, Scene
 from ....core.bodies import DENSITY_DEFAULTED
 from ....core.measurement import VERSION
 from ....core.verdict.finding import EditRefusedError, Finding, finding
-from ...bodies.findings import INERTIA_GIVEN
+from ...bodies.findings import GIVEN, INERTIA
 from ...read.fingerprint import current_settings
 from ...read.tracking import tracking_paused
 from ...settings.density import default_density, unset_density
@@ -68,7 +68,10 @@ def follow_density(obj: Object, scene: Scene) -> None:
     extent = properties.optional(obj, "body_length") or numbers.volume
     if not extent:
         return
-    if any(found.code == INERTIA_GIVEN for found in properties.findings(obj)):
+    if any(
+        (found.code, found.values.get("quantity")) == (GIVEN, INERTIA)
+        for found in properties.findings(obj)
+    ):
         return  # a given inertia does not follow the mass
     mass = numbers.mass
     present = current_settings(obj, scene)

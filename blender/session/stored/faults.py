@@ -16,7 +16,7 @@ from ....core.bodies import Reading
 from ....core.mesh import Surface
 from ....core.numerics import Array
 from ....core.verdict import FLIPPED_FACES, DefectiveElements
-from ...bodies.measure_object import Measured
+from ...bodies.measure_body import MeasuredBody
 from .. import memory
 from ..tracking import updates
 
@@ -42,7 +42,7 @@ class Faults:
 forget = memory.faults.forget
 
 
-def remember(obj: Object, measured: Measured) -> None:
+def remember(obj: Object, measured: MeasuredBody) -> None:
     """Cache the faults of a freshly measured object, or drop them if it has none."""
     reading = measured.reading
     if not isinstance(reading, Reading) or len(reading.parts) != 1 or reading.is_singular:

@@ -19,7 +19,8 @@ from ....core.moments import Invariant
 from ....core.moments.moments import Measure, Moments, monomial_count, monomials
 from ....core.verdict import Finding, MeasureError
 from ...bodies.flat.flat import area_findings, clearer_refusal, flat_region
-from ...bodies.measure_object import THREADS, measure_object
+from ...bodies.measure_body import THREADS
+from ...bodies.measure_object import measure_object
 from ...read.fingerprint import matrix_hash, settings_hash
 from ...settings.options import MeasureOptions
 from ...write.units import number

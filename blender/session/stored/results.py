@@ -16,8 +16,8 @@ from bpy.types import Context, Object, Scene
 
 from ....core.measurement import fingerprint
 from ....core.verdict import internal_error
-from ...bodies.measure_object import Measured
-from ...bodies.stacks.stack import MeasuredStack, Stacked
+from ...bodies.measure_body import Measured, MeasuredBody
+from ...bodies.stack import MeasuredStack
 from ...read.fingerprint import matrix_hash, scale_hash, settings_hash
 from ...scale import meters_per_unit
 from ...settings.density import is_density_unset
@@ -37,9 +37,14 @@ MAX_STORED_ELEMENTS = 32  # of a symmetry: nobody reads more for a ball or a fin
 
 
 def store(obj: Object, measured: Measured, scene: Scene) -> None:
-    """Write a measurement on the object, and remember the data for its sliders, or raise
-    EditRefusedError.
-    """
+    """Write a measurement on the object, or raise EditRefusedError."""
+    for _, refusal in store_many([(obj, measured)], scene):
+        if refusal is not None:
+            raise refusal
+
+
+def _store_alone(obj: Object, measured: MeasuredBody, scene: Scene) -> None:
+    """Write a measurement on the object, and remember the data for its sliders."""
     measured = replace(measured, measurement=density.noted(obj, measured.measurement, scene))
     staleness.note_edits(obj)
     about = reference.stored_choice(obj)
@@ -50,17 +55,15 @@ def store(obj: Object, measured: Measured, scene: Scene) -> None:
 
 
 def store_many(
-    measured: Sequence[tuple[Object, Measured | Stacked]], scene: Scene
+    measured: Sequence[tuple[Object, Measured]], scene: Scene
 ) -> Iterator[tuple[Object, Exception | None]]:
-    """Store the results of many objects like `store`; yield each with None, or the error that
-    prevented it.
-    """
-    for stack, run in groupby(measured, key=lambda item: getattr(item[1], "stack", None)):
+    """Store the results of objects; yield each with None, or the error that prevented it."""
+    for stack, run in groupby(measured, key=lambda item: item[1].stack):
         items: list[tuple[Object, Any]] = list(run)
         if stack is None:
             for obj, alone in items:
                 try:
-                    store(obj, alone, scene)
+                    _store_alone(obj, alone, scene)
                 except Exception as error:
                     yield obj, error
                 else:
@@ -70,14 +73,14 @@ def store_many(
 
 
 def store_measured(
-    context: Context, measured: Iterable[tuple[Object, Measured | Stacked]]
+    context: Context, measured: Iterable[tuple[Object, Measured]]
 ) -> dict[Object, Exception]:
     """Store measurements of the present scene; return the errors of objects that cannot hold their
     results.
     """
     measured = list(measured)
     outcomes = list(store_many(measured, context.scene))
-    shapes = {obj: found.shape_digest for obj, found in measured if isinstance(found, Stacked)}
+    shapes = {obj: found.shape_digest(obj) for obj, found in measured}
     staleness.mark_up_to_date(
         context, [obj for obj, refusal in outcomes if refusal is None], shapes
     )
@@ -91,7 +94,9 @@ def _store_stack(
     objects = [member.obj for member in part.members]
     about = {}
     for obj, member in zip(objects, part.members):
-        staleness.note_edits(obj, member.shape.digest if obj.mode == "OBJECT" else None)
+        staleness.note_edits(
+            obj, part.shapes[member.shape].digest if obj.mode == "OBJECT" else None
+        )
         if "body_reference" in obj:
             about[obj] = reference.stored_choice(obj)
     findings = list(part.findings)
@@ -105,14 +110,19 @@ def _store_stack(
         part.volume.raw[:, 0],
         part.area.raw[:, 0],
         part.error_bounds,
-        zip([member.shape.method for member in part.members], findings, part.fingerprints),
+        zip(
+            [part.shapes[member.shape].method for member in part.members],
+            findings,
+            part.fingerprints,
+        ),
     )
     for obj, member, refusal in zip(objects, part.members, refusals):
         if refusal is None:
-            if (defects := member.shape.defects) is None:
+            shape = part.shapes[member.shape]
+            if (defects := shape.defects) is None:
                 faults.forget(obj)
             else:
-                faults.remember_surface(obj, member.shape.surface, defects)
+                faults.remember_surface(obj, shape.surface, defects)
             if obj in about:
                 reference.follow(obj, scene, about[obj])
         yield obj, refusal

@@ -28,7 +28,7 @@ from ....core.statics import (
     resting_poses,
 )
 from ....core.verdict import EditRefusedError, Finding, MeasureError, Procedure
-from ...bodies.measure_object import measure_body
+from ...bodies.measure_object import measured_in_turn
 from ...bodies.mesh import MAX_CORNERS, object_hull
 from ...read.mesh import shape_digest
 from ...scene import reframe
@@ -177,8 +177,8 @@ def check_stability(context: Context, obj: Object, measured: list[Object]) -> li
     """
     depsgraph = context.evaluated_depsgraph_get()
     if properties.stored(obj) is None or staleness.stale_reason(obj, context.scene):
-        result = measure_body(obj, depsgraph)
-        if result.measurement.method.procedure == Procedure.OPEN:
+        result = measured_in_turn([obj], depsgraph)(obj)
+        if result.method.procedure == Procedure.OPEN:
             raise EditRefusedError(OPEN_OBJECT)
         results.store(obj, result, context.scene)
         measured.append(obj)

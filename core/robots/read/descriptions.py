@@ -24,10 +24,10 @@ from typing import Any
 
 from ...files import (
     FILE_MISSING,
-    FILE_NOT_REGULAR,
     FILE_TOO_LARGE,
     FILE_UNREADABLE,
     FILE_WITHOUT_OBJECTS,
+    NOT_REGULAR,
 )
 from ...verdict import FileError, system_reason
 from ..findings import (
@@ -197,7 +197,7 @@ def read_description(path: Path, roots: Roots | None = None) -> Description:
 def _bytes(path: Path) -> bytes:
     try:
         if not stat.S_ISREG(path.stat().st_mode):
-            raise FileError(FILE_NOT_REGULAR)
+            raise FileError(FILE_UNREADABLE, error=NOT_REGULAR)
         with open(path, "rb") as file:
             data = file.read(MAX_DESCRIPTION + 1)
     except FileNotFoundError as error:

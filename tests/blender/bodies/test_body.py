@@ -7,7 +7,7 @@ share.
 import bpy
 import numpy as np
 import pytest
-from body_moments.blender.bodies.measure_object import measure_body
+from body_moments.blender.bodies.measure_body import measure_body
 from body_moments.blender.settings.options import MeasureOptions
 
 from tests.blender.objects import add

@@ -8,7 +8,8 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.bodies.flat.flat import flat_region
-from body_moments.blender.bodies.measure_object import measure_body, measure_object
+from body_moments.blender.bodies.measure_body import measure_body
+from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.read.splines import FALLOFFS
 from body_moments.blender.settings.options import MeasureOptions
 from mathutils import Matrix
@@ -158,12 +159,12 @@ def test_overflowing_region_moments_are_refused():
 def test_crossing_curve_is_measured_by_its_fill_or_refused():
     crossing = poly([(0, 0, 0), (2, 0, 0), (0, 1, 0), (2, 1, 0)], cyclic=True)
     crossing.body_moments.kind = "SHELL"
-    with refused("curves_cross"):
+    with refused("curves_bound_nothing"):
         measured(crossing)
     crossing.data.dimensions, crossing.data.fill_mode = "2D", "BOTH"
     found = measured(crossing)
     assert str(found.method) == "shell" and found.area > 0.0  # whatever Blender fills
-    assert said(found)["curve_fill_measured"]["cause"]["code"] == "curves_cross"
+    assert said(found)["curve_fill_measured"]["cause"]["code"] == "curves_bound_nothing"
 
 
 def test_hooks_and_keys_bend_a_wire_with_a_bevel_and_without():

@@ -95,7 +95,7 @@ def test_sampling_by_nodes_gives_the_same_bits(tmp_path, monkeypatch, dtype, mat
         first, low = dense(reading), reading.low
     by_nodes(monkeypatch)
     if dtype != np.float32 and bpy.app.version < (5, 0):  # its nodes know grids of floats only
-        with refused("grid_needs_openvdb", grid="density"):
+        with refused("grid_unsupported", grid="density"):
             measure(obj)
         return
     with volume_reading(obj, depsgraph()) as reading:
@@ -271,7 +271,7 @@ def test_vectors_are_no_density(tmp_path):
     with refused("no_scalar_grid", grids=["velocity"]):
         measure(obj)
     obj.body_moments.grid = "velocity"
-    with refused("grid_type", grid="velocity"):
+    with refused("grid_unsupported", grid="velocity"):
         measure(obj)
 
 
@@ -416,14 +416,14 @@ def test_no_voxel_that_is_not_finite_has_a_density(tmp_path, value, table):
 def test_numbers_too_large_or_too_far_are_refused(tmp_path):
     with refused("mass_overflow"):
         measure(volume_object(tmp_path / "a.vdb", vdb_grid(np.full((4, 4, 4), 1e300))))
-    with refused("grid_far_from_origin", grid="density"):
+    with refused("grid_unsupported", grid="density"):
         measure(volume_object(tmp_path / "b.vdb", vdb_grid(ONES, offset=(5, 1 << 29, -5))))
 
 
 def test_a_grid_on_a_frustum_is_refused(tmp_path):
     grid = vdb_grid(ONES)
     grid.transform = vdb.openvdb().createFrustumTransform((0, 0, 0), (7, 7, 7), 0.5, 2.0)
-    with refused("grid_frustum", "Cloud", grid="density"):
+    with refused("grid_unsupported", "Cloud", grid="density"):
         measure(volume_object(tmp_path / "a.vdb", grid))
 
 

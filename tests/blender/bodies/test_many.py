@@ -6,10 +6,10 @@ frames, fingerprints.
 
 import numpy as np
 import pytest
-from body_moments.blender.bodies.measure_object import measure_body
-from body_moments.blender.bodies.stacks import stack
-from body_moments.blender.bodies.stacks.many import measure_many
-from body_moments.blender.bodies.stacks.stack import Stacked
+from body_moments.blender.bodies import stack
+from body_moments.blender.bodies.measure_body import measure_body
+from body_moments.blender.bodies.measure_object import measure_many
+from body_moments.blender.bodies.stack import Stacked
 from body_moments.blender.settings.options import AS_SET, MeasureOptions
 
 from tests.blender.many_objects import bpy, shards
@@ -84,7 +84,7 @@ def assert_same(found, expected):
 
 
 def _is_together(found):
-    return found.stack.members[found.index].shape.alone is None
+    return found.stack.shape(found.index).alone is None
 
 
 def all_outcomes(objects, options=AS_SET):
@@ -231,6 +231,7 @@ def test_object_settings_and_options_hold_in_stacks(settings):
 def test_a_stack_that_fails_measures_each_alone(monkeypatch, capfd):
     objects = shards(1)
     whole, _ = all_outcomes(objects)
+    stack.measure_shapes.cache_clear()
     monkeypatch.setattr(stack, "measure_stack", lambda *_: 1 / 0)
     again, _ = all_outcomes(objects)
     assert not any(isinstance(found, Stacked) for _, found in again)

@@ -111,7 +111,7 @@ def test_open_surface_of_opposed_faces_is_refused():
     )
     obj = add(mesh)
     obj.body_moments.kind, obj.body_moments.wall = "SHELL", "INWARD"
-    with refused("wall_inconsistent_faces", count=1):
+    with refused("wall_without_sides", count=1):
         measured(obj)
 
 
@@ -329,7 +329,7 @@ def test_meeting_walls_of_instances_are_reported(first, second, edge):
     for gap, expected in ((0.27, False), (0.23, True)):
         shown = shown_together(box(), (0.0, first), (edge + gap, second))
         shown.body_moments.wall, shown.body_moments.thickness = "OUTWARD", 0.125
-        assert ("instance_overlap_unchecked" in said(measured(shown))) == expected
+        assert ("unchecked" in said(measured(shown))) == expected
 
 
 def test_instances_of_nearly_one_size_have_each_its_wall():

@@ -241,7 +241,7 @@ def test_a_hidden_instancer_on_vertices_is_refused_not_halved():
     cube("Child").parent = parent
     other = bpy.context.scene.view_layers.new("Other")
     parent.hide_set(True)
-    with refused("instances_of_hidden_object", "Parent"):
+    with refused("not_shown", "Parent"):
         read_object(parent, depsgraph())
     other.update()
     assert read_object(parent, other.depsgraph).instance_count == 9
@@ -257,7 +257,7 @@ def test_particles_drawn_as_objects_are_the_emitters_record():
     emitter.show_instancer_for_viewport = False
     check(emitter, 12)
     settings.render_type = "PATH"  # which hides it as well
-    with refused("instancer_hidden", "Emitter"):
+    with refused("not_shown", "Emitter"):
         read_object(emitter, depsgraph())
     assert not len(shown(emitter))
     emitter.show_instancer_for_viewport, settings.render_type = True, "OBJECT"

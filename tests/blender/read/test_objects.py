@@ -201,13 +201,13 @@ def test_kinds_without_geometry_are_refused_by_name(kind):
 
 def test_an_empty_without_instances_is_refused():
     obj = link("Empty")
-    assert refused(obj, "empty_without_instances")
+    assert refused(obj, "not_shown")
     assert not measurable(obj)
     obj.instance_type, obj.instance_collection = "COLLECTION", collection("Hollow")
-    assert refused(obj, "empty_without_instances")
+    assert refused(obj, "not_shown")
     point = link("Point")
     point.body_moments.mass_from, point.body_moments.mass = "MASS", 2.0
-    assert refused(point, "empty_without_instances")
+    assert refused(point, "not_shown")
 
 
 def test_objects_without_faces_are_refused_with_their_content():
@@ -216,18 +216,18 @@ def test_objects_without_faces_are_refused_with_their_content():
     assert refused(link("Nothing", mesh("Nothing", [], [])), "no_geometry")
     bpy.ops.curve.primitive_bezier_circle_add()
     circle = bpy.context.object
-    assert refused(circle, "lines_only")
+    assert refused(circle, "nothing_to_measure")
     assert not measurable(circle)
     circle.data.dimensions, circle.data.fill_mode = "2D", "NONE"
-    assert refused(circle, "lines_only")
+    assert refused(circle, "nothing_to_measure")
     assert not measurable(circle)
     circle.data.fill_mode = "BOTH"
     assert measurable(circle)
     letters = text()
     letters.data.extrude, letters.data.fill_mode = 0.0, "NONE"
-    assert refused(letters, "lines_only")
+    assert refused(letters, "nothing_to_measure")
     letters.data.body = " "
-    assert refused(letters, "empty_text")
+    assert refused(letters, "nothing_to_measure")
     wire = circle_without_fill()
     wire.modifiers.new("Array", "ARRAY")
     assert refused(wire, "only_without_surface")

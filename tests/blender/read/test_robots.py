@@ -152,13 +152,13 @@ def test_invalid_descriptions_are_refused(tmp_path):
         "file_unreadable",
     )
     assert refusal(read_description, tmp_path / "none.urdf") == "file_missing"
-    assert refusal(read_description, tmp_path) == "file_not_regular"
+    assert refusal(read_description, tmp_path) == "file_unreadable"
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="not on this system")
 def test_a_pipe_is_not_waited_for(tmp_path):
     os.mkfifo(tmp_path / "a.urdf")
-    assert refusal(read_description, tmp_path / "a.urdf") == "file_not_regular"
+    assert refusal(read_description, tmp_path / "a.urdf") == "file_unreadable"
     os.mkfifo(tmp_path / "a.stl")
     assert refusal(Roots.for_file(tmp_path / "b.urdf").find, "a.stl") == "mesh_missing"
 

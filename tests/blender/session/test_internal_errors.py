@@ -13,9 +13,7 @@ import pytest
 pytest.importorskip("bpy")
 import body_moments
 import bpy
-from body_moments.blender.bodies import measure_object as measure
-from body_moments.blender.bodies import request
-from body_moments.blender.bodies.stacks import many
+from body_moments.blender.bodies import measure_object, request
 from body_moments.blender.scene import empties, reframe
 from body_moments.blender.session.stored import outcome
 from body_moments.blender.write import properties, section
@@ -56,7 +54,7 @@ def three(flat=False):
 
 def plant(monkeypatch, error, *names, module=request, function="read_object"):
     """The error, wherever one of these objects is read, by itself or together with others."""
-    for place_, name in ((module, function), (many, "plain_mesh")):
+    for place_, name in ((module, function), (measure_object, "plain_mesh")):
         monkeypatch.setattr(place_, name, failing_for(names, error, getattr(place_, name)))
 
 
@@ -135,7 +133,7 @@ def unwritable(monkeypatch, *names):
     """Measurements of these objects of which Blender takes a part only: what comes before the
     fingerprint.
     """
-    real = measure.measure_body
+    real = measure_object.measure_body
 
     def damaged(obj, *args):
         measured = real(obj, *args)
@@ -143,9 +141,8 @@ def unwritable(monkeypatch, *names):
             return measured
         return replace(measured, measurement=replace(measured.measurement, fingerprint=object()))
 
-    monkeypatch.setattr(measure, "measure_body", damaged)
-    monkeypatch.setattr(many, "measure_body", damaged)
-    monkeypatch.setattr(many, "plain_mesh", lambda *_: None)
+    monkeypatch.setattr(measure_object, "measure_body", damaged)
+    monkeypatch.setattr(measure_object, "plain_mesh", lambda *_: None)
 
 
 @pytest.mark.parametrize("stored", [False, True])

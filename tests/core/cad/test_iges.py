@@ -497,8 +497,8 @@ def test_other_delimiters_and_line_ends_are_read(tmp_path):
     [
         ("", "file_unrecognized"),
         ("solid\n", "file_unrecognized"),
-        ("{:<72}B{:>7}\n".format("", 1), "iges_not_ascii"),
-        ("{:<72}C{:>7}\n".format("", 1), "iges_not_ascii"),
+        ("{:<72}B{:>7}\n".format("", 1), "file_unreadable"),
+        ("{:<72}C{:>7}\n".format("", 1), "file_unreadable"),
         ("\0" * 1000, "file_unrecognized"),
     ],
 )

@@ -8,6 +8,7 @@ import time
 import numpy as np
 import pytest
 from body_moments.core.cad.surface_file import SUFFIXES, read_surfaces
+from body_moments.core.files import NOT_REGULAR
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs.blender_knots import bezier_patches
 from body_moments.core.nurbs.solid import measure_patches
@@ -129,7 +130,7 @@ BALL_TEXT = obj_text([unrolled(sphere())])
         ("\n2 \\\n", "\n200 \\\n", "surface_damaged"),
         ("\n2 \\\n", "\n0 \\\n", "surface_damaged"),
         ("\n2 \\\n", "\nx \\\n", "surface_damaged"),
-        ("v 9 9 9", "call other.obj", "obj_call"),
+        ("v 9 9 9", "call other.obj", "file_unreadable"),
         ("\nsurf ", "\nsurface ", "file_without_objects"),
     ],
 )
@@ -235,7 +236,7 @@ def test_file_without_surfaces_is_refused(tmp_path):
     for name, expected in (
         ("a.stl", finding("file_type", suffixes=" ".join(SUFFIXES))),
         ("none.obj", finding("file_missing")),
-        ("folder.obj", finding("file_not_regular")),
+        ("folder.obj", finding("file_unreadable", error=NOT_REGULAR)),
     ):
         with pytest.raises(FileError) as caught:
             read_surfaces(tmp_path / name)

@@ -95,12 +95,12 @@ def test_region_within_its_coordinate_error_is_refused(rounded, is_certain):
             square, directed_edges([range(4)]), 2, rounded=rounded
         ).about.tolist() == [3.5, 5.5, 0.0]
         return
-    with refused("section_encloses_nothing"):
+    with refused("no_section_area"):
         region_moments(square, directed_edges([range(4)]), 2, rounded=rounded)
 
 
 def test_a_region_without_area_is_refused():
-    with refused("section_encloses_nothing"):
+    with refused("no_section_area"):
         region_moments([(0, 0), (1, 0), (2, 0)], directed_edges([range(3)]), 3)
 
 

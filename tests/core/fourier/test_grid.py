@@ -102,7 +102,7 @@ def test_unreachable_tolerance_is_refused():
     "count, largest", [(1, 1.0), (0, 1.0), (8, 0.0), (8, -1.0), (8, np.nan), (8, np.inf)]
 )
 def test_invalid_frequency_grid_is_refused(count, largest):
-    with refused("frequency_count", "frequency_range"):
+    with refused("frequencies_invalid", "frequencies_invalid"):
         FrequencyGrid(count, largest)
 
 

@@ -583,7 +583,7 @@ def test_tearing_knots_are_refused():
                 )
             ]
         )
-    with refused("curve_open"):
+    with refused("curves_bound_nothing"):
         planar_region([Curve(space, [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 0, 0)])])
     assert not SplineSpace((0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 2.0), 3, 5).is_discontinuous
 

@@ -36,7 +36,7 @@ def path(request, monkeypatch):
     """Both ways through the third order, in blocks of a few faces, and the way of small bodies."""
     if request.param == "few":
         return request.param
-    monkeypatch.setattr(polyhedron, "TRIANGLES_PER_BLOCK", 32)
+    monkeypatch.setattr(polyhedron, "FACES_PER_BLOCK", 32)
     monkeypatch.setattr(polyhedron, "MAX_SMALL_TRIANGLES", 16)
     monkeypatch.setattr(polyhedron, "MIN_TRIANGLES_PER_THREAD", 8)
     if request.param == "fast":
@@ -190,6 +190,22 @@ def test_third_moments_of_many_triangles_match_the_closed_form():
             assert_within(fine, truth)
             assert_within(coarse, truth)
             assert fine.rounding_error[10:].max() < 1e-10 < 1e-6 < coarse.rounding_error[10:].max()
+
+
+@pytest.mark.parametrize("cut", [False, True])
+def test_many_triangles_are_summed_to_the_last_digits(cut):
+    """Adding the same cones one after the other loses four digits."""
+    points, quads = fine_box(128)
+    surface = Surface(points / 3.0, quads=quads)
+    triangles = surface.all_triangles()[0]
+    volume = polyhedron_moments(Surface(surface.points, triangles) if cut else surface)[0]
+    corners = (surface.points - volume.about)[triangles]
+    naive = np.cumsum(np.linalg.det(corners))[-1] / 6.0
+    ends = ([Fraction(x) - Fraction(o) for x, o in zip(box, volume.about)] for box in surface.box)
+    truth = exact.box_moments(*ends)
+    for i in (0, 4, 7, 9):  # 1, xx, yy, zz
+        assert abs(Fraction(volume.raw[i]) / truth[i] - 1) < 8 * 2.0**-53
+    assert abs(Fraction(naive) / truth[0] - 1) > 10_000 * 2.0**-53
 
 
 def test_the_bound_is_not_vacuous_for_a_clean_body():

@@ -10,7 +10,11 @@ from math import degrees, radians
 
 import numpy as np
 import pytest
+from body_moments.core.inertia.mass_properties import MassProperties
+from body_moments.core.mesh.hulls import convex_hull
+from body_moments.core.mesh.surface import Surface
 from body_moments.core.numerics.rotations import quaternion
+from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.robots.diagnosis import (
     CENTERS,
     IMPERIAL_INERTIAS,
@@ -315,3 +319,81 @@ def test_a_number_of_a_file_keeps_its_decimals_in_another_unit(value):
     ):
         assert _times([value, -value], factor).tolist() == [truth, -truth]
     assert value * 1e-3 != value / 1000.0
+
+
+def random_body(rng, symmetric=False):
+    """The evenly filled geometry of a random brick or hull of points, in a turned frame."""
+    points = rng.normal(size=(int(rng.integers(8, 20)), 3)) * rng.uniform(0.05, 0.3, 3)
+    hull = convex_hull(points)
+    volume = polyhedron_moments(Surface.from_triangles(hull.points, hull.triangles))[0]
+    body = MassProperties.from_moments(volume, 1.0)
+    moments, axes = np.linalg.eigh(body.inertia / body.mass)
+    if symmetric:
+        moments[:2] = moments[:2].mean()
+    turn = bodies.rotation(int(rng.integers(1 << 30)))
+    axes = turn @ axes
+    inertia = (axes * moments) @ axes.T
+    return Reference(body.mass, rng.normal(size=3), inertia), moments, axes
+
+
+def swaps(moments):
+    """The orders of principal moments that make another body."""
+    for order in list(permutations(range(3)))[1:]:
+        if np.abs(moments[list(order)] - moments).max() > 0.1 * moments[2]:
+            yield list(order)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_principal_moments_swapped_in_any_frame_are_found(seed):
+    """Of random bodies, given along the link, in the principal frame, or in any other one."""
+    rng = np.random.default_rng(seed)
+    reference, moments, axes = random_body(rng)
+    mass, center = 1000.0 * reference.volume, reference.center
+    for order in swaps(moments):
+        wrong = mass * (axes * moments[order]) @ axes.T
+        frame = bodies.rotation(seed)
+        for stated in (
+            StatedInertial(mass, center, wrong),
+            StatedInertial(mass, center, np.diag(mass * moments[order]), axes),
+            StatedInertial(mass, center, frame.T @ wrong @ frame, frame),
+        ):
+            (found,) = diagnose(stated, [reference])
+            assert found.finding.code == "audit_order" and found.is_certain
+            assert reference.compare(found.repaired) < 1e-9
+        turned = frame.T @ (mass * reference.inertia) @ frame
+        back = np.argsort(order)
+        stated = StatedInertial(mass, center, turned[np.ix_(back, back)], frame)
+        if reference.compare(stated) < 0.02:
+            continue  # The exchange happens to change nothing.
+        (found,) = diagnose(stated, [reference])
+        assert found.finding.values["order"] == "".join("xyz"[axis] for axis in order)
+        assert found.finding.values["part"] == "axes of the inertia in its own frame"
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_swapped_moments_of_a_round_body_are_not_certain(seed):
+    reference, moments, axes = random_body(np.random.default_rng(seed), symmetric=True)
+    mass = 1000.0 * reference.volume
+    for order in swaps(moments):
+        wrong = StatedInertial(mass, reference.center, mass * (axes * moments[order]) @ axes.T)
+        (found,) = diagnose(wrong, [reference])
+        assert not found.is_certain and reference.compare(found.repaired) < 1e-9
+
+
+def test_right_inertials_of_random_bodies_have_no_change():
+    """Even fillings have no finding in any frame; uneven ones are no mistake that has a name."""
+    changes = 0
+    for seed in range(300):
+        rng = np.random.default_rng(seed)
+        reference, moments, axes = random_body(rng, seed % 3 == 0)
+        mass, frame = 1000.0 * reference.volume, bodies.rotation(seed)
+        inertia = mass * frame.T @ reference.inertia @ frame
+        assert not diagnose(StatedInertial(mass, reference.center, inertia, frame), [reference])
+        # Some of the mass is moved, and the moments change by some percent along any axes.
+        tilt = bodies.rotation(seed + 1000) if seed % 2 else np.eye(3)
+        bend = np.eye(3) + tilt @ np.diag(rng.uniform(-0.06, 0.06, 3)) @ tilt.T
+        uneven = frame.T @ (bend @ (mass * reference.inertia) @ bend.T) @ frame
+        center = reference.center + rng.normal(size=3) * 0.02 * np.sqrt(moments[2])
+        found = diagnose(StatedInertial(mass, center, uneven, frame), [reference])
+        changes += any(one.is_change for one in found)
+    assert changes <= 1

@@ -674,7 +674,7 @@ def test_foreign_file_is_no_scan(tmp_path):
     assert refusal(read_scan, tmp_path / "a.blend") == "file_type"
     assert refusal(read_scan, tmp_path / "a.npy") == "file_missing"
     (tmp_path / "b.npy").mkdir()
-    assert refusal(read_scan, tmp_path / "b.npy") == "file_not_regular"
+    assert refusal(read_scan, tmp_path / "b.npy") == "file_unreadable"
 
 
 @pytest.mark.parametrize("end", SUFFIXES)
@@ -700,4 +700,4 @@ def test_lack_of_memory_is_not_called_damage(tmp_path, monkeypatch, name):
 
     monkeypatch.setattr(np.lib.format, "open_memmap", fails)
     monkeypatch.setattr(np.lib.format, "read_array", fails)
-    assert refusal(read_scan, path) == "scan_out_of_memory"
+    assert refusal(read_scan, path) == "file_unreadable"

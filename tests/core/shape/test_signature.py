@@ -259,10 +259,10 @@ def test_flat_invariants_are_products_of_complex_moments(turn, scale, is_mirrore
 )
 def test_a_damaged_record_is_refused(damage):
     record = {**plain(signed(shapes.WEDGE, 6).as_record()), **damage}
-    with refused("signature_unrecognized", "signature_incomplete"):
+    with refused("signature_invalid", "signature_invalid"):
         Signature.from_record(record)
     del record["size"]
-    with refused("signature_unrecognized"):
+    with refused("signature_invalid"):
         Signature.from_record(record)
 
 

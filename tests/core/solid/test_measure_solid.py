@@ -523,6 +523,29 @@ def test_the_sides_of_a_box_may_all_be_cut_differently():
     assert close(result.volume.total, 1.0, rel=1e-14)
 
 
+@pytest.mark.parametrize("offset", [(0, 0, 0), (1000, -2000, 500)])
+@pytest.mark.parametrize("scale", [1.0, 1e-3])
+@pytest.mark.parametrize("first", [False, True])
+@pytest.mark.parametrize("inward", [False, True])
+def test_patch_on_a_closed_body_counts_once(offset, scale, first, inward):
+    """A fifth of a torus lies on it once more, with vertices of its own, a little moved."""
+    part = moved(torus(20, 12), scale * rotation(3), np.multiply(offset, scale))
+    points, faces = part
+    patch = points + 1e-9 * scale * np.random.default_rng(1).uniform(-1, 1, points.shape)
+    copied = patch, faces[: len(faces) // 5, :: -1 if inward else 1]
+    result = verdict(joined(*((copied, part) if first else (part, copied))))
+    assert codes(result)[:2] == ["vertices_welded", "duplicate_faces_ignored"]
+    assert result.findings[1].values["count"] == len(faces) // 5
+    assert result.method in ("exact", "reoriented")
+    assert close(result.volume.total, volume(part), rel=1e-9)
+
+
+def test_patch_beside_its_body_or_larger_is_capped():
+    points, faces = part = torus(20, 12)
+    apart = points * 1.01, faces[: len(faces) // 5]
+    assert "holes_capped" in codes(verdict(joined(part, apart)))
+
+
 def test_float32_triangle_soup_far_away_is_welded_and_closed():
     part = moved(torus(60, 30), rotation(2), (1000, -2000, 500))
     apart = soup(part)

@@ -183,7 +183,7 @@ def test_extruded_or_offset_outline_is_refused(data, setting):
 
 
 def test_open_splines_are_left_out_or_refused():
-    assert refused(add(curve_of(square(0, 0, 1), closed=False)), "section_no_outline")
+    assert refused(add(curve_of(square(0, 0, 1), closed=False)), "no_section_area")
     curve = curve_of(square(0, 0, 2), square(5, 5, 1))
     curve.splines[1].use_cyclic_u = False
     section, _, findings = section_of(add(curve))
@@ -191,7 +191,7 @@ def test_open_splines_are_left_out_or_refused():
     space = curve_of(square(0, 0, 1))
     space.dimensions = "3D"
     assert refused(add(space), "section_extruded")
-    assert refused(add(text_of("")), "section_no_outline")
+    assert refused(add(text_of("")), "no_section_area")
 
 
 def test_a_curve_in_edit_mode_is_measured_as_it_is_now():
@@ -244,7 +244,7 @@ def test_selected_faces_of_a_body_are_a_section_in_any_plane():
         read_section(obj, bpy.context.evaluated_depsgraph_get()).description == "2 Selected Faces"
     )
     selected(obj, lambda face: False)
-    assert refused(obj, "section_no_selected_face")
+    assert refused(obj, "no_section_area")
     bpy.ops.object.mode_set(mode="OBJECT")
 
 

@@ -122,6 +122,7 @@ def test_accepted_warning_stays_a_note_after_measuring():
         ("hole", "holes_capped", "FILL_HOLES"),
         ("copy", "duplicate_faces_ignored", "DUPLICATES"),
         ("split", "vertices_welded", "MERGE"),
+        ("patch", "vertices_welded", "MERGE"),
     ],
 )
 def test_edits_repair_the_mesh_and_measure_again(fault, code, remedy):
@@ -131,6 +132,9 @@ def test_edits_repair_the_mesh_and_measure_again(fault, code, remedy):
         faces = faces[1:]
     elif fault == "copy":
         faces.append(faces[0])
+    elif fault == "patch":  # copies of three faces, on vertices of their own
+        points += points[:]
+        faces += [[8 + corner for corner in face] for face in faces[:3]]
     else:  # one face has corners of its own, a little aside
         points += [[x + 1e-6, y, z] for x, y, z in (points[corner] for corner in faces[0])]
         faces[0] = (8, 9, 10, 11)
@@ -138,6 +142,7 @@ def test_edits_repair_the_mesh_and_measure_again(fault, code, remedy):
     mesh.from_pydata(points, [], faces)
     obj = add(mesh)
     bpy.ops.object.body_moments_measure()
+    assert close(obj["body_volume"], 8.0, rel=1e-5)
     if code in findings_of(obj, "warning"):
         assert remedy in offered()
     assert code in findings_of(obj)

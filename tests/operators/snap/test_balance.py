@@ -174,7 +174,7 @@ class TestRefused:
     def test_no_selection(self, reported):
         obj = figure()
         edit(obj, lambda co: False)
-        unchanged(obj, points(obj), "balance_no_vertices", reported)
+        unchanged(obj, points(obj), "balance_impossible", reported)
 
     def test_too_far(self, reported):
         obj = figure()
@@ -211,7 +211,7 @@ class TestRefused:
         mesh.faces.ensure_lookup_table()
         bmesh.ops.delete(mesh, geom=mesh.faces[:1], context="FACES")
         bmesh.update_edit_mesh(obj.data)
-        unchanged(obj, points(obj), "balance_unclean", reported)
+        unchanged(obj, points(obj), "balance_impossible", reported)
 
     def test_shape_keys(self, reported):
         obj = figure()
@@ -240,13 +240,13 @@ class TestRefused:
         obj = figure()
         group(obj)
         obj.vertex_groups.active_index = -1
-        unchanged(obj, points(obj), "balance_no_vertices", reported)
+        unchanged(obj, points(obj), "balance_impossible", reported)
 
     def test_a_wall(self, reported):
         obj = figure()
         obj.body_moments.kind, obj.body_moments.wall = "SHELL", "INWARD"
         edit(obj)
-        unchanged(obj, points(obj), "balance_settings", reported)
+        unchanged(obj, points(obj), "balance_impossible", reported)
 
     def test_a_zero_scale(self, reported):
         obj = figure(scale=(1, 1, 0))

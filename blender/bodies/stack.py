@@ -9,45 +9,53 @@ measured alone.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.inertia import MassProperties, has_certain_total
-from ....core.inertia.third_moment_frames import third_moment_frames
-from ....core.measurement import Settings, build_measurement, find_large_bounds, fingerprint
-from ....core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
-from ....core.mesh import Surface
-from ....core.moments import Moments, are_similarities, are_singular, image, join_moments
-from ....core.numerics import Array, Mask, rotation_matrix
-from ....core.polyhedron import area_of_images
-from ....core.solid import SolidStack, can_be_stacked, measure_stack
-from ....core.solid.measure import SolidIntegrals, measure_left_over, measure_solid
-from ....core.verdict import DefectiveElements, Finding, MeshHealth, Method, Procedure
-from ...read.fingerprint import transform_key
-from ...read.mesh import MAX_DIGESTED_FACES, surface_digest
-from ...settings.accepted import accepted_codes, with_acceptance
+from ...core.inertia import MassProperties, has_certain_total
+from ...core.inertia.third_moment_frames import third_moment_frames
+from ...core.measurement import Settings, build_measurement, find_large_bounds, fingerprint
+from ...core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
+from ...core.mesh import Surface
+from ...core.moments import Moments, are_similarities, are_singular, image, join_moments
+from ...core.numerics import Array, Mask, rotation_matrix
+from ...core.polyhedron import area_of_images
+from ...core.solid import SolidStack, can_be_stacked, measure_stack
+from ...core.solid.measure import SolidIntegrals, measure_left_over, measure_solid
+from ...core.verdict import DefectiveElements, Finding, MeshHealth, Method, Procedure
+from ..read.fingerprint import transform_key
+from ..read.mesh import MAX_DIGESTED_FACES, surface_digest
+from ..settings.accepted import accepted_codes, with_acceptance
+from .measure_body import MeasuredBody, measure_body
 
 METHODS = {verdict: Method(verdict) for verdict in Procedure}
 
 
 @dataclass(eq=False)
 class MeshShape:
-    """A mesh in its own coordinates, and its measurement.
+    """A mesh in its own coordinates, and its measurement; equal to others of the same `content`.
 
-    `row`: index in the stacks of moments; `solids`: the stack in which the mesh was measured, at
-    the same row. `alone`: the integrals of a mesh that was measured by itself.
+    `solids`: the stack in which the mesh was measured, at `row`. `alone`: the integrals of a mesh
+    that was measured by itself.
     """
 
     surface: Surface
     face_count: int
+    content: tuple
     row: int = -1
     solids: SolidStack | None = None
     alone: SolidIntegrals | None = None
     method: Method = METHODS[Procedure.EXACT]
     findings: tuple[Finding, ...] = ()
+
+    def __hash__(self) -> int:
+        return hash(self.content)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, MeshShape) and self.content == other.content
 
     @property
     def health(self) -> MeshHealth:
@@ -68,10 +76,11 @@ class MeshShape:
         return surface_digest(self.surface) if self.face_count <= MAX_DIGESTED_FACES else None
 
 
-def measure_shapes(shapes: list[MeshShape]) -> tuple[Moments, Moments]:
-    """Measure shapes in their own coordinates; return volumes to third order and areas, stacked by
-    `row`.
-    """
+@lru_cache(maxsize=4)  # Objects are often measured again with the same shapes.
+def measure_shapes(
+    shapes: tuple[MeshShape, ...],
+) -> tuple[tuple[MeshShape, ...], Moments, Moments]:
+    """Return measured shapes in their own coordinates, their volumes to third order and areas."""
     stackable = can_be_stacked([shape.surface for shape in shapes])
     small = [shape for shape, is_stackable in zip(shapes, stackable) if is_stackable]
     stacks: list[tuple[Moments, Moments]] = []
@@ -79,8 +88,8 @@ def measure_shapes(shapes: list[MeshShape]) -> tuple[Moments, Moments]:
         solids = measure_stack([shape.surface for shape in small])
         stacks.append((solids.volume, solids.area))
         for i, (shape, is_measured) in enumerate(zip(small, solids.is_measured.tolist())):
+            shape.row = i
             if is_measured:
-                shape.row = i
                 shape.solids = solids
                 shape.findings = solids.findings(i)
                 shape.method = METHODS[
@@ -95,22 +104,23 @@ def measure_shapes(shapes: list[MeshShape]) -> tuple[Moments, Moments]:
         shape.method = METHODS[solid.method]
         shape.findings = solid.findings
         stacks.append((solid.volume.at(None), solid.area.at(None)))
-    volume, area = (join_moments(parts) for parts in zip(*stacks))
-    return volume, area
+    rows = [shape.row for shape in shapes]
+    volume, area = (join_moments(parts).at(rows) for parts in zip(*stacks))
+    return shapes, volume, area
 
 
 @dataclass(frozen=True, eq=False)
 class StackMember:
     """An object that may join a stack.
 
-    `number`: index among the collected objects. `digest`: digest of the settings.
-    `matrix`: (4, 4) map from the mesh's coordinates to the world, Blender units.
+    `number`: index among the collected objects. `shape`: index of its shape. `digest`: digest of
+    the settings. `matrix`: (4, 4) map from the mesh's coordinates to the world, Blender units.
     `location`, `quaternion`: the object's frame.
     """
 
     number: int
     obj: bpy.types.Object
-    shape: MeshShape
+    shape: int
     settings: Settings
     digest: str
     matrix: Array
@@ -129,6 +139,7 @@ class MeasuredStack:
     """
 
     members: list[StackMember]
+    shapes: tuple[MeshShape, ...]
     from_mass: Mask
     density: Array
     volume: Moments
@@ -139,6 +150,10 @@ class MeasuredStack:
     location: Array
     fingerprints: list[str]
     findings: list[tuple[Finding, ...]]
+
+    def shape(self, i: int) -> MeshShape:
+        """Return the shape of one member."""
+        return self.shapes[self.members[i].shape]
 
     def some(self, which: list[int]) -> MeasuredStack:
         """Return the stack of the members with these indices."""
@@ -179,7 +194,7 @@ class MeasuredStack:
     def measurement(self, i: int) -> Measurement:
         """Return the measurement of one member."""
         obj = self.members[i].obj
-        shape = self.members[i].shape
+        shape = self.shape(i)
         volume = self.volume.at(i)
         density = self.density[i]
         return build_measurement(
@@ -205,7 +220,7 @@ class MeasuredStack:
 
 @dataclass(frozen=True, eq=False)
 class Stacked:
-    """One object's measurement in a stack, the counterpart of `Measured`."""
+    """One object's measurement in a stack."""
 
     stack: MeasuredStack
     index: int
@@ -224,12 +239,13 @@ class Stacked:
 
     @property
     def method(self) -> Method:
-        return self.stack.members[self.index].shape.method
+        return self.stack.shape(self.index).method
 
-    @property
-    def shape_digest(self) -> bytes | None:
-        """Digest of the object's surface; None for a large one."""
-        return self.stack.members[self.index].shape.digest
+    def shape_digest(self, obj: bpy.types.Object) -> bytes | None:
+        return self.stack.shape(self.index).digest
+
+    def alone(self, obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> MeasuredBody:
+        return measure_body(obj, depsgraph)
 
 
 def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> MeasuredStack | None:
@@ -237,8 +253,8 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
     same unit.
     """
     unit = members[0].settings.unit
-    own, own_area = measure_shapes(shapes)
-    which = np.array([member.shape.row for member in members])
+    measured, own, own_area = measure_shapes(tuple(shapes))
+    which = np.array([member.shape for member in members])
     matrices = np.array([member.matrix for member in members], np.float64)
     usable = np.isfinite(matrices).all(axis=(1, 2))
     usable &= own.raw[which, 0] > own.rounding_error[which, 0]
@@ -250,7 +266,7 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
         return None
     matrices[:, :3] *= unit
     volume = image(own.at(which), matrices)
-    area = _areas(own_area.at(which), matrices, members)
+    area = _areas(own_area.at(which), matrices, [measured[row] for row in which])
     density, mass = np.array(
         [(member.settings.density, member.settings.mass) for member in members], np.float64
     ).T
@@ -278,6 +294,7 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
     geometry = np.ascontiguousarray(np.concatenate([volume.raw, area.raw], axis=1))
     return MeasuredStack(
         members,
+        measured,
         from_mass,
         density,
         volume,
@@ -290,24 +307,24 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
             fingerprint(numbers, transform_key(each.obj), each.digest)
             for numbers, each in zip(geometry, members)
         ],
-        [_findings(*each) for each in zip(members, find_large_bounds(volume, area, properties))],
+        [
+            _findings(member.obj, measured[member.shape].findings + bounds)
+            for member, bounds in zip(members, find_large_bounds(volume, area, properties))
+        ],
     )
 
 
-def _findings(member: StackMember, bounds: tuple[Finding, ...]) -> tuple[Finding, ...]:
-    """Return the findings about the member's shape and `bounds`, with the object's accepted ones
-    marked.
-    """
-    found = member.shape.findings + bounds
-    return with_acceptance(found, accepted_codes(member.obj)) if found else ()
+def _findings(obj: bpy.types.Object, found: tuple[Finding, ...]) -> tuple[Finding, ...]:
+    """Return the findings about an object, with its accepted ones marked."""
+    return with_acceptance(found, accepted_codes(obj)) if found else ()
 
 
 def _chosen(members: list[StackMember], which: NDArray) -> list[StackMember]:
     return [members[i] for i in (np.flatnonzero(which) if which.dtype == bool else which).tolist()]
 
 
-def _areas(area: Moments, matrices: NDArray, members: list[StackMember]) -> Moments:
-    """Return the areas mapped by the members' matrices; surfaces are measured again if a matrix is
+def _areas(area: Moments, matrices: NDArray, shapes: list[MeshShape]) -> Moments:
+    """Return the areas of shapes mapped by matrices; surfaces are measured again if a matrix is
     no similarity.
     """
     even = are_similarities(matrices[:, :3, :3])
@@ -317,7 +334,7 @@ def _areas(area: Moments, matrices: NDArray, members: list[StackMember]) -> Mome
     regular[~even, :3, :3] = np.eye(3)
     placed = image(area, regular)
     for i in np.flatnonzero(~even).tolist():
-        shape = members[i].shape
+        shape = shapes[i]
         surface = shape.surface if shape.alone is None else shape.alone.given_surface
         found = area_of_images(surface, matrices[i : i + 1, :3, :3])
         for name in ("raw", "rounding_error", "input_error", "about"):

@@ -1,0 +1,110 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measurement of one object alone: the first kind of body that can read it is measured.
+
+Each kind is a module with MEASURED_AS, the values of the setting Kind (solid, shell, wire) with
+which it is tried, and two functions: `read(request)` returns a reading, or None if the object is of
+another kind; `body(reading, request)` returns the body. Both raise MeasureError if nothing can be
+measured. `measure_object` measures plain solids together, and all others here.
+"""
+
+from __future__ import annotations
+
+import os
+from contextlib import ExitStack
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
+
+import bpy
+
+from ...core.bodies import Reading, name_subject
+from ...core.inertia import MassProperties
+from ...core.measurement import Body, Measurement
+from ...core.verdict import Finding, Method
+from ..read.mesh import read_digest
+from ..settings.options import AS_SET, MeasureOptions
+from . import grid, mesh, nurbs, wire
+from .assembly.given import point_measurement, read_point, with_given
+from .flat import flat
+from .request import Request, measurement_of
+
+if TYPE_CHECKING:
+    from .stack import MeasuredStack
+
+THREADS = os.cpu_count() or 1  # for long measurements
+KINDS = (grid, wire, flat, mesh, nurbs)
+
+
+class Measured(Protocol):
+    """One object's measurement: in a stack, or alone."""
+
+    @property
+    def stack(self) -> MeasuredStack | None: ...
+    @property
+    def index(self) -> int: ...
+    @property
+    def measurement(self) -> Measurement: ...
+    @property
+    def findings(self) -> tuple[Finding, ...]: ...
+    @property
+    def mass_properties(self) -> MassProperties: ...
+    @property
+    def method(self) -> Method: ...
+
+    def shape_digest(self, obj: bpy.types.Object) -> bytes | None:
+        """Return the digest of the object's surface; None if it is large or not the whole shape."""
+        ...
+
+    def alone(self, obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> MeasuredBody:
+        """Return the measurement of the object alone."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class MeasuredBody:
+    """One object's measurement, with its reading and body; in no stack."""
+
+    measurement: Measurement
+    reading: Reading
+    body: Body
+    stack: MeasuredStack | None = None
+    index: int = 0
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        return self.measurement.findings
+
+    @property
+    def mass_properties(self) -> MassProperties:
+        return self.measurement.mass_properties
+
+    @property
+    def method(self) -> Method:
+        return self.measurement.method
+
+    def shape_digest(self, obj: bpy.types.Object) -> bytes | None:
+        reading = self.reading
+        return read_digest(obj, reading) if isinstance(reading, Reading) else None
+
+    def alone(self, obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> MeasuredBody:
+        return self
+
+
+def measure_body(
+    obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
+) -> MeasuredBody:
+    """Return the measurement of one evaluated object with its reading and body, or raise
+    MeasureError.
+    """
+    with name_subject(obj.name), ExitStack() as opened:
+        request = Request.resolve(obj, depsgraph, options, opened=opened)
+        point = read_point(request)
+        if point is not None:
+            measurement, body = point_measurement(point, request)
+            return MeasuredBody(measurement, point, body)
+        kinds = (kind for kind in KINDS if request.settings.kind in kind.MEASURED_AS)
+        found = ((kind, kind.read(request)) for kind in kinds)
+        # The last kind raises MeasureError in place of returning None.
+        kind, reading = next((kind, reading) for kind, reading in found if reading is not None)
+        body = with_given(kind.body(reading, request), reading, request)
+        return MeasuredBody(measurement_of(reading, body, request), reading, body)
