@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import signal
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -14,7 +15,7 @@ from ..core.measurement import print_message
 PERIOD = 5.0  # seconds between reports of progress
 _NAMES = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
 
-_requested = False
+_requested = threading.Event()
 
 
 @contextmanager
@@ -25,13 +26,11 @@ def interruptible() -> Iterator[None]:
     Only the first signal counts: nothing disturbs the cleanup after it. An ignored signal, as in
     the background of a shell, stays ignored.
     """
-    global _requested
-    _requested = False
+    _requested.clear()
     before = {}
 
     def stop(_number: int, _frame: object) -> None:
-        global _requested
-        _requested = True
+        _requested.set()
         for number in before:
             signal.signal(number, signal.SIG_IGN)
         raise KeyboardInterrupt
@@ -51,7 +50,7 @@ def check_interruption() -> None:
     """Raise KeyboardInterrupt if a signal has come: an importer may have turned the first one into
     its own error.
     """
-    if _requested:
+    if _requested.is_set():
         raise KeyboardInterrupt
 
 

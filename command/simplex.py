@@ -99,19 +99,19 @@ def _measure(options: argparse.Namespace) -> dict[str, Any]:
     findings = [] if is_closed else [finding(SIMPLEX_OPEN)]
     for one in findings:
         print_message(options.file, one)
-    record: dict[str, Any] = {
-        "schema": "body-moments-simplex/1",
-        "file": str(options.file),
-        "dimension": dimension,
-        "simplices": len(simplices),
-        "closed": is_closed,
-        "order": options.order,
-        "about": about.tolist(),
-        **_as_record(
-            enclosed_moments(points, facets, options.order, about, signs, allow_open=True)
-        ),
-        **described(findings),
-    }
+    record: dict[str, Any] = (
+        {
+            "schema": "body-moments-simplex/1",
+            "file": str(options.file),
+            "dimension": dimension,
+            "simplices": len(simplices),
+            "closed": is_closed,
+            "order": options.order,
+            "about": about.tolist(),
+        }
+        | _as_record(enclosed_moments(points, facets, options.order, about, signs, allow_open=True))
+        | described(findings)
+    )
     if options.boundary:
         outer = facets if facets is simplices else outer_facets(points, facets, signs)
         record["boundary"] = _as_record(facet_moments(points, outer, options.order, about))

@@ -14,8 +14,8 @@ from bpy.types import Object
 
 from ...core.measurement import FRAMES, record
 from ...core.verdict import internal_error
-from ..bodies.measure_body import Measured
 from ..bodies.measure_object import measure_many
+from ..bodies.stack import Measured
 from ..settings.options import MeasureOptions
 from ..write.remedies import REMEDIES, REPAIR, remedies_of
 from .stored.density import noted
@@ -170,8 +170,7 @@ def _description(
     if not is_stored and entry["numbers"] is not None:
         calls.append("describe({!r}, store=True)".format(obj.name))
     kept = ("name", "verdict", "method", "kind", "numbers", "error_bound")
-    return {
-        **{name: entry[name] for name in kept if name in entry},
+    return {name: entry[name] for name in kept if name in entry} | {
         "units": UNITS,
         "frame": frame,
         "findings": findings,

@@ -129,7 +129,7 @@ def _of_all(name: str, function: Any, keywords: dict[str, Any]) -> Any:
         _set_all(name, items[new] if items else new)
 
     kept = {key: known for key, known in keywords.items() if key not in ("update", "override")}
-    return function(**{**kept, "options": set(), "get": read, "set": write})
+    return function(**(kept | {"options": set(), "get": read, "set": write}))
 
 
 def _find_volumes(_settings: PropertyGroup, _context: Context, _text: str) -> list[str]:
@@ -140,7 +140,7 @@ class BodyMomentsSelectionSettings(PropertyGroup):
     """Settings of the selected objects: each shows the first object's, and sets that of all."""
 
 
-ANNOTATIONS = {**GivenPartProperties.__annotations__, **BodyMomentsObjectSettings.__annotations__}
+ANNOTATIONS = GivenPartProperties.__annotations__ | BodyMomentsObjectSettings.__annotations__
 BodyMomentsSelectionSettings.__annotations__ = {
     name: _of_all(name, ANNOTATIONS[name].function, ANNOTATIONS[name].keywords)
     for name in NAMES

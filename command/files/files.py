@@ -41,8 +41,7 @@ _ANIMATED: dict[str, Callable[[str, float | None], Opened]] = {
     ".fbx": import_fbx,
     ".glb": import_gltf,
     ".gltf": import_gltf,
-    **dict.fromkeys(USD, import_usd),
-}
+} | dict.fromkeys(USD, import_usd)
 _IMPORTERS: dict[str, Callable[[str], object]] = {
     ".stl": import_mesh,
     ".ply": import_mesh,

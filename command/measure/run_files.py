@@ -230,7 +230,7 @@ class _Supervised:
         known = []
         if self._options.resume:
             entries = {path: journal.entries.get(path) for path in self.tasks}
-            keys = {path: {"path": path, **state(path), **common} for path in self.tasks}
+            keys = {path: ({"path": path} | state(path) | common) for path in self.tasks}
             given = run_of(self._options)["options"]
             retried = self._options.retry_failed
             reasons = {
@@ -251,11 +251,11 @@ class _Supervised:
             for outcome in pool.step():
                 status, reason, text = self._recorded(outcome, blender)
                 head = {
-                    "key": {
-                        "path": outcome.task,
-                        **outcome.head.get("state", state(outcome.task)),
-                        **common,
-                    },
+                    "key": (
+                        {"path": outcome.task}
+                        | outcome.head.get("state", state(outcome.task))
+                        | common
+                    ),
                     "status": status,
                     "attempts": outcome.attempts,
                     "seconds": round(outcome.seconds, 6),

@@ -119,7 +119,7 @@ class Journal:
         head: its key, status, attempts, seconds, limits, and `reads`, the files that it refers to,
         each with its `state`. document: JSON on one line. Raises OSError.
         """
-        record = {"schema": SCHEMA, **head}
+        record = {"schema": SCHEMA} | head
         line = json.dumps(record)[:-1].encode() + b', "document": ' + document.strip() + b"}\n"
         offset = self._file.seek(0, os.SEEK_END)
         if self._torn:

@@ -76,7 +76,7 @@ def write_lines(paths: Iterable[str], parts: int = 1) -> Iterator[str]:
     """
     paths = list(paths)
     divided = {"parts": parts} if parts > 1 else {}
-    yield json.dumps({"schema": SCHEMA, "files": len(paths), **divided}) + "\n"
+    yield json.dumps({"schema": SCHEMA, "files": len(paths)} | divided) + "\n"
     for path in paths:
         yield json.dumps({"path": path}) + "\n"
 

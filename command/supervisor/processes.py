@@ -68,7 +68,7 @@ def start(command: Sequence[str], folder: Path, log: Path) -> subprocess.Popen[b
     """
     folder.mkdir()
     temporary = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder))
-    environment = {**os.environ, **temporary, "BLENDER_USER_RESOURCES": str(folder / "user")}
+    environment = os.environ | temporary | {"BLENDER_USER_RESOURCES": str(folder / "user")}
     with open(log, "ab") as errors:
         return subprocess.Popen(
             command,

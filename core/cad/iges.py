@@ -96,14 +96,16 @@ REFUSED = {
     430: "Solid Instance",
 }
 PARTS = {FACE: "Face", SHELL: "Shell"}  # A solid or a file has them.
-NAMES = {
-    SURFACE: "Rational B-Spline Surface",
-    TRIMMED: "Trimmed Surface",
-    INSTANCE: "Subfigure Instance",
-    SOLID: "Manifold Solid B-Rep",
-    **PARTS,
-    **REFUSED,
-}
+NAMES = (
+    {
+        SURFACE: "Rational B-Spline Surface",
+        TRIMMED: "Trimmed Surface",
+        INSTANCE: "Subfigure Instance",
+        SOLID: "Manifold Solid B-Rep",
+    }
+    | PARTS
+    | REFUSED
+)
 # Index of the parameter that points to the surface or solid which an entity refers to.
 REFERENCES = {TRIMMED: 0, 140: 4, 143: 1, 430: 0, FACE: 0}
 CURVES = {100, 102, 104, 106, 110, 112, 116, 126, 130}  # Curves and points, which bound nothing.

@@ -83,7 +83,7 @@ def document(
     """
     errors = list(errors)
     if frame != "world":
-        total = {"frame": "world", **total}
+        total = {"frame": "world"} | total
     return {
         "schema": SCHEMA,
         "blender": blender,

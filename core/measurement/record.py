@@ -204,7 +204,7 @@ def _moments_record(
         }
 
     bounds = {"error": tables("rounding_error"), "input": tables("input_error")}
-    return {"order": order, "about": about, **tables("raw"), **bounds}
+    return {"order": order, "about": about} | tables("raw") | bounds
 
 
 def flat_record(
@@ -239,10 +239,10 @@ def flat_record(
         "type": kind,
         "area": moments.total,
         "centroid": to_frame(centroid),
-        "plane": {
-            "origin": to_frame(plane.origin),
-            **{key: axes.T @ axis for key, axis in zip(("x", "y", "normal"), plane.axes.T)},
-        },
+        "plane": (
+            {"origin": to_frame(plane.origin)}
+            | {key: axes.T @ axis for key, axis in zip(("x", "y", "normal"), plane.axes.T)}
+        ),
         "second_moments": {"xx": central[2, 0, 0], "yy": central[0, 2, 0], "xy": central[1, 1, 0]},
     }
     if order is not None:

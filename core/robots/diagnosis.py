@@ -279,7 +279,7 @@ def _with_density(found: Diagnosis, stated: StatedInertial, reference: Reference
 
 def _finding(code: str, values: dict, agree: str = "inertial and geometry") -> Finding:
     """Return the finding about a change. agree: what agrees after a change of units."""
-    more: dict[str, Any] = {**values, "agree": agree} if code == AUDIT_UNIT else values
+    more: dict[str, Any] = (values | {"agree": agree}) if code == AUDIT_UNIT else values
     return finding(code, **more)
 
 

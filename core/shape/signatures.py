@@ -86,7 +86,7 @@ class Signature:
     def as_record(self) -> dict:
         """Return the arrays and the size by name, for JSON."""
         dimension = {} if self.dimension == 3 else {"dimension": self.dimension}
-        return {**dimension, "size": self.size, **{name: getattr(self, name) for name in ARRAYS}}
+        return dimension | {"size": self.size} | {name: getattr(self, name) for name in ARRAYS}
 
     @classmethod
     def from_record(cls, record: dict) -> Signature:

@@ -157,7 +157,7 @@ METHODS = {
     "wall": ("Wall", "The mass is in a wall of real thickness"),
     "union": (
         "Union",
-        "Overlapping components were united by Blender's exact Boolean, accurate to 7 digits",
+        "Overlapping components were united by Blender's Boolean, accurate to 7 digits",
     ),
     "wire": ("Wire", "The mass is along the curve"),
     "given": ("Given", "The mass is given; there is no geometry"),

@@ -210,8 +210,7 @@ class Shape:
             "unique": unique,
             "angle_bound": angle,
             "position_bound": position,
-            **pose,
-        }
+        } | pose
 
     def _point_group(self) -> dict[str, Any]:
         """Return the body's point group, and the order of the moments that show it.
@@ -418,7 +417,7 @@ def signed_in_turn(
     def signed(obj: bpy.types.Object) -> Signature | Shape:
         outcome = measured(obj)
         if outcome.stack is None:
-            return surface_shape(outcome.alone(obj, depsgraph))
+            return surface_shape(outcome)
         if outcome.stack not in known:
             known.clear()
             known[outcome.stack] = stack_signatures(outcome.stack, order)

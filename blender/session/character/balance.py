@@ -276,7 +276,7 @@ def balance_pose(
     gap = float(np.linalg.norm(search.gap(after.parts.center)))
     lengths = {"gap": gap, "margin": after.support.margin}
     values = {name: distance(unit * value) for name, value in lengths.items()}
-    return {"bone": moved.bone.name, **values}
+    return {"bone": moved.bone.name} | values
 
 
 def _handles(context: Context, armature: Object, known: Character, name: str) -> Iterator[_Handle]:

@@ -59,7 +59,7 @@ def document(file: str, audit: Audit, repaired: str | None) -> dict[str, Any]:
     form = audit.description.format
     robot = audit.description.name
     head = {"schema": SCHEMA, "file": file, "status": "ok", "format": form, "robot": robot}
-    return with_status(plain({**head, "repaired": repaired, "links": links, "errors": []}))
+    return with_status(plain(head | {"repaired": repaired, "links": links, "errors": []}))
 
 
 def with_status(document: dict[str, Any]) -> dict[str, Any]:
@@ -79,9 +79,8 @@ def count_findings(document: dict[str, Any]) -> dict[str, int]:
         *(found for link in document["links"] for found in link["findings"]),
     ]
     levels = [one["severity"] for one in found if not one.get("known")]
-    return {
-        "links": len(document["links"]),
-        **{str(level) + "s": levels.count(level) for level in Severity},
+    return {"links": len(document["links"])} | {
+        str(level) + "s": levels.count(level) for level in Severity
     }
 
 
@@ -115,9 +114,8 @@ def _finding(one: Finding) -> dict[str, Any]:
 def _entry(one: Entry, link: LinkAudit, file: str) -> dict[str, Any]:
     """Return one fault as a record. file: of the description, which the place may differ from."""
     place = {"file": one.place.file or file, "line": one.place.line, "column": one.place.column}
-    head = {**_finding(one.finding), "severity": str(one.severity), "message": one.message, **place}
-    return {
-        **head,
+    head = _finding(one.finding) | {"severity": str(one.severity), "message": one.message} | place
+    return head | {
         "reasons": [_finding(reason) for reason in one.reasons],
         "stated": _inertial(link.link.inertial) if one.compares else None,
         "geometry": _inertial(link.geometry)

@@ -97,8 +97,9 @@ class _Document:
             if not shape.seen:
                 holder = self._node(link.name + " hull", Pose())
                 self.unseen.add(holder)
-            self.nodes[holder]["mesh"] = self._mesh(shape.surface)
-            geometry = {"node": holder, "convexHull": True}
+            mesh = self.nodes[holder]["mesh"] = self._mesh(shape.surface)
+            # The draft of 2026 names the mesh, the one before a node that holds it.
+            geometry = {"mesh": mesh, "node": holder, "convexHull": True}
         else:
             index = self._node("{} {}".format(link.name, shape.kind), shape.pose, parent)
             geometry = {"shape": len(self.shapes)}
@@ -135,8 +136,8 @@ class _Document:
                 "componentType": component,
                 "type": kind,
                 "count": count,
-                **more,
             }
+            | more
         )
         return len(accessors) - 1
 
@@ -151,7 +152,7 @@ class _Document:
         self.nodes[own]["extensions"] = {KHR: {"joint": reference}}
         drives = _drives(joint, turn)
         more = {"drives": drives} if drives else {}
-        self.joints.append({"name": joint.name, "limits": _limits(joint, turn), **more})
+        self.joints.append({"name": joint.name, "limits": _limits(joint, turn)} | more)
 
     def text(self, remarks: Sequence[str]) -> str:
         children = self.unseen.union(*(node.get("children", ()) for node in self.nodes))
@@ -212,7 +213,7 @@ def _limits(joint: Joint, turn: NDArray) -> list[dict[str, Any]]:
         )
         ends = {name: value for name, value in (("min", low), ("max", high)) if abs(value) < inf}
         if ends:
-            limits.append({kind: [axis], **ends})
+            limits.append({kind: [axis]} | ends)
     return [
         *({kind: sorted(axes), "min": 0.0, "max": 0.0} for kind, axes in held.items() if axes),
         *limits,
@@ -229,7 +230,7 @@ def _drives(joint: Joint, turn: NDArray) -> list[dict[str, Any]]:
         if values:
             kind = "angular" if free.kind == "rotate" else "linear"
             drives.append(
-                {"type": kind, "mode": "force", "axis": _direction(free, turn)[1], **values}
+                {"type": kind, "mode": "force", "axis": _direction(free, turn)[1]} | values
             )
     return drives
 

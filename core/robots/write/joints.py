@@ -19,10 +19,10 @@ from .text import unique_names
 _DRIVE = {"damping": "damping", "stiffness": "stiffness", "effort": "maxForce"}
 NAMES = {
     "URDF": {name: name for name in ("damping", "friction", "effort", "velocity", "mimic")},
-    "SDF": {
-        "stiffness": "spring_stiffness",
-        **{name: name for name in ("damping", "friction", "effort", "velocity")},
-    },
+    "SDF": (
+        {"stiffness": "spring_stiffness"}
+        | {name: name for name in ("damping", "friction", "effort", "velocity")}
+    ),
     "MJCF": {
         "damping": "damping",
         "friction": "frictionloss",
