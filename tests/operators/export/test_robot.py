@@ -12,9 +12,9 @@ import bpy
 import numpy as np
 from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.bodies.rig import measure_rig
+from body_moments.core.files import gltf_document
 from body_moments.core.inertia.mass_properties import combine
 from body_moments.core.numerics.rotations import rotation_matrix
-from body_moments.core.files import gltf_document
 
 from tests.blender.characters import armature_of, pose, skin_of
 from tests.blender.exported_robots import SUFFIXES, assert_filled, exported_links
