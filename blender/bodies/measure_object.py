@@ -18,8 +18,8 @@ from ...core.verdict import internal_error
 from ..read.mesh import mesh_surface, plain_mesh
 from ..read.places import has_places, world_matrices
 from ..settings.options import AS_SET, MeasureOptions, object_settings
-from .measure_body import Measured, measure_body
-from .stack import MeshShape, Stacked, StackMember, measure_members
+from .measure_body import measure_body
+from .stack import Measured, MeshShape, Stacked, StackMember, measure_members
 
 MAX_OBJECTS_PER_STACK = 512
 MAX_STACKED_FACES = 20_000  # of one mesh
@@ -165,9 +165,10 @@ class _Collector:
         return settings if settings.kind == "solid" and settings.overlap == "signed" else None
 
     def _digest(self, settings: Settings) -> str:
-        if settings not in self._digests:
-            self._digests[settings] = settings.digest
-        return self._digests[settings]
+        known = self._digests.get(settings)
+        if known is None:
+            known = self._digests[settings] = settings.digest
+        return known
 
     def _read(self, mesh: bpy.types.Mesh) -> int | None:
         """Return the index of the shape of a mesh; None if it has to be measured alone."""

@@ -29,7 +29,7 @@ from ...core.verdict import DefectiveElements, Finding, MeshHealth, Method, Proc
 from ..read.fingerprint import transform_key
 from ..read.mesh import MAX_DIGESTED_FACES, surface_digest
 from ..settings.accepted import accepted_codes, with_acceptance
-from .measure_body import MeasuredBody, measure_body
+from .measure_body import MeasuredBody
 
 METHODS = {verdict: Method(verdict) for verdict in Procedure}
 
@@ -241,11 +241,12 @@ class Stacked:
     def method(self) -> Method:
         return self.stack.shape(self.index).method
 
-    def shape_digest(self, obj: bpy.types.Object) -> bytes | None:
+    def shape_digest(self, _obj: bpy.types.Object) -> bytes | None:
+        """Return the digest of the object's surface; None for a large one."""
         return self.stack.shape(self.index).digest
 
-    def alone(self, obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> MeasuredBody:
-        return measure_body(obj, depsgraph)
+
+Measured = Stacked | MeasuredBody
 
 
 def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> MeasuredStack | None:

@@ -16,7 +16,7 @@ import bpy
 
 from ...blender import session
 from ...blender.bodies.flat.flat import NO_BODY
-from ...blender.bodies.measure_body import Measured
+from ...blender.bodies.stack import Measured
 from ...blender.read.assembly import operands_of, total_caveats
 from ...blender.read.tracking import tracking_paused
 from ...blender.session.tracking.staleness import mark_up_to_date

@@ -64,8 +64,8 @@ from ..findings import (
     MEMBERS_LEFT_OUT,
     MEMBERS_NOT_MEASURED,
 )
-from ..measure_body import Measured
 from ..measure_object import measure_many
+from ..stack import Measured
 from .given import given_moments
 
 NOTHING: Extent = (0.0, 0.0, 0.0)
