@@ -91,7 +91,8 @@ def plan_colliders(
     shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
     masses = uniform_masses(measurement.density, shapes)
     if correct == "VERTICES":
-        shapes = correct_vertices(body, shapes, surface, wanted.outward, wanted.inward)
+        tolerances = wanted.outward, wanted.inward
+        shapes = yield from correct_vertices(body, shapes, surface, *tolerances)
         shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
         masses = uniform_masses(measurement.density, shapes)
     if correct == "MASSES":
