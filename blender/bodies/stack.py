@@ -113,12 +113,11 @@ def measure_shapes(
 class StackMember:
     """An object that may join a stack.
 
-    `number`: index among the collected objects. `shape`: index of its shape. `digest`: digest of
-    the settings. `matrix`: (4, 4) map from the mesh's coordinates to the world, Blender units.
+    `shape`: index of its shape. `digest`: digest of the settings.
+    `matrix`: (4, 4) map from the mesh's coordinates to the world, Blender units.
     `location`, `quaternion`: the object's frame.
     """
 
-    number: int
     obj: bpy.types.Object
     shape: int
     settings: Settings
