@@ -16,7 +16,8 @@ import bpy
 
 from ...blender import session
 from ...blender.bodies.flat.flat import NO_BODY
-from ...blender.bodies.measure_body import Measured
+from ...blender.bodies.overlaps import overlap_caveats
+from ...blender.bodies.stack import Measured
 from ...blender.read.assembly import operands_of, total_caveats
 from ...blender.read.tracking import tracking_paused
 from ...blender.session.tracking.staleness import mark_up_to_date
@@ -117,6 +118,9 @@ class Scene:
         if options.object is None:  # A user who names objects knows what their total means.
             contents.caveats += total_caveats(
                 [obj for _, obj, _ in contents.measured], bpy.context.view_layer
+            )
+            contents.caveats += overlap_caveats(
+                [obj for _, obj, _ in contents.measured], bpy.context.evaluated_depsgraph_get()
             )
             contents.caveats += other_scenes(bpy.context.scene)
             self._combined = measure_combined(
