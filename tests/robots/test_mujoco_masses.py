@@ -210,3 +210,23 @@ def test_parts_of_a_model_are_attached_to_itself(tmp_path):
         MODEL.format(head, '<body name="a"><geom/><attach body="a" prefix="b_"/></body>')
     )
     assert [one.name for one in read_description(path).links] == ["a", "b_a"]
+
+
+def test_mesh_in_the_format_of_mujoco_is_read(tmp_path):
+    counts, faces = np.array([4, 0, 4, 4], "<i4"), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    points = np.array([[0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 3]], "<f4")
+    parts = counts, points, np.zeros((4, 2), "<f4"), np.array(faces, "<i4")
+    data = b"".join(part.tobytes() for part in parts)
+    model = MODEL.format(
+        '<asset><mesh file="m.msh"/></asset>', '<body><geom type="mesh" mesh="m"/></body>'
+    )
+    (tmp_path / "m.msh").write_bytes(data)
+    (one,) = audited(tmp_path / "m.xml", model)
+    assert one.link.from_shapes and not one.entries
+    for damaged in (data[:-1], data + b"0", data[:10], b"\xff" + data[1:]):
+        (tmp_path / "m.msh").write_bytes(damaged)
+        path = tmp_path / "m.xml"
+        (one,) = Auditor(Roots.for_file(path)).audit(read_description(path)).links
+        # The mass is unknown, and the report says why.
+        assert one.link.inertial is None
+        assert [entry.finding.code for entry in one.entries] == ["mesh_unreadable"]
