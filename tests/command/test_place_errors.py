@@ -12,7 +12,6 @@ import bpy
 
 from tests.blender import batch_files as files
 from tests.blender.batch_files import measured
-from tests.command.test_import_fbx import turn
 
 pytestmark = pytest.mark.usefixtures("registered")
 
@@ -32,7 +31,7 @@ def test_center_in_a_blend_is_within_its_bound(tmp_path, far, seed):
         obj.rotation_euler, obj.scale = np.radians(angles), scale
         obj.parent = parent
         own = np.eye(4)
-        own[:3, :3], own[:3, 3] = turn(angles) * scale, move
+        own[:3, :3], own[:3, 3] = files.turn(angles) * scale, move
         place, parent = place @ own, obj
     box = files.add_box(center=(0, 0, 0))
     box.location = move = rng.uniform(0.5, 1.0, 3) * (far or 1.0)
