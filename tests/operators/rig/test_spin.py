@@ -239,6 +239,22 @@ def test_take_off_between_keys_divides_the_curve(scene, reach):
         assert np.abs(np.subtract(after, before[curve.data_path, curve.array_index])).max() < 1e-6
 
 
+def test_line_beyond_the_last_key_goes_on_from_a_held_key(scene):
+    """The flight ends within the last segment, which holds a value."""
+    rig = gymnast()
+    first, last = somersault(rig, 6, 24, "QUATERNION")
+    for curve in curves_of(rig):
+        curve.extrapolation = "LINEAR"
+        curve.keyframe_points.insert(last + 12, 0.7).interpolation = "LINEAR"
+        curve.keyframe_points[-2].interpolation = "CONSTANT"
+        curve.update()
+    beyond = np.arange(last + 4.0, last + 40.0, 0.5)
+    before = [[curve.evaluate(time) for time in beyond] for curve in curves_of(rig)]
+    assert PARABOLA(**typed((first, last + 4))) == {"FINISHED"}
+    after = [[curve.evaluate(time) for time in beyond] for curve in curves_of(rig)]
+    assert np.abs(np.subtract(after, before)).max() < 1e-5
+
+
 def test_easing_across_the_take_off_is_refused_by_name(scene):
     rig = gymnast()
     first, last = somersault(rig, 6, 24, "XYZ")
