@@ -273,8 +273,7 @@ def read_obj_faces(
 
 def _read_points(lines: Lines) -> Array:
     """Return the (n, 3) vertices of a block."""
-    is_vertex = lines.kinds[0]
-    values, at, _ = parse_decimals(lines.keep(is_vertex))
+    values, at, _ = parse_decimals(lines.keep(lines.kinds[0]))
     line = np.searchsorted(lines.starts, at, "right")
     first = np.flatnonzero(np.diff(line, prepend=-1))
     return values[first[:, None] + np.arange(3)]
@@ -284,8 +283,7 @@ def _read_faces(lines: Lines) -> tuple[NDArray[np.int64], NDArray[np.int64], Ind
     """Return the (k,) vertices of the faces of a block, the (m,) counts of their corners, and their
     lines' offsets.
     """
-    is_face = lines.has_kind("f")
-    at, role, value = lines.indices(is_face)
+    at, role, value = lines.indices(lines.has_kind("f"))
     at, value = at[role == 0], value[role == 0]
     line = np.searchsorted(lines.starts, at, "right") - 1
     is_backward = lines.letters[at] == ord("-")
