@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.numerics import Array, SplineSpace
-from ...core.nurbs import NON_FINITE_CONTROL_POINTS, Curve, blender_space
+from ...core.nurbs import CONTROL_POINTS_INVALID, NON_FINITE, Curve, blender_space
 from ...core.verdict.finding import Finding, ReadError, finding
 from .findings import (
     CURVE_MEASURED_WHOLE,
@@ -244,7 +244,7 @@ def _values(curves, name: str, item: str, shape: tuple[int, int], default: float
 
 def _require_finite(positions: NDArray, name: str) -> None:
     if not np.isfinite(positions).all():
-        raise ReadError(NON_FINITE_CONTROL_POINTS, subject=name)
+        raise ReadError(CONTROL_POINTS_INVALID, fault=NON_FINITE, subject=name)
 
 
 def _curve(
