@@ -123,7 +123,7 @@ class KeyedFlight(ModalDialog, OnArmature):
         followed = self._followed
         self._show_found(followed)
         followed.key(context, self.TURNS, self.anyway)
-        values = {"name": followed.armature.name, "start": followed.first, "end": followed.last}
+        values = {"name": followed.armature.name, "start": followed.first, "end": followed.landing}
         texts = [reports.phrase(self.DONE, off=followed.deviation, **values)]
         level = Severity.NOTE
         if followed.landing != followed.last:

@@ -20,6 +20,7 @@ from ..blender.session.stored.collider_tolerance import is_beyond_tolerance
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.session.tracking.stamps import of_colliders
 from ..blender.settings.given import COLLIDER, COLLIDERS
+from ..operators.setup.colliders import SHAPES
 from . import rows
 from .places import in_both_places
 
@@ -46,6 +47,9 @@ REMEDIES = {
         "Increase Outward and Inward, or allow more pieces.",
     ),
 }
+# No correction changes boxes, spheres, capsules and cylinders.
+PRIMITIVE_REMEDY = "Choose Convex Pieces, or a shape of equal inertia."
+SHAPE_NAMES = {key: name for key, name, _ in SHAPES}
 BEYOND = "The tolerance is not kept. Allow more pieces or vertices, or more distance."
 
 
@@ -62,24 +66,29 @@ class CollidersPanel:
             layout.label(text=body.name, icon="OBJECT_DATA", translate=False)
         group = None if body is None else body.get(COLLIDERS)
         stored = group if hasattr(group, "keys") and KEYS.issubset(group.keys()) else None
+        make_colliders = "object.body_moments_make_colliders"
         row = layout.row(align=True)
-        text = {} if stored is None else {"text": "Renew Colliders"}
-        make = rows.button(row, "object.body_moments_make_colliders", "MESH_ICOSPHERE", **text)
+        renew = {} if stored is None else {"text": "Renew Colliders"}
+        make = rows.button(row, make_colliders, "MESH_ICOSPHERE", **renew)
         if stored is None:
             rows.remark(layout, "Engines take mass, center and inertia from colliders.")
             return
         row.operator("object.body_moments_remove_colliders", text="", icon="X")
+        make.shape = kind = str(stored["shape"]).upper()
         _repeat(make, stored, str(stored["correct"]).upper())
-        rows.stale_row(layout, stale_reason(body, context.scene, of_colliders))
+        # These buttons show progress, and Esc cancels them; the redo panel cannot.
+        text = SHAPE_NAMES.get(kind, "Shape")
+        choice = layout.operator_menu_enum(make_colliders, "shape", text=text, icon="MESH_DATA")
+        _repeat(choice, stored, str(stored["correct"]).upper())
         row = layout.row(align=True)
-        for kind, label in (("NONE", "Off"), ("MASSES", "Masses"), ("VERTICES", "Vertices")):
-            is_chosen = stored["correct"] == kind.lower()
-            again = rows.button(
-                row, "object.body_moments_make_colliders", "NONE", text=label, depress=is_chosen
-            )
-            _repeat(again, stored, kind)
+        for correct, label in (("NONE", "Off"), ("MASSES", "Masses"), ("VERTICES", "Vertices")):
+            is_chosen = stored["correct"] == correct.lower()
+            again = rows.button(row, make_colliders, "NONE", text=label, depress=is_chosen)
+            again.shape = kind
+            _repeat(again, stored, correct)
         if stored["count"] > 1 and context.space_data.type == "VIEW_3D":
             layout.prop(context.space_data.shading, "wireframe_color_type", text="Wire Color")
+        rows.stale_row(layout, stale_reason(body, context.scene, of_colliders))
         column = layout.column(align=True)
         rows.filled(
             column, "1 Collider" if stored["count"] == 1 else "{:d} Colliders", stored["count"]
@@ -93,8 +102,10 @@ class CollidersPanel:
         )
         if max(changes) > SLIGHT:
             remedies = REMEDIES.get(stored["correct"], REMEDIES["none"])
+            kinds = {child[COLLIDER]["kind"] for child in body.children if COLLIDER in child}
+            remedy = remedies[stored["shape"] == "pieces"] if "mesh" in kinds else PRIMITIVE_REMEDY
             rows.remark(column, ANOTHER_BODY, icon="ERROR")
-            rows.remark(column, remedies[stored["shape"] == "pieces"])
+            rows.remark(column, remedy)
         else:
             rows.remark(column, "An engine simulates the body within 1%.", icon="CHECKMARK")
         if is_beyond_tolerance(stored):
@@ -121,8 +132,7 @@ class CollidersPanel:
 
 
 def _repeat(make: OperatorProperties, stored: Mapping[str, Any], correct: str) -> None:
-    """Set an operator to make the stored colliders again, with a kind of correction."""
-    make.shape = str(stored["shape"]).upper()
+    """Set an operator to make colliders with the stored limits, and with a kind of correction."""
     make.engine = str(stored["engine"]).upper()
     make.correct = correct
     if "tolerance" in stored and "limits" in stored:

@@ -102,8 +102,8 @@ def _remedies(context: Context, group: Group) -> tuple[str, ...]:
     """Return the remedies of a group about the subject alone; otherwise its objects can be
     selected.
     """
-    if not group.objects and group.finding.values.get("objects"):
-        return (SELECT,)  # a caveat about a total
+    if group.finding.values.get("objects"):
+        return (SELECT,)  # a caveat about a total or an assembly
     obj = subject(context)  # a collection may be shown without an object
     if group.objects and (obj is None or group.objects != (obj.name_full,)):
         return (SELECT,)
@@ -124,6 +124,8 @@ def _remedy(layout: UILayout, group: Group, remedy: str, with_text: bool = True)
     button = layout.operator(remedy, text=text, icon=ICONS[remedy], translate=False)
     if remedy == SELECT:
         button.code = group.finding.code
+        listed = group.finding.values.get("objects", ())
+        button.listed = "\n".join(one if isinstance(one, str) else one[0] for one in listed)
 
 
 def _accept(layout: UILayout, code: str, icon: str, text: str = "", accepted: bool = True) -> None:

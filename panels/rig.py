@@ -47,6 +47,10 @@ class BonesPanel:
         button.operator("object.body_moments_measure_bones", icon="BONE_DATA")
         if properties.stored(armature) is None:
             return
+        column = layout.column(align=True)
+        rows.button(column, "object.body_moments_physics_rig", "RIGID_BODY")
+        rows.button(column, "object.body_moments_rig_center", "EMPTY_AXIS")
+        rows.button(column, "object.body_moments_clear_bones", "TRASH")
         rows.stale_row(layout, stale_reason(armature, context.scene))
         units = rows.scene_units()
         measured = [
@@ -65,10 +69,6 @@ class BonesPanel:
             cell.label(text="{:.1f}%".format(100.0 * mass / total), translate=False)
         if len(measured) > LISTED:
             rows.filled(layout, "And {:d} more", len(measured) - LISTED)
-        column = layout.column(align=True)
-        rows.button(column, "object.body_moments_physics_rig", "RIGID_BODY")
-        rows.button(column, "object.body_moments_rig_center", "EMPTY_AXIS")
-        rows.button(column, "object.body_moments_clear_bones", "TRASH")
 
 
 class WeightPanel:

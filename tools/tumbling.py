@@ -132,7 +132,8 @@ def main() -> None:
     wanted = Wanted("hull", 0.0, 0.0, 1, 64)
     hulls = [replace(shape, mass=body.mass) for shape in run(make_colliders(surface, body, wanted))]
     corrected = [
-        replace(shape, mass=body.mass) for shape in correct_vertices(body, hulls, surface, 0.3, 0.3)
+        replace(shape, mass=body.mass)
+        for shape in run(correct_vertices(body, hulls, surface, 0.3, 0.3))
     ]
     start = body.principal.axes @ (0.2, SPIN, 0.2)
     motions = [simulated_motion(shape, start) for (shape,) in (hulls, corrected)]

@@ -25,6 +25,7 @@ __getattr__, __dir__, __all__ = lazy_names(
     measure_rig="rig",
     measured_in_turn="measure_object",
     object_transform="fourier",
+    overlap_caveats="overlaps",
     register_surfaces="shape.surface_distance",
     rig="rig",
     section_of="flat.flat",

@@ -4,6 +4,11 @@
 
 from ...core.verdict import error, note, warning
 
+BODIES_OVERLAP = note(
+    "bodies_overlap",
+    "“{first}” and “{second}” share space, which counts twice.",
+    "{count} pairs of bodies share space, which counts twice, such as “{first}” and “{second}”.",
+)
 UNION_BY_BOOLEAN = note(
     "union_by_boolean",
     "Overlapping components were united by Blender's Boolean, accurate to 7 digits.",

@@ -13,7 +13,6 @@ from __future__ import annotations
 import os
 from contextlib import ExitStack
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
 
 import bpy
 
@@ -28,36 +27,8 @@ from .assembly.given import point_measurement, read_point, with_given
 from .flat import flat
 from .request import Request, measurement_of
 
-if TYPE_CHECKING:
-    from .stack import MeasuredStack
-
 THREADS = os.cpu_count() or 1  # for long measurements
 KINDS = (grid, wire, flat, mesh, nurbs)
-
-
-class Measured(Protocol):
-    """One object's measurement: in a stack, or alone."""
-
-    @property
-    def stack(self) -> MeasuredStack | None: ...
-    @property
-    def index(self) -> int: ...
-    @property
-    def measurement(self) -> Measurement: ...
-    @property
-    def findings(self) -> tuple[Finding, ...]: ...
-    @property
-    def mass_properties(self) -> MassProperties: ...
-    @property
-    def method(self) -> Method: ...
-
-    def shape_digest(self, obj: bpy.types.Object) -> bytes | None:
-        """Return the digest of the object's surface; None if it is large or not the whole shape."""
-        ...
-
-    def alone(self, obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> MeasuredBody:
-        """Return the measurement of the object alone."""
-        ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,8 +38,7 @@ class MeasuredBody:
     measurement: Measurement
     reading: Reading
     body: Body
-    stack: MeasuredStack | None = None
-    index: int = 0
+    stack: None = None
 
     @property
     def findings(self) -> tuple[Finding, ...]:
@@ -83,11 +53,9 @@ class MeasuredBody:
         return self.measurement.method
 
     def shape_digest(self, obj: bpy.types.Object) -> bytes | None:
+        """Return the digest of the object's surface; None if it is large or not the whole shape."""
         reading = self.reading
         return read_digest(obj, reading) if isinstance(reading, Reading) else None
-
-    def alone(self, obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> MeasuredBody:
-        return self
 
 
 def measure_body(

@@ -9,6 +9,7 @@ Both ways give the same numbers. Large solids and varying densities join no stac
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 
 import bpy
 import numpy as np
@@ -18,8 +19,8 @@ from ...core.verdict import internal_error
 from ..read.mesh import mesh_surface, plain_mesh
 from ..read.places import has_places, world_matrices
 from ..settings.options import AS_SET, MeasureOptions, object_settings
-from .measure_body import Measured, measure_body
-from .stack import MeshShape, Stacked, StackMember, measure_members
+from .measure_body import measure_body
+from .stack import Measured, MeshShape, Stacked, StackMember, measure_members
 
 MAX_OBJECTS_PER_STACK = 512
 MAX_STACKED_FACES = 20_000  # of one mesh
@@ -43,16 +44,16 @@ def measure_many(
     """Measure original objects in batches; yield pairs of an object and its measurement or
     exception, in order.
     """
-    pending: list[tuple[bpy.types.Object, StackMember | None]] = []
     collector = _Collector(depsgraph, options)
     for obj in objects:
-        pending.append((obj, collector.add(obj)))
-        if len(pending) >= MAX_OBJECTS_PER_STACK or collector.faces >= MAX_FACES_PER_STACK:
-            yield from _outcomes(pending, collector)
-            pending = []
+        collector.add(obj)
+        if (
+            len(collector.objects) >= MAX_OBJECTS_PER_STACK
+            or collector.faces >= MAX_FACES_PER_STACK
+        ):
+            yield from collector.outcomes()
             collector = _Collector(depsgraph, options)
-    if pending:
-        yield from _outcomes(pending, collector)
+    yield from collector.outcomes()
 
 
 def measured_in_turn(
@@ -77,29 +78,6 @@ def measured_in_turn(
     return measured
 
 
-def _outcomes(
-    pending: list[tuple[bpy.types.Object, StackMember | None]], collector: _Collector
-) -> Iterator[list[tuple[bpy.types.Object, Outcome]]]:
-    """Yield the outcomes of the collected objects: stacked objects together, others one by one."""
-    stacked = collector.measure()
-    together: list[tuple[bpy.types.Object, Outcome]] = []
-    for obj, member in pending:
-        outcome: Outcome | None = None if member is None else stacked.get(member.number)
-        if outcome is None:
-            if together:
-                yield together
-                together = []
-            try:
-                outcome = measure_body(obj, collector.depsgraph, collector.options)
-            except Exception as error:
-                outcome = error
-            yield [(obj, outcome)]
-        else:
-            together.append((obj, outcome))
-    if together:
-        yield together
-
-
 class _Collector:
     """A collector of objects that are measured together."""
 
@@ -108,6 +86,7 @@ class _Collector:
         self.options = options
         self.scene = depsgraph.scene
         self.unit = options.meters_per_unit(self.scene)
+        self.objects: list[bpy.types.Object] = []
         self.members: list[StackMember] = []
         self.shapes: list[MeshShape] = []
         self.faces = 0
@@ -115,12 +94,13 @@ class _Collector:
         self._by_content: dict[tuple, int] = {}
         self._digests: dict[Settings, str] = {}
 
-    def add(self, obj: bpy.types.Object) -> StackMember | None:
-        """Return the object as a member of the stack, or None if it cannot be stacked or read."""
-        try:
-            return self._member(obj)
-        except Exception:
-            return None
+    def add(self, obj: bpy.types.Object) -> None:
+        """Add an object, as a member of the stack if it can be stacked and read."""
+        self.objects.append(obj)
+        with suppress(Exception):
+            member = self._member(obj)
+            if member is not None:
+                self.members.append(member)
 
     def _member(self, obj: bpy.types.Object) -> StackMember | None:
         settings = self._settings_of(obj)
@@ -136,8 +116,7 @@ class _Collector:
         matrix = obj.evaluated_get(self.depsgraph).matrix_world
         location, turn, _scale = matrix.decompose()
         placed = world_matrices(obj)[0] if has_places(obj) else np.array(matrix)
-        member = StackMember(
-            len(self.members),
+        return StackMember(
             obj,
             shape,
             settings,
@@ -146,8 +125,6 @@ class _Collector:
             tuple(placed[:3, 3].tolist()) if has_places(obj) else location.to_tuple(),
             (turn.w, turn.x, turn.y, turn.z),
         )
-        self.members.append(member)
-        return member
 
     def _settings_of(self, obj: bpy.types.Object) -> Settings | None:
         """Return the settings of a solid of one density or mass, or None for other objects."""
@@ -165,9 +142,10 @@ class _Collector:
         return settings if settings.kind == "solid" and settings.overlap == "signed" else None
 
     def _digest(self, settings: Settings) -> str:
-        if settings not in self._digests:
-            self._digests[settings] = settings.digest
-        return self._digests[settings]
+        known = self._digests.get(settings)
+        if known is None:
+            known = self._digests[settings] = settings.digest
+        return known
 
     def _read(self, mesh: bpy.types.Mesh) -> int | None:
         """Return the index of the shape of a mesh; None if it has to be measured alone."""
@@ -184,17 +162,34 @@ class _Collector:
         self._by_content[content] = len(self.shapes) - 1
         return len(self.shapes) - 1
 
-    def measure(self) -> dict[int, Measured]:
-        """Return the stacked measurements by member number; none if the stack fails and all must be
-        measured alone.
+    def outcomes(self) -> Iterator[list[tuple[bpy.types.Object, Outcome]]]:
+        """Yield the outcomes of the objects: stacked objects together, others one by one."""
+        stacked = self._measure()
+        together: list[tuple[bpy.types.Object, Outcome]] = []
+        for obj in self.objects:
+            if obj in stacked:
+                together.append((obj, stacked[obj]))
+                continue
+            if together:
+                yield together
+                together = []
+            try:
+                outcome: Outcome = measure_body(obj, self.depsgraph, self.options)
+            except Exception as error:
+                outcome = error
+            yield [(obj, outcome)]
+        if together:
+            yield together
+
+    def _measure(self) -> dict[bpy.types.Object, Measured]:
+        """Return the stacked measurements; none if the stack fails and all must be measured
+        alone.
         """
         try:
             stack = measure_members(self.members, self.shapes) if self.members else None
         except Exception as error:
             internal_error.finding_of(error)
             stack = None
-        return (
-            {}
-            if stack is None
-            else {member.number: Stacked(stack, i) for i, member in enumerate(stack.members)}
-        )
+        if stack is None:
+            return {}
+        return {member.obj: Stacked(stack, i) for i, member in enumerate(stack.members)}

@@ -29,7 +29,7 @@ from ...core.verdict import DefectiveElements, Finding, MeshHealth, Method, Proc
 from ..read.fingerprint import transform_key
 from ..read.mesh import MAX_DIGESTED_FACES, surface_digest
 from ..settings.accepted import accepted_codes, with_acceptance
-from .measure_body import MeasuredBody, measure_body
+from .measure_body import MeasuredBody
 
 METHODS = {verdict: Method(verdict) for verdict in Procedure}
 
@@ -113,12 +113,11 @@ def measure_shapes(
 class StackMember:
     """An object that may join a stack.
 
-    `number`: index among the collected objects. `shape`: index of its shape. `digest`: digest of
-    the settings. `matrix`: (4, 4) map from the mesh's coordinates to the world, Blender units.
+    `shape`: index of its shape. `digest`: digest of the settings.
+    `matrix`: (4, 4) map from the mesh's coordinates to the world, Blender units.
     `location`, `quaternion`: the object's frame.
     """
 
-    number: int
     obj: bpy.types.Object
     shape: int
     settings: Settings
@@ -241,11 +240,12 @@ class Stacked:
     def method(self) -> Method:
         return self.stack.shape(self.index).method
 
-    def shape_digest(self, obj: bpy.types.Object) -> bytes | None:
+    def shape_digest(self, _obj: bpy.types.Object) -> bytes | None:
+        """Return the digest of the object's surface; None for a large one."""
         return self.stack.shape(self.index).digest
 
-    def alone(self, obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> MeasuredBody:
-        return measure_body(obj, depsgraph)
+
+Measured = Stacked | MeasuredBody
 
 
 def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> MeasuredStack | None:

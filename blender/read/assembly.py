@@ -302,9 +302,8 @@ def total_caveats(objects: Collection[Object], view_layer: ViewLayer) -> list[Fi
         "Boolean operands": cutters,
         "Objects that are hidden, not rendered or displayed as wire or bounds": unseen,
     }
-    copies = copies_in_place(objects)
     return [
-        *([finding(TOTAL_COPIES_IN_PLACE, objects=copies)] if copies else []),
+        *copies_caveats(objects),
         *(
             finding(TOTAL_DOUBTFUL_PARTS, kind=kind, objects=names)
             for kind, names in doubtful.items()
@@ -313,12 +312,18 @@ def total_caveats(objects: Collection[Object], view_layer: ViewLayer) -> list[Fi
     ]
 
 
+def copies_caveats(objects: Iterable[Object]) -> list[Finding]:
+    """Return a warning about the objects that are copies left in place, if there are any."""
+    copies = copies_in_place(objects)
+    return [finding(TOTAL_COPIES_IN_PLACE, objects=copies)] if copies else []
+
+
 def copies_in_place(objects: Iterable[Object]) -> list[str]:
     """Return the names of objects that show the geometry of an earlier one at the same place."""
     seen: dict[tuple, list[Object]] = {}
     copies = []
     for obj in objects:
-        if obj.data is None or obj.instance_type != "NONE":
+        if not shows_collection(obj) and (obj.data is None or obj.instance_type != "NONE"):
             continue
         box = tuple(map(tuple, obj.bound_box))
         others = seen.setdefault((obj.type, tuple(map(tuple, obj.matrix_world)), box), [])
@@ -333,7 +338,7 @@ def _is_copy(obj: Object, other: Object) -> bool:
     sample of the vertices.
     """
     kinds = [[modifier.type for modifier in one.modifiers] for one in (obj, other)]
-    if kinds[0] != kinds[1]:
+    if kinds[0] != kinds[1] or obj.instance_collection != other.instance_collection:
         return False
     if obj.data == other.data:
         return True

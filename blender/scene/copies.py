@@ -16,7 +16,8 @@ in a render, is left out before.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import chain, islice
@@ -414,20 +415,46 @@ def _followers(objects: set[ID]) -> dict[ID, ID]:
         for user in users - {getattr(obj, "shape_keys", None)}:
             if not isinstance(user, (Object, *PLACES)) or obj in _pointed_at(user):
                 found[obj] = user
+    for user in _animated_data():
+        for obj in _read_by_drivers(user) & objects:
+            found.setdefault(obj, user)
+    return found
+
+
+def _animated_data() -> Iterator[ID]:
+    """Yield the data of the file that have drivers, node trees inside others included."""
+    for prop in bpy.data.bl_rna.properties:
+        if prop.type == "COLLECTION":
+            for data in getattr(bpy.data, prop.identifier):
+                for user in (data, getattr(data, "node_tree", None)):
+                    if getattr(user, "animation_data", None) is not None:
+                        yield user
+
+
+def _read_by_drivers(user: ID) -> set[ID]:
+    """Return the data that the drivers' variables name, or pass on the way along their paths."""
+    found: set[ID] = set()
+    variables = [each for curve in user.animation_data.drivers for each in curve.driver.variables]
+    for target in [target for variable in variables for target in variable.targets]:
+        path = target.data_path
+        starts = [target.id] if target.id is not None else [*bpy.data.scenes]
+        found.update(starts)
+        for start in starts:
+            for end in (end for end, letter in enumerate(path) if letter == "."):
+                with suppress(ValueError):  # of a point inside a name
+                    passed = start.path_resolve(path[:end])
+                    found |= {passed} if isinstance(passed, ID) else set()
     return found
 
 
 def _pointed_at(user: ID) -> set[ID]:
-    """Return the data that drivers, constraints, modifiers and the constraints of bones point
-    at.
-    """
-    curves = user.animation_data.drivers if getattr(user, "animation_data", None) else ()
-    variables = [variable for curve in curves for variable in curve.driver.variables]
-    pointed = {target.id for variable in variables for target in variable.targets}
+    """Return the data that an object's constraints, modifiers, effects and bones point at."""
+    pointed: set[ID] = set()
     if isinstance(user, Object):
         bones = user.pose.bones if user.pose is not None else ()
+        pointed |= {bone.custom_shape for bone in bones}
         constraints = [*user.constraints, *(each for bone in bones for each in bone.constraints)]
-        for each in (*constraints, *user.modifiers):
+        for each in (*constraints, *user.modifiers, *user.shader_effects):
             pointed |= {
                 getattr(each, prop.identifier)
                 for prop in each.bl_rna.properties

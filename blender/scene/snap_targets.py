@@ -23,9 +23,10 @@ from ...core.inertia import EQUAL_AXES, MassProperties, PrincipalFrame, zhang_ch
 from ...core.numerics import Array, polar_rotation
 from ...core.shape import MAX_FIT_RTOL, RigidMatch
 from ...core.verdict import EditRefusedError, Finding, Procedure
-from ..bodies.measure_body import Measured, MeasuredBody
+from ..bodies.measure_body import MeasuredBody, measure_body
 from ..bodies.measure_object import measured_in_turn
 from ..bodies.shape.shape import NoShapeError, shape_of_measured
+from ..bodies.stack import Measured
 from ..scale import meters_per_unit
 from ..settings.given import COLLIDER
 from . import reframe
@@ -144,7 +145,11 @@ def target_of(
     principal = body.principal
     if strict or (by_shape and not principal.is_unique and EQUAL_AXES[principal.symmetry]):
         # Measured alone, a body gets exact third moments if they are doubtful.
-        own = measured.alone(obj, context.evaluated_depsgraph_get())
+        own = (
+            measured
+            if measured.stack is None
+            else measure_body(obj, context.evaluated_depsgraph_get())
+        )
         if strict:
             moments, _ = own.measurement.mass_moments
             is_varying = own.measurement.kind == "shell" or own.body.mass is not None

@@ -89,10 +89,12 @@ def plan_colliders(
     hull = convex_hull(surface.points)
     shapes = yield from make_colliders(surface, body, wanted, hull)
     shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
-    if correct == "VERTICES":
-        shapes = correct_vertices(body, shapes, surface, wanted.outward, wanted.inward)
-        shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
     masses = uniform_masses(measurement.density, shapes)
+    if correct == "VERTICES":
+        tolerances = wanted.outward, wanted.inward
+        shapes = yield from correct_vertices(body, shapes, surface, *tolerances)
+        shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
+        masses = uniform_masses(measurement.density, shapes)
     if correct == "MASSES":
         masses = correct_masses(body, shapes)
     elif correct == "VERTICES" or wanted.shape.startswith("equal_"):

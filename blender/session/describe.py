@@ -14,8 +14,8 @@ from bpy.types import Object
 
 from ...core.measurement import FRAMES, record
 from ...core.verdict import internal_error
-from ..bodies.measure_body import Measured
 from ..bodies.measure_object import measure_many
+from ..bodies.stack import Measured
 from ..settings.options import MeasureOptions
 from ..write.remedies import REMEDIES, REPAIR, remedies_of
 from .stored.density import noted

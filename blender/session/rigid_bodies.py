@@ -19,8 +19,8 @@ from ...core.inertia import combine
 from ...core.measurement import NO_VOLUME
 from ...core.mesh import convex_hull, triangle_areas
 from ...core.verdict import EditRefusedError, Finding, MeasureError, Procedure
-from ..bodies.measure_body import Measured as MeasuredObject
 from ..bodies.measure_object import measured_in_turn
+from ..bodies.stack import Measured as MeasuredObject
 from ..read.mesh import mesh_surface
 from ..read.tracking import tracking_paused
 from ..scale import meters_per_unit

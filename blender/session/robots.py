@@ -32,6 +32,7 @@ from ...core.robots.write.shapes import with_colliders
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from ..bodies.assembly.assembly import measure_assembly
 from ..bodies.measure_object import measured_in_turn
+from ..bodies.overlaps import shared_space_caveats
 from ..bodies.rig import measure_rig
 from ..read.joints import (
     bone_freedom,
@@ -131,7 +132,9 @@ def jointed_robot(
     """
     connections, bases, findings = constraint_connections(context.scene, labels, unit)
     robot, more = assemble_robot(name, [*made, *bases], connections)
-    return robot, [*findings, *more]
+    placed = sorted(labels, key=lambda obj: obj.name)
+    shared = shared_space_caveats(placed, context.evaluated_depsgraph_get())
+    return robot, [*findings, *more, *shared]
 
 
 def object_links(

@@ -10,8 +10,8 @@ from bpy.types import Context, Object
 from numpy.typing import NDArray
 
 from ...core.verdict import Finding, internal_error
-from ..bodies.measure_body import Measured
 from ..bodies.measure_object import measure_many, measured_in_turn
+from ..bodies.stack import Measured
 from ..read.tracking import tracking_paused
 from ..scene import reframe
 from ..scene.snap_targets import SnapTarget, target_of

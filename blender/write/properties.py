@@ -118,7 +118,11 @@ def store(obj: Owner, measurement: Measurement) -> None:
 
     Raises EditRefusedError if it cannot hold them.
     """
-    require_storable(obj)
+    store_values(obj, values_of(measurement))
+
+
+def values_of(measurement: Measurement) -> dict[str, Any]:
+    """Return the properties that hold a measurement."""
     body = measurement.in_object_frame()
     bound = measurement.error_bound
     row = (
@@ -141,21 +145,18 @@ def store(obj: Owner, measurement: Measurement) -> None:
     values |= dict(zip(LENGTHS, row)) | _texts(
         measurement.method, measurement.findings, measurement.fingerprint
     )
-    _replace(obj, {key: value for key, value in values.items() if value is not None})
-    retrigger_drivers(obj)
+    return {key: value for key, value in values.items() if value is not None}
 
 
-def store_stack(
-    objects: Sequence[bpy.types.Object],
+def values_of_stack(
     body: MassProperties,
     density: NDArray,
     volume: NDArray,
     area: NDArray,
     error_bounds: NDArray,
     texts: Iterable[tuple[Method, tuple[Finding, ...], str]],
-) -> Iterator[Exception | None]:
-    """Write the results of n objects, each a solid of one density; yield each object's exception or
-    None.
+) -> Iterator[dict[str, Any]]:
+    """Yield the properties of n objects, each a solid of one density.
 
     body: with a leading axis, in the object frames. density, volume, area: (n,) arrays.
     error_bounds: (n, 2, 4) bounds of rounding and of float32 coordinates, in the order of
@@ -174,18 +175,11 @@ def store_stack(
     )
     rows = zip(*[column.tolist() for column in columns])
     known: dict[tuple[str, tuple[int, ...]], dict[str, str]] = {}
-    for obj, row, (method, found, mark) in zip(objects, rows, texts):
+    for row, (method, found, mark) in zip(rows, texts):
         key = str(method), tuple(map(id, found))
         if key not in known:  # most are alike
             known[key] = _texts(method, found, "")
-        try:
-            require_storable(obj)
-            _replace(obj, dict(zip(LENGTHS, row)) | known[key] | {"body_fingerprint": mark})
-            retrigger_drivers(obj)
-        except Exception as error:
-            yield error
-        else:
-            yield None
+        yield dict(zip(LENGTHS, row)) | known[key] | {"body_fingerprint": mark}
 
 
 def _texts(method: Method, found: Iterable[Finding], mark: str) -> dict[str, str]:
@@ -198,31 +192,22 @@ def _texts(method: Method, found: Iterable[Finding], mark: str) -> dict[str, str
     }
 
 
-def _replace(obj: Owner, values: dict[str, Any]) -> None:
-    """Replace all results by `values`, or keep the earlier results on failure; add the tensor in
-    two parts.
+def store_values(obj: Owner, values: dict[str, Any]) -> None:
+    """Replace all results by `values`, or none if Blender cannot hold one; add the tensor in two
+    parts.
     """
+    require_storable(obj)
     entries = values["body_inertia"]
     values |= {"body_inertia_diagonal": entries[:3], "body_inertia_products": entries[3:]}
-    before = {key: obj[key] for key in DESCRIPTIONS if key in obj}
-    before = {
-        key: value.to_list() if hasattr(value, "to_list") else value
-        for key, value in before.items()
-    }
-    try:
-        _write(obj, values)
-    except BaseException:
-        _write(obj, before)
-        raise
-
-
-def _write(obj: Owner, values: dict[str, Any]) -> None:
-    """Write `values` in the order of DESCRIPTIONS, and delete all other results."""
+    for key, value in values.items():
+        if not isinstance(value, (float, str, list)):
+            raise TypeError("{}: {!r}".format(key, value))
     for key in DESCRIPTIONS:
         if key in values:
             _set(obj, key, values[key])
         elif key in obj:
             del obj[key]
+    retrigger_drivers(obj)
 
 
 def store_scaled(

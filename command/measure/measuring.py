@@ -19,9 +19,9 @@ import numpy as np
 from ...blender.bodies.flat.flat import area_findings, clearer_refusal, flat_region
 from ...blender.bodies.flat.flat_shape import flat_shape_of
 from ...blender.bodies.fourier import flat_transform, object_transform
-from ...blender.bodies.measure_body import Measured
 from ...blender.bodies.measure_object import measure_object, measured_in_turn
 from ...blender.bodies.shape.shape import NoShapeError, shape_of
+from ...blender.bodies.stack import Measured
 from ...blender.read.assembly import left_out_reasons
 from ...blender.read.objects import read_object
 from ...blender.read.visibility import measurable, measurable_objects

@@ -23,7 +23,7 @@ the mean of both is tried.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Generator, Sequence
 from dataclasses import replace
 from math import sqrt
 
@@ -63,6 +63,8 @@ LEAST_RADIUS = 1e-6
 MIN_AREA = 1e-3  # relative to the largest share: corners with less move as if they had so much
 # of the effect of all moves: how far sums that cannot be reached may be from the nearest ones
 SLACK = 1e-9
+CORRECTING_SHARE = 0.97  # of the work that is completed when corners are moved
+FLAT_RTOL = 3e-7  # a few roundings to single precision
 TINY = float(np.finfo(np.float64).tiny)
 
 
@@ -84,8 +86,23 @@ def effect(body: MassProperties, shapes: Sequence[Shape], volume: float) -> Effe
 
 
 def uniform_masses(density: float, shapes: Sequence[Shape]) -> list[float]:
-    """Return the masses of colliders of one density, kg/m³."""
+    """Return the masses of colliders of one density, kg/m³; MeasureError if all of them are flat
+    within rounding.
+    """
+    if all(_is_flat(shape) for shape in shapes):
+        raise MeasureError(COLLIDERS_FLAT)
     return [density * float(moments_of(shape).total) for shape in shapes]
+
+
+def _is_flat(shape: Shape) -> bool:
+    """Return whether a collider's least extent is within the rounding of its largest one."""
+    extents = np.array(shape.size)
+    if shape.surface is not None:
+        offsets = shape.surface.points - shape.surface.points.mean(axis=0)
+        extents = np.ptp(offsets @ np.linalg.eigh(offsets.T @ offsets)[1], axis=0)
+    elif shape.kind == "capsule":  # a sphere if it has no length
+        extents = extents[:1]
+    return bool(extents.min() <= FLAT_RTOL * extents.max())
 
 
 def correct_masses(body: MassProperties, shapes: Sequence[Shape]) -> list[float]:
@@ -187,9 +204,9 @@ def _nonnegative(system: Array, target: Array, x: NDArray) -> Array:
 
 def correct_vertices(
     body: MassProperties, shapes: Sequence[Shape], surface: Surface, outward: float, inward: float
-) -> list[Shape]:
+) -> Generator[float, None, list[Shape]]:
     """Move corners of hulls as little as possible so that uniform density gives mass, center and
-    inertia of a body.
+    inertia of a body, in steps that yield the completed share.
 
     The density is the body's if it can be, else another that gives the mass. No corner moves
     farther than the smaller tolerance, in m; if that does not suffice, the result comes as near to
@@ -214,10 +231,10 @@ def correct_vertices(
     if not volume > 0.0:
         raise MeasureError(COLLIDERS_FLAT)
     hulls = _Hulls(body, volume, parts, fixed)
-    points, off = _solve(hulls, min(outward, inward) / hulls.size)
+    points, off = yield from _solve(hulls, min(outward, inward) / hulls.size)
     if off > NEAR:
         hulls.is_density_free = True
-        points, _ = _solve(hulls, min(outward, inward) / hulls.size)
+        points, _ = yield from _solve(hulls, min(outward, inward) / hulls.size)
     result = list(shapes)
     for place, hull in zip(meshes, hulls.take(points)):
         moved = Surface(hulls.size * hull.points + body.center, hull.triangles)
@@ -276,9 +293,9 @@ class _Hulls:
         return self.target - sums, gradient, areas
 
 
-def _solve(hulls: _Hulls, limit: float) -> tuple[Array, float]:
-    """Return the (n, 3) corners that have the body's sums with the least motion, or nearly, and
-    what is missing.
+def _solve(hulls: _Hulls, limit: float) -> Generator[float, None, tuple[Array, float]]:
+    """Find the (n, 3) corners that have the body's sums with the least motion, or nearly, and what
+    is missing, in steps.
     """
     moves = np.zeros_like(hulls.start)
     (missing, gradient, areas) = hulls.evaluate(hulls.start)
@@ -288,6 +305,7 @@ def _solve(hulls: _Hulls, limit: float) -> tuple[Array, float]:
     for _ in range(MAX_STEPS):
         if off <= MOVES_REACHED or radius < LEAST_RADIUS:
             break
+        yield CORRECTING_SHARE
         # Each corner moves within a ball that is in its trust region and within the limit.
         length = np.linalg.norm(moves, axis=1)
         reach = np.minimum(min(radius, limit), (radius + np.maximum(limit - length, 0.0)) / 2.0)

@@ -43,6 +43,7 @@ INSIDE_RTOL = 1e-9  # relative to the size
 # relative to the size: reach of the first searches for the body around a place
 ON_BODY_RTOL = 1e-10
 NEAR_BODY = 0.02
+MERGING_SHARE = 0.95  # of the work that is completed when pieces are merged
 
 
 @dataclass(frozen=True)
@@ -100,7 +101,48 @@ def make_colliders(
                 if outward <= wanted.outward and inward <= wanted.inward:
                     return [shape]
     hulls = yield from cut_into_pieces(surface, wanted.outward, wanted.pieces, wanted.vertices)
+    if wanted.outward > 0.0:
+        hulls = yield from _merge_within(hulls, surface, wanted)
     return [_hull_shape(hull) for hull in hulls]
+
+
+def _merge_within(
+    hulls: list[ConvexHull], surface: Surface, wanted: Wanted
+) -> Generator[float, None, list[ConvexHull]]:
+    """Merge pairs of pieces whose common hull keeps the outward distance, the smallest added volume
+    first.
+    """
+    tree = _tree_of(surface)
+    size = float(np.ptp(surface.points, axis=0).max())
+    pieces = dict(enumerate(hulls))
+    gaps = {number: hull.gap for number, hull in pieces.items()}
+    volumes = {number: hull_volume(hull) for number, hull in pieces.items()}
+    compared: set[tuple[int, int]] = set()
+    trials: list[tuple[float, int, int, ConvexHull]] = []
+    while True:
+        for i, j in set(combinations(pieces, 2)) - compared:
+            points = np.concatenate([pieces[i].points, pieces[j].points])
+            merged = convex_hull(points, max_corners=wanted.vertices)
+            if merged.gap + max(gaps[i], gaps[j]) <= wanted.inward:
+                trials.append((hull_volume(merged) - volumes[i] - volumes[j], i, j, merged))
+            compared.add((i, j))
+        trials = sorted(trial for trial in trials if {*trial[1:3]} <= pieces.keys())
+        while trials:
+            yield MERGING_SHARE
+            _, i, j, merged = trials.pop(0)
+            if all(
+                _farthest_outside(tree, places - tree.origin, size, wanted.outward) < inf
+                for fineness in (COARSE_STEPS, STEPS)
+                for places in (_outer_samples([merged], size, fineness)[0],)
+            ):
+                break
+        else:
+            return [*pieces.values()]
+        del pieces[i], pieces[j]
+        number = max(volumes) + 1
+        pieces[number] = merged
+        gaps[number] = merged.gap + max(gaps[i], gaps[j])
+        volumes[number] = hull_volume(merged)
 
 
 class _Fits:
@@ -273,11 +315,7 @@ def distances(
     is_convex = hull_volume(hull) - volume_and_center(surface)[0] <= CONVEX_RTOL * hull_volume(hull)
     if is_convex or outward > enough:
         return max(outward, 0.0), inward, step + max(sags)
-    tree = Bvh(
-        points,
-        sort_components(points, triangles, np.zeros(len(triangles), np.intp), 1),
-        np.ones(1, bool),
-    )
+    tree = _tree_of(surface)
     own_step = 0.0
     for fineness in (COARSE_STEPS, STEPS) if enough < inf else (STEPS,):
         places, own_step = _outer_samples(solids, size, fineness)
@@ -285,6 +323,13 @@ def distances(
         if outward > enough:
             break
     return outward, inward, max(step, own_step) + max(sags)
+
+
+def _tree_of(surface: Surface) -> Bvh:
+    points = np.asarray(surface.points, np.float64)
+    triangles = surface.all_triangles()[0].astype(np.intp)
+    together = np.zeros(len(triangles), np.intp)
+    return Bvh(points, sort_components(points, triangles, together, 1), np.ones(1, bool))
 
 
 def _farthest_outside(tree: Bvh, places: Array, size: float, enough: float) -> float:

@@ -152,8 +152,11 @@ def principal_frames(fixed: ThirdMomentFrames, preferred_axes: NDArray) -> Princ
         free = EQUAL_AXES[name]
         undetermined[bodies] = [free] * len(bodies)
         chosen[bodies] = CHOICES[name]
-        signs = HALF_TURN_SIGNS[fixed.allowed[bodies[0]], None]
         preferred = preferred_axes[bodies]
+        if len(free) == 3:
+            axes[bodies] = preferred + 0.0  # no negative zeros
+            continue
+        signs = HALF_TURN_SIGNS[fixed.allowed[bodies[0]], None]
         frames = complete_free_axes(fixed.axes[bodies, None] * signs, free, preferred[:, None])
         axes[bodies] = nearest_frames(frames, preferred, fixed.tilt[bodies])
     return PrincipalFrame(fixed.moments, axes, symmetry, ~is_open, chosen, undetermined)

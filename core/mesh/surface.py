@@ -10,7 +10,7 @@ are cut along the diagonal that Blender draws, so that the body measured is the 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -136,9 +136,9 @@ class Surface:
     @property
     def content(self) -> tuple[tuple[str, bytes] | None, ...]:
         """All arrays as bytes; equal for surfaces of equal numbers."""
-        arrays = [getattr(self, each.name) for each in fields(self)]
+        arrays = [getattr(self, name) for name in ("points", "displacement", *INDEX_SHAPES)]
         return tuple(
-            [None if array is None else (array.dtype.str, array.tobytes()) for array in arrays]
+            [None if array is None else (array.dtype.char, array.tobytes()) for array in arrays]
         )
 
     @property

@@ -19,7 +19,7 @@ high powers stay in range.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import InitVar, dataclass
 from functools import lru_cache
@@ -31,7 +31,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..inertia import MOMENTS_OVERFLOW
-from ..mesh import Surface, turned_quads
+from ..mesh import Surface
 from ..moments import Measure, Moments, U, unchecked_moments
 from ..moments.exponents import (
     count_of_degree,
@@ -43,15 +43,11 @@ from ..moments.exponents import (
 )
 from ..numerics import Array, batches, cross, dot, indices_in_range
 from ..verdict import MeasureError, check_size
-from .any_order_kernel import UNDERFLOW_BOUND, AnyOrderKernel, Sums, absolute_sums, row_count
-from .third_order import NO_VERTEX, box_center, finite_box, nothing, paired_corners
+from .any_order_kernel import SLICES, UNDERFLOW_BOUND, absolute_sums, coefficient_sums
+from .third_order import NO_VERTEX, Faces, box_center, finite_box, nothing, paired_corners
 
-SCRATCH_NUMBERS = (
-    1_400_000  # limit of a block's scratch; with smaller blocks, two threads wait for each other
-)
-# Least faces in a block: numpy copies reused rows that are shorter than half its buffer of 8192.
-MIN_FACES_PER_BLOCK = 4608
-BLOCKS_PER_TASK = 8  # blocks that are handed to a thread at once
+NUMBERS_PER_BLOCK = 1 << 17  # numbers of one level: longer arrays would leave the cache
+MAX_FACES_PER_BLOCK = 4096
 MAX_UNSCALED_EXPONENT = 8  # powers of two up to which coordinates are left as they are
 MAX_EXPONENT = 1000.0  # powers of two beyond which a moment overflows
 TRIANGLES_PER_BLOCK = 512  # triangles whose levels stay in the cache
@@ -72,49 +68,29 @@ def _exponent(reach: float) -> int:
 
 
 @dataclass(frozen=True, eq=False)
-class _FaceBatch:
-    """Faces, (m, 3) or (m, 4), of a piece of the body. size: faces in a block. half_ulp: (3,) of
-    the points.
-    """
+class _Block:
+    """A block of faces, (m, 3) or (m, 4). coordinates: (3, n) of the points; half_ulp: (3,)."""
 
-    points: NDArray
+    coordinates: NDArray
     faces: NDArray
-    size: int
     half_ulp: Array
 
 
 class _CompensatedSum:
-    """A running sum of arrays, with the rounding errors of the additions (Neumaier), and the sums
-    for its bounds.
-    """
+    """A running sum of arrays, with the rounding errors of the additions (Neumaier)."""
 
-    def __init__(self, order: int, weights: int):
-        self.order, self.weights = order, weights
+    def __init__(self) -> None:
         self.high = self.low = self.sizes = np.zeros(())
         self.faces = 0
-        self.pending: list[Sums] = []
 
-    def add(self, part: Sums) -> None:
-        """Add a block's sums."""
-        total = self.high + part.sums
+    def add(self, faces: int, sums: Array, sizes: Array) -> None:
+        """Add a block's number of faces, sums, and sums for their bounds."""
+        total = self.high + sums
         grown = total - self.high
-        self.low = self.low + ((self.high - (total - grown)) + (part.sums - grown))
+        self.low = self.low + ((self.high - (total - grown)) + (sums - grown))
         self.high = total
-        last = self.pending[-1] if self.pending else part
-        columns = sum(waiting.chunks.shape[1] for waiting in self.pending)
-        if (
-            len(last.chunks) != len(part.chunks)
-            or not np.array_equal(last.half_ulp, part.half_ulp)
-            or columns * count_of_degree(self.order) * 3 * self.weights > SCRATCH_NUMBERS
-        ):
-            self.flush()
-        self.pending.append(part)
-
-    def flush(self) -> None:
-        """Add up the bounds of the pending blocks: many at once, which is faster."""
-        if self.pending:
-            self.sizes = self.sizes + absolute_sums(self.order, self.weights, self.pending)
-            self.pending = []
+        self.sizes = self.sizes + sizes
+        self.faces += faces
 
 
 @dataclass(eq=False)
@@ -133,79 +109,57 @@ class StreamIntegrator:
 
     def __post_init__(self, reach: float | None) -> None:
         self.exponent: int | Any = None if reach is None else _exponent(reach)
-        self.idle: list[AnyOrderKernel] = []
         self.half_ulp = np.zeros(3)
 
     def integrate(self, stream: Iterable[Surface]) -> tuple[Moments, Moments | None]:
         """Return the moments of the volume and, if wanted, of the area."""
-        total = _CompensatedSum(self.order, 2 if self.area else 1)
-        for faces, parts in self._ordered_results(self._tasks(stream)):
-            for part in parts:
-                total.add(part)
-            total.faces += faces
+        total = _CompensatedSum()
+        for faces, sums, sizes in self._ordered_results(self._blocks(stream)):
+            total.add(faces, sums, sizes)
             if self.progress is not None:
                 self.progress(total.faces)
-        total.flush()
         if not total.faces:
             return nothing(self.order, self.center)
         return self._moments(total, Measure.VOLUME), self._moments(
             total, Measure.AREA
         ) if self.area else None
 
-    def _ordered_results(self, tasks: Iterator[_FaceBatch]) -> Iterator[tuple[int, list[Sums]]]:
-        """Yield the results of `_run` in the order of the tasks, whichever finishes first; a few
+    def _ordered_results(self, blocks: Iterator[_Block]) -> Iterator[tuple[int, Array, Array]]:
+        """Yield the results of `_run` in the order of the blocks, whichever finishes first; a few
         run at a time.
         """
-        first = list(islice(tasks, min(self.threads, 2)))
+        first = list(islice(blocks, min(self.threads, 2)))
         alone = len(first) < 2
-        tasks = chain(first, tasks)
+        blocks = chain(first, blocks)
         del first  # the list holds pieces of a stream
-        if alone:  # one thread, or one task: starting threads would take longer than the work
-            yield from map(self._run, tasks)
+        if alone:  # one thread, or one block: starting threads would take longer than the work
+            yield from map(self._run, blocks)
             return
         with ThreadPoolExecutor(self.threads) as pool:
             waiting: deque = deque()
-            for task in tasks:
-                waiting.append(pool.submit(self._run, task))
+            for block in blocks:
+                waiting.append(pool.submit(self._run, block))
                 if len(waiting) > 2 * self.threads:
                     yield waiting.popleft().result()
             while waiting:
                 yield waiting.popleft().result()
 
-    def _tasks(self, stream: Iterable[Surface]) -> Iterator[_FaceBatch]:
+    def _blocks(self, stream: Iterable[Surface]) -> Iterator[_Block]:
         for surface in stream:
             if not len(surface.triangles) + len(surface.quads):
                 continue
-            points = np.ascontiguousarray(surface.points)
-            if points.dtype != np.float32:
-                points = points.astype(np.float64, copy=False)
+            coordinates = np.ascontiguousarray(surface.points.T)
+            if coordinates.dtype != np.float32:
+                coordinates = coordinates.astype(np.float64, copy=False)
             self._choose_frame(surface)
             half_ulp = surface.coordinate_error
             self.half_ulp = np.maximum(self.half_ulp, half_ulp)
-            for faces in (surface.triangles, surface.quads):
-                size = self._size(faces)
-                blocks = -(-len(faces) // size)
-                step = size * (
-                    BLOCKS_PER_TASK
-                    if self.threads == 1
-                    else max(1, min(BLOCKS_PER_TASK, blocks // (4 * self.threads)))
-                )
-                for start in range(0, len(faces), step):
-                    yield _FaceBatch(points, faces[start : start + step], size, half_ulp)
-
-    def _size(self, faces: NDArray) -> int:
-        """Return the number of faces in a block, even, so that 2 or 4 threads get equally many
-        blocks.
-        """
-        corners = faces.shape[1]
-        # The kernel takes two triangles that share an edge as one face.
-        ours = 2 if corners == 3 and paired_corners(faces[:2]) is not None else 1
-        most = ours * max(
-            SCRATCH_NUMBERS // row_count(corners + ours - 1, self.order, 1), MIN_FACES_PER_BLOCK
-        )
-        blocks = -(-len(faces) // (4 * most)) * 4
-        blocks = max(1, min(blocks, len(faces) // (ours * MIN_FACES_PER_BLOCK)))
-        return max(2, -(-len(faces) // (2 * blocks)) * 2)
+            size = min(NUMBERS_PER_BLOCK // count_of_degree(self.order), MAX_FACES_PER_BLOCK)
+            size = max(size // SLICES, 1) * SLICES
+            pairs = 1 if paired_corners(surface.triangles[:2]) is None else 2
+            for faces, rows in ((surface.triangles, pairs * size), (surface.quads, size)):
+                for start in range(0, len(faces), rows):
+                    yield _Block(coordinates, faces[start : start + rows], half_ulp)
 
     def _choose_frame(self, surface: Surface) -> None:
         """Set the reference point and the scale by the first piece, unless they are given."""
@@ -222,34 +176,30 @@ class StreamIntegrator:
         if (max(beyond, 0) + self.exponent) * (self.order + 3) > MAX_EXPONENT:
             raise MeasureError(MOMENTS_OVERFLOW, order=int(self.order))
 
-    def _run(self, task: _FaceBatch) -> tuple[int, list[Sums]]:
-        """Run one task, in any thread.
-
-        Return its number of faces and the sums of each of its blocks.
-        """
-        if not indices_in_range(task.faces, len(task.points)):
+    def _run(self, block: _Block) -> tuple[int, Array, Array]:
+        """Return the number of faces of a block, its sums and the sums for their bounds."""
+        coordinates = block.coordinates
+        if not indices_in_range(block.faces, coordinates.shape[1]):
             raise ValueError(NO_VERTEX)
-        levels = self.idle.pop() if self.idle else AnyOrderKernel(self.order, self.area)
-        block_sums = [
-            levels.block_sums(
-                task.points, self.center, 2.0**-self.exponent, task.half_ulp, corners, size
-            )
-            for corners, size in self._blocks(task)
-        ]
-        self.idle.append(levels)
-        return len(task.faces), block_sums
-
-    @staticmethod
-    def _blocks(task: _FaceBatch) -> Iterator[tuple[Sequence[NDArray] | NDArray, int]]:
-        """Yield the corners of each block's faces (cut quads, paired or single triangles), and a
-        full block's size.
-        """
-        for start in range(0, len(task.faces), task.size):
-            faces = task.faces[start : start + task.size]
-            if faces.shape[1] == 4:
-                faces = turned_quads(task.points, faces)
-            halves = paired_corners(faces) if faces.shape[1] == 3 else None
-            yield (faces.T, task.size) if halves is None else (halves, task.size // 2)
+        is_quad = block.faces.shape[1] == 4
+        halves = None if is_quad else paired_corners(block.faces)
+        index = block.faces.T if halves is None else np.array(halves)
+        faces = Faces(coordinates.take(index, axis=1).astype(np.float64, copy=False))
+        if is_quad:
+            faces.turn_quads(coordinates.dtype)
+        scale = 2.0**-self.exponent
+        if scale != 1.0:
+            faces = Faces(faces.corners * scale)
+        corners = faces.corners - (self.center * scale)[:, None, None]
+        weights = [np.einsum("ift,it->ft", faces.normals, corners[:, 0])]
+        if self.area:
+            weights.append(faces.lengths())
+        weights = np.array(weights)
+        return (
+            len(block.faces),
+            coefficient_sums(corners, weights, np.zeros(1, np.intp), self.order)[:, :, 0],
+            absolute_sums(corners, faces.edges, weights, block.half_ulp * scale, self.order),
+        )
 
     def _moments(self, total: _CompensatedSum, of: Measure) -> Moments:
         """Return the moments in the body's own unit, with their bounds, from the sums."""
@@ -320,12 +270,11 @@ def extend_small_moments(
         rows = triangles[ends[part.start] - counts[part.start] : ends[part.stop - 1]]
         own = counts[part]
         corners = coordinates.take(rows.T, axis=1).astype(np.float64, copy=False)
-        a, b, c = (corners - np.repeat(volume.about[part].T, own, axis=1)[:, None]).transpose(
-            1, 0, 2
-        )
+        corners = corners - np.repeat(volume.about[part].T, own, axis=1)[:, None]
+        a, b, c = corners.swapaxes(0, 1)
         det = dot(a, cross(b - a, c - a))
         starts = np.cumsum(own) - own
-        sums.append(np.add.reduceat(_coefficients(a, b, c, order)[known:] * det, starts, axis=1).T)
+        sums.append(coefficient_sums(corners, det[None, None], starts, order)[0, known:].T)
         sizes.append(np.add.reduceat(np.abs(det), starts))
     raw = np.concatenate(sums) * factors
     largest = monomial_values(reach, order)[:, known:]
@@ -341,30 +290,3 @@ def extend_small_moments(
         np.concatenate([volume.rounding_error, error], axis=1),
         np.concatenate([volume.input_error, volume.input_error[:, :1] * largest], axis=1),
     )
-
-
-def _coefficients(a: NDArray, b: NDArray, c: NDArray, order: int) -> Array:
-    """Return the (K, t) S_α of triangles with corners (3, t)."""
-    vectors = np.stack([a, c, b], axis=1)
-    out = np.empty((monomial_count(order), a.shape[1]))
-    levels = np.empty((2, count_of_degree(order), 3, a.shape[1]))
-    terms = np.empty((count_of_degree(order - 1), *a.shape))
-    levels[0, 0] = out[0] = 1.0  # C, D and S of degree 0
-    for degree in range(1, order + 1):
-        below = count_of_degree(degree - 1)
-        count = count_of_degree(degree)
-        known = levels[1 - degree % 2, :below]
-        grown = levels[degree % 2, :count]
-        np.multiply(known, vectors[0], out=grown[:below])
-        grown[below:] = 0.0
-        for z, vector in enumerate(vectors[1:]):
-            np.multiply(known, vector, out=terms[:below])
-            # In each run of equal q + r, rows times y or z are the next run's.
-            for rows in range(1, degree + 1):
-                source = rows * (rows - 1) // 2
-                target = rows * (rows + 1) // 2 + z
-                grown[target : target + rows] += terms[source : source + rows]
-        grown[:, 1] += grown[:, 0]
-        grown[:, 2] += grown[:, 1]
-        out[monomial_count(degree - 1) : monomial_count(degree)] = grown[:, 2]
-    return out

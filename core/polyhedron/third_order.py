@@ -143,7 +143,7 @@ def integrate(
         is_quad = faces.shape[1] == 4
         halves = None if is_quad else paired_corners(faces)
         corners = coordinates.take(faces.T if halves is None else halves, axis=1, mode="wrap")
-        sides = _Faces(corners.astype(np.float64, copy=False))
+        sides = Faces(corners.astype(np.float64, copy=False))
         if is_quad:
             sides.turn_quads(points.dtype)
         lengths = sides.lengths() if area else None
@@ -210,7 +210,7 @@ def small_moments(
     for part in batches(counts, FACES_PER_BLOCK):
         rows = triangles[ends[part.start] - counts[part.start] : ends[part.stop - 1]]
         corners = coordinates.take(rows.T, axis=1).astype(np.float64, copy=False)
-        block = _Faces(corners)
+        block = Faces(corners)
         lengths = block.lengths() if area else None
         middle = np.repeat(center[part].T, counts[part], axis=1)
         starts = np.cumsum(counts[part]) - counts[part]
@@ -246,7 +246,7 @@ def paired_corners(triangles: NDArray) -> list[NDArray] | None:
     return None
 
 
-class _Faces:
+class Faces:
     """Rows of t faces: triangles a, b, c, perhaps a, c, d.
 
     corners: (3, c, t). edges: (3, c-1, t) from a. normals: (3, c-2, t), doubled areas long.
@@ -279,14 +279,14 @@ class _Faces:
         if not len(suspects):
             return
         flipped = suspects[has_flipped_corners(*self.corners[:, :, suspects].swapaxes(0, 1))]
-        turned = _Faces(np.roll(self.corners[:, :, flipped], -1, axis=1))
+        turned = Faces(np.roll(self.corners[:, :, flipped], -1, axis=1))
         self.corners[:, :, flipped] = turned.corners
         self.edges[:, :, flipped] = turned.edges
         self.normals[:, :, flipped] = turned.normals
 
 
 def _face_sums(
-    faces: _Faces,
+    faces: Faces,
     lengths: Array | None,
     middle: Array,
     starts: Index,

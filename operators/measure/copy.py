@@ -14,7 +14,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 from bpy.types import Context, Event, Menu, Operator, OperatorProperties, Scene
 
-from ...blender import read, session, write
+from ...blender import bodies, read, session, write
 from ...blender.session import stored
 from ...blender.session.selected import subject
 from ...blender.session.tracking import staleness, stamps
@@ -74,6 +74,7 @@ def selected_document(context: Context) -> dict[str, Any]:
     counted = [obj for obj in objects if properties.is_stored(obj)]
     caveats = open_body_caveats((obj.name, properties.method(obj)) for obj in counted)
     caveats += read.assembly.total_caveats(counted, context.view_layer)
+    caveats += bodies.overlap_caveats(counted, context.evaluated_depsgraph_get())
     version = ".".join(map(str, bpy.app.version))
     return write.text_report.stored_document(
         context, objects, outdated, caveats, bpy.data.filepath or None, version

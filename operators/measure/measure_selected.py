@@ -135,9 +135,11 @@ class OBJECT_OT_body_moments_measure(ModalSteps, selection.OnSelection, Operator
             for obj in self._objects
             if obj in refusals
         ]
-        return self._report(len(self._results) - len(failed))
+        measured = [obj for obj, _ in self._results if obj not in failed]
+        shared = bodies.overlap_caveats(measured, context.evaluated_depsgraph_get())
+        return self._report(len(measured), shared)
 
-    def _report(self, count: int) -> set[str]:
+    def _report(self, count: int, notes: list[Finding]) -> set[str]:
         warnings = [
             finding(
                 OBJECT_WARNINGS,
@@ -162,7 +164,9 @@ class OBJECT_OT_body_moments_measure(ModalSteps, selection.OnSelection, Operator
                     )
                 )
         level = Severity.WARNING if warnings else Severity.NOTE
-        return selection.finish(self, done, self._failures, level=level, is_changed=bool(count))
+        return selection.finish(
+            self, done, self._failures, notes, level=level, is_changed=bool(count)
+        )
 
 
 class OBJECT_OT_body_moments_live(Operator):

@@ -216,21 +216,29 @@ class OBJECT_OT_body_moments_select_refused(selection.InObjectMode, Operator):
     bl_options = {"INTERNAL", "UNDO"}
 
     code: StringProperty(name="Code", options={"HIDDEN", "SKIP_SAVE"})
+    listed: StringProperty(  # lines, of a finding that names the objects itself
+        name="Objects", options={"HIDDEN", "SKIP_SAVE"}
+    )
 
     def execute(self, context: Context) -> set[str]:
         last = outcome.last()
         refused = last.groups if last is not None else ()
         groups = (*displayed.total(context).groups, *refused) if self.code else refused
-        names = {
-            name
+        chosen = [
+            (group.finding, group.objects)
             for group in groups
             if self.code in ("", group.finding.code)
-            for name in group.objects
+        ]
+        if self.code:
+            chosen += [
+                (one, ()) for one in displayed.total(context).findings if one.code == self.code
+            ]
+        names = {
+            name if isinstance(name, str) else name[0]
+            for one, owners in chosen
+            for name in one.values.get("objects", owners)
         }
-        for caveat in displayed.total(context).findings if self.code else ():
-            if caveat.code == self.code:
-                listed = caveat.values.get("objects", ())
-                names.update(name if isinstance(name, str) else name[0] for name in listed)
+        names = {*self.listed.split("\n")} if self.listed else names
         objects = [obj for obj in context.view_layer.objects if names & {obj.name_full, obj.name}]
         if not objects:
             return {"CANCELLED"}

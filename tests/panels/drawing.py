@@ -82,8 +82,10 @@ class Layout:
     def operator_menu_enum(self, idname, prop, **options):
         check("operator_menu_enum", options)
         category, name = idname.split(".")
-        assert prop in getattr(getattr(bpy.ops, category), name).get_rna_type().properties
+        known = getattr(getattr(bpy.ops, category), name).get_rna_type().properties
+        assert prop in known
         self.record.append(("menu", idname))
+        return Properties(known, SimpleNamespace())
 
     def operator_enum(self, idname, prop, **options):
         check("operator_enum", options)

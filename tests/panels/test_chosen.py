@@ -179,6 +179,9 @@ def test_copy_left_in_place_is_a_warning_with_select():
     assert "Copies at an equal place count again" in " ".join(labels(shown()))
     bpy.ops.object.body_moments_select_refused(code="total_copies_in_place")
     assert sorted(obj.name for obj in bpy.context.selected_objects) == ["Copied", "Linked"]
+    only(body)  # an assembly's line names its objects itself
+    bpy.ops.object.body_moments_select_refused(code="any", listed="Copied\nLinked")
+    assert sorted(obj.name for obj in bpy.context.selected_objects) == ["Copied", "Linked"]
     copied.location.x = linked.location.x = 4.0
     linked.location.y = 5.0
     only(body, linked, copied, other)

@@ -157,7 +157,8 @@ def test_mujoco_agrees_with_stated_effect_and_corrections(name):
         agrees([replace(one, mass=mass) for one, mass in zip(shapes, masses)], body, volume, 1e-6)
         if shape in ("hull", "pieces"):
             limit = REACH * float(np.ptp(surface.points, axis=0).max())
-            moved = list(map(stored, correct_vertices(body, shapes, surface, limit, limit)))
+            steps = correct_vertices(body, shapes, surface, limit, limit)
+            moved = [stored(one) for one in run(steps)]
             masses = np.array(uniform_masses(DENSITY, moved))
             masses *= body.mass / masses.sum()
             moved = [replace(one, mass=float(mass)) for one, mass in zip(moved, masses)]

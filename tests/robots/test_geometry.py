@@ -320,6 +320,10 @@ def test_meshes_are_embedded_in_single_file_formats():
     assert near(shown[faces], true[triangles], 1e-6)
     assert near(document["accessors"][0]["min"], found.min(axis=0), 0.0)
     assert len(views) == 2 and document["accessors"][1]["count"] == triangles.size
+    # Readers of both drafts of the extension find the hull: by its mesh, or by a node that has it.
+    (own,) = [one["extensions"] for one in document["nodes"] if "collider" in str(one)]
+    geometry = own[gltf.KHR]["collider"]["geometry"]
+    assert document["nodes"][geometry["node"]]["mesh"] == geometry["mesh"]
     stage = stage_of(robot_text(robot, "usd")[0])
     seen, mesh = [UsdGeom.Mesh(prim) for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)]
     assert (

@@ -30,6 +30,8 @@ for number in range(PARTS):
 bpy.ops.view3d.view_selected()
 bpy.ops.ed.undo_push(message="Chairs")
 """
+MAKE = "object.body_moments_make_colliders"
+ROW = 22  # pixels between two buttons
 COUNT = "sum('body_collider' in obj for obj in bpy.data.objects)"
 RUNNING = (
     "[op.bl_idname for op in window.modal_operators if 'body_moments' in op.bl_idname.lower()]"
@@ -45,7 +47,7 @@ def test_button_makes_colliders_that_undo_removes(window):
     window.ask(OPEN + CLOSE_OTHERS)
     window.open_tab("Moments")
     window.ask("bpy.ops.object.body_moments_measure()")
-    window.press("object.body_moments_make_colliders")
+    window.press(MAKE)
     window.wait(COUNT + " > 0")
     assert window.get("bpy.context.mode") == "OBJECT" and window.get(
         "[o.name for o in bpy.context.selected_objects]"
@@ -64,6 +66,31 @@ def test_button_makes_colliders_that_undo_removes(window):
     window.wait("{} == {}".format(COUNT, made))
     window.press("object.body_moments_remove_colliders")
     window.wait(COUNT + " == 0")
+
+
+def test_buttons_of_colliders_stay_and_choose_another_shape(window):
+    chairs(window, 1)
+    window.press(MAKE)
+    window.wait(COUNT + " > 0")
+    window.redraw()
+    window.buttons.clear()
+    before = window.middle(MAKE)
+    x, y = before[0], before[1] - ROW  # the menu of shapes
+    window.click(x, y)
+    window.redraw()
+    window.picture("colliders shapes")
+    window.key("b")  # Box
+    window.wait("bpy.context.object['body_colliders']['shape'] == 'box'")
+    assert window.get("[o['body_collider']['kind'] for o in bpy.context.object.children]") == [
+        "box"
+    ]
+    window.ask("bpy.context.object.scale.x = 2.0\nbpy.context.view_layer.update()")
+    window.redraw()
+    window.picture("colliders out of date")
+    window.buttons.clear()
+    after = window.middle(MAKE)
+    assert abs(after[1] - before[1]) <= 3
+    assert window._button_at(x + 60, y - ROW) == MAKE  # Vertices
 
 
 def test_esc_leaves_nothing_behind(window):

@@ -35,6 +35,7 @@ from ...read.assembly import (
     Member,
     MemberKind,
     Root,
+    copies_caveats,
     members_key,
     members_of,
     settings_of,
@@ -64,8 +65,9 @@ from ..findings import (
     MEMBERS_LEFT_OUT,
     MEMBERS_NOT_MEASURED,
 )
-from ..measure_body import Measured
 from ..measure_object import measure_many
+from ..overlaps import shared_space_caveats
+from ..stack import Measured
 from .given import given_moments
 
 NOTHING: Extent = (0.0, 0.0, 0.0)
@@ -201,7 +203,7 @@ def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -
         fingerprint=fingerprint(
             members_key(whole.member, fingerprints).encode(), place, structure_hash(whole.member)
         ),
-        findings=tuple(findings_of(whole, depsgraph.scene)),
+        findings=(*findings_of(whole, depsgraph.scene), *_shared_space(whole, depsgraph)),
         density_from=DENSITY_FROM_MASS if given else finding(DENSITY_FROM, source="members"),
         health=merge_health(
             (measurement.health, 1, measurement.area) for _, measurement in measured
@@ -209,6 +211,24 @@ def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -
         if measured
         else None,
     )
+
+
+def _shared_space(whole: MemberBody, depsgraph: Depsgraph) -> Iterator[Finding]:
+    """Yield the findings about copies and overlaps, of the members in the scene and of those in
+    each instance, which stand elsewhere.
+    """
+    placed: list[Object] = []
+    waiting = [whole]
+    while waiting:
+        body = waiting.pop()
+        if body.measurement is not None or body.member.kind == MemberKind.INSTANCE:
+            placed.append(body.member.data)
+        if body.member.kind == MemberKind.INSTANCE and body is not whole:
+            inside = [part for part in body.walk() if part.measurement is not None]
+            yield from copies_caveats([part.member.data for part in inside])
+        else:
+            waiting += body.parts
+    yield from shared_space_caveats(sorted(placed, key=lambda obj: obj.name), depsgraph)
 
 
 def findings_of(whole: MemberBody, scene: bpy.types.Scene) -> Iterator[Finding]:

@@ -418,7 +418,7 @@ def signed_in_turn(
     def signed(obj: bpy.types.Object) -> Signature | Shape:
         outcome = measured(obj)
         if outcome.stack is None:
-            return surface_shape(outcome.alone(obj, depsgraph))
+            return surface_shape(outcome)
         if outcome.stack not in known:
             known.clear()
             known[outcome.stack] = stack_signatures(outcome.stack, order)

@@ -59,6 +59,17 @@ class Carrier:
         polar, _ = polar_rotation(np.array([world for world, _, _ in self.frames]))
         return polar * np.sign(np.linalg.det(polar))[:, None, None]
 
+    @property
+    def uneven_parent(self) -> Object | None:
+        """The object whose scale differs by direction, so that a turn shears the parts, if any."""
+        above = self.armature.parent if self.owner == self.armature else self.armature
+        while above is not None:
+            scale = np.abs(above.scale)
+            if np.ptp(scale) > FOLLOWS * scale.max():
+                return above
+            above = above.parent
+        return None
+
     def path(self, channel: str) -> str:
         """Return the data path of a channel from the armature object."""
         return channel if self.owner == self.armature else self.owner.path_from_id(channel)

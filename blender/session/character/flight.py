@@ -39,6 +39,9 @@ NOT_CARRIED = (
     "No bone carries the whole character: “{part}” does not follow “{name}”. Choose the bone that "
     "all others hang on, or parent the targets of its constraints to one."
 )
+UNEVENLY_SCALED = (
+    "“{name}” cannot turn: an uneven scale above it would shear it. Apply the scale of “{above}”."
+)
 HELD_IN_PART = (
     "“{names}” is held at some of the frames only. Choose frames at which the same objects are "
     "held."
@@ -144,6 +147,8 @@ class CharacterMotion(BalanceGroup):
             part = self.found.left_behind(context, self.known, turns)
             if not part:
                 return
+        if turns and (above := self.found.uneven_parent) is not None:
+            raise Refused(UNEVENLY_SCALED, name=owners[-1].name, above=above.name)
         raise Refused(NOT_CARRIED, part=part, name=owners[0].name)
 
     def find_flight(self, scene: Scene) -> Iterator[int]:
@@ -298,8 +303,8 @@ class CharacterMotion(BalanceGroup):
         self._retrace(context)
 
     def _check(self, off: NDArray, turns: bool) -> None:
-        """Set the distance of the center, and the deviation of the momentum."""
-        distance = float(np.linalg.norm(off, axis=1).max())
+        """Set the distance of the center at the keys, and the deviation of the momentum."""
+        distance = float(np.linalg.norm(off[:: spin.LAST], axis=1).max())
         self.off = distance * self.unit if distance > FOLLOWS * self.known.size else 0.0
         self.deviation = self.worst = 0.0
         if turns:

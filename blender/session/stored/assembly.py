@@ -22,7 +22,7 @@ from ....core.verdict import internal_error, of_severity, sentence
 from ....core.verdict.finding import Finding, Severity, finding
 from ...bodies.assembly.assembly import Assembly, MemberBody, assembly_measurement
 from ...bodies.findings import ASSEMBLY_MASS_GIVEN, MEMBERS_DENSITY_UNSET
-from ...bodies.measure_body import Measured
+from ...bodies.stack import Measured
 from ...read.assembly import (
     Member,
     MemberKind,

@@ -10,13 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from bpy.types import Object
-from numpy.typing import NDArray
 
 from ....core.bodies import Reading
-from ....core.mesh import Surface
 from ....core.numerics import Array
-from ....core.verdict import FLIPPED_FACES, DefectiveElements
-from ...bodies.measure_body import MeasuredBody
+from ....core.verdict import FLIPPED_FACES
+from ...bodies.stack import Measured
 from .. import memory
 from ..tracking import updates
 
@@ -42,22 +40,23 @@ class Faults:
 forget = memory.faults.forget
 
 
-def remember(obj: Object, measured: MeasuredBody) -> None:
+def remember(obj: Object, measured: Measured) -> None:
     """Cache the faults of a freshly measured object, or drop them if it has none."""
-    reading = measured.reading
-    if not isinstance(reading, Reading) or len(reading.parts) != 1 or reading.is_singular:
-        forget(obj)  # with several surfaces, the faulty one is unknown
-        return
-    (part,) = reading.parts
-    place = np.linalg.inv(reading.matrix) @ part.matrices[0]
-    remember_surface(obj, part.surface, measured.measurement.health.defective_elements, place)
-
-
-def remember_surface(
-    obj: Object, surface: Surface, elements: DefectiveElements, place: NDArray = OWN_PLACE
-) -> None:
-    """Cache the faults of an object's surface; `place` maps it into the object's coordinates."""
     forget(obj)
+    place = OWN_PLACE
+    if measured.stack is None:
+        reading = measured.reading
+        if not isinstance(reading, Reading) or len(reading.parts) != 1 or reading.is_singular:
+            return  # with several surfaces, the faulty one is unknown
+        (part,) = reading.parts
+        surface = part.surface
+        elements = measured.measurement.health.defective_elements
+        place = np.linalg.inv(reading.matrix) @ part.matrices[0]
+    else:
+        shape = measured.stack.shape(measured.index)
+        surface = shape.surface
+        if (elements := shape.defects) is None:
+            return
     pairs, faces = (
         np.concatenate([getattr(elements, name) for name in names]) for names in (PAIRS, FACES)
     )

@@ -6,9 +6,9 @@ symmetries and sections.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from itertools import groupby
+from itertools import groupby, repeat
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,8 +16,7 @@ from bpy.types import Context, Object, Scene
 
 from ....core.measurement import fingerprint
 from ....core.verdict import internal_error
-from ...bodies.measure_body import Measured, MeasuredBody
-from ...bodies.stack import MeasuredStack
+from ...bodies.stack import Measured, MeasuredStack
 from ...read.fingerprint import matrix_hash, scale_hash, settings_hash
 from ...scale import meters_per_unit
 from ...settings.density import is_density_unset
@@ -36,40 +35,40 @@ if TYPE_CHECKING:
 MAX_STORED_ELEMENTS = 32  # of a symmetry: nobody reads more for a ball or a fine prism
 
 
-def store(obj: Object, measured: Measured, scene: Scene) -> None:
-    """Write a measurement on the object, or raise EditRefusedError."""
-    for _, refusal in store_many([(obj, measured)], scene):
-        if refusal is not None:
-            raise refusal
-
-
-def _store_alone(obj: Object, measured: MeasuredBody, scene: Scene) -> None:
-    """Write a measurement on the object, and remember the data for its sliders."""
-    measured = replace(measured, measurement=density.noted(obj, measured.measurement, scene))
-    staleness.note_edits(obj)
-    about = reference.stored_choice(obj)
-    properties.store(obj, measured.measurement)
-    faults.remember(obj, measured)
-    reference.follow(obj, scene, about)
-    sliders.remember(obj, measured, scene)
-
-
 def store_many(
-    measured: Sequence[tuple[Object, Measured]], scene: Scene
+    measured: Sequence[tuple[Object, Measured]],
+    scene: Scene,
+    shapes: Mapping[Object, bytes | None] = staleness.NO_SHAPES,
 ) -> Iterator[tuple[Object, Exception | None]]:
-    """Store the results of objects; yield each with None, or the error that prevented it."""
+    """Store the results of objects; yield each with None, or the error that prevented it.
+
+    shapes: the `surface_digest` of objects that were read just now.
+    """
     for stack, run in groupby(measured, key=lambda item: item[1].stack):
-        items: list[tuple[Object, Any]] = list(run)
-        if stack is None:
-            for obj, alone in items:
-                try:
-                    _store_alone(obj, alone, scene)
-                except Exception as error:
-                    yield obj, error
-                else:
-                    yield obj, None
-        else:
-            yield from _store_stack(stack, [each.index for _, each in items], scene)
+        items = list(run)
+        which = [found.index for _, found in items if found.stack is not None]
+        rows = repeat({}) if stack is None else _values_of_stack(stack.some(which), scene)
+        for (obj, found), values in zip(items, rows):
+            try:
+                staleness.note_edits(obj, shapes.get(obj))
+                _store(obj, found, values, scene)
+            except Exception as error:
+                yield obj, error
+            else:
+                yield obj, None
+
+
+def _store(obj: Object, found: Measured, values: dict[str, Any], scene: Scene) -> None:
+    """Write a measurement on the object; remember its faults, and the data for its sliders."""
+    about = reference.stored_choice(obj)
+    if found.stack is None:
+        found = replace(found, measurement=density.noted(obj, found.measurement, scene))
+        values = properties.values_of(found.measurement)
+    properties.store_values(obj, values)
+    faults.remember(obj, found)
+    reference.follow(obj, scene, about)
+    if found.stack is None:
+        sliders.remember(obj, found, scene)
 
 
 def store_measured(
@@ -79,53 +78,29 @@ def store_measured(
     results.
     """
     measured = list(measured)
-    outcomes = list(store_many(measured, context.scene))
-    shapes = {obj: found.shape_digest(obj) for obj, found in measured}
+    shapes = {obj: found.shape_digest(obj) for obj, found in measured if obj.mode == "OBJECT"}
+    outcomes = list(store_many(measured, context.scene, shapes))
     staleness.mark_up_to_date(
         context, [obj for obj, refusal in outcomes if refusal is None], shapes
     )
     return {obj: refusal for obj, refusal in outcomes if refusal is not None}
 
 
-def _store_stack(
-    stack: MeasuredStack, which: list[int], scene: Scene
-) -> Iterator[tuple[Object, Exception | None]]:
-    part = stack.some(which)
-    objects = [member.obj for member in part.members]
-    about = {}
-    for obj, member in zip(objects, part.members):
-        staleness.note_edits(
-            obj, part.shapes[member.shape].digest if obj.mode == "OBJECT" else None
-        )
-        if "body_reference" in obj:
-            about[obj] = reference.stored_choice(obj)
+def _values_of_stack(part: MeasuredStack, scene: Scene) -> Iterator[dict[str, Any]]:
+    """Return the properties of the members of a stack."""
     findings = list(part.findings)
-    for i, (obj, from_mass) in enumerate(zip(objects, part.from_mass.tolist())):
-        if not from_mass and is_density_unset(obj.body_moments, scene):
+    for i, (member, from_mass) in enumerate(zip(part.members, part.from_mass.tolist())):
+        if not from_mass and is_density_unset(member.obj.body_moments, scene):
             findings[i] = density.with_default_note(findings[i], "density")
-    refusals = properties.store_stack(
-        objects,
+    methods = [part.shape(i).method for i in range(len(findings))]
+    return properties.values_of_stack(
         part.mass_properties.in_frame(part.rotation, part.location),
         part.density,
         part.volume.raw[:, 0],
         part.area.raw[:, 0],
         part.error_bounds,
-        zip(
-            [part.shapes[member.shape].method for member in part.members],
-            findings,
-            part.fingerprints,
-        ),
+        zip(methods, findings, part.fingerprints),
     )
-    for obj, member, refusal in zip(objects, part.members, refusals):
-        if refusal is None:
-            shape = part.shapes[member.shape]
-            if (defects := shape.defects) is None:
-                faults.forget(obj)
-            else:
-                faults.remember_surface(obj, shape.surface, defects)
-            if obj in about:
-                reference.follow(obj, scene, about[obj])
-        yield obj, refusal
 
 
 def store_symmetry(

@@ -180,7 +180,9 @@ def check_stability(context: Context, obj: Object, measured: list[Object]) -> li
         result = measured_in_turn([obj], depsgraph)(obj)
         if result.method.procedure == Procedure.OPEN:
             raise EditRefusedError(OPEN_OBJECT)
-        results.store(obj, result, context.scene)
+        for _, refusal in results.store_many([(obj, result)], context.scene):
+            if refusal is not None:
+                raise refusal
         measured.append(obj)
     hull = compute(obj, depsgraph)
     extent = float(np.ptp(hull.points, axis=0).max())

@@ -226,9 +226,7 @@ def mark_up_to_date(
         note_edits(obj)  # for its other stamps
         mark_object(obj)
         if (stamp := stamps.of_results(obj)) is not None:
-            _remember_shape(
-                obj, stamp, depsgraph, shapes.get(obj) if obj.mode == "OBJECT" else None
-            )
+            _remember_shape(obj, stamp, depsgraph, shapes.get(obj))
 
 
 def mark_stamps(context: Context, fresh: Iterable[tuple[Object, Stamp]]) -> None:

@@ -97,8 +97,9 @@ class _Document:
             if not shape.seen:
                 holder = self._node(link.name + " hull", Pose())
                 self.unseen.add(holder)
-            self.nodes[holder]["mesh"] = self._mesh(shape.surface)
-            geometry = {"node": holder, "convexHull": True}
+            mesh = self.nodes[holder]["mesh"] = self._mesh(shape.surface)
+            # The draft of 2026 names the mesh, the one before a node that holds it.
+            geometry = {"mesh": mesh, "node": holder, "convexHull": True}
         else:
             index = self._node("{} {}".format(link.name, shape.kind), shape.pose, parent)
             geometry = {"shape": len(self.shapes)}

@@ -11,6 +11,7 @@ from body_moments.blender.bodies.measure_body import measure_body
 from body_moments.blender.bodies.measure_object import measure_many
 from body_moments.blender.bodies.stack import Stacked
 from body_moments.blender.settings.options import AS_SET, MeasureOptions
+from mathutils import Matrix
 
 from tests.blender.many_objects import bpy, shards
 from tests.corpus import scenes
@@ -226,6 +227,21 @@ def test_object_settings_and_options_hold_in_stacks(settings):
     ):
         pairs, depsgraph = all_outcomes([obj], MeasureOptions(**options))
         assert_same(pairs[0][1], alone(obj, depsgraph, MeasureOptions(**options)))
+
+
+@pytest.mark.parametrize("modifier", [None, "TRIANGULATE"])
+def test_edited_mesh_is_integrated_again(modifier):
+    obj = object_of(*s.box())
+    if modifier:
+        obj.modifiers.new("", modifier)
+    volumes = []
+    for height in (1.0, 3.0, 1.0):
+        obj.data.transform(Matrix.Diagonal((1.0, 1.0, height, 1.0)))
+        obj.data.update()
+        bpy.context.view_layer.update()
+        ((_, found),), _ = all_outcomes([obj])
+        volumes.append(found.measurement.volume)
+    assert volumes == pytest.approx([1.0, 3.0, 3.0], rel=1e-12)
 
 
 def test_a_stack_that_fails_measures_each_alone(monkeypatch, capfd):

@@ -10,7 +10,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from body_moments.core.colliders.effects import correct_vertices, effect, uniform_masses
+from body_moments.core.colliders import effects
+from body_moments.core.colliders.effects import effect, uniform_masses
 from body_moments.core.inertia import MassProperties
 from body_moments.core.mesh import Surface, convex_hull
 from body_moments.core.polyhedron import polyhedron_moments
@@ -18,6 +19,7 @@ from body_moments.core.robots.model import Pose, Shape
 from body_moments.core.verdict.finding import MeasureError
 
 from tests.core import bodies
+from tests.core.steps import run
 
 L_SHAPE = bodies.joined(bodies.box((0, 0, 0), (3, 1, 1)), bodies.box((0, 1, 0), (1, 3, 1)))
 
@@ -25,6 +27,10 @@ LEGS = [bodies.box((x, y, 0), (x + 0.1, y + 0.1, 0.5)) for x in (0.0, 0.4) for y
 CHAIR = bodies.joined(
     *LEGS, bodies.box((0, 0, 0.5), (0.5, 0.5, 0.55)), bodies.box((0, 0, 0.55), (0.05, 0.5, 1))
 )
+
+
+def correct_vertices(*arguments):
+    return run(effects.correct_vertices(*arguments))
 
 
 def hull_shape(points):

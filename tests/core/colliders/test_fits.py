@@ -6,18 +6,22 @@ points.
 
 from __future__ import annotations
 
+from itertools import combinations
+
 import numpy as np
 import pytest
 from body_moments.core.colliders.convex_pieces import cut_into_pieces
 from body_moments.core.colliders.fits import Wanted, distances, make_colliders
 from body_moments.core.inertia import MassProperties
-from body_moments.core.mesh import Surface
+from body_moments.core.mesh import Surface, convex_hull
+from body_moments.core.numerics import spread_directions
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.robots.model import Pose, Shape
 from body_moments.core.robots.primitives import moments_of
 from body_moments.core.verdict.finding import MeasureError
 
 from tests.core import bodies
+from tests.core.steps import run
 
 TURN = bodies.rotation(3)
 L_POINTS = np.array([[0, 0], [3, 0], [3, 1], [1, 1], [1, 3], [0, 3]], float)
@@ -35,17 +39,6 @@ def prism(outline, lid, height=1.0):
 
 L_SHAPE = prism(L_POINTS, [[0, 1, 2], [0, 2, 3], [0, 3, 5], [3, 4, 5]])
 TORUS = bodies.torus(24, 12, minor=0.35)
-
-
-def run(steps):
-    shares = []
-    while True:
-        try:
-            shares.append(next(steps))
-        except StopIteration as done:
-            assert shares == sorted(shares)
-            assert all(0.0 <= share <= 1.0 for share in shares)
-            return done.value
 
 
 def make(part, shape, outward=0.0, inward=0.0, pieces=16, vertices=64):
@@ -214,3 +207,19 @@ def test_steps_of_a_division_can_be_left_early():
     steps = cut_into_pieces(Surface.from_triangles(*TORUS), 0.0, 8, 64)
     assert 0.0 < next(steps) < 1.0
     steps.close()
+
+
+def test_no_two_pieces_of_a_rock_have_a_common_hull_within_tolerance():
+    directions = convex_hull(spread_directions(100))
+    radius = 1.0 + 0.25 * np.sin(directions.points @ [[4, 1, 0], [0, -3, 5], [-6, 2, 2]]).sum(
+        axis=1
+    )
+    rock = directions.points * radius[:, None], directions.triangles
+    surface = Surface.from_triangles(*rock)
+    shapes = make(rock, "automatic", outward=0.15, inward=0.002, pieces=32, vertices=255)
+    assert len(shapes) > 1
+    for one, other in combinations(shapes, 2):
+        points = np.concatenate([one.surface.points, other.surface.points])
+        hull = convex_hull(points)
+        common = Shape("mesh", surface=Surface.from_triangles(hull.points, hull.triangles))
+        assert distances(surface, [common])[0] > 0.149

@@ -12,9 +12,9 @@ import bpy
 import numpy as np
 from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.bodies.rig import measure_rig
+from body_moments.core.files import gltf_document
 from body_moments.core.inertia.mass_properties import combine
 from body_moments.core.numerics.rotations import rotation_matrix
-from body_moments.core.robots.write import gltf
 
 from tests.blender.characters import armature_of, pose, skin_of
 from tests.blender.exported_robots import SUFFIXES, assert_filled, exported_links
@@ -138,7 +138,7 @@ def test_gltf_bodies_include_fixed_children(tmp_path, unit, reported):
     bpy.context.scene.unit_settings.scale_length = unit
     upper, fore, tool = pair()
     assert export("gltf", tmp_path / "robot.glb") == {"FINISHED"}
-    document = gltf.read_json((tmp_path / "robot.glb").read_bytes())
+    document = gltf_document((tmp_path / "robot.glb").read_bytes())
     nodes = {node["name"]: node for node in document["nodes"]}
     assert {*document["extensionsUsed"]} >= {"KHR_physics_rigid_bodies", "OMI_physics_body"}
     assert "extensions" not in nodes["Fore.001"] and ("gltf_unit_scale" in reported.codes) == (
@@ -270,7 +270,7 @@ def test_bones_are_links_in_their_rest_frames_with_their_limits(tmp_path):
     first = ElementTree.parse(tmp_path / "rig.xml").getroot().find("worldbody/body")
     assert first.find("freejoint") is not None and len(first.findall("body")) == len(names) - 1
     export("gltf", tmp_path / "rig.glb", links="BONE")
-    document = gltf.read_json((tmp_path / "rig.glb").read_bytes())
+    document = gltf_document((tmp_path / "rig.glb").read_bytes())
     nodes = {node["name"]: node for node in document["nodes"]}
     (limit,) = [
         limit

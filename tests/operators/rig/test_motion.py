@@ -172,14 +172,14 @@ def poses_in_world(rig, frames):
     return np.array(found)
 
 
-def test_kept_height_moves_the_landing(scene):
+def test_kept_height_moves_the_landing(scene, reported):
     rig = jumper()
     before, pose = centers(rig, FLIGHT), poses(rig, [1, TAKE_OFF, 16, LANDING, END])
     assert PARABOLA(keep="HEIGHT") == {"FINISHED"}
     top = before[:, 2].max()
     seconds = sum(np.sqrt(2.0 * (top - end) / 9.81) for end in before[[0, -1], 2])
     landing = TAKE_OFF + round(seconds / STEP)
-    assert landing != LANDING
+    assert landing != LANDING and "to {}".format(landing) in reported.texts[-2]
     path = centers(rig, range(TAKE_OFF, landing + 1))
     assert np.abs(path - arc(path)).max() < 1e-6 * HEIGHT
     assert abs(path[:, 2].max() - top) < 0.1

@@ -44,7 +44,7 @@ def times_of(flight):
 @pytest.mark.parametrize(
     "case", ORDINARY + TWISTING, ids=lambda case: "{seed}-{mode}".format(**case)
 )
-def test_somersault_keeps_its_momentum_between_frames(scene, case):
+def test_somersault_keeps_its_momentum_between_frames(scene, reported, case):
     rig = gymnast(root=case.get("carrier") != "object")
     flight = somersault(rig, **case)
     times = times_of(flight)
@@ -55,6 +55,7 @@ def test_somersault_keeps_its_momentum_between_frames(scene, case):
     assert ("rotation" in curves_of(rig)[0].data_path[:8]) == (case.get("carrier") == "object")
     after = momenta_at(rig, times, case["fps"])
     assert np.linalg.norm(after - kept, axis=1).max() < 0.005 * np.linalg.norm(kept)
+    assert "constraints" not in " ".join(reported.texts)
 
 
 @pytest.mark.parametrize("layer", [False, True], ids=["action", "layer"])
@@ -71,6 +72,16 @@ def test_parented_and_layered_somersault_keeps_its_momentum(scene, mode, layer):
     assert SPIN(use_layer=layer, lead=0, **typed(flight)) == {"FINISHED"}
     after = momenta_at(rig, times, 24)
     assert np.linalg.norm(after - kept, axis=1).max() < 0.0075 * np.linalg.norm(kept)
+
+
+def test_uneven_scale_above_the_character_is_named(scene):
+    rig = gymnast()
+    rig.parent = bpy.data.objects.new("Stage", None)
+    rig.parent.scale = 1.0, 2.0, 1.0
+    scene.collection.objects.link(rig.parent)
+    flight = somersault(rig, 3, 24, "QUATERNION")
+    with pytest.raises(RuntimeError, match="uneven scale.*“Stage”"):
+        SPIN(**typed(flight))
 
 
 def test_falling_cat_turns_without_momentum(scene):
@@ -202,10 +213,20 @@ def test_curves_outside_stay_to_the_last_bit(scene, kind, handles, extrapolation
         assert np.abs(np.subtract(values, before[channel])).max() < 2e-3
 
 
-def test_take_off_between_keys_divides_the_curve(scene):
-    """The curves before and after pass as before, up to the rounding of the keys to float32."""
+@pytest.mark.parametrize("reach", [None, 0.65], ids=["automatic", "overlapping"])
+def test_take_off_between_keys_divides_the_curve(scene, reach):
+    """The curves before and after pass as before, up to the rounding of the keys to float32.
+
+    reach: of free handles, relative to the distance of the keys, which they may pass together.
+    """
     rig = gymnast()
     flight = somersault(rig, 6, 24, "QUATERNION")
+    for points in (curve.keyframe_points for curve in curves_of(rig) if reach):
+        for one, two in zip(points[:-1], points[1:]):
+            one.handle_right_type = two.handle_left_type = "FREE"
+            length = reach * (two.co.x - one.co.x)
+            one.handle_right = one.co.x + length, one.co.y + 0.2
+            two.handle_left = two.co.x - length, two.co.y + 0.1
     inner = flight[0] + 3, flight[1] - 2
     outside = [*np.arange(1.0, inner[0], 0.1), *np.arange(inner[1] + 0.0, flight[1] + 9.0, 0.1)]
     before = {

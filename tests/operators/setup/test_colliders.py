@@ -17,7 +17,7 @@ from body_moments.blender.session.tracking.stamps import Stale, of_colliders
 from body_moments.blender.settings.given import COLLIDER, COLLIDERS
 from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.polyhedron.integration import volume_and_center
-from mathutils import Vector
+from mathutils import Euler, Vector
 
 from tests.blender.objects import add, measured, mesh_body, only, seen
 
@@ -295,13 +295,18 @@ def test_origin_of_a_hull_is_its_center_of_mass():
         assert abs(volume) > 0.0 and np.abs(center).max() < 1e-6
 
 
+@pytest.mark.parametrize("turn", [(0, 0, 0), (0.3, 0.7, 1.1)], ids=["level", "turned"])
 @pytest.mark.parametrize("correct", ["NONE", "MASSES", "VERTICES"])
-def test_flat_colliders_are_refused_with_a_remedy(correct):
+@pytest.mark.parametrize("shape", ["AUTOMATIC", "BOX", "AXES_BOX", "CYLINDER", "HULL", "PIECES"])
+def test_flat_colliders_are_refused_with_a_remedy(shape, correct, turn):
+    corners = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]) @ np.array(
+        Euler(turn).to_matrix()
+    )
     mesh = bpy.data.meshes.new("Sheet")
-    mesh.from_pydata([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [], [(0, 1, 2, 3)])
-    body = add(mesh, "Sheet")
+    mesh.from_pydata(corners.tolist(), [], [(0, 1, 2), (0, 2, 3)])
+    body = add(mesh, "Sheet", rotation=turn)
     body.body_moments.kind, body.body_moments.thickness = "SHELL", 0.01
-    assert make(shape="HULL", correct=correct) == {"CANCELLED"}
+    assert make(shape=shape, correct=correct) == {"CANCELLED"}
     (group,) = outcome.last().groups
     assert group.finding.code == "colliders_flat" and not colliders(body)
     assert make(shape="SPHERE") == {"FINISHED"}

@@ -219,8 +219,8 @@ def test_equal_shape_keys_and_groups_are_shared():
 
 @pytest.mark.parametrize(
     "cause",
-    ["driver", "mesh driver", "scene driver", "constraint", "bone", "modifier"]
-    + ["material", "linked"],
+    ["driver", "mesh driver", "scene driver", "path driver", "context driver", "constraint"]
+    + ["bone", "bone shape", "modifier", "material", "linked"],
 )
 def test_objects_that_others_follow_or_shade_are_left(cause, tmp_path):
     mesh = blob(1)
@@ -229,19 +229,30 @@ def test_objects_that_others_follow_or_shade_are_left(cause, tmp_path):
     if "driver" in cause:
         owner = bpy.context.scene if cause == "scene driver" else other
         owner["value"] = 0.0
-        target = owner.driver_add('["value"]').driver.variables.new().targets[0]
-        if cause == "mesh driver":
+        variable = owner.driver_add('["value"]').driver.variables.new()
+        variable.type = "CONTEXT_PROP" if cause == "context driver" else "SINGLE_PROP"
+        target = variable.targets[0]
+        if cause == "context driver":
+            target.data_path = 'objects["Copy"].location.x'
+        elif cause == "path driver":
+            middle = add(None, "Middle")
+            middle.parent = second
+            target.id, target.data_path = middle, "parent.location.x"
+        elif cause == "mesh driver":
             target.id_type = "MESH"
             target.id, target.data_path = second.data, "vertices[0].co[0]"
         else:
             target.id, target.data_path = second, "location.x"
-    elif cause == "bone":
+    elif "bone" in cause:
         rig = add(bpy.data.armatures.new("Rig"), "Rig")
         bpy.context.view_layer.objects.active = rig
         bpy.ops.object.mode_set(mode="EDIT")
         rig.data.edit_bones.new("Bone").tail = 0, 0, 1
         bpy.ops.object.mode_set(mode="OBJECT")
-        rig.pose.bones[0].constraints.new("COPY_ROTATION").target = second
+        if cause == "bone":
+            rig.pose.bones[0].constraints.new("COPY_ROTATION").target = second
+        else:
+            rig.pose.bones[0].custom_shape = second
     elif cause == "modifier":
         mirror = other.modifiers.new("Mirror", "MIRROR")
         mirror.mirror_object = second

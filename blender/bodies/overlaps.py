@@ -1,0 +1,110 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Objects whose common space counts twice in a sum: copies left in place, and bodies that overlap.
+
+Only pairs with overlapping boxes are read, up to a number of triangles, so that a scene of a
+thousand objects takes a fraction of the time of its measurement. Bodies that touch do not overlap.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+import numpy as np
+from bpy.types import Depsgraph, Object
+
+from ...core.bodies import float64_matrix
+from ...core.mesh import BoundarySum, Surface, join_surfaces, overlapping_box_pairs, sort_components
+from ...core.numerics import Array
+from ...core.solid import classify_pairs
+from ...core.verdict import CLOSED_SHEET_VOLUME_RTOL, welding_tolerance
+from ...core.verdict.finding import Finding, MeasureError, finding
+from ..read.assembly import copies_caveats, copies_in_place, operands_of
+from ..read.objects import read_object
+from .findings import BODIES_OVERLAP
+
+MAX_PAIRS = 4_000
+MAX_TRIANGLES = 100_000
+MAX_NAMED = 100  # pairs in the values of a finding
+
+
+def shared_space_caveats(objects: Collection[Object], depsgraph: Depsgraph) -> list[Finding]:
+    """Return a warning about copies left in place, and a note about other solids that overlap."""
+    return [*copies_caveats(objects), *overlap_caveats(objects, depsgraph)]
+
+
+def overlap_caveats(objects: Collection[Object], depsgraph: Depsgraph) -> list[Finding]:
+    """Return a note if solids overlap, other than copies left in place and operands of Booleans."""
+    copies = copies_in_place(objects)
+    operands = operands_of(objects)
+    pairs = _overlapping_pairs(
+        [obj for obj in objects if obj.name not in copies and obj not in operands], depsgraph
+    )
+    if not pairs:
+        return []
+    first, second = pairs[0]
+    values = {"first": first, "second": second, "pairs": pairs[:MAX_NAMED]}
+    return [finding(BODIES_OVERLAP, count=len(pairs), **values)]
+
+
+def _overlapping_pairs(objects: Sequence[Object], depsgraph: Depsgraph) -> list[list[str]]:
+    """Return the names of the pairs of closed solids that certainly share space, sorted."""
+    solids = [
+        obj
+        for obj in sorted(objects, key=lambda obj: obj.name)
+        if obj.type != "EMPTY"
+        and (obj.body_moments.kind, obj.body_moments.mass_from) == ("SOLID", "DENSITY")
+    ]
+    if len(solids) < 2:
+        return []
+    low, high = _boxes(solids)
+    size = float(np.linalg.norm(high.max(axis=0) - low.min(axis=0)))
+    error = float(np.spacing(np.float32(max(np.abs(low).max(), np.abs(high).max()))))
+    margin = welding_tolerance(size, error)
+    first, second, _ = overlapping_box_pairs(low, high, margin, MAX_PAIRS)
+    names = []
+    surfaces: list[Surface] = []
+    triangles = 0
+    for i in np.unique([first, second]).tolist():
+        surface = _closed_surface(solids[i], depsgraph, MAX_TRIANGLES - triangles)
+        if surface is not None:
+            triangles += len(surface.triangles)
+            surfaces.append(surface)
+            names.append(solids[i].name)
+    if len(surfaces) < 2:
+        return []
+    joined = join_surfaces(surfaces)
+    sizes = [len(surface.triangles) for surface in surfaces]
+    component = np.repeat(np.arange(len(sizes)), sizes)
+    components = sort_components(joined.points, joined.triangles, component, len(sizes))
+    extent = np.linalg.norm(components.high - components.low, axis=1)
+    flat = CLOSED_SHEET_VOLUME_RTOL * extent * components.area
+    is_solid = np.abs(components.volume) > flat
+    relations = classify_pairs(joined.points, components, is_solid, margin)
+    pairs = np.sort(np.concatenate([relations.contained_in, relations.intersecting]), axis=1)
+    return [[names[i], names[j]] for i, j in np.unique(pairs, axis=0).tolist()]
+
+
+def _boxes(objects: Sequence[Object]) -> tuple[Array, Array]:
+    """Return (n, 3) least and largest coordinates in the world."""
+    corners = np.array([[corner[:] for corner in obj.bound_box] for obj in objects], np.float64)
+    matrices = np.array([float64_matrix(obj.matrix_world) for obj in objects])
+    placed = corners @ matrices[:, :3, :3].transpose(0, 2, 1) + matrices[:, None, :3, 3]
+    return placed.min(axis=1), placed.max(axis=1)
+
+
+def _closed_surface(obj: Object, depsgraph: Depsgraph, limit: int) -> Surface | None:
+    """Return the triangles of a closed object in the world, None if it is open or has more than
+    `limit`.
+    """
+    try:
+        reading = read_object(obj, depsgraph, edges=False)
+    except MeasureError:  # such as a grid of densities
+        return None
+    count = sum(part.surface.triangle_count * len(part.matrices) for part in reading.parts)
+    for part in reading.parts:
+        boundary = BoundarySum()
+        boundary.add(part.surface)
+        if count > limit or not boundary.is_zero:
+            return None
+    return reading.join()
