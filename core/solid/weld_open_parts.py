@@ -58,17 +58,21 @@ def weld_patches(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     if parts is None or parts.are_all:
         return mesh
     given = mesh.triangles[parts.rows]
-    is_open = np.zeros(len(mesh.triangles), bool)
-    is_open[parts.rows] = True
-    closed = np.flatnonzero(~is_open & has_distinct_vertices(mesh.triangles))
     loose = _unique_sorted(given, len(mesh.points))
+    low, high = mesh.points[loose].min(axis=0), mesh.points[loose].max(axis=0)
+    is_near = ((mesh.points >= low - tolerance) & (mesh.points <= high + tolerance)).all(axis=1)
+    is_candidate = is_near[mesh.triangles].all(axis=1) & has_distinct_vertices(mesh.triangles)
+    is_candidate[parts.rows] = False
+    closed = np.flatnonzero(is_candidate)
+    if not len(closed):
+        return mesh
     fixed = np.setdiff1d(mesh.triangles[closed], loose)
     vertices = np.concatenate([fixed, loose])  # so that the first of a cluster is a fixed one
-    reach = vertex_tolerance(mesh.points, mesh.triangles, vertices, tolerance)
+    rows = np.concatenate([closed, parts.rows])
+    reach = vertex_tolerance(mesh.points, mesh.triangles[rows], vertices, tolerance)
     onto = np.arange(len(mesh.points))
     onto[vertices] = vertices[first_at_near_position(mesh.points[vertices], reach)]
     onto[fixed] = fixed
-    rows = np.concatenate([closed, parts.rows])
     triangles = np.concatenate([mesh.triangles[closed], onto[given]])
     group = same_vertices_groups(triangles, mesh.face[rows])
     is_copy = np.isin(group[len(closed) :], group[: len(closed)])
