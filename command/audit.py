@@ -37,9 +37,9 @@ _EPILOG = """\
 FILE is URDF, SDF, MJCF, USD or xacro; of a folder, all such files but xacro and .usdc are audited.
 USD that is binary or refers to other files needs the Python module usd-core, and xacro the module
 xacro. A link that is off is listed with the one change that makes it agree with its geometry.
-Meshes (.stl .obj .glb .dae) and included files are read from the nearest folder above FILE that
-holds a package.xml, else from the folder above that of FILE, from a named folder, and from each
---package-path and ROS_PACKAGE_PATH; nothing is loaded from a network.
+Meshes (.stl .obj .glb .dae .msh) and included files are read from the nearest folder above FILE
+that holds a package.xml, else from the folder above that of FILE, from a named folder, and from
+each --package-path and ROS_PACKAGE_PATH; nothing is loaded from a network.
 exit code: 0 nothing that --fail-on names, 1 findings, or a file that cannot be read,
 2 wrong usage, 3 interrupted, 70 a fault of the program"""
 

@@ -383,7 +383,7 @@ def plot(result: dict[str, dict[str, float]], against: str, path: str) -> None:
     import matplotlib as mpl
 
     mpl.use("svg")
-    mpl.rcParams["svg.hashsalt"] = "body-moments"
+    mpl.rcParams |= {"svg.hashsalt": "body-moments", "svg.fonttype": "none"}
     from matplotlib import pyplot
 
     rows = [row for row in result if len(result[row]) > 1][::-1]

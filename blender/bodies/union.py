@@ -14,6 +14,7 @@ from dataclasses import replace
 
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
 from ...core.bodies import MeshBody
 from ...core.mesh import Surface, join_surfaces, overlapping_box_pairs
@@ -28,7 +29,7 @@ TOUCHING_RTOL = 1e-6  # of the size: boxes nearer than this meet
 VOLUME_RTOL = 1e-5  # of the union, beyond its bounds
 MARKER = np.array([(0.0, 0.0, 0.0), (0.1, 0.0, 0.0), (0.0, 0.1, 0.0), (0.0, 0.0, 0.1)]) + 1.2
 MARKER_FACES = np.array([(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])
-Part = tuple[Array, Index]  # points and triangles
+Part = tuple[Array, NDArray[np.integer]]  # points and triangles
 
 
 def unite(body: MeshBody) -> Surface:
@@ -62,7 +63,7 @@ def _unite_simple(surface: Surface, shell: Index) -> Surface:
     order = np.argsort(shell, kind="stable")
     triangles = surface.triangles[order]
     starts = np.flatnonzero(np.diff(shell[order], prepend=-1))
-    shell = np.repeat(np.arange(len(starts)), np.diff([*starts, len(order)]))
+    shell = np.repeat(np.arange(len(starts)), np.diff(starts, append=len(order)))
     low = np.minimum.reduceat(surface.points[triangles].min(axis=1), starts)
     high = np.maximum.reduceat(surface.points[triangles].max(axis=1), starts)
     touching = TOUCHING_RTOL * float((high - low).max())
@@ -93,7 +94,7 @@ def _layers(count: int, left: Index, right: Index) -> Index:
     return layers
 
 
-def _with_triangles(surface: Surface, triangles: Index) -> Surface:
+def _with_triangles(surface: Surface, triangles: NDArray[np.integer]) -> Surface:
     """Return a surface of some triangles, without the points of others."""
     used = np.zeros(len(surface.points), bool)
     used[triangles.ravel()] = True
@@ -162,7 +163,7 @@ def _evaluate(body: Part, operands: Sequence[Part], solver: str) -> Surface:
             )
             mesh.loops.add(triangles.size)
             mesh.polygons.add(len(triangles))
-            mesh.polygons.foreach_set("loop_start", np.arange(0, triangles.size, 3, np.int32))
+            mesh.polygons.foreach_set("loop_start", np.arange(0, triangles.size, 3, dtype=np.int32))
             mesh.loops.foreach_set("vertex_index", triangles.astype(np.int32).ravel())
             mesh.update(calc_edges=True)
             made.append(obj := bpy.data.objects.new("", mesh))

@@ -211,6 +211,8 @@ class Auditor:
         if inertial is None:
             if link.moves and not entries:
                 entries.append(Entry(finding(INERTIAL_MISSING), link.place))
+            if any(shape.weight for shape in link.shapes):
+                entries += self._pieces(link.shapes)[1]
             return LinkAudit(link, tuple(entries))
         if not link.shapes and not inertial.mass and not inertial.tensor.any():
             return LinkAudit(link, (*entries, Entry(finding(INERTIAL_OF_FRAME), place)))

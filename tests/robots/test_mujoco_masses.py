@@ -185,6 +185,22 @@ def test_balanced_inertia_is_compared_with_the_geometry(tmp_path):
     assert "inertial_triangle" not in [entry.finding.code for entry in one.entries]
 
 
+def test_full_tensor_of_negative_moments_stays_impossible(tmp_path):
+    """MuJoCo refuses it in spite of bounds, which raise a zero moment."""
+    model = MODEL.format(
+        '<compiler boundinertia="2"/>',
+        '<body><inertial mass="1" pos="0 0 0" fullinertia="{} 1 1 {} 0 0"/></body>',
+    )
+    (one,) = audited(tmp_path / "m.xml", model.format(0, 0))
+    assert [entry.finding.code for entry in one.entries] == ["audit_overridden"]
+    path = tmp_path / "m.xml"
+    path.write_text(model.format(-1, 0.1))
+    with pytest.raises(ValueError, match="positive"):
+        mujoco.MjModel.from_xml_path(str(path))
+    (one,) = Auditor(Roots.for_file(path)).audit(read_description(path)).links
+    assert [entry.finding.code for entry in one.entries] == ["inertial_not_positive"]
+
+
 def test_paths_of_meshes_are_stripped(tmp_path):
     (tmp_path / "here").mkdir()
     points = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
@@ -210,3 +226,23 @@ def test_parts_of_a_model_are_attached_to_itself(tmp_path):
         MODEL.format(head, '<body name="a"><geom/><attach body="a" prefix="b_"/></body>')
     )
     assert [one.name for one in read_description(path).links] == ["a", "b_a"]
+
+
+def test_mesh_in_the_format_of_mujoco_is_read(tmp_path):
+    counts, faces = np.array([4, 0, 4, 4], "<i4"), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    points = np.array([[0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 3]], "<f4")
+    parts = counts, points, np.zeros((4, 2), "<f4"), np.array(faces, "<i4")
+    data = b"".join(part.tobytes() for part in parts)
+    model = MODEL.format(
+        '<asset><mesh file="m.msh"/></asset>', '<body><geom type="mesh" mesh="m"/></body>'
+    )
+    (tmp_path / "m.msh").write_bytes(data)
+    (one,) = audited(tmp_path / "m.xml", model)
+    assert one.link.from_shapes and not one.entries
+    for damaged in (data[:-1], data + b"0", data[:10], b"\xff" + data[1:]):
+        (tmp_path / "m.msh").write_bytes(damaged)
+        path = tmp_path / "m.xml"
+        (one,) = Auditor(Roots.for_file(path)).audit(read_description(path)).links
+        # The mass is unknown, and the report says why.
+        assert one.link.inertial is None
+        assert [entry.finding.code for entry in one.entries] == ["mesh_unreadable"]

@@ -168,17 +168,20 @@ class _Search:
             reach = float(np.linalg.norm(move))
             lifts = not handle.turns and move @ up > 1e-2 * self.nudge  # stretches the legs
             if (
-                reach > 1e-2 * self.nudge
+                reach > (1e-3 if handle.turns else 1e-2) * self.nudge
                 and shown.slip <= SLIP * reach + self.noise
                 and not lifts
                 and not any(unit @ u for u in units)
             ):
                 units.append(unit)
                 shifts.append((shown.center - start.center) / self.nudge)
-        # A turn may first lift the center and only then move it along the ground.
-        space = np.eye(3) if handle.turns else self.axes[:, :2]
-        least = LEAST_TURN if handle.turns else LEAST_SHIFT
-        if len(units) > 1 and np.linalg.svd(np.array(shifts) @ space)[1][1] >= least:
+        # A turn may first lift the center, or two turns be one near gimbal lock, and only a further
+        # turn move the center along the ground.
+        if handle.turns:
+            place, least, space = 0, LEAST_TURN, np.eye(3)
+        else:
+            place, least, space = 1, LEAST_SHIFT, self.axes[:, :2]
+        if len(units) > 1 and np.linalg.svd(np.array(shifts) @ space)[1][place] >= least:
             changes = [np.zeros(len(units))]
             if handle.turns:
                 changes += [size * turn * unit for turn in TURNS for unit in np.eye(len(units))]

@@ -148,7 +148,7 @@ class CharacterMotion(BalanceGroup):
             if not part:
                 return
         if turns and (above := self.found.uneven_parent) is not None:
-            raise Refused(UNEVENLY_SCALED, name=owner.name, above=above.name)
+            raise Refused(UNEVENLY_SCALED, name=owners[-1].name, above=above.name)
         raise Refused(NOT_CARRIED, part=part, name=owners[0].name)
 
     def find_flight(self, scene: Scene) -> Iterator[int]:

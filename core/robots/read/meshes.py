@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The meshes of robots as triangles: .stl, .obj, .glb and .dae, without Blender, which no longer
-reads the last.
+"""The meshes of robots as triangles: .stl, .obj, .msh, .glb and .dae, without Blender, which no
+longer reads the last.
 
 COLLADA, which a third of published robots use: geometries of triangles, polylists and polygons,
 placed by the scene's nodes, in meters. Most readers of robots (RViz, MoveIt, hpp-fcl) ignore which
@@ -93,6 +93,21 @@ def read_obj(path: Path) -> Arrays:
     """Return points and triangles of all objects of an OBJ; larger faces are cut into fans."""
     points, corners, sides, _ = read_obj_faces(path)
     return points, fan(sides, corners)
+
+
+def read_msh(path: Path) -> Arrays:
+    """Return points and triangles of MuJoCo's own binary format; its normals and texture
+    coordinates are skipped.
+    """
+    data = path.read_bytes()
+    counts = np.frombuffer(data, "<i4", 4)
+    points, normals, coordinates, faces = counts.tolist()
+    start = 16 + 4 * (3 * points + 3 * normals + 2 * coordinates)
+    if counts.min() < 0 or len(data) != start + 12 * faces:
+        raise ValueError("counts")
+    vertices = np.frombuffer(data, "<f4", 3 * points, 16).reshape(-1, 3)
+    triangles = np.frombuffer(data, "<i4", 3 * faces, start).reshape(-1, 3)
+    return vertices.astype(np.float64), triangles.astype(np.int64)
 
 
 def read_glb(path: Path) -> Arrays:
@@ -283,6 +298,7 @@ def checked_surface(
 READERS: dict[str, Callable[[Path], tuple]] = {
     ".stl": read_stl,
     ".obj": read_obj,
+    ".msh": read_msh,
     ".glb": read_glb,
     ".dae": read_dae,
 }

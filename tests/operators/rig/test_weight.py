@@ -10,6 +10,7 @@ import pytest
 
 from tests.blender.box_character import HEIGHT, boxes, weight
 from tests.blender.figure import figure
+from tests.blender.gymnast import gymnast
 from tests.panels.drawing import shown
 
 SHOW, BALANCE = bpy.ops.pose.body_moments_show_weight, bpy.ops.pose.body_moments_balance_pose
@@ -90,6 +91,16 @@ def test_spine_balances_from_far_as_from_near(scene, held, target):
             assert np.abs(after.contacts.points - before.contacts.points).max() < 1e-4 * HEIGHT
             turn = np.subtract(spine.rotation_euler, start)
             assert np.linalg.norm(turn) < lean + 0.9
+
+
+@pytest.mark.parametrize("lean", [70, 80])
+def test_chest_balances_near_gimbal_lock(scene, lean):
+    rig = gymnast()
+    chest = rig.pose.bones["chest"]
+    chest.rotation_mode = "YXZ"
+    chest.rotation_euler = np.radians((lean, 0, 0))
+    assert BALANCE(bone="chest", margin=0.02) == {"FINISHED"}
+    assert weight(rig).support.margin > 0.0199
 
 
 def test_legs_without_inverse_kinematics_turn_the_spine(scene):
