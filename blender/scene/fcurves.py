@@ -337,8 +337,8 @@ def _split(previous: NDArray, new: NDArray, following: NDArray, time: float) -> 
     points = np.concatenate(points).astype(np.float64)
     lengths = np.abs(points[[0, 3], 0] - points[[1, 2], 0])
     span = points[3, 0] - points[0, 0]
-    if lengths.sum() > span:  # Blender shortens handles that overlap
-        points[[1, 2]] = points[[0, 3]] + span / lengths.sum() * (points[[1, 2]] - points[[0, 3]])
+    shares = np.minimum(1.0, span / np.maximum(lengths, SAME_TIME))  # Blender shortens long handles
+    points[[1, 2]] = points[[0, 3]] + shares[:, None] * (points[[1, 2]] - points[[0, 3]])
     levels = [points]
     low, high = 0.0, 1.0
     for _ in range(60):

@@ -130,6 +130,9 @@ class Rules(NamedTuple):
             return None
         old = stated or StatedInertial(0.0, np.zeros(3), np.zeros((3, 3)))
         moments, axes = np.linalg.eigh(old.inertia)
+        # MuJoCo refuses a full tensor of negative moments, and never bounds them.
+        if moments[0] < 0.0 and (old.tensor != np.diag(np.diag(old.tensor))).any():
+            return stated
         mass = max(old.mass, self.least_mass or -inf)
         used = np.maximum(moments, self.least_moment or -inf)
         if self.balances and used[2] > used[0] + used[1]:
