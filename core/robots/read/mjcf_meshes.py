@@ -210,8 +210,7 @@ def mesh_moments(surface: Surface, inertia: str) -> tuple[float, Array, Array]:
     middle = (areas @ corners.mean(axis=1)) / areas.sum()
     # Pyramids over the faces count in full, also those outside: first to find the center, ...
     volumes = np.abs(np.linalg.det(corners - middle)) / 6.0
-    apexes = (corners - middle).sum(axis=1) / 4.0
-    center = middle + volumes @ apexes / volumes.sum()
+    center = middle + volumes @ ((corners - middle).sum(axis=1) / 4.0) / volumes.sum()
     # ... then from it.
     corners = corners - center
     volumes = np.abs(np.linalg.det(corners)) / 6.0
