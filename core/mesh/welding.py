@@ -68,6 +68,8 @@ def first_at_near_position(points: NDArray[np.floating], tolerance: Array) -> In
     place = points.astype(np.float64)
     place = place - place.min(axis=0)
     cell = 2.0 * tolerance.max()
+    if not cell:
+        return first_at_equal_position(place)
     chosen = np.flatnonzero(may_have_neighbor(place, CELL_DIAGONAL * tolerance.max()))
     if len(chosen) < len(points):
         first = np.arange(len(points))
