@@ -6,7 +6,7 @@ repaired copies.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import inf, pi, radians
 from pathlib import Path
@@ -42,6 +42,7 @@ from .primitives import primitive_moments
 from .read.descriptions import Roots
 from .read.meshes import read_mesh
 from .stated import Description, Place, StatedInertial, StatedLink, StatedShape, rotation_of_angles
+from .totals import Expectation, Totals, Tree, add_up, build_tree
 
 BALL = 2000  # points of a ball
 ROUND = 1.01  # Factor that encloses a round shape, of which only some points are known.
@@ -102,13 +103,24 @@ class LinkAudit:
         """All findings, first the reasons of each entry."""
         return tuple(found for entry in self.entries for found in (*entry.reasons, entry.finding))
 
+    @property
+    def has_impossible(self) -> bool:
+        """True if a finding says that no body has the inertial."""
+        return any(
+            one.code.startswith("inertial_") and severity(one) == Severity.ERROR
+            for one in self.findings
+        )
+
 
 @dataclass(frozen=True, eq=False)
 class Audit:
-    """Findings about a description."""
+    """Findings about a description. entries: about the whole of it."""
 
     description: Description
     links: tuple[LinkAudit, ...]
+    tree: Tree
+    totals: Totals
+    entries: tuple[Entry, ...] = ()
 
     def repairs(self) -> list[tuple[StatedLink, StatedInertial]]:
         """Return the links with a corrected inertial, if the file itself holds the inertial."""
@@ -150,9 +162,14 @@ Pieces = dict[str, list[tuple[StatedShape, _Piece]]]
 
 @dataclass
 class Auditor:
-    """An auditor of descriptions, which measures each mesh once, even if several links name it."""
+    """An auditor of descriptions, which measures each mesh once, even if several links name it.
+
+    joints: positions of joints by name, radians or meters.
+    """
 
     roots: Roots
+    joints: Mapping[str, float] = field(default_factory=dict)
+    expected: Expectation = Expectation()
     _meshes: dict[tuple, _Piece] = field(default_factory=dict)
 
     def audit(self, description: Description) -> Audit:
@@ -165,7 +182,11 @@ class Auditor:
         if description.total > 0.0 and is_known and sum(masses) > 0.0:
             factor = description.total / sum(masses)
         used = [_scaled(stated, link, factor) for stated, link in pairs]
-        return Audit(description, tuple(map(self._link_alone, used)))
+        audits = tuple(map(self._link_alone, used))
+        tree = build_tree(description, self.joints)
+        totals = add_up(tree, [(one.link, one.has_impossible) for one in audits])
+        about = [*tree.findings, *((one, Place()) for one in self.expected.check(totals.whole))]
+        return Audit(description, audits, tree, totals, tuple(Entry(*one) for one in about))
 
     def _use_rules(self, link: StatedLink) -> StatedLink:
         """Return a link with the inertial that its format's program uses; the stated one if masses

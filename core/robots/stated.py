@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..numerics import Array, rotation_matrix
 from ..verdict import Finding
-from .model import Inertial, Shape
+from .model import Inertial, Pose, Shape
 
 if TYPE_CHECKING:
     from .read.mjcf_meshes import Fit, Weight
@@ -146,6 +146,7 @@ class Rules(NamedTuple):
 class StatedLink:
     """One link as its file states it.
 
+    `pose`: in the model, with all joints at zero; None if only joints place it.
     `place`, `inertial_place`: of the link and of its inertial, which is the link's if there is
     none. `span`: range of the inertial in the file, in bytes. `moves`: True if a missing inertial
     matters. `findings`: about content that the reader could not use. `local`: (4, 4) from the
@@ -167,12 +168,56 @@ class StatedLink:
     rules: Rules | None = None
     from_shapes: bool = False
     overridden: StatedInertial | None = None
+    pose: Pose | None = None
+
+
+class Motion(NamedTuple):
+    """One motion of a child link relative to its parent.
+
+    name: of the value of `--joint`. kind: "hinge", "slide", "fixed", or another one that has not
+    one value. axis: (3,) unit vector, and origin: (3,) point on it, m, in the child's frame. zero:
+    the value of the pose that the file states, radians or meters. leader: the name of the motion
+    that this one follows, with a factor and an offset.
+    """
+
+    name: str
+    kind: str = "fixed"
+    axis: Array = np.array([1.0, 0.0, 0.0])
+    origin: Array = np.zeros(3)
+    zero: float = 0.0
+    leader: str = ""
+    factor: float = 1.0
+    offset: float = 0.0
+
+    def pose(self, value: float) -> Pose:
+        """Return the pose of the moved child in the unmoved one."""
+        value = value - self.zero
+        if self.kind == "slide":
+            return Pose(value * self.axis)
+        turn = rotation_about(self.axis, value)
+        return Pose(self.origin - turn @ self.origin, turn)
+
+
+@dataclass(frozen=True, eq=False)
+class StatedJoint:
+    """The connection of a link with its parent, "" for the world, by motions in a row.
+
+    pose: of the child in the parent, unmoved; None if it follows from the poses of both links.
+    """
+
+    name: str
+    parent: str
+    child: str
+    pose: Pose | None = None
+    motions: tuple[Motion, ...] = ()
+    place: Place = Place()
 
 
 @dataclass(frozen=True, eq=False)
 class Description:
     """A robot description, with the whole file as `source`. scales: units of its "length" in m and
-    "mass" in kg. total: the mass that all inertials are scaled to, kg; 0 if they stay.
+    "mass" in kg. total: the mass that all inertials are scaled to, kg; 0 if they stay. findings:
+    about joints.
     """
 
     name: str
@@ -181,6 +226,8 @@ class Description:
     source: bytes = b""
     scales: Mapping[str, float] = field(default_factory=lambda: {"length": 1.0, "mass": 1.0})
     total: float = 0.0
+    joints: tuple[StatedJoint, ...] = ()
+    findings: tuple[Finding, ...] = ()
 
 
 def rotation_about(axis: NDArray, angle: float) -> Array:

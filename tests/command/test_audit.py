@@ -273,3 +273,80 @@ def test_all_faults_of_a_link_are_told_at_once(tmp_path):
     assert all(
         one["certainty"] == "guess" and one["geometry"]["mass"] == 8000 for one in found["findings"]
     )
+
+
+JOINT = (
+    '<joint name="{}" type="revolute"><origin xyz="3 0 0"/><parent link="{}"/><child link="{}"/>'
+    '<axis xyz="0 0 1"/></joint>'
+)
+PAIR = [BOX.format(name, 8000, *["5333.3333"] * 3) for name in "ab"]
+FRAME = '<link name="tool"/>'
+BARE = '<link name="c"><visual><geometry><sphere radius="1"/></geometry></visual></link>'
+
+
+def test_totals_of_the_robot_are_in_every_form(tmp_path):
+    path = description(
+        tmp_path / "r.urdf",
+        *(*PAIR, FRAME, BARE, JOINT.format("j", "a", "b")),
+        *(JOINT.format("t", "b", "tool"), JOINT.format("k", "b", "c")),
+    )
+    record = json.loads(answer(path)[0])
+    total = record["total"]
+    assert (total["mass"], total["center_of_mass"]) == (16000.0, [1.5, 0.0, 0.0])
+    assert abs(total["inertia"][1][1] / (2 * 5333.3333 + 16000.0 * 1.5**2) - 1.0) < 1e-12
+    assert (total["missing"], total["frames"]) == (["c"], ["tool"])
+    assert [link["subtree"]["mass"] for link in record["links"]] == [16000.0, 8000.0, 0.0, 0.0]
+    for form in ("text", "table", "html", "sarif"):
+        text = answer("--format", form, path)[0]
+        assert "16000" in text and "8000" in text and "1.5" in text, form
+    turned = json.loads(answer("--joint", "j=1.5707963267948966", path)[0])
+    assert turned["total"]["center_of_mass"] == [1.5, 0.0, 0.0]
+    again = json.loads(answer("--joint", "j=0.5", "--expect-mass", "16000", path)[0])
+    assert again["findings"] == []
+
+
+@pytest.mark.parametrize(
+    "words, code",
+    [
+        (("--expect-mass", "16000"), 0),
+        (("--expect-mass", "16.1t", "--expect-center", "1.5,0,0"), 0),
+        (("--expect-mass", "16.1t", "--within", "0.5%"), 1),
+        (("--expect-center", "1.4,0,0"), 1),
+        (("--joint", "none=1"), 1),
+    ],
+)
+def test_expectation_decides_the_exit_code(words, code, tmp_path):
+    path = description(tmp_path / "r.urdf", *PAIR, JOINT.format("j", "a", "b"))
+    text, found = answer(*words, path)
+    record = json.loads(text)
+    assert found == code and len(record["findings"]) == code
+    assert answer("--ignore", "audit_total", "--ignore", "audit_joint", *words, path)[1] == 0
+
+
+@pytest.mark.parametrize(
+    "words",
+    [("--expect-mass", "3 m"), ("--within", "1"), ("--joint", "j=x"), ("--expect-center", "1,2")],
+)
+def test_expectation_that_is_no_number_is_wrong_usage(words, tmp_path):
+    path = description(tmp_path / "r.urdf", *PAIR)
+    with pytest.raises(SystemExit) as ended:
+        answer(*words, path)
+    assert ended.value.code == 2
+
+
+@pytest.mark.parametrize(
+    "joints",
+    [
+        [("j", "a", "b"), ("k", "b", "a")],
+        [("j", "a", "b"), ("k", "a", "b")],
+        [("j", "", "b")],
+        [("j", "a", "nowhere")],
+    ],
+)
+def test_joint_outside_of_the_tree_is_one_finding(joints, tmp_path):
+    path = description(tmp_path / "r.urdf", *PAIR, "\n", *(JOINT.format(*one) for one in joints))
+    text, code = answer(path)
+    record = json.loads(text)
+    (found,) = record["findings"]
+    assert (found["code"], found["line"], code) == ("audit_joint", 2, 1)
+    assert record["total"]["mass"] == 16000.0

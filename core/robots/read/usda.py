@@ -26,8 +26,10 @@ from ..stated import (
     LEAST,
     MOST,
     Description,
+    Motion,
     Place,
     StatedInertial,
+    StatedJoint,
     StatedLink,
     StatedShape,
     rotation_about,
@@ -43,6 +45,16 @@ _TOKEN = re.compile(
 _FIELD = re.compile(r"[^\s()\[\],]+")
 _REFERENCE = re.compile(r"\breferences\s*=\s*\[?\s*<([^>]*)>")
 OTHER_SOLIDS = ("Cone", "Capsule_1", "Cylinder_1", "NurbsPatch", "PointInstancer", "TetMesh")
+JOINTS = {
+    "PhysicsRevoluteJoint": "hinge",
+    "PhysicsPrismaticJoint": "slide",
+    "PhysicsFixedJoint": "fixed",
+    "PhysicsSphericalJoint": "ball",
+    "PhysicsJoint": "several axes",
+}
+JOINT_AXES = ("X", "Y", "Z")
+TRUE = ("true", "1")
+SINGLE_RTOL = 1e-5  # of places and turns in single precision
 _SPECIFIERS = {"def", "over", "class"}
 
 
@@ -206,9 +218,27 @@ def _description(text: str, data: bytes) -> Description:
         "mass": _scale(metadata, "kilogramsPerUnit", 1.0),
     }
     links: list[StatedLink] = []
+    joints: list[tuple[str, Prim]] = []
     for root in roots:
-        _visit(root, np.eye(4), root.name, scales, links, text)
-    return Description(roots[0].name if roots else "", "usd", tuple(links), data, scales)
+        _visit(root, np.eye(4), root.name, scales, links, joints, text)
+    by_name = {link.name: link for link in links}
+    usable: list[StatedJoint] = []
+    findings: list[Finding] = []
+    for path, prim in joints:
+        try:
+            usable.append(_joint(path, prim, by_name, scales["length"]))
+        except ValueError as error:
+            values = {"text": str(error), "element": prim.name, "line": prim.line}
+            findings.append(finding(DESCRIPTION_NUMBER, **values))
+    return Description(
+        roots[0].name if roots else "",
+        "usd",
+        tuple(links),
+        data,
+        scales,
+        joints=tuple(usable),
+        findings=tuple(findings),
+    )
 
 
 def _resolve(roots: list[Prim]) -> None:
@@ -242,18 +272,60 @@ def _visit(
     path: str,
     scales: Mapping[str, float],
     links: list[StatedLink],
+    joints: list[tuple[str, Prim]],
     text: str,
     is_within: bool = False,
 ) -> None:
-    """Add the links at and below a prim. is_within: True in a body, whose parts are no links."""
+    """Add the links and joints at and below a prim. is_within: True in a body, whose parts are no
+    links.
+    """
     matrix = _placed(prim, above)
+    # Joints that close a loop are marked.
+    if prim.kind in JOINTS and prim.values.get("physics:excludeFromArticulation") not in TRUE:
+        joints.append((path, prim))
     is_body = "PhysicsRigidBodyAPI" in prim.metadata
     is_fixed = "MassAPI" in prim.metadata and "PhysicsCollisionAPI" not in prim.metadata
     if is_body or is_fixed and not is_within:
         links.append(_link(prim, matrix, path, scales, text))
     for child in prim.children:
         below = path + "/" + child.name
-        _visit(child, matrix, below, scales, links, text, is_within or is_body)
+        _visit(child, matrix, below, scales, links, joints, text, is_within or is_body)
+
+
+def _joint(path: str, prim: Prim, links: Mapping[str, StatedLink], unit: float) -> StatedJoint:
+    """Return a joint: both of its frames coincide when it is at zero. links: by their names.
+
+    ValueError if a number is wrong.
+    """
+    names = []
+    frames = []
+    for end in "01":
+        words = prim.values.get("physics:body" + end, "").strip("[]<> ")
+        name = words.strip("/")
+        while name and name not in links:  # A prim in a body is a part of it.
+            name = name.rpartition("/")[0]
+        names.append(name)
+        place = prim.vector("physics:localPos" + end, (0.0, 0.0, 0.0))
+        turn = prim.vector("physics:localRot" + end, (1.0, 0.0, 0.0, 0.0))
+        local = links[name].local if name else None
+        place = place if local is None else local[:3, :3] @ place
+        frames.append(Pose(place * unit, rotation_matrix(turn if turn.any() else [1, 0, 0, 0])))
+    is_reversed = bool(names[0]) and not names[1]
+    ends = [*zip(names, frames)]
+    (parent, first), (child, second) = reversed(ends) if is_reversed else ends
+    pose = None
+    if parent and parent in links and child in links:
+        pose = first @ second.inverse()
+        placed = links[parent].pose.inverse() @ links[child].pose
+        apart = np.abs(pose.matrix - placed.matrix).max()
+        # The prims' places have more digits than the frames.
+        if apart <= SINGLE_RTOL * max(1.0, np.abs(placed.position).max()):
+            pose = None
+    axis = prim.values.get("physics:axis", '"X"').strip("\"'")
+    column = second.rotation[:, "XYZ".index(axis) if axis in JOINT_AXES else 0]
+    sign = -1.0 if is_reversed else 1.0
+    motion = Motion(prim.name, JOINTS[prim.kind], sign * column, second.position)
+    return StatedJoint(path, parent, child, pose, (motion,), Place(prim.line))
 
 
 def _placed(prim: Prim, above: NDArray) -> Array:
@@ -332,6 +404,7 @@ def _link(
         place=place,
         inertial_place=place,
         overridden=overridden,
+        pose=Pose(matrix[:3, 3] * scales["length"], turn),
     )
 
 
