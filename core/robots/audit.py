@@ -21,7 +21,7 @@ from ..numerics import Array
 from ..solid import measure_solid
 from ..verdict import Procedure, internal_error, sentence, severity
 from ..verdict.finding import Finding, MeasureError, Severity, finding
-from .diagnosis import DIFFERS, Diagnosis, Reference, diagnose, diagnose_density
+from .diagnosis import DENSITIES, DIFFERS, Diagnosis, Reference, diagnose, diagnose_density
 from .findings import (
     AUDIT_ANGLES,
     AUDIT_DENSITY,
@@ -38,9 +38,10 @@ from .findings import (
 from .formats import FORMATS
 from .model import Effect, Pose, Shape
 from .plausibility import LEAST_MASS, Hull, impossible, spread_directions
-from .primitives import primitive_moments
+from .primitives import primitive_moments, second_moments
 from .read.descriptions import Roots
 from .read.meshes import read_mesh
+from .read.mjcf_meshes import CLOSED
 from .stated import Description, Place, StatedInertial, StatedLink, StatedShape, rotation_of_angles
 from .totals import Expectation, Totals, Tree, add_up, build_tree
 
@@ -199,10 +200,15 @@ class Auditor:
             masses = []
             if any(shape.weight for shape in link.shapes):
                 pieces, unread = self._pieces(link.shapes)
-                if unread or link.findings:
+                is_open = any(
+                    one.weight and one.weight.inertia == CLOSED and piece.moments is None
+                    for several in pieces.values()
+                    for one, piece in several
+                )
+                if unread or link.findings or is_open:
                     return link
                 masses = [
-                    (piece.mass.transform(one.shape.pose.matrix), 1.0)
+                    (_weighed(one, piece.mass), 1.0)
                     for several in pieces.values()
                     for one, piece in several
                     if piece.mass is not None
@@ -210,6 +216,8 @@ class Auditor:
             if masses:
                 body = combine(masses)
                 inertial = StatedInertial(body.mass, body.center, body.inertia)
+            if inertial is None or masses:
+                inertial = link.rules.complete(inertial)
             return replace(link, inertial=link.rules.bound(inertial), from_shapes=bool(masses))
         except Exception:  # An unforeseen error returns when the link is audited.
             return link
@@ -243,8 +251,18 @@ class Auditor:
         entries += unread
         entries += _describe_overridden(link, inertial)
         if link.from_shapes:
-            entries += [Entry(one, place) for one in impossible(inertial, None)]
-            return LinkAudit(link, tuple(entries))
+            reasons = impossible(inertial, None)
+            entries += [Entry(one, place) for one in reasons]
+            volume = sum(
+                piece.moments.raw[0]
+                for several in pieces.values()
+                for one, piece in several
+                if one.weight and one.weight.inertia != "shell" and piece.mass and piece.moments
+            )
+            density = float(inertial.mass / volume) if volume else None
+            if density and not reasons and not DENSITIES[0] <= density <= DENSITIES[1]:
+                entries.append(Entry(finding(AUDIT_DENSITY, density=density), place))
+            return LinkAudit(link, tuple(entries), density=density)
         found = _judge(link, inertial, pieces, incomplete)
         if any(piece.upright is not None for several in pieces.values() for _, piece in several):
             turned = {
@@ -308,9 +326,23 @@ class Auditor:
             piece = _measured(surface, upright) if fit is None else _primitive(fit)
             if weight:
                 solid = replace(shape, surface=surface) if fit is None else fit
-                piece = replace(piece, mass=weight.moments(solid))
+                if weight.inertia != CLOSED:
+                    piece = replace(piece, mass=weight.moments(solid))
+                elif piece.moments is not None:
+                    piece = replace(piece, mass=weight.fill(piece.moments))
             self._meshes[key] = piece if fit is None else piece.placed(fit.pose)
         return self._meshes[key]
+
+
+def _weighed(shape: StatedShape, mass: Moments) -> Moments:
+    """Return the moments of a shape's mass in its link, with what is stated of them."""
+    placed = mass.transform(shape.shape.pose.matrix)
+    if shape.rules is None:
+        return placed
+    own = combine([(placed, 1.0)])
+    body = shape.rules.complete(StatedInertial(own.mass, own.center, own.inertia))
+    second = np.trace(body.inertia) / 2.0 * np.eye(3) - body.inertia
+    return replace(second_moments(body.mass, body.center, second), measure=placed.measure)
 
 
 def _scaled(stated: StatedLink, link: StatedLink, factor: float) -> StatedLink:

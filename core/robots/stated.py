@@ -88,9 +88,10 @@ class StatedShape:
     `shape`: for a mesh, its `file` is the name in the description. `angles`: roll, pitch and yaw,
     if the pose was stated so. `beside`: the file that the names of its meshes are relative to, ""
     for the description itself. `fit`: the primitive that stands for the mesh. `weight`: its mass,
-    if the link's inertial may come from its shapes. ValueError, with the numbers as text, if a size
-    is not positive, a factor of a mesh is zero, or a size or the place is not finite, or too large
-    or small to compute with.
+    if the link's inertial may come from its shapes; `rules`: more that is stated of it.
+
+    ValueError, with the numbers as text, if a size is not positive, a factor of a mesh is zero, or
+    a size or the place is not finite, or too large or small to compute with.
     """
 
     shape: Shape
@@ -100,6 +101,7 @@ class StatedShape:
     beside: str = ""
     fit: Fit | None = None
     weight: Weight | None = None
+    rules: Rules | None = None
 
     def __post_init__(self) -> None:
         shape = self.shape
@@ -112,17 +114,37 @@ class StatedShape:
 
 
 class Rules(NamedTuple):
-    """The changes that MuJoCo's compiler makes to a body's inertial.
+    """The changes that a format's program makes to a body's inertial, or that of one of its shapes.
 
     from_shapes: "true", "false", or "auto" if only a missing inertial comes from the shapes.
     least_mass, least_moment: lower bounds, kg and kg·m². balances: True if moments that no body has
-    become their mean.
+    become their mean. mass: kg, of the whole of the shapes; 0 if their own counts. center: (3,) and
+    inertia: (3, 3) about it, along the link's axes, instead of those of the shapes. radius: m, of
+    the ball that stands for missing shapes.
     """
 
     from_shapes: str = "auto"
     least_mass: float = 0.0
     least_moment: float = 0.0
     balances: bool = False
+    mass: float = 0.0
+    center: Array | None = None
+    inertia: Array | None = None
+    radius: float = 0.0
+
+    def complete(self, body: StatedInertial | None) -> StatedInertial | None:
+        """Return the inertial of shapes with the stated values; None if there is neither."""
+        if body is None:
+            if not self.mass or not self.radius and self.inertia is None:
+                return None
+            body = StatedInertial(1.0, np.zeros(3), 0.4 * self.radius**2 * np.eye(3))
+            body = replace(body, center=body.center if self.center is None else self.center)
+        mass = self.mass or body.mass
+        inertia = body.inertia * (mass / body.mass)
+        center = body.center if self.center is None else self.center
+        arm = center - body.center  # Programs state it about the new center with this term.
+        inertia = inertia + mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+        return StatedInertial(mass, center, inertia if self.inertia is None else self.inertia)
 
     def bound(self, stated: StatedInertial | None) -> StatedInertial | None:
         """Return the inertial within the bounds; itself if nothing changes."""

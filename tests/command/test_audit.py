@@ -350,3 +350,39 @@ def test_joint_outside_of_the_tree_is_one_finding(joints, tmp_path):
     (found,) = record["findings"]
     assert (found["code"], found["line"], code) == ("audit_joint", 2, 1)
     assert record["total"]["mass"] == 16000.0
+
+
+AUTO = """<sdf version="1.11"><model name="m"><link name="b"><inertial auto="true">{}</inertial>
+<collision name="c">{}<geometry><box><size>1 2 3</size></box></geometry></collision>
+<collision name="d"><pose>2 0 0 0 0 0</pose><geometry><box><size>1 2 3</size></box></geometry>
+</collision></link></model></sdf>"""
+
+
+@pytest.mark.parametrize(
+    "inertial, collision, masses",
+    [
+        ("", "", (6000.0, 6000.0)),
+        ("", "<density>500</density>", (3000.0, 6000.0)),
+        ("<density>200</density>", "<density>500</density>", (3000.0, 1200.0)),
+        ("<mass>9</mass>", "<density>500</density>", (3.0, 6.0)),
+    ],
+)
+def test_automatic_inertial_comes_from_collisions(inertial, collision, masses, tmp_path):
+    path = tmp_path / "auto.sdf"
+    path.write_text(AUTO.format(inertial, collision), encoding="utf-8")
+    (link,) = json.loads(answer(path)[0])["links"]
+    first, second = masses
+    mass, arm = first + second, 2.0 * second / (first + second)
+    across = mass * 10.0 / 12.0 + first * arm**2 + second * (2.0 - arm) ** 2
+    assert link["from_shapes"] and abs(link["mass"] / mass - 1.0) < 1e-12
+    assert abs(link["center_of_mass"][0] - arm) < 1e-12
+    assert abs(link["inertia"][1][1] / across - 1.0) < 1e-12
+
+
+@pytest.mark.parametrize("density, code", [(5, "audit_density"), (50000, "inertial_too_dense")])
+def test_odd_density_of_shapes_is_found(density, code, tmp_path):
+    path = tmp_path / "auto.sdf"
+    path.write_text(AUTO.format("<density>{}</density>".format(density), ""), encoding="utf-8")
+    record = json.loads(answer(path)[0])["links"][0]
+    assert [one["code"] for one in record["findings"]] == [code]
+    assert abs(record["density"] / density - 1.0) < 1e-12

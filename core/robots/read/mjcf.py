@@ -36,7 +36,7 @@ from ..stated import (
     rotation_about,
 )
 from .meshes import checked_surface
-from .mjcf_meshes import LEGACY, Fit, Weight, builtin_surface
+from .mjcf_meshes import LEGACY, WATER, Fit, Weight, builtin_surface
 from .xml import (
     FLAT_KINDS,
     Node,
@@ -50,7 +50,6 @@ from .xml import (
 )
 
 SQUARE_ATOL = 1e-9  # of the entries of a rotation between axes, which are 0 or 1
-WATER = 1000.0  # kg/m³, of geoms that state neither mass nor density
 SIZES = {"sphere": 1, "ellipsoid": 3, "box": 3, "capsule": 2, "cylinder": 2}
 
 

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import radians
 
@@ -18,11 +18,14 @@ from ..stated import (
     Angles,
     Description,
     Motion,
+    Rules,
     StatedInertial,
     StatedJoint,
     StatedLink,
+    StatedShape,
     rotation_of_angles,
 )
+from .mjcf_meshes import CLOSED, WATER, Weight
 from .xml import (
     MAX_DEPTH,
     NOWHERE,
@@ -189,12 +192,33 @@ def _link(node: Node, model: Node, scope: _Scope, several: bool) -> StatedLink:
             raise ValueError(frame) from error
 
     shapes = read_shapes(findings, node, pose_of, KINDS, _text, 1.0, node.place.file)
+    rules = None
+    if is_auto:
+        shapes, rules = attempt(findings, node, _weights, element, shapes) or (shapes, None)
     static = _text(model, "static") in ("true", "1")
     name = _link_name(node, model, several)
-    moves = bool(shapes) and not static and element is None
-    return stated_link(
-        node, element, findings, name=name, inertial=inertial, shapes=shapes, moves=moves
+    moves = not static and (is_auto or bool(shapes) and element is None)
+    values = {"name": name, "inertial": inertial, "shapes": shapes, "rules": rules}
+    return stated_link(node, element, findings, moves=moves, **values)
+
+
+def _weights(
+    node: Node, inertial: Node, shapes: Sequence[StatedShape]
+) -> tuple[tuple[StatedShape, ...], Rules]:
+    """Return the shapes of an automatic inertial with the densities of collisions, and the mass
+    that is stated beside them.
+    """
+    default = number(_text(inertial, "density"), WATER)
+    densities = {
+        part.place: number(_text(part, "density"), default) for part in node.all("collision")
+    }
+    weighed = tuple(
+        replace(shape, weight=Weight(None, densities[shape.place], CLOSED))
+        if shape.role == "collision"
+        else shape
+        for shape in shapes
     )
+    return weighed, Rules(mass=number(_text(inertial, "mass"), 0.0))
 
 
 def _text(node: Node, *path: str) -> str:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -28,6 +28,7 @@ from ..stated import (
     Description,
     Motion,
     Place,
+    Rules,
     StatedInertial,
     StatedJoint,
     StatedLink,
@@ -35,6 +36,7 @@ from ..stated import (
     rotation_about,
 )
 from .meshes import checked_surface
+from .mjcf_meshes import CLOSED, WATER, Weight
 from .xml import check_size
 
 _TOKEN = re.compile(
@@ -52,6 +54,7 @@ JOINTS = {
     "PhysicsSphericalJoint": "ball",
     "PhysicsJoint": "several axes",
 }
+BALL_RADIUS = 0.1  # m, of the ball that stands for a body of known mass without colliders
 JOINT_AXES = ("X", "Y", "Z")
 TRUE = ("true", "1")
 SINGLE_RTOL = 1e-5  # of places and turns in single precision
@@ -212,7 +215,7 @@ def _description(text: str, data: bytes) -> Description:
         if parser.peek() not in _SPECIFIERS:
             raise _invalid(text, parser.tokens[parser.index][1])
         roots.append(parser.prim(0))
-    _resolve(roots)
+    by_path = _resolve(roots)
     scales = {
         "length": _scale(metadata, "metersPerUnit", 0.01),
         "mass": _scale(metadata, "kilogramsPerUnit", 1.0),
@@ -220,7 +223,7 @@ def _description(text: str, data: bytes) -> Description:
     links: list[StatedLink] = []
     joints: list[tuple[str, Prim]] = []
     for root in roots:
-        _visit(root, np.eye(4), root.name, scales, links, joints, text)
+        _visit(root, np.eye(4), root.name, scales, links, joints, by_path, text)
     by_name = {link.name: link for link in links}
     usable: list[StatedJoint] = []
     findings: list[Finding] = []
@@ -241,9 +244,9 @@ def _description(text: str, data: bytes) -> Description:
     )
 
 
-def _resolve(roots: list[Prim]) -> None:
+def _resolve(roots: list[Prim]) -> dict[str, Prim]:
     """Give prims that refer to another prim of the layer its attributes, unless they state their
-    own.
+    own; return all prims by their paths.
     """
     by_path: dict[str, Prim] = {}
     waiting = [("/" + prim.name, prim) for prim in roots]
@@ -256,6 +259,7 @@ def _resolve(roots: list[Prim]) -> None:
         other = by_path.get(match[1]) if match else None
         if other is not None:
             prim.kind, prim.values = prim.kind or other.kind, other.values | prim.values
+    return by_path
 
 
 def _scale(metadata: str, name: str, default: float) -> float:
@@ -273,6 +277,7 @@ def _visit(
     scales: Mapping[str, float],
     links: list[StatedLink],
     joints: list[tuple[str, Prim]],
+    materials: Mapping[str, Prim],
     text: str,
     is_within: bool = False,
 ) -> None:
@@ -286,10 +291,10 @@ def _visit(
     is_body = "PhysicsRigidBodyAPI" in prim.metadata
     is_fixed = "MassAPI" in prim.metadata and "PhysicsCollisionAPI" not in prim.metadata
     if is_body or is_fixed and not is_within:
-        links.append(_link(prim, matrix, path, scales, text))
+        links.append(_link(prim, matrix, path, scales, materials, text))
     for child in prim.children:
         below = path + "/" + child.name
-        _visit(child, matrix, below, scales, links, joints, text, is_within or is_body)
+        _visit(child, matrix, below, scales, links, joints, materials, text, is_within or is_body)
 
 
 def _joint(path: str, prim: Prim, links: Mapping[str, StatedLink], unit: float) -> StatedJoint:
@@ -361,7 +366,12 @@ def _placed(prim: Prim, above: NDArray) -> Array:
 
 
 def _link(
-    prim: Prim, matrix: NDArray, path: str, scales: Mapping[str, float], text: str
+    prim: Prim,
+    matrix: NDArray,
+    path: str,
+    scales: Mapping[str, float],
+    materials: Mapping[str, Prim],
+    text: str,
 ) -> StatedLink:
     """Return a body in the axes of its prim, in meters; the prim's scale is applied to its shapes
     and its center.
@@ -386,11 +396,17 @@ def _link(
             return None
 
     inertial, overridden = attempt(prim, _inertials, to_link @ matrix, scales) or (None, None)
-    read_shapes = [
-        attempt(part, _shape, to_link @ place, scales["length"])
-        for part, place in _parts(prim, matrix)
-    ]
-    shapes = [shape for shape in read_shapes if shape is not None]
+    rules = None if inertial else attempt(prim, _rules, to_link @ matrix, scales)
+    density = rules and attempt(prim, Prim.number, "physics:density", 0.0)
+    shapes = []
+    for part, place in _parts(prim, matrix):
+        shape = attempt(part, _shape, to_link @ place, scales["length"])
+        if shape is not None and rules is not None and shape.role == "collision":
+            weight = attempt(part, _weight, density or 0.0, materials, scales)
+            own = attempt(part, _rules, to_link @ place, scales)
+            shape = replace(shape, weight=weight, rules=own and own._replace(mass=0.0))
+        if shape is not None:
+            shapes.append(shape)
     span = len(text[: prim.start].encode()), len(text[: prim.end].encode())
     place = Place(prim.line)
     return StatedLink(
@@ -398,7 +414,8 @@ def _link(
         inertial,
         tuple(shapes),
         span,
-        moves=False,
+        moves="PhysicsRigidBodyAPI" in prim.metadata,
+        rules=rules,
         findings=tuple(findings),
         local=to_link @ matrix,
         place=place,
@@ -439,6 +456,44 @@ def _inertials(
     xx, yy, zz, xy, xz, yz = prim.vector("newton:inertia", (0.0,) * 6)
     tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) * unit
     return StatedInertial(mass * kilograms, placed, tensor), own
+
+
+def _rules(prim: Prim, local: NDArray, scales: Mapping[str, float]) -> Rules:
+    """Return the values of PhysicsMassAPI that replace those of colliders, as
+    `UsdPhysics.RigidBodyAPI.ComputeMassProperties` uses them.
+    """
+    unit = scales["length"]
+    turn = _turn(local)
+    center = prim.vector("physics:centerOfMass", (0.0, 0.0, 0.0))
+    diagonal = prim.vector("physics:diagonalInertia", (0.0, 0.0, 0.0))
+    axes = prim.vector("physics:principalAxes", (1.0, 0.0, 0.0, 0.0))
+    axes = turn @ rotation_matrix(axes if axes.any() else [1.0, 0.0, 0.0, 0.0])
+    inertia = (axes * diagonal) @ axes.T * unit**2 * scales["mass"]
+    return Rules(
+        mass=max(prim.number("physics:mass", 0.0), 0.0) * scales["mass"],
+        center=(local[:3, :3] @ center + local[:3, 3]) * unit if center.any() else None,
+        inertia=inertia if diagonal.any() else None,
+        radius=BALL_RADIUS,
+    )
+
+
+def _weight(
+    prim: Prim, density: float, materials: Mapping[str, Prim], scales: Mapping[str, float]
+) -> Weight:
+    """Return the mass of a collider. density: that of its body, 0 if it has none.
+
+    Mass comes before density, the collider's before the body's, and both before its material's.
+    """
+    bound = prim.values.get("material:binding:physics") or prim.values.get("material:binding", "")
+    material = materials.get(bound.strip("[]<> "))
+    stated = [prim.number("physics:density", 0.0), density]
+    if material is not None:
+        stated.append(material.number("physics:density", 0.0))
+    unit = scales["mass"] / scales["length"] ** 3
+    mass = prim.number("physics:mass", 0.0) * scales["mass"]
+    used = next((value * unit for value in stated if value > 0.0), WATER)
+    hull = prim.values.get("physics:approximation", "").strip("\"'") == "convexHull"
+    return Weight(mass if mass > 0.0 else None, used, "convex" if hull else CLOSED)
 
 
 def _parts(prim: Prim, matrix: NDArray) -> Iterator[tuple[Prim, NDArray]]:
