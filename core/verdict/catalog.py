@@ -24,6 +24,7 @@ PACKAGES = (
     "core.colliders",
     "core.density",
     "core.files",
+    "core.floating",
     "core.flat",
     "core.fourier",
     "core.inertia",
