@@ -3,11 +3,18 @@
 
 from typing import Any
 
-from .below import PartBelow as PartBelow
-from .below import measure_below as measure_below
+from .hollow import Hollow as Hollow
+from .hollow import find_hollow as find_hollow
+from .hollow import spill_tilt as spill_tilt
+from .part_below import PartBelow as PartBelow
+from .part_below import below as below
+from .part_below import measure_below as measure_below
 
 __all__ = [
+    "below",
+    "find_hollow",
     "measure_below",
+    "spill_tilt",
 ]
 
 def __getattr__(name: str) -> Any: ...
