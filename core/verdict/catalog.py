@@ -25,6 +25,7 @@ PACKAGES = (
     "core.cuts",
     "core.density",
     "core.files",
+    "core.floating",
     "core.flat",
     "core.fourier",
     "core.inertia",
