@@ -22,6 +22,7 @@ PACKAGES = (
     "core.bodies",
     "core.cad",
     "core.colliders",
+    "core.cuts",
     "core.density",
     "core.files",
     "core.floating",
