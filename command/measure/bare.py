@@ -162,7 +162,7 @@ class BareFile:
         """Measure the samples of a file, or its faces in blocks."""
         is_scan = self._is_scan
         name = os.path.basename(self._path)[: -len(file_suffix(self._path))]
-        if is_scan and self.options.label:
+        if is_scan and self.options.label is not None:
             self._measure_labels(name, contents)
             return
         is_chosen = self._chosen([name], contents)
@@ -189,7 +189,7 @@ class BareFile:
         if options.label_table is not None:
             with about_file(options.label_table.name):
                 table = read_label_table(options.label_table, options.limits)
-        wanted = None if "all" in options.label else options.label
+        wanted = None if options.label == "all" else [options.label]
         array = self._array_options()
         measured = measure_labels(
             self._path, name, array, replace(settings, unit=1.0), wanted, table

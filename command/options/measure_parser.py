@@ -155,10 +155,9 @@ def _add_of_files(parser: Parser) -> None:
         "--label",
         types.label,
         "N|all",
-        "arrays and scans that are label maps: a record for each voxels' label N, or for all labels "
-        "but 0, filled with --density, --material or the densities of --label-table; repeatable. Of "
-        "a Volume object one label, or all as one body (all of the grid)",
-        action="append",
+        "arrays and scans that are label maps: a record for label N, or for each label but 0, "
+        "filled with --density, --material or the densities of --label-table. Volume objects: "
+        "label N, or all labels but 0 as one body (all of the grid)",
     )
     parser.value(
         "--label-table",

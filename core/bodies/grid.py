@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..density import (
-    Blocks,
     LABELS_UNFIT,
+    Blocks,
     GridOptions,
     ThresholdBody,
     density_function,

@@ -87,11 +87,18 @@ class _Numbering:
 
 
 def sum_labels(samples: NDArray | Blocks) -> dict[int, NDArray]:
-    """Return for each label Σ i^p j^q k^r over its voxels (i, j, k), (20,) whole numbers in the
-    order of `monomials`.
+    """Return the sums Σ i^p j^q k^r over the voxels (i, j, k) of each label.
 
-    samples: (nx, ny, nz) whole numbers of any real type, perhaps a memory map; or a function that
-    yields (offset, array) blocks.
+    Parameters
+    ----------
+    samples : (nx, ny, nz) array, or callable
+        Whole numbers of any real type, a memory map if larger than memory; or a function that
+        yields (offset, array) blocks.
+
+    Returns
+    -------
+    dict
+        For each label (20,) whole numbers, p + q + r ≤ 3 in the order of `monomials`.
 
     Raises
     ------
@@ -127,7 +134,7 @@ def label_moments(sums: NDArray) -> Moments:
     about = [(2 * int(first) + count) // (2 * count) for first in sums[1:4]]
     central = (sums @ _shift([-middle for middle in about])).astype(np.float64)
     raw = np.zeros(len(POWERS))
-    for (p, q, r), place in zip(POWERS.tolist(), range(len(POWERS))):
+    for place, (p, q, r) in enumerate(POWERS.tolist()):
         for a, b, c in np.ndindex(p + 1, q + 1, r + 1):
             weight = comb(p, a) * comb(q, b) * comb(r, c) * CUBE[a] * CUBE[b] * CUBE[c]
             raw[place] += weight * central[monomial_index(p - a, q - b, r - c)]
