@@ -122,7 +122,7 @@ def _label(reading: VolumeReading, label: int, unit: float) -> Body:
         values = {"labels": [label], "others": sorted(sums.keys() - {0}), "remedy": "Label"}
         raise ReadError(LABEL_ABSENT, file=reading.grid, **values)
     matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object
-    return label_body(sum(chosen), matrix @ affine_matrices(np.eye(3), reading.low))
+    return label_body(np.sum(chosen, axis=0), matrix @ affine_matrices(np.eye(3), reading.low))
 
 
 def _whole_axes(reading: VolumeReading, positions: Positions) -> Blocks:

@@ -61,6 +61,7 @@ from ..options.checks import OF_ARRAYS, body_findings, density_of, file_findings
 from ..supervisor.listing import UNITLESS
 from ..supervisor.processes import has_blender
 from .entries import Contents, failure
+from .floating import floating_entry
 
 BYTES_PER_FACE = 500  # approximate memory for reading and measuring a mesh
 # Least bytes for each face: a file's size limits its faces.
@@ -69,7 +70,7 @@ BYTES_OF_FILE = {
     ".ply": 19,
 }
 DEFAULT_DENSITY = 1000.0  # kg/m³
-_NOT_OF_STREAMS = ("wall", "polynomial", "density_from", "fourier")
+_NOT_OF_STREAMS = ("wall", "polynomial", "density_from", "fourier", "float")
 
 
 class BareFile:
@@ -253,6 +254,8 @@ class BareFile:
                 body = body_of_mesh(reading, settings)
                 measurement = measure_reading(reading, body, settings)
                 more = {}
+                if self.options.float:
+                    more["floating"] = floating_entry(body, measurement, self.options, contents)
                 if self.options.thumbnails:
                     surface = reading.join()
                     properties = measurement.mass_properties

@@ -98,6 +98,8 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
         fail("argument --at-frame: a file keeps only results at its own frame")
     if options.resume and options.output is None:
         fail("argument --resume: needs the --output of the run to go on with")
+    if options.gz is not None and options.float is None:
+        fail("argument --gz: needs --float LIQUID")
     _check_fourier(options)
     _check_labels(options)
     axes = [axis for axis, _ in options.positions or ()]

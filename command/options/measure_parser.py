@@ -228,6 +228,19 @@ def _add_results(parser: Parser) -> None:
         "from 0 to N - 1",
     )
     parser.value("--qmax", types.positive, "Q", "the largest along each axis of the grid, in rad/m")
+    parser.value(
+        "--float",
+        types.liquid,
+        "LIQUID",
+        "add where each body floats: in a liquid of the panel's list, such as Water or "
+        "“Sea Water”, or of a density in kg/m³",
+    )
+    parser.value(
+        "--gz",
+        types.heel_angles,
+        "A:B:STEP",
+        "with --float, add righting arms at these angles of heel, in degrees",
+    )
     parser.flag("--pose", "add the pose that is the body's own, and its symmetry")
     parser.flag("--signature", "add the numbers by which `similar` finds the shape again")
     parser.flag(

@@ -186,7 +186,8 @@ INERTIAL_TOO_DENSE = error(
 )
 AUDIT_UNIFORM_INSTEAD = warning(
     "audit_uniform_instead",
-    "State the inertial of the geometry, filled evenly with the stated mass.",
+    "State the inertia of the geometry, filled evenly with the stated mass. Keep a possible "
+    "center.",
 )
 AUDIT_NOT_UNIFORM = note(
     "audit_not_uniform",
@@ -206,6 +207,10 @@ AUDIT_OVERRIDDEN = warning(
     "audit_overridden",
     "{program} uses another inertial, because of {cause}: {mass:.6g} kg, principal moments "
     "{first:.6g}, {second:.6g} and {third:.6g} kg·m². State that one, or remove the cause.",
+)
+AUDIT_JOINT = warning("audit_joint", "Joint {joint} is left out: {cause:word}. Correct it.")
+AUDIT_TOTAL = error(
+    "audit_total", "The {part:word} of the whole model is {value}, not {expected} as expected."
 )
 AUDIT_DENSITY = warning("audit_density", "The density is {density:.3g} kg/m³. Check mass and mesh.")
 AUDIT_UNIT = warning(
