@@ -16,12 +16,14 @@ import bpy
 
 from ...blender import session
 from ...blender.bodies.flat.flat import NO_BODY
+from ...blender.bodies.measure_body import measure_body
 from ...blender.bodies.overlaps import overlap_caveats
 from ...blender.bodies.stack import Measured
 from ...blender.read.assembly import operands_of, total_caveats
 from ...blender.read.places import place_error
 from ...blender.read.tracking import tracking_paused
 from ...blender.scale import meters_per_unit
+from ...blender.scene.rigid_world import down
 from ...blender.session.tracking.staleness import mark_up_to_date
 from ...blender.settings import properties as settings
 from ...blender.settings.density import unset_density
@@ -51,6 +53,7 @@ from ..supervisor.listing import BLEND
 from . import robots
 from .combined import Combined, measure_combined
 from .entries import Contents, failure
+from .floating import floating_entry
 from .measuring import (
     measure_shape,
     measured_together,
@@ -247,6 +250,11 @@ class Scene:
             else None
         )
         more |= {} if colliders is None else {"colliders": colliders}
+        if self.options.float:
+            depsgraph = bpy.context.evaluated_depsgraph_get()
+            body = measure_body(obj, depsgraph, self._wanted).body
+            up = -down(bpy.context.scene)
+            more["floating"] = floating_entry(body, named, self.options, contents, up)
         if self.options.thumbnails:
             more["thumbnail"] = thumbnail_of(obj, measurement, self._wanted.unit_scale)
         entry = record.record(named, self.options.frame, order, surface, more, self.options.about)
