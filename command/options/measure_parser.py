@@ -151,6 +151,22 @@ def _add_of_files(parser: Parser) -> None:
         "--density or "
         "--material, or with the values' own density (all of the grid)",
     )
+    parser.value(
+        "--label",
+        types.label,
+        "N|all",
+        "arrays and scans that are label maps: a record for label N, or for each label but 0, "
+        "filled with --density, --material or the densities of --label-table. Volume objects: "
+        "label N, or all labels but 0 as one body (all of the grid)",
+    )
+    parser.value(
+        "--label-table",
+        Path,
+        "FILE",
+        "with --label: names, colors and densities in kg/m³ of all its labels: .csv with columns "
+        "label, name, density, r, g, b, or .txt as ITK-SNAP or FreeSurfer write it (the header's "
+        "names)",
+    )
     parser.choice(
         "--stream",
         ("auto", "always", "never"),

@@ -116,6 +116,14 @@ def triple(text: str) -> tuple[float, ...]:
     return values
 
 
+def label(text: str) -> int | str:
+    """Return the number of a label, or “all”."""
+    try:
+        return text if text == "all" else parse_whole(text.strip())
+    except ValueError:
+        raise ArgumentTypeError("{!r} is not a whole number or all".format(text)) from None
+
+
 def spacing(text: str) -> tuple[float, ...]:
     """Return three positive numbers."""
     values = triple(text)
