@@ -71,9 +71,7 @@ def settle(
         for space in lost:
             triangles = np.concatenate([triangles, space.triangles[:, ::-1] + len(points)])
             points = np.concatenate([points, space.points])
-        return FloatingBody(
-            points, triangles, mass, center, density, hull.openings, tuple(liquids)
-        )
+        return FloatingBody(points, triangles, mass, center, density, hull.openings, tuple(liquids))
 
     try:
         return floating(dry).settle(up)
@@ -88,9 +86,12 @@ def settle(
         return replace(rest, findings=(finding(HOLLOW_FLOODED, depth=depth),))
 
 
-def heel_and_trim(rest: Flotation, axes: Array) -> tuple[float, float]:
-    """Return the heel about the X axis and the trim about the Y axis of a (3, 3) frame, rad."""
-    x, y, z = rest.up @ axes
+def heel_and_trim(up: Array, axes: Array) -> tuple[float, float]:
+    """Return the heel about the X axis and the trim about the Y axis of a (3, 3) frame, rad.
+
+    up: (3,) unit vector against gravity.
+    """
+    x, y, z = up @ axes
     return float(np.arctan2(y, z)), float(-np.arcsin(np.clip(x, -1.0, 1.0)))
 
 
@@ -113,7 +114,7 @@ def float_record(
     def height(point: Array) -> float:
         return float(rest.up @ point) - rest.keel
 
-    heel, trim = heel_and_trim(rest, measurement.rotation)
+    heel, trim = heel_and_trim(rest.up, measurement.rotation)
     entry: dict[str, Any] = {
         "liquid_density": rest.body.density,
         "displacement": rest.displacement,
@@ -132,7 +133,7 @@ def float_record(
         "matrix": rest.matrix(),
         "rests": [
             {
-                **dict(zip(("heel", "trim"), heel_and_trim(other, measurement.rotation))),
+                **dict(zip(("heel", "trim"), heel_and_trim(other.up, measurement.rotation))),
                 "draught": other.draught,
                 "gm": other.metacentric_heights,
                 "energy": other.energy - rest.energy,
