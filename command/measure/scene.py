@@ -24,6 +24,7 @@ from ...blender.read.assembly import operands_of, total_caveats
 from ...blender.read.places import place_error
 from ...blender.read.tracking import tracking_paused
 from ...blender.scale import meters_per_unit
+from ...blender.scene.rigid_world import down
 from ...blender.session.findings import NO_SUCH_NAME
 from ...blender.session.tracking.staleness import mark_up_to_date
 from ...blender.settings import properties as settings
@@ -65,6 +66,7 @@ from . import robots
 from .combined import Combined, measure_combined
 from .cuts import cut_entries, is_open_sheet
 from .entries import Contents, failure
+from .floating import floating_entry
 from .measuring import (
     measure_shape,
     measured_together,
@@ -287,6 +289,13 @@ class Scene:
             )
             more |= cuts
             named = replace(named, findings=(*named.findings, *of_cuts))
+        if self.options.float:
+            depsgraph = bpy.context.evaluated_depsgraph_get()
+            body = measure_body(obj, depsgraph, self._wanted).body
+            up = -down(bpy.context.scene)
+            floating, of_liquid = floating_entry(body, named, self.options, contents, up)
+            more |= floating
+            named = replace(named, findings=(*named.findings, *of_liquid))
         if self.options.thumbnails:
             more["thumbnail"] = thumbnail_of(obj, measurement, self._wanted.unit_scale)
         entry = record.record(named, self.options.frame, order, surface, more, self.options.about)

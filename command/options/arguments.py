@@ -99,7 +99,10 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
         fail("argument --at-frame: a file keeps only results at its own frame")
     if options.resume and options.output is None:
         fail("argument --resume: needs the --output of the run to go on with")
+    if options.gz is not None and options.float is None:
+        fail("argument --gz: needs --float LIQUID")
     _check_fourier(options)
+    _check_labels(options)
     axes = [axis for axis, _ in options.positions or ()]
     if len(set(axes)) < len(axes):
         fail("--positions names an axis twice: {}".format(", ".join(axes)))
@@ -160,7 +163,16 @@ def files_of_options(
     name.
     """
     positions = (path for _, path in options.positions or ())
-    return [path for path in (*files, opened, options.q, *positions) if path]
+    named = options.q, options.label_table
+    return [path for path in (*files, opened, *named, *positions) if path]
+
+
+def _check_labels(options: argparse.Namespace) -> None:
+    """End with a message if the options of label maps do not go together."""
+    if options.label is not None and options.threshold is not None:
+        fail("arguments --label and --threshold exclude each other")
+    if options.label_table is not None and options.label is None:
+        fail("argument --label-table: needs --label N or --label all")
 
 
 def _check_fourier(options: argparse.Namespace) -> None:

@@ -151,6 +151,22 @@ def _add_of_files(parser: Parser) -> None:
         "--density or "
         "--material, or with the values' own density (all of the grid)",
     )
+    parser.value(
+        "--label",
+        types.label,
+        "N|all",
+        "arrays and scans that are label maps: a record for label N, or for each label but 0, "
+        "filled with --density, --material or the densities of --label-table. Volume objects: "
+        "label N, or all labels but 0 as one body (all of the grid)",
+    )
+    parser.value(
+        "--label-table",
+        Path,
+        "FILE",
+        "with --label: names, colors and densities in kg/m³ of all its labels: .csv with columns "
+        "label, name, density, r, g, b, or .txt as ITK-SNAP or FreeSurfer write it (the header's "
+        "names)",
+    )
     parser.choice(
         "--stream",
         ("auto", "always", "never"),
@@ -224,6 +240,19 @@ def _add_results(parser: Parser) -> None:
         "Z|OBJECT|rim",
         "add cut and fill of each open surface against a height, against an object's plane or "
         "surface, or against the plane through its rim",
+    )
+    parser.value(
+        "--float",
+        types.liquid,
+        "LIQUID",
+        "add where each body floats: in a liquid of the panel's list, such as Water or "
+        "“Sea Water”, or of a density in kg/m³",
+    )
+    parser.value(
+        "--gz",
+        types.heel_angles,
+        "A:B:STEP",
+        "with --float, add righting arms at these angles of heel, in degrees",
     )
     parser.flag("--pose", "add the pose that is the body's own, and its symmetry")
     parser.flag("--signature", "add the numbers by which `similar` finds the shape again")

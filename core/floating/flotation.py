@@ -27,7 +27,7 @@ from ..cuts import measure_below
 from ..inertia import frame_about
 from ..moments import U
 from ..numerics import Array, float_array, index_array
-from ..verdict import MeasureError
+from ..verdict import Finding, MeasureError
 from .findings import (
     FLOAT_UNAVAILABLE,
     LIQUID_ENTERS,
@@ -369,14 +369,15 @@ def _trust_step(slope: Array, values: Array, vectors: Array, radius: float) -> A
 
 @dataclass(frozen=True, eq=False)
 class Flotation:
-    """A floating body at one direction against gravity, (3,) `up`, and the surfaces of the liquids
-    in coordinates from its center of mass.
+    """A floating body at one direction against gravity, (3,) `up`, the surfaces of the liquids in
+    coordinates from its center of mass, and findings about the liquid.
     """
 
     body: FloatingBody
     up: Array
     plane: Waterplane
     tank_planes: tuple[Waterplane, ...] = ()
+    findings: tuple[Finding, ...] = ()
 
     @cached_property
     def axes(self) -> Array:
@@ -490,9 +491,18 @@ class Flotation:
         """Return whether the two positions differ by less than an angle."""
         return float(np.linalg.norm(self.up - other.up)) < angle
 
-    def rotation(self) -> Array:
-        """Return the smallest (3, 3) rotation that turns `up` to +Z."""
-        return turn_between(self.up, np.array([0.0, 0.0, 1.0]))
+    def matrix(self, up: ArrayLike = (0.0, 0.0, 1.0), level: float = 0.0) -> Array:
+        """Return the (4, 4) map that turns it by the smallest angle about its center of mass and
+        lifts it to a level of the liquid along a unit vector.
+        """
+        up = float_array("up", up, 3)
+        turn = turn_between(self.up, up)
+        center = self.body.center
+        height = float(self.up @ center) - self.level + level
+        matrix = np.eye(4)
+        matrix[:3, :3] = turn
+        matrix[:3, 3] = center - turn @ center + (height - float(up @ center)) * up
+        return matrix
 
 
 def turn_between(start: Array, stop: Array) -> Array:

@@ -186,7 +186,8 @@ INERTIAL_TOO_DENSE = error(
 )
 AUDIT_UNIFORM_INSTEAD = warning(
     "audit_uniform_instead",
-    "State the inertial of the geometry, filled evenly with the stated mass.",
+    "State the inertia of the geometry, filled evenly with the stated mass. Keep a possible "
+    "center.",
 )
 AUDIT_NOT_UNIFORM = note(
     "audit_not_uniform",
