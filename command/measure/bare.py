@@ -253,9 +253,9 @@ class BareFile:
                 reading = read_mesh(mesh, upright)
                 body = body_of_mesh(reading, settings)
                 measurement = measure_reading(reading, body, settings)
-                more = {}
+                more, of_liquid = {}, ()
                 if self.options.float:
-                    more["floating"] = floating_entry(body, measurement, self.options, contents)
+                    more, of_liquid = floating_entry(body, measurement, self.options, contents)
                 if self.options.thumbnails:
                     surface = reading.join()
                     properties = measurement.mass_properties
@@ -264,7 +264,7 @@ class BareFile:
                     more["thumbnail"] = thumbnail(
                         points, triangles, properties.center, properties.principal.axes
                     )
-                self._add(contents, measurement, findings, more)
+                self._add(contents, measurement, [*findings, *of_liquid], more)
             except MeasureError as refusal:
                 contents.errors.append(failure(mesh.name, refusal.finding))
 

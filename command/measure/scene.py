@@ -254,7 +254,9 @@ class Scene:
             depsgraph = bpy.context.evaluated_depsgraph_get()
             body = measure_body(obj, depsgraph, self._wanted).body
             up = -down(bpy.context.scene)
-            more["floating"] = floating_entry(body, named, self.options, contents, up)
+            floating, of_liquid = floating_entry(body, named, self.options, contents, up)
+            more |= floating
+            named = replace(named, findings=(*named.findings, *of_liquid))
         if self.options.thumbnails:
             more["thumbnail"] = thumbnail_of(obj, measurement, self._wanted.unit_scale)
         entry = record.record(named, self.options.frame, order, surface, more, self.options.about)

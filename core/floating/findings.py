@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/floating`."""
 
-from ..verdict import error
+from ..verdict import error, warning
 
 OPEN_HULL = "its surface does not close. Close the holes, or set Kind to Solid"
 SHARED_SPACE = "parts overlap, so that they would displace water twice. Unite them, or move them"
@@ -23,4 +23,9 @@ LIQUID_ENTERS = error(
     "liquid_enters",
     "Liquid runs in through an opening {depth:length} below the waterline. Close the hole, raise "
     "the rim or reduce the mass.",
+)
+HOLLOW_FLOODED = warning(
+    "hollow_flooded",
+    "Its hollow counts as full of the liquid, which runs in {depth:length} over the rim. Raise the "
+    "rim or reduce the mass to keep it dry.",
 )

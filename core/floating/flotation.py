@@ -27,7 +27,7 @@ from ..cuts import measure_below
 from ..inertia import frame_about
 from ..moments import U
 from ..numerics import Array, float_array, index_array
-from ..verdict import MeasureError
+from ..verdict import Finding, MeasureError
 from .findings import (
     FLOAT_UNAVAILABLE,
     LIQUID_ENTERS,
@@ -369,14 +369,15 @@ def _trust_step(slope: Array, values: Array, vectors: Array, radius: float) -> A
 
 @dataclass(frozen=True, eq=False)
 class Flotation:
-    """A floating body at one direction against gravity, (3,) `up`, and the surfaces of the liquids
-    in coordinates from its center of mass.
+    """A floating body at one direction against gravity, (3,) `up`, the surfaces of the liquids in
+    coordinates from its center of mass, and findings about the liquid.
     """
 
     body: FloatingBody
     up: Array
     plane: Waterplane
     tank_planes: tuple[Waterplane, ...] = ()
+    findings: tuple[Finding, ...] = ()
 
     @cached_property
     def axes(self) -> Array:

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,8 +13,11 @@ from numpy.typing import ArrayLike
 
 from ..measurement import Body, Measurement
 from ..numerics import Array
+from ..verdict import MeasureError
+from ..verdict.finding import finding
+from .findings import HOLLOW_FLOODED, LIQUID_ENTERS
 from .flotation import FloatingBody, Flotation
-from .hulls import find_hull
+from .hulls import Hull, fill_hollows, find_hull
 from .righting import RightingCurve, righting_curve
 
 
@@ -43,10 +47,23 @@ def settle(
     MeasureError
         If it sinks, leaks, or does not rest.
     """
-    hull = find_hull(bodies)
-    return FloatingBody(hull.points, hull.triangles, mass, center, density, hull.openings).settle(
-        up
-    )
+    wet = find_hull(bodies)
+    dry = fill_hollows(wet, np.asarray(up, np.float64))
+
+    def floating(hull: Hull) -> FloatingBody:
+        return FloatingBody(hull.points, hull.triangles, mass, center, density, hull.openings)
+
+    try:
+        return floating(dry).settle(up)
+    except MeasureError as refusal:
+        if dry is wet or refusal.finding.code != LIQUID_ENTERS:
+            raise
+        try:
+            rest = floating(wet).settle(up)
+        except MeasureError:
+            raise refusal from None
+        depth = refusal.finding.values["depth"]
+        return replace(rest, findings=(finding(HOLLOW_FLOODED, depth=depth),))
 
 
 def heel_and_trim(rest: Flotation, axes: Array) -> tuple[float, float]:

@@ -471,9 +471,15 @@ def _guess(stated: StatedInertial, geometry: StatedInertial, hull: Hull | None) 
     reference = Reference(1.0, geometry.center, geometry.inertia / geometry.mass)
     if reference.compare_centers(stated) <= DIFFERS:
         return geometry
-    # Near the border of the hull the geometry is shrunk, until it fits.
+    second = np.trace(geometry.inertia) / 2.0 * np.eye(3) - geometry.inertia
+    way = stated.center - geometry.center
+    way = way / np.linalg.norm(way)
+    # Near the border of the hull the geometry is shrunk towards it, until it fits.
     for part in 0.5 ** np.arange(10.0):
-        guessed = replace(geometry, center=stated.center, tensor=part * geometry.inertia)
+        shrink = np.eye(3) - (1.0 - part) * np.outer(way, way)
+        shrunk = shrink @ second @ shrink
+        tensor = np.trace(shrunk) * np.eye(3) - shrunk
+        guessed = replace(geometry, center=stated.center, tensor=tensor)
         if not impossible(guessed, hull):
             return guessed
     return geometry

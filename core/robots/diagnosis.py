@@ -354,7 +354,9 @@ def _units(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
             {"part": "inertia", "factor": factor},
             stated.along_link(_times(inertia, factor)),
         )
-    for factor in LENGTH_UNITS:
+    # Any center becomes that of geometry at the origin, if it is only made small enough.
+    is_away = np.linalg.norm(reference.center) > DIFFERS * np.sqrt(np.trace(reference.inertia) / 2)
+    for factor in LENGTH_UNITS if is_away else ():
         yield (
             AUDIT_UNIT,
             {"part": CENTER, "factor": factor},
