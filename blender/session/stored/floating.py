@@ -29,6 +29,7 @@ from ....core.floating import (
 from ....core.numerics import Array, rotation_matrix
 from ....core.verdict import Finding, MeasureError
 from ...bodies.measure_body import measure_body
+from ...bodies.measure_object import measure_many
 from ...read.fingerprint import settings_hash
 from ...read.visibility import measurable
 from ...scale import meters_per_unit
@@ -37,10 +38,12 @@ from ...scene.changes import ancestors
 from ...scene.rigid_world import down
 from ...scene.transforms import TransformChannels, world
 from ...settings.floating import liquid_density
+from ...write import properties
 from .. import memory
 from ..live import following
 from ..tracking import handlers, staleness, stamps
 from ..tracking.stamps import Kind, Stamp
+from . import results
 
 PLACE_RTOL = 1e-5  # of float32 matrices
 GZ_KEY = "body_righting_arm"
@@ -128,9 +131,9 @@ def read(depsgraph: Depsgraph, members: Sequence[Object]) -> Afloat:
     def having(role: str) -> list[Object]:
         return [obj for obj in parts if obj.body_moments_tank.role == role]
 
-    properties = [parts[obj].mass_properties for obj in having("BODY")]
-    mass = float(sum(each.mass for each in properties))
-    center = sum((each.mass * each.center for each in properties), np.zeros(3)) / (mass or 1.0)
+    masses = [parts[obj].mass_properties for obj in having("BODY")]
+    mass = float(sum(each.mass for each in masses))
+    center = sum((each.mass * each.center for each in masses), np.zeros(3)) / (mass or 1.0)
     rest = settle(
         [parts[obj].body for obj in having("BODY")],
         mass,
@@ -155,6 +158,25 @@ def remember(afloat: Afloat, depsgraph: Depsgraph) -> None:
         stamp = stamps.carry(obj, Kind.FLOATING, memory.state.updates, settings=settings)
         staleness.mark_stamp(obj, stamp, depsgraph)
         handlers.count_change(obj)
+
+
+def _measure(context: Context, members: Iterable[Object]) -> None:
+    """Measure and store the members whose results are missing or out of date."""
+    wanted = [
+        obj
+        for obj in members
+        if measurable(obj)
+        and (not properties.is_stored(obj) or staleness.stale_reason(obj, context.scene))
+    ]
+    results.store_measured(
+        context,
+        [
+            (obj, outcome)
+            for together in measure_many(wanted, context.evaluated_depsgraph_get())
+            for obj, outcome in together
+            if not isinstance(outcome, Exception)
+        ],
+    )
 
 
 def float_body(
@@ -197,6 +219,7 @@ def float_body(
             channels.restore()
         context.view_layer.update()
         raise
+    _measure(context, members)
     remember(replace(afloat, rest=rest), context.evaluated_depsgraph_get())
     return is_moved
 
@@ -211,6 +234,7 @@ def find_positions(context: Context, members: Sequence[Object]) -> Afloat:
     """Find all positions of rest of a body, and keep them."""
     afloat = read(context.evaluated_depsgraph_get(), members)
     afloat.rests = tuple(afloat.rest.body.find_rests())
+    _measure(context, members)
     remember(afloat, context.evaluated_depsgraph_get())
     return afloat
 
@@ -219,6 +243,7 @@ def heel(context: Context, members: Sequence[Object], angles: Array, free_trim: 
     """Compute the righting arms of a body from where it settles, and keep them."""
     afloat = read(context.evaluated_depsgraph_get(), members)
     afloat.curve = righting_curve(afloat.rest, angles, free_trim=free_trim)
+    _measure(context, members)
     remember(afloat, context.evaluated_depsgraph_get())
     return afloat
 
