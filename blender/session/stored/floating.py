@@ -53,12 +53,14 @@ GZ_KEY = "body_righting_arm"
 class Afloat:
     """A floating body.
 
-    members: its objects; places: (k, 4, 4) their matrices when it was read; roles: of the members.
+    uids: the session uids of its objects, which survive undo; name: of the first one. places: (k, 4,
+    4) their matrices when it was read; roles: of the members.
     rest: where it settles from there, in m. curve: its righting arms. rests: all positions of rest.
     shown: the generation and the scene, and what is displayed for them.
     """
 
-    members: tuple[Object, ...]
+    uids: tuple[int, ...]
+    name: str
     places: Array
     roles: tuple
     rest: Flotation
@@ -147,12 +149,13 @@ def read(depsgraph: Depsgraph, members: Sequence[Object]) -> Afloat:
         [parts[obj].body for obj in having("FLOODED")],
     )
     places = np.array([float64_matrix(obj.matrix_world) for obj in members])
-    return Afloat(tuple(members), places, _roles(members), rest)
+    uids = tuple(obj.session_uid for obj in members)
+    return Afloat(uids, members[0].name, places, _roles(members), rest)
 
 
-def remember(afloat: Afloat, depsgraph: Depsgraph) -> None:
+def remember(afloat: Afloat, members: Iterable[Object], depsgraph: Depsgraph) -> None:
     """Keep a body for the panel and the overlay."""
-    for obj in afloat.members:
+    for obj in members:
         memory.afloat[obj] = afloat
         settings = settings_hash(obj, depsgraph.scene)
         stamp = stamps.carry(obj, Kind.FLOATING, memory.state.updates, settings=settings)
@@ -220,7 +223,7 @@ def float_body(
         context.view_layer.update()
         raise
     _measure(context, members)
-    remember(replace(afloat, rest=rest), context.evaluated_depsgraph_get())
+    remember(replace(afloat, rest=rest), members, context.evaluated_depsgraph_get())
     return is_moved
 
 
@@ -235,7 +238,7 @@ def find_positions(context: Context, members: Sequence[Object]) -> Afloat:
     afloat = read(context.evaluated_depsgraph_get(), members)
     afloat.rests = tuple(afloat.rest.body.find_rests())
     _measure(context, members)
-    remember(afloat, context.evaluated_depsgraph_get())
+    remember(afloat, members, context.evaluated_depsgraph_get())
     return afloat
 
 
@@ -244,14 +247,14 @@ def heel(context: Context, members: Sequence[Object], angles: Array, free_trim: 
     afloat = read(context.evaluated_depsgraph_get(), members)
     afloat.curve = righting_curve(afloat.rest, angles, free_trim=free_trim)
     _measure(context, members)
-    remember(afloat, context.evaluated_depsgraph_get())
+    remember(afloat, members, context.evaluated_depsgraph_get())
     return afloat
 
 
 def add_curve(context: Context, afloat: Afloat) -> Object:
     """Add an empty with an F-curve of the righting arms, a frame for each degree of heel."""
     assert afloat.curve is not None
-    empty = bpy.data.objects.new("GZ {:s}".format(afloat.members[0].name), None)
+    empty = bpy.data.objects.new("GZ {:s}".format(afloat.name), None)
     context.scene.collection.objects.link(empty)
     empty[GZ_KEY] = 0.0
     empty.id_properties_ui(GZ_KEY).update(description="Righting arm GZ, m; frames are degrees")
@@ -281,15 +284,16 @@ def held(obj: Object, scene: Scene) -> Held | Finding | None:
     afloat = memory.afloat.get(obj)
     if afloat is None:
         return None
-    try:
-        roles = _roles(afloat.members)
-    except ReferenceError:  # an object was removed
+    by_uid = {member.session_uid: member for member in scene.objects}
+    members = [by_uid[uid] for uid in afloat.uids if uid in by_uid]
+    if len(members) < len(afloat.uids):
         return None
+    roles = _roles(members)
     liquid = scene.body_moments_liquid.level, liquid_density(scene)
     key = (memory.state.generation, scene.session_uid, *liquid, roles)
     if afloat.shown is None or afloat.shown[0] != key:
         try:
-            value = _held(obj, afloat, scene)
+            value = _held(obj, afloat, members, scene)
         except MeasureError as refusal:
             value = refusal.finding
         afloat = memory.afloat[obj]
@@ -297,12 +301,12 @@ def held(obj: Object, scene: Scene) -> Held | Finding | None:
     return afloat.shown[1]
 
 
-def _held(obj: Object, afloat: Afloat, scene: Scene) -> Held | None:
-    present = np.array([float64_matrix(member.matrix_world) for member in afloat.members])
-    is_stale = _roles(afloat.members) != afloat.roles or any(
-        staleness.stale_reason(member, scene, stamp_of) for member in afloat.members
+def _held(obj: Object, afloat: Afloat, members: list[Object], scene: Scene) -> Held | None:
+    present = np.array([float64_matrix(member.matrix_world) for member in members])
+    is_stale = _roles(members) != afloat.roles or any(
+        staleness.stale_reason(member, scene, stamp_of) for member in members
     )
-    is_live = any(map(following.is_live, afloat.members))
+    is_live = any(map(following.is_live, members))
     turn = present[0] @ np.linalg.inv(afloat.places[0])
     carried = turn @ afloat.places
     is_stale |= bool((np.abs(carried - present) > PLACE_RTOL * np.abs(present).max()).any())
@@ -312,9 +316,9 @@ def _held(obj: Object, afloat: Afloat, scene: Scene) -> Held | None:
         if not is_live:
             return None
         depsgraph = bpy.context.view_layer.depsgraph
-        fresh = read(depsgraph, afloat.members)
-        remember(fresh, depsgraph)
-        return _held(obj, fresh, scene)
+        fresh = read(depsgraph, members)
+        remember(fresh, members, depsgraph)
+        return _held(obj, fresh, members, scene)
     unit = meters_per_unit(scene)
     turn[:3, 3] *= unit
     up = _up(scene)
