@@ -132,7 +132,10 @@ class OBJECT_OT_body_moments_righting_arms(OnFloating, Operator):
                 stored.floating.add_curve(context, afloat)
             return True
 
-        texts = ("Heeled {count} body", "Heeled {count} bodies")
+        texts = (
+            "Computed righting arms of {count} body",
+            "Computed righting arms of {count} bodies",
+        )
         return self.for_each_body(context, heel, texts)
 
 

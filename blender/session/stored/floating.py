@@ -53,8 +53,8 @@ GZ_KEY = "body_righting_arm"
 class Afloat:
     """A floating body.
 
-    uids: the session uids of its objects, which survive undo; name: of the first one. places: (k, 4,
-    4) their matrices when it was read; roles: of the members.
+    uids: the session uids of its objects, which survive undo; name: of the first one. places:
+    (k, 4, 4) their matrices when it was read; roles: of the members.
     rest: where it settles from there, in m. curve: its righting arms. rests: all positions of rest.
     shown: the generation and the scene, and what is displayed for them.
     """
