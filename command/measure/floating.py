@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from ...core.floating import float_record, settle
 from ...core.measurement import Body, Measurement
-from ...core.verdict import MeasureError
+from ...core.verdict import Finding, MeasureError
 from .entries import Contents, failure
 
 UP = (0.0, 0.0, 1.0)
@@ -24,13 +24,18 @@ def floating_entry(
     options: Namespace,
     contents: Contents,
     up: ArrayLike = UP,
-) -> dict[str, Any] | None:
-    """Return the entry `floating` of a record; None, and an error, if the body does not float."""
+) -> tuple[dict[str, Any], tuple[Finding, ...]]:
+    """Return the entry `floating` of a record, and findings; None, and an error, if the body does
+    not float.
+
+    up: against gravity.
+    """
     properties = measurement.mass_properties
     try:
         rest = settle([body], properties.mass, properties.center, options.float, up)
         angles = np.radians(options.gz or ())
-        return float_record(rest, measurement, options.frame, angles, rest.body.find_rests())
+        entry = float_record(rest, measurement, options.frame, angles, rest.body.find_rests())
+        return {"floating": entry}, rest.findings
     except MeasureError as refusal:
         contents.errors.append(failure(measurement.name, refusal.finding))
-        return None
+        return {"floating": None}, ()

@@ -229,6 +229,19 @@ def _add_results(parser: Parser) -> None:
     )
     parser.value("--qmax", types.positive, "Q", "the largest along each axis of the grid, in rad/m")
     parser.value(
+        "--below",
+        types.number,
+        "Z",
+        "add the part of each solid below this height, in meters, and its cut face",
+    )
+    parser.value(
+        "--against",
+        types.against,
+        "Z|OBJECT|rim",
+        "add cut and fill of each open surface against a height, against an object's plane or "
+        "surface, or against the plane through its rim",
+    )
+    parser.value(
         "--float",
         types.liquid,
         "LIQUID",

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/floating`."""
 
-from ..verdict import error
+from ..verdict import error, warning
 
 OPEN_HULL = "its surface does not close. Close the holes, or set Kind to Solid"
 SHARED_SPACE = "parts overlap, so that they would displace water twice. Unite them, or move them"
@@ -11,9 +11,6 @@ NO_MASS = "it has no mass. Set a Density or a Mass"
 NO_GRAVITY = "the scene has no gravity. Turn on Gravity in the scene's properties"
 NO_LIQUID_DENSITY = "the density of the liquid is zero. Choose another liquid"
 NO_REST = "no position was found in which it rests. Turn it a little and try again"
-BAD_TANK = (
-    "a tank must be a closed mesh with a fill level. Choose another object, or close its holes"
-)
 FLOAT_UNAVAILABLE = error("float_unavailable", "It cannot float: {fault:word}.")
 SINKS = error(
     "sinks",
@@ -23,4 +20,9 @@ LIQUID_ENTERS = error(
     "liquid_enters",
     "Liquid runs in through an opening {depth:length} below the waterline. Close the hole, raise "
     "the rim or reduce the mass.",
+)
+HOLLOW_FLOODED = warning(
+    "hollow_flooded",
+    "Its hollow counts as full of the liquid, which runs in {depth:length} over the rim. Raise the "
+    "rim or reduce the mass to keep it dry.",
 )

@@ -15,8 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..bodies import MeshBody, WallBody
+from ..cuts import find_hollow
 from ..measurement import Body
-from ..mesh import Bvh, Surface, intersecting_pairs, sort_components
+from ..mesh import Bvh, Surface, intersecting_pairs, sort_components, uncancelled_sides
 from ..numerics import Array, Index, Mask
 from ..solid import (
     COMPONENTS_OVERLAP,
@@ -30,6 +31,9 @@ from ..wall import split_thickness
 from .findings import FLOAT_UNAVAILABLE, NO_BODY, OPEN_HULL, SHARED_SPACE
 
 NOT_UNITED = {COMPONENTS_OVERLAP, SELF_INTERSECTING}
+
+LEAST_HOLLOW = 1e-6  # relative to the volume: smaller hollows count as wet
+MAX_HOLLOWS = 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,3 +118,29 @@ def _outer_parts(
             raise MeasureError(FLOAT_UNAVAILABLE, fault=SHARED_SPACE)
         kept[small] = False
     return kept
+
+
+def fill_hollows(hull: Hull, up: Array) -> Hull:
+    """Return the hull with the hollows that are open upward filled up to lids on their rims."""
+    points, triangles, openings = hull.points, hull.triangles, hull.openings
+    for _ in range(MAX_HOLLOWS):
+        try:
+            hollow = find_hollow(points, triangles, up)
+        except MeasureError:
+            break
+        volume = float(
+            sort_components(points, triangles, np.zeros(len(triangles), int), 1).volume[0]
+        )
+        if hollow.capacity <= LEAST_HOLLOW * volume:
+            break
+        _, start, stop = uncancelled_sides(
+            hollow.triangles, np.zeros(len(hollow.triangles), np.intp)
+        )
+        rim = hollow.points[start]
+        count = len(hollow.points)
+        lid = np.stack([stop, start, np.full(len(start), count)], axis=1)
+        added = np.concatenate([hollow.triangles, lid])
+        triangles = np.concatenate([triangles, added + len(points)])
+        points = np.concatenate([points, hollow.points, rim.mean(axis=0)[None]])
+        openings = np.concatenate([openings, rim])
+    return hull if triangles is hull.triangles else Hull(points, triangles, openings)

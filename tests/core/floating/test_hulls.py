@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from body_moments.core import MeasureError, Surface
 from body_moments.core.bodies import Part, Reading, body_of_mesh
-from body_moments.core.floating import FloatingBody, find_hull
+from body_moments.core.floating import FloatingBody, find_hull, settle
 from body_moments.core.measurement import Settings
 
 UP = (0.0, 0.0, 1.0)
@@ -85,3 +85,40 @@ def test_hole_below_waterline_is_refused():
     leaking = FloatingBody(hull.points, hull.triangles, 2000.0, [0, 0, 0.2], 1000.0, hull.openings)
     with pytest.raises(MeasureError, match="runs in"):
         leaking.settle(UP)
+
+
+def bowl(wall):
+    """Return an open box of thick walls as one closed surface."""
+    outer, rim = np.array([[-2, -1], [2, -1], [2, 1], [-2, 1]]), np.ones((4, 1))
+    inner = outer - wall * np.sign(outer)
+    points = np.concatenate(
+        [
+            np.hstack([outer, 0 * rim]),
+            np.hstack([outer, rim]),
+            np.hstack([inner, rim]),
+            np.hstack([inner, wall * rim]),
+        ]
+    )
+    quads = [[3, 2, 1, 0], [12, 13, 14, 15]]
+    for low in (0, 4, 8):
+        quads += [
+            [low + i, low + (i + 1) % 4, low + 4 + (i + 1) % 4, low + 4 + i] for i in range(4)
+        ]
+    return Surface(points, quads=np.array(quads))
+
+
+def test_hollow_of_thick_hull_stays_dry():
+    rest = settle([body(bowl(0.1))], 2000.0, np.array([0.0, 0.0, 0.4]), 1000.0, UP)
+    assert rest.draught == pytest.approx(0.25, rel=1e-12)
+    assert rest.plane.area == pytest.approx(8.0, rel=1e-12)
+    assert rest.depth_of_openings == pytest.approx(-0.75, rel=1e-12)
+    assert not rest.findings
+
+
+def test_flooded_hollow_is_reported_or_refused():
+    bodies = [body(bowl(0.45))]
+    capsized = settle(bodies, 4000.0, np.array([0.0, 0.0, 2.0]), 1000.0, [0.0, 0.1, 1.0])
+    assert capsized.up[2] < 0.0
+    assert [found.code for found in capsized.findings] == ["hollow_flooded"]
+    with pytest.raises(MeasureError, match="runs in"):
+        settle(bodies, 7000.0, np.array([0.0, 0.0, 2.0]), 1000.0, [0.0, 0.1, 1.0])
