@@ -50,6 +50,7 @@ from .. import measure
 from ..files.suffixes import STREAMED, check_file, file_suffix
 from ..findings import (
     FOURIER_OBJECT_COUNT,
+    MEASURED_AS_SHELL,
     NEEDS_BLEND,
     OPTIONS_UNUSED,
     RESULTS_NOT_STORED,
@@ -60,6 +61,7 @@ from ..options.arguments import NEEDS_BLENDER, boolean_and_wire, options_of_blen
 from ..options.checks import OF_ARRAYS, body_findings, density_of, file_findings, unused
 from ..supervisor.listing import UNITLESS
 from ..supervisor.processes import has_blender
+from .cuts import cut_entries, is_open_sheet
 from .entries import Contents, failure
 from .floating import floating_entry
 
@@ -70,7 +72,11 @@ BYTES_OF_FILE = {
     ".ply": 19,
 }
 DEFAULT_DENSITY = 1000.0  # kg/m³
-_NOT_OF_STREAMS = ("wall", "print", "polynomial", "density_from", "fourier", "float")
+DEFAULT_THICKNESS = 0.001  # m, as of an object
+_NOT_OF_STREAMS = (
+    *("wall", "print", "polynomial", "density_from", "fourier"),
+    *("below", "against", "float"),
+)
 
 
 class BareFile:
@@ -252,8 +258,18 @@ class BareFile:
                 continue
             try:
                 reading = read_mesh(mesh, upright)
-                body = body_of_mesh(reading, settings)
-                measurement = measure_reading(reading, body, settings)
+                try:
+                    body = body_of_mesh(reading, settings)
+                    measurement = measure_reading(reading, body, settings)
+                    sheet = []
+                except MeasureError as refusal:
+                    if not is_open_sheet(refusal, self.options):
+                        raise
+                    thickness = self.options.thickness or DEFAULT_THICKNESS
+                    shell = replace(settings, kind="shell", thickness=thickness)
+                    body = body_of_mesh(reading, shell)
+                    measurement = measure_reading(reading, body, shell)
+                    sheet = [finding(MEASURED_AS_SHELL)]
                 more, of_liquid = {}, ()
                 if self.options.float:
                     more, of_liquid = floating_entry(body, measurement, self.options, contents)
@@ -265,7 +281,10 @@ class BareFile:
                     more["thumbnail"] = thumbnail(
                         points, triangles, properties.center, properties.principal.axes
                     )
-                self._add(contents, measurement, [*findings, *of_liquid], more)
+                cuts, of_cuts = cut_entries(measurement, body, self.options, contents)
+                self._add(
+                    contents, measurement, (*findings, *sheet, *of_liquid, *of_cuts), more | cuts
+                )
             except MeasureError as refusal:
                 contents.errors.append(failure(mesh.name, refusal.finding))
 

@@ -47,6 +47,7 @@ _ROOT = __name__.removesuffix(".command.options.arguments")
 ONE_FILE = "argument --format: {} takes one FILE, as a robot is one file"
 ONE_OBJECT = "argument --fourier: takes one object of one FILE"
 NEEDS_BLENDER = "{} Blender: add --blender PATH, or install the bpy module"
+RIM = "rim"
 _OF_OBJECTS = ("polynomial", "density_from", "fourier", "flat", "pose", "signature")
 
 
@@ -220,7 +221,7 @@ def join_negative_values(argv: list[str]) -> list[str]:
     for word in argv:
         if (
             joined
-            and joined[-1] in {"--origin", "--spacing", "--about"}
+            and joined[-1] in {"--origin", "--spacing", "--about", "--below", "--against"}
             and word[:2].strip("0123456789.") == "-"
         ):
             joined[-1] += "=" + word
@@ -234,8 +235,10 @@ def options_of_blender(options: argparse.Namespace, is_scan: bool) -> list[str]:
     robot = ["format"] * (options.format in ROBOT_FORMATS)
     if is_scan:
         return robot
+    names_object = isinstance(options.against, str) and options.against != RIM
     return [
         *(name for name in _OF_OBJECTS if getattr(options, name)),
+        *["against"] * names_object,
         *boolean_and_wire(options),
         *robot,
     ]

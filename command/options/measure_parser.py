@@ -239,6 +239,19 @@ def _add_results(parser: Parser) -> None:
     )
     parser.value("--qmax", types.positive, "Q", "the largest along each axis of the grid, in rad/m")
     parser.value(
+        "--below",
+        types.number,
+        "Z",
+        "add the part of each solid below this height, in meters, and its cut face",
+    )
+    parser.value(
+        "--against",
+        types.against,
+        "Z|OBJECT|rim",
+        "add cut and fill of each open surface against a height, against an object's plane or "
+        "surface, or against the plane through its rim",
+    )
+    parser.value(
         "--float",
         types.liquid,
         "LIQUID",
@@ -278,6 +291,12 @@ def _add_results(parser: Parser) -> None:
         "--fixed-base",
         robots + "fix links without a parent to the world (passive rigid bodies alone)",
     )
+    parser.flag(
+        "--merge-fixed",
+        robots + "put links on fixed joints into their parents; needed frames stay without mass",
+    )
+    text = robots + "the files of meshes, besides usd and gltf (stl)"
+    parser.choice("--mesh-format", ("obj", "stl"), text, default="stl")
     parser.value("--output", Path, "PATH", "(standard output)")
     parser.flag(
         "--force",

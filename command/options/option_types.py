@@ -170,6 +170,14 @@ def about(text: str) -> str | tuple[float, ...]:
     return text if text in ABOUT else triple(text)
 
 
+def against(text: str) -> float | str:
+    """Return a height, or the name of an object, or `rim`."""
+    try:
+        return number(text)
+    except ArgumentTypeError:
+        return text
+
+
 def split_source(text: str) -> tuple[str, str]:
     """Return a source of density, and the name after its colon, or an empty text."""
     source, _, name = text.partition(":")

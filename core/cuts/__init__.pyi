@@ -3,11 +3,10 @@
 
 from typing import Any
 
-from .findings import COMPARED_IN_PART as COMPARED_IN_PART
 from .findings import CUT_FILL_UNAVAILABLE as CUT_FILL_UNAVAILABLE
 from .findings import LEVEL_UNAVAILABLE as LEVEL_UNAVAILABLE
-from .findings import PLANE_MISSES as PLANE_MISSES
 from .findings import SHARED_SPACE as SHARED_SPACE
+from .findings import SURFACE_NEEDED as SURFACE_NEEDED
 from .hollow import Hollow as Hollow
 from .hollow import find_hollow as find_hollow
 from .hollow import spill_tilt as spill_tilt
@@ -18,6 +17,9 @@ from .open_surfaces import fit_rim as fit_rim
 from .part_below import PartBelow as PartBelow
 from .part_below import below as below
 from .part_below import measure_below as measure_below
+from .record import below_record as below_record
+from .record import cut_fill_record as cut_fill_record
+from .record import partly_compared as partly_compared
 
 __all__ = [
     "below",

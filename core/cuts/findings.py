@@ -5,6 +5,7 @@
 from ..verdict import error, warning
 
 NO_FACES_TO_CUT = "there are no faces"
+SURFACE_NEEDED = "it needs a mesh with faces, and for a level a solid. Convert it, or set Kind"
 PLANE_MISSES = "the plane misses it. Choose a plane through it"
 CLOSED_SURFACE = "the surface is closed. Delete its bottom, or use Level"
 NO_RIM = "the surface has no rim. Choose a height or an object"

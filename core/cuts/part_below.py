@@ -54,9 +54,11 @@ RAISED = np.array([3, 6, 8, 9, 10, 11, 12, 13, 14, 15])  # rows of each monomial
 LEVEL = np.array([0, 1, 2, 0, 4, 5, 1, 7, 2, 0])
 ACROSS = EXPONENTS[:, 2] == 0
 PAIRS = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)]
-# Errors in units of rounding: of rotated positions; of the products for one triangle.
+# Errors in units of rounding: of rotated positions; of the products for one triangle, relative to
+# its area and to the products in its area.
 PLACE_ROUNDINGS = 24.0
-PRODUCT_ROUNDINGS = 80.0
+PRODUCT_ROUNDINGS = 40.0
+SPREAD_ROUNDINGS = 8.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -287,7 +289,7 @@ def _below(
         faces[:, heights > high[2]] = 0.0
     area, spread, edges, count, unclear, roundings = sizes
     largest = np.multiply.reduce((reach + shifts.sum(axis=0)) ** EXPONENTS[:, :, None], axis=1)
-    products = (PRODUCT_ROUNDINGS + roundings) * U * (area + spread)
+    products = U * ((PRODUCT_ROUNDINGS + roundings) * area + SPREAD_ROUNDINGS * spread)
     bounds = np.zeros((4, *parts.shape))
     bounds[0] = products * largest * reach[2] + 8.0 * U * np.abs(parts)
     bounds[2] = products * largest + 8.0 * U * np.abs(faces)
@@ -326,7 +328,8 @@ def _sums_below(
     order = np.flatnonzero(middle < k)
     if k > 1:
         order = order[np.argsort(middle[order], kind="stable")]
-    for start in range(0, len(order), TRIANGLES_PER_BLOCK):
+    whole = len(order)
+    for start in range(0, whole, TRIANGLES_PER_BLOCK):
         rows = order[start : start + TRIANGLES_PER_BLOCK]
         corners = points.take(triangles[rows].T, axis=1)
         weight, sizes = _weights(corners)
@@ -357,7 +360,8 @@ def _sums_below(
         _add_sums(table, corners, weight, sizes, level)
     sizes = np.zeros((6, k))
     sizes[:5] = table[16:]
-    sizes[5] = PAIRWISE_SUM_ROUNDINGS + k + (len(order) + counts.sum()) / TRIANGLES_PER_BLOCK
+    summed = 2 * (whole + int(counts.sum()))
+    sizes[5] = min(summed, PAIRWISE_SUM_ROUNDINGS + k + summed / TRIANGLES_PER_BLOCK)
     return table[:16] / DIVISORS[:, None], sizes
 
 

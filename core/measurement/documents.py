@@ -259,6 +259,8 @@ def _columns(entry: dict[str, Any]) -> dict[str, Any]:
         }
     row |= _nested("label", entry.get("label", {})) | _nested("print", entry.get("print", {}))
     row |= _nested("display_mesh", entry.get("display_mesh", {}))
+    for name in ("below", "cut_fill"):
+        row |= _nested(name, entry.get(name) or {})
     floating = dict(entry.get("floating") or {})
     curve = floating.pop("gz", {})
     for name in ("matrix", "rests"):

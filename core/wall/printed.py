@@ -52,7 +52,9 @@ def core_surface(surface: Surface, wall: float, top: float, bottom: float) -> Su
     return Surface(_move(points, triangles, normals, weights, moves), triangles)
 
 
-def _move(points: Array, triangles: Index, normals: Array, weights: Array, moves: Array) -> Array:
+def _move(
+    points: Array, triangles: NDArray[np.integer], normals: Array, weights: Array, moves: Array
+) -> Array:
     """Return the points after the planes of their triangles have moved inward."""
     count = len(points)
     corner = triangles.ravel()
