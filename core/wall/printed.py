@@ -63,7 +63,7 @@ def _move(
     moves = np.repeat(moves, 3)
 
     def total(values: NDArray) -> Array:
-        return np.bincount(corner, weight * values, count)
+        return np.bincount(corner, weight * values, count).astype(np.float64)
 
     system = np.empty((count, 3, 3))
     for i in range(3):
