@@ -21,8 +21,8 @@ from bpy.types import ID, Object, Scene
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from ...core.verdict import Finding
     from ...core.statics import Support
+    from ...core.verdict import Finding
     from .character.weight import Character, Weight
     from .displayed import Displayed, Listing, Total
     from .live.following import Followed
