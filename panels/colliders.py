@@ -15,7 +15,7 @@ from bpy.types import Context, Object, OperatorProperties
 from ..blender.read.visibility import measurable
 from ..blender.scale import meters_per_unit
 from ..blender.session.selected import subject
-from ..blender.session.stored.collider_tolerance import is_beyond_tolerance
+from ..blender.session.stored.collider_tolerance import is_beyond_tolerance, tolerance_remedy
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.session.tracking.stamps import of_colliders
 from ..blender.settings.given import COLLIDER, COLLIDERS
@@ -49,7 +49,6 @@ REMEDIES = {
 # No correction changes boxes, spheres, capsules and cylinders.
 PRIMITIVE_REMEDY = "Choose Convex Pieces, or a shape of equal inertia."
 SHAPE_NAMES = {key: name for key, name, _ in SHAPES}
-BEYOND = "The tolerance is not kept. Allow more pieces or vertices, or more distance."
 
 
 class CollidersPanel:
@@ -112,7 +111,8 @@ class CollidersPanel:
         else:
             rows.remark(column, "An engine simulates the body within 1%.", icon="CHECKMARK")
         if is_beyond_tolerance(stored):
-            rows.remark(column, BEYOND, icon="ERROR")
+            rows.remark(column, "The tolerance is not kept.", icon="ERROR")
+            rows.remark(column, tolerance_remedy(stored))
         rows.title(layout, "Of the Object's")
         labels = ("Volume", "Mass", "Moment 1", "Moment 2", "Moment 3")
         moments = stored.get("moment_ratios", (None,) * 3)

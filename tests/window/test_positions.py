@@ -142,7 +142,7 @@ def test_buttons_stay_with_any_number_of_warnings(window):
         assert_in_place(window, before)
     assert counts[0] < counts[1]
     window.press("object.body_moments_make_colliders")
-    window.wait("bpy.data.objects['Cube'].children")
+    window.wait("len(bpy.data.objects['Cube'].children) > 0")
     assert_in_place(window, before)
     window.ask("bpy.data.objects['Cube.001'].select_set(True)")
     assert_in_place(window, before)
