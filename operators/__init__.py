@@ -14,6 +14,7 @@ MODULES = (
     ),
     *("snap.frames", "snap.sculpt_balance"),
     "statics",
+    "cuts",
     *("export." + name for name in ("robot", "audit")),
     "rig",
     "motion",

@@ -20,6 +20,6 @@ MODULES = (
         "assembly",
         "rig",
     ),
-    *("advanced", "section", "shape"),
+    *("advanced", "section", "cuts", "shape"),
     "overlay.draw",
 )

@@ -63,6 +63,11 @@ class BodyMomentsOverlaySettings(PropertyGroup):
         "stability was computed",
         default=True,
     )
+    show_level: BoolProperty(
+        name="Levels",
+        description="Draw the surfaces of liquids in vessels whose level was computed",
+        default=True,
+    )
     show_path: BoolProperty(
         name="Path of Centers",
         description="Draw the path of the center of mass that was computed over the frame range",

@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from ...blender.scale import meters_per_unit
 from ...blender.scene import fcurves
-from ...blender.session import character
+from ...blender.session import character, memory
 from ...blender.session.character.weight import Weight
-from ...blender.session.stored import balance_groups, faults, stability
+from ...blender.session.stored import balance_groups, cuts, faults, stability
 from ...blender.write import reports
 from ...core.numerics import Array
 from ...core.rig import ballistic_arc, find_flights
@@ -74,7 +74,12 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
             details += _weight(context, weight)
     checked = [obj for obj in objects if stability.is_known(obj)] if settings.show_support else ()
     supports = [stability.support(obj, context.scene) for obj in checked]
-    return details + [support_detail(support) for support in supports if support is not None]
+    details += [support_detail(support) for support in supports if support is not None]
+    if settings.show_level and any(obj in memory.levels for obj in objects):
+        unit = meters_per_unit(context.scene)
+        levels = [cuts.level_of(obj, context.scene) for obj in objects]
+        details += [_surface(level, unit) for level in levels if level is not None]
+    return details
 
 
 def _path(path: balance_groups.Path) -> Detail:
@@ -122,6 +127,13 @@ def _arcs(scene: Scene, path: balance_groups.Path) -> list[Detail]:
                 Detail(_tinted(lines, look.EDGE), _tinted(np.zeros((0, 3, 3)), look.EDGE))
             )
     return details
+
+
+def _surface(level: cuts.Level, unit: float) -> Detail:
+    """Return the surface of a liquid, and its outline on the vessel."""
+    outline = level.outline / unit
+    triangles = level.triangles / unit
+    return Detail(_tinted(outline, look.SUPPORT), _tinted(triangles, look.SUPPORT, FILL))
 
 
 def _faults(obj: Object, found: faults.Faults) -> Detail:
