@@ -79,9 +79,7 @@ class OBJECT_OT_body_moments_level(OnSubject, Operator):
         layout = self.layout
         layout.use_property_split = True
         layout.prop(self, "by")
-        column = layout.column()
-        column.activate_init = True  # The number can be typed at once.
-        column.prop(self, self.by.lower())
+        layout.prop(self, self.by.lower())
         layout.prop(self, "density")
 
     def execute(self, context: Context) -> set[str]:
