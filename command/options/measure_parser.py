@@ -281,6 +281,12 @@ def _add_results(parser: Parser) -> None:
         "--fixed-base",
         robots + "fix links without a parent to the world (passive rigid bodies alone)",
     )
+    parser.flag(
+        "--merge-fixed",
+        robots + "put links on fixed joints into their parents; needed frames stay without mass",
+    )
+    text = robots + "the files of meshes, besides usd and gltf (stl)"
+    parser.choice("--mesh-format", ("obj", "stl"), text, default="stl")
     parser.value("--output", Path, "PATH", "(standard output)")
     parser.flag(
         "--force",

@@ -3,7 +3,6 @@
 
 from typing import Any
 
-from .findings import BAD_TANK as BAD_TANK
 from .findings import FLOAT_UNAVAILABLE as FLOAT_UNAVAILABLE
 from .findings import NO_GRAVITY as NO_GRAVITY
 from .flotation import FloatingBody as FloatingBody

@@ -11,9 +11,6 @@ NO_MASS = "it has no mass. Set a Density or a Mass"
 NO_GRAVITY = "the scene has no gravity. Turn on Gravity in the scene's properties"
 NO_LIQUID_DENSITY = "the density of the liquid is zero. Choose another liquid"
 NO_REST = "no position was found in which it rests. Turn it a little and try again"
-BAD_TANK = (
-    "a tank must be a closed mesh with a fill level. Choose another object, or close its holes"
-)
 FLOAT_UNAVAILABLE = error("float_unavailable", "It cannot float: {fault:word}.")
 SINKS = error(
     "sinks",

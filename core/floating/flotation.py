@@ -41,6 +41,7 @@ from .findings import (
 MAX_STEPS = 200
 FIRST_LEVELS = 17
 SLAB_RTOL = 1e-6  # of the volume: the cube of a smaller error is lost in rounding
+FULL_RTOL = 1e-12  # a tank without less has no free surface
 AT_REST = 1e-12  # relative to the size: smaller righting arms count as none
 ACCEPTED = 1e-9
 FLAT = 1e-9  # relative to the size: metacentric heights that may be zero
@@ -81,10 +82,21 @@ class Vessel:
     triangles: NDArray[np.integer]
     volume: float
 
+    @cached_property
+    def whole(self) -> tuple[float, Array]:
+        """The volume inside, and its (3,) center."""
+        if not len(self.triangles):
+            return 0.0, np.zeros(3)
+        top = [float(self.points[:, 2].max())]
+        part = measure_below(self.points, self.triangles, [[0.0, 0.0, 1.0]], top)
+        return float(part.volume[0]), part.part.center[0]
+
     def surface_at(self, up: Array, guess: float | None = None) -> Waterplane:
         """Return the liquid's surface across a unit vector; `guess`: a level near it."""
         heights = self.points @ up
         low, high = float(heights.min()), float(heights.max())
+        if self.volume >= self.whole[0] * (1.0 - FULL_RTOL):
+            return Waterplane(high, self.whole[1], 0.0, np.zeros(3), np.zeros((3, 3)))
         reach = max(abs(low), abs(high))
         if guess is None:
             levels = np.linspace(low, high, FIRST_LEVELS)
@@ -208,10 +220,7 @@ class FloatingBody:
     @cached_property
     def capacity(self) -> float:
         """The volume that it displaces under water."""
-        if not len(self.triangles):
-            return 0.0
-        top = float(self.points[:, 2].max())
-        return float(measure_below(self.points, self.triangles, [[0.0, 0.0, 1.0]], [top]).volume[0])
+        return Vessel(self.points, self.triangles, 0.0).whole[0]
 
     @cached_property
     def size(self) -> float:

@@ -16,13 +16,19 @@ from ..numerics import Array
 from ..verdict import MeasureError
 from ..verdict.finding import finding
 from .findings import HOLLOW_FLOODED, LIQUID_ENTERS
-from .flotation import FloatingBody, Flotation
+from .flotation import FloatingBody, Flotation, Tank, Vessel
 from .hulls import Hull, fill_hollows, find_hull
 from .righting import RightingCurve, righting_curve
 
 
 def settle(
-    bodies: Iterable[Body], mass: float, center: Array, density: float, up: ArrayLike
+    bodies: Iterable[Body],
+    mass: float,
+    center: Array,
+    density: float,
+    up: ArrayLike,
+    tanks: Iterable[tuple[Body, float, float]] = (),
+    flooded: Iterable[Body] = (),
 ) -> Flotation:
     """Return the position in which measured bodies rest as one, downhill from where they are.
 
@@ -31,12 +37,16 @@ def settle(
     bodies : iterable of Body
     mass : float
         Of all of them, kg.
-    center : (3,) array_like
+    center : (3,) array
         Center of mass, m.
     density : float
         Of the liquid, kg/m³.
     up : (3,) array_like
         Unit vector against gravity.
+    tanks : iterable of (Body, float, float)
+        Tanks, each with the filled share of its volume and the density of its liquid.
+    flooded : iterable of Body
+        Spaces that the liquid around the body fills, too.
 
     Returns
     -------
@@ -49,9 +59,19 @@ def settle(
     """
     wet = find_hull(bodies)
     dry = fill_hollows(wet, np.asarray(up, np.float64))
+    lost = [find_hull([space]) for space in flooded]
+    liquids = []
+    for tank, fill, tank_density in tanks:
+        hull = find_hull([tank])
+        vessel = Vessel(hull.points, hull.triangles, 1.0)
+        liquids.append(Tank(replace(vessel, volume=fill * vessel.whole[0]), tank_density))
 
     def floating(hull: Hull) -> FloatingBody:
-        return FloatingBody(hull.points, hull.triangles, mass, center, density, hull.openings)
+        points, triangles = hull.points, hull.triangles
+        for space in lost:
+            triangles = np.concatenate([triangles, space.triangles[:, ::-1] + len(points)])
+            points = np.concatenate([points, space.points])
+        return FloatingBody(points, triangles, mass, center, density, hull.openings, tuple(liquids))
 
     try:
         return floating(dry).settle(up)
@@ -66,9 +86,12 @@ def settle(
         return replace(rest, findings=(finding(HOLLOW_FLOODED, depth=depth),))
 
 
-def heel_and_trim(rest: Flotation, axes: Array) -> tuple[float, float]:
-    """Return the heel about the X axis and the trim about the Y axis of a (3, 3) frame, rad."""
-    x, y, z = rest.up @ axes
+def heel_and_trim(up: Array, axes: Array) -> tuple[float, float]:
+    """Return the heel about the X axis and the trim about the Y axis of a (3, 3) frame, rad.
+
+    up: (3,) unit vector against gravity.
+    """
+    x, y, z = up @ axes
     return float(np.arctan2(y, z)), float(-np.arcsin(np.clip(x, -1.0, 1.0)))
 
 
@@ -91,7 +114,7 @@ def float_record(
     def height(point: Array) -> float:
         return float(rest.up @ point) - rest.keel
 
-    heel, trim = heel_and_trim(rest, measurement.rotation)
+    heel, trim = heel_and_trim(rest.up, measurement.rotation)
     entry: dict[str, Any] = {
         "liquid_density": rest.body.density,
         "displacement": rest.displacement,
@@ -110,7 +133,7 @@ def float_record(
         "matrix": rest.matrix(),
         "rests": [
             {
-                **dict(zip(("heel", "trim"), heel_and_trim(other, measurement.rotation))),
+                **dict(zip(("heel", "trim"), heel_and_trim(other.up, measurement.rotation))),
                 "draught": other.draught,
                 "gm": other.metacentric_heights,
                 "energy": other.energy - rest.energy,

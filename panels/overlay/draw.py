@@ -42,6 +42,7 @@ SWITCHES = {
     "show_faults": "Faults",
     "show_path": "Paths",
     "show_level": "Levels",
+    "show_waterline": "Waterline",
 }
 SETTINGS = BodyMomentsOverlaySettings.__annotations__
 EQUIVALENTS = [item[0] for item in SETTINGS["equivalent"].keywords["items"]]

@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.session import memory, stored
+from body_moments.core.cuts import cut_outline
 from body_moments.core.verdict import sentence
 
 from tests.blender.objects import add
@@ -57,7 +58,10 @@ def test_level_of_a_volume_a_mass_and_a_height(scale):
         assert 0 < level.tilt < np.arctan2(1.5, 1.0)
     area = np.cross(*np.diff(level.triangles, axis=1).swapaxes(0, 1)).sum(axis=0) / 2
     assert np.abs(area) == pytest.approx(np.array([0, 0, 2.0]) * scale**2)
-    assert level.outline.shape[1:] == (2, 3) and np.allclose(level.outline[..., 2], 3.25 * scale)
+    hollow = level.hollow
+    outline = cut_outline(hollow.points, hollow.triangles, hollow.up, level.height)
+    assert np.linalg.norm(np.diff(outline, axis=1), axis=2).sum() == pytest.approx(6 * scale)
+    assert np.allclose(outline[..., 2], 3.25 * scale)
 
 
 def test_show_level_adds_meshes_and_nothing_else_moves():

@@ -75,18 +75,6 @@ class Level:
         return np.stack([heights - self.hollow.bottom, volumes], axis=1)
 
     @cached_property
-    def outline(self) -> Array:
-        """(k, 2, 3) segments around the surface."""
-        points, triangles = self.hollow.points, self.hollow.triangles
-        heights = points @ self.hollow.up - self.height
-        start, stop = triangles, np.roll(triangles, -1, axis=1)
-        crossed = (heights > 0.0)[start] != (heights > 0.0)[stop]
-        start, stop = start[crossed], stop[crossed]
-        share = (heights[start] / (heights[start] - heights[stop]))[:, None]
-        ends = points[start] + share * (points[stop] - points[start])
-        return ends.reshape(-1, 2, 3)
-
-    @cached_property
     def triangles(self) -> Array:
         """(k, 3, 3) triangles of the surface."""
         edited = self.cut()

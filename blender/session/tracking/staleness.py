@@ -165,7 +165,8 @@ def _digest_parts(
     )
 
 
-IN_MEMORY = (Kind.MOMENTS, Kind.HULL, Kind.LEVEL, Kind.CUT_FILL)  # undo brings none of it back
+# Undo brings none of these back.
+IN_MEMORY = (Kind.MOMENTS, Kind.HULL, Kind.FLOATING, Kind.LEVEL, Kind.CUT_FILL)
 CHECKS = {
     Kind.RESULTS: (
         (Stale.SETTINGS, _has_settings),
@@ -196,6 +197,7 @@ CHECKS = {
         (Stale.TRANSFORM, _has_matrix),
     ),
     Kind.HULL: ((Stale.GEOMETRY, _has_geometry),),
+    Kind.FLOATING: ((Stale.SETTINGS, _has_settings), (Stale.GEOMETRY, _has_geometry)),
     Kind.SETTINGS: ((Stale.SETTINGS, _has_settings),),
     Kind.COLLIDERS: (
         (Stale.SETTINGS, _has_settings),

@@ -54,6 +54,7 @@ class Kind(Enum):
     HULL = "hull"
     LEVEL = "level"
     CUT_FILL = "cut and fill"
+    FLOATING = "floating"
     SETTINGS = "settings"  # live numbers and failed measurements
 
 

@@ -236,6 +236,15 @@ def test_free_trim_leaves_no_trimming_arm():
     assert min(energy(trim - 0.01), energy(trim + 0.01)) > energy(trim)
 
 
+def test_full_tank_is_a_fixed_mass():
+    points = box_points((-1.0, -0.8, -0.4), (1.0, 0.8, 0.0))
+    full = Tank(Vessel(points, np.array(BOX_FACES), 1.28), 800.0)
+    rest = log(6.0, 2.0, 1.0, 0.3, tanks=(full,)).settle(UP)
+    volume = 3.6 + 1.024
+    height = volume / 24.0 - 0.5 + 4.0 / volume - 1.024 * -0.2 / volume
+    assert rest.metacentric_heights[0] == pytest.approx(height, rel=1e-12)
+
+
 def test_free_surface_lowers_metacenter():
     tank = Tank(
         Vessel(box_points((-1.0, -0.8, -0.4), (1.0, 0.8, 0.0)), np.array(BOX_FACES), 0.64), 800.0
