@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import signal
-import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -15,7 +14,7 @@ from ..core.measurement import print_message
 PERIOD = 5.0  # seconds between reports of progress
 _NAMES = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
 
-_requested = threading.Event()
+_signals: list[int] = []  # the first signal of the run, once it has come
 
 
 @contextmanager
@@ -26,11 +25,11 @@ def interruptible() -> Iterator[None]:
     Only the first signal counts: nothing disturbs the cleanup after it. An ignored signal, as in
     the background of a shell, stays ignored.
     """
-    _requested.clear()
+    _signals.clear()
     before = {}
 
-    def stop(_number: int, _frame: object) -> None:
-        _requested.set()
+    def stop(caught: int, _frame: object) -> None:
+        _signals.append(caught)
         for number in before:
             signal.signal(number, signal.SIG_IGN)
         raise KeyboardInterrupt
@@ -50,7 +49,7 @@ def check_interruption() -> None:
     """Raise KeyboardInterrupt if a signal has come: an importer may have turned the first one into
     its own error.
     """
-    if _requested.is_set():
+    if _signals:
         raise KeyboardInterrupt
 
 

@@ -292,7 +292,10 @@ class ApplyPanel:
         rows.button(column, "object.body_moments_add_empty", "OUTLINER_OB_EMPTY")
         rows.button(column, "view3d.body_moments_cursor_to_center", "PIVOT_CURSOR")
         rows.button(column, "object.body_moments_create_orientation", "ORIENTATION_LOCAL")
-        rows.button(column, "object.body_moments_rigid_bodies", "RIGID_BODY")
+        row = column.split(factor=0.7, align=True)
+        rows.button(row, "object.body_moments_rigid_bodies", "RIGID_BODY").type = "ACTIVE"
+        passive = row.operator("object.body_moments_rigid_bodies", text="Passive")
+        passive.type = "PASSIVE"
         button = rows.button(column, "object.body_moments_set_rigid_body_mass", "RIGID_BODY")
         button.add = not any(obj.rigid_body for obj in chosen_objects(context))
         rows.button(layout, "object.body_moments_add_nodes", "GEOMETRY_NODES")

@@ -103,9 +103,6 @@ LEVEL_SET_MEASURED = note(
     "The level set “{grid}” was measured as a solid of {polygons} polygons, within a fraction of a "
     "voxel.",
 )
-GRID_IS_NOT_LEVEL_SET = error(
-    "grid_is_not_level_set", "The grid “{grid}” is not a level set. Set Measure As to Density."
-)
 DENSITY_GRID_ELSEWHERE = error(
     "density_grid_elsewhere",
     "The grid “{grid}” of “{object}” has no density inside the object. Check where both are.",

@@ -16,7 +16,6 @@ from ...core.bodies import (
     GRID_AS_SHELL,
     GRID_DENSITY,
     GRID_EMPTY,
-    GRID_IS_LEVEL_SET,
     GRID_TOO_LARGE,
     MAX_SAMPLES,
     SAMPLES_POSITIONED,
@@ -34,10 +33,11 @@ from ...core.moments import KNOWN_ORDER, affine_matrices
 from ...core.scans import AXES, Positions
 from ...core.verdict import Method, Source
 from ...core.verdict.finding import ReadError, finding
+from ..read.findings import GRID_UNSUPPORTED, IS_LEVEL_SET
 from ..read.tracking import tracking_paused
 from ..read.volume import VolumeReading, volume_reading
 from ..settings.density import density_key, grid_key
-from .findings import GRID_IS_NOT_LEVEL_SET, LEVEL_SET_MEASURED
+from .findings import LEVEL_SET_MEASURED
 from .mesh import mesh_body
 from .request import Request
 
@@ -87,7 +87,7 @@ def _grid_body(reading: VolumeReading, options: GridOptions, settings: Settings)
     if options.solid:
         return _solid(reading, unit, settings.threads)
     if reading.level_set:
-        raise ReadError(GRID_IS_LEVEL_SET, grid=reading.grid)
+        raise ReadError(GRID_UNSUPPORTED, fault=IS_LEVEL_SET, grid=reading.grid)
     positions = sample_positions(options, reading.grid, reading.low, reading.shape)
     first = affine_matrices(
         np.eye(3), [low if row is None else 0.0 for low, row in zip(reading.low, positions)]
@@ -126,7 +126,11 @@ def _whole_axes(reading: VolumeReading, positions: Positions) -> Blocks:
 def _solid(reading: VolumeReading, unit: float, threads: int) -> MeshBody:
     """Return the body inside a level set, by its polygons."""
     if reading.level_set is False:
-        raise ReadError(GRID_IS_NOT_LEVEL_SET, grid=reading.grid)
+        raise ReadError(
+            GRID_UNSUPPORTED,
+            fault="is not a level set. Set Measure As to Density",
+            grid=reading.grid,
+        )
     surface = reading.polygons()
     if not len(surface.quads):
         raise ReadError(GRID_EMPTY, grid=reading.grid)
@@ -142,7 +146,7 @@ def threshold_grid(reading: VolumeReading, unit: float) -> ThresholdGrid:
     large.
     """
     if reading.level_set:
-        raise ReadError(GRID_IS_LEVEL_SET, grid=reading.grid)
+        raise ReadError(GRID_UNSUPPORTED, fault=IS_LEVEL_SET, grid=reading.grid)
     if np.prod(reading.shape, dtype=np.float64) > MAX_SAMPLES:
         raise ReadError(GRID_TOO_LARGE, grid=reading.grid, samples=list(reading.shape))
     values = np.full(reading.shape, reading.background, np.float32)

@@ -15,7 +15,6 @@ from bpy.types import Depsgraph, Object
 
 from ...core.bodies import float64_matrix
 from ...core.mesh import BoundarySum, Surface, join_surfaces, overlapping_box_pairs, sort_components
-from ...core.numerics import Array
 from ...core.solid import classify_pairs
 from ...core.verdict import CLOSED_SHEET_VOLUME_RTOL, welding_tolerance
 from ...core.verdict.finding import Finding, MeasureError, finding
@@ -57,40 +56,32 @@ def _overlapping_pairs(objects: Sequence[Object], depsgraph: Depsgraph) -> list[
     ]
     if len(solids) < 2:
         return []
-    low, high = _boxes(solids)
+    corners = np.array([[corner[:] for corner in obj.bound_box] for obj in solids], np.float64)
+    matrices = np.array([float64_matrix(obj.matrix_world) for obj in solids])
+    corners = corners @ matrices[:, :3, :3].transpose(0, 2, 1) + matrices[:, None, :3, 3]
+    low, high = corners.min(axis=1), corners.max(axis=1)
     size = float(np.linalg.norm(high.max(axis=0) - low.min(axis=0)))
-    error = float(np.spacing(np.float32(max(np.abs(low).max(), np.abs(high).max()))))
-    margin = welding_tolerance(size, error)
+    margin = welding_tolerance(size, float(np.spacing(np.float32(np.abs(corners).max()))))
     first, second, _ = overlapping_box_pairs(low, high, margin, MAX_PAIRS)
-    names = []
-    surfaces: list[Surface] = []
-    triangles = 0
+    surfaces: dict[str, Surface] = {}
+    left = MAX_TRIANGLES
     for i in np.unique([first, second]).tolist():
-        surface = _closed_surface(solids[i], depsgraph, MAX_TRIANGLES - triangles)
+        surface = _closed_surface(solids[i], depsgraph, left)
         if surface is not None:
-            triangles += len(surface.triangles)
-            surfaces.append(surface)
-            names.append(solids[i].name)
+            left -= len(surface.triangles)
+            surfaces[solids[i].name] = surface
     if len(surfaces) < 2:
         return []
-    joined = join_surfaces(surfaces)
-    sizes = [len(surface.triangles) for surface in surfaces]
+    names = [*surfaces]
+    joined = join_surfaces([*surfaces.values()])
+    sizes = [len(surface.triangles) for surface in surfaces.values()]
     component = np.repeat(np.arange(len(sizes)), sizes)
     components = sort_components(joined.points, joined.triangles, component, len(sizes))
     extent = np.linalg.norm(components.high - components.low, axis=1)
-    flat = CLOSED_SHEET_VOLUME_RTOL * extent * components.area
-    is_solid = np.abs(components.volume) > flat
+    is_solid = np.abs(components.volume) > CLOSED_SHEET_VOLUME_RTOL * extent * components.area
     relations = classify_pairs(joined.points, components, is_solid, margin)
     pairs = np.sort(np.concatenate([relations.contained_in, relations.intersecting]), axis=1)
     return [[names[i], names[j]] for i, j in np.unique(pairs, axis=0).tolist()]
-
-
-def _boxes(objects: Sequence[Object]) -> tuple[Array, Array]:
-    """Return (n, 3) least and largest coordinates in the world."""
-    corners = np.array([[corner[:] for corner in obj.bound_box] for obj in objects], np.float64)
-    matrices = np.array([float64_matrix(obj.matrix_world) for obj in objects])
-    placed = corners @ matrices[:, :3, :3].transpose(0, 2, 1) + matrices[:, None, :3, 3]
-    return placed.min(axis=1), placed.max(axis=1)
 
 
 def _closed_surface(obj: Object, depsgraph: Depsgraph, limit: int) -> Surface | None:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ...core.bodies import Part, to_si
 from ...core.measurement import (
-    DENSITY_FROM_MEMBERS,
+    DENSITY_FROM,
     NO_VOLUME,
     ZERO_QUANTITY,
     Extent,
@@ -55,7 +55,7 @@ from .measure_object import measure_object
 from .request import Request
 
 DENSITIES_FROM = {
-    "MESH": finding(DENSITY_FROM_MEMBERS),
+    "MESH": finding(DENSITY_FROM, source="members"),
     "DENSITY": DENSITY_FROM_VALUE,
     "MASS": DENSITY_FROM_MASS,
 }

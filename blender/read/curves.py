@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.numerics import Array, SplineSpace
-from ...core.nurbs import NON_FINITE_CONTROL_POINTS, Curve, blender_space
+from ...core.nurbs import CONTROL_POINTS_INVALID, NON_FINITE, Curve, blender_space
 from ...core.verdict.finding import Finding, ReadError, finding
 from .findings import (
     CURVE_MEASURED_WHOLE,
@@ -211,7 +211,8 @@ def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
         if kind == "NURBS" and knots[number] == CUSTOM_KNOTS_MODE:
             raise ReadError(UNKNOWN_KNOTS, subject=name)
         if kind == "CATMULL_ROM":
-            arms = _catmull_rom(points, bool(cyclic[number]))
+            around = np.pad(points, ((1, 1), (0, 0)), "wrap" if cyclic[number] else "edge")
+            arms = (around[2:] - around[:-2]) / 6.0
             kind = "BEZIER"
             points = np.stack([points - arms, points, points + arms], axis=1).reshape(-1, 3)
         elif kind == "BEZIER":
@@ -226,14 +227,6 @@ def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
             points,
             weights[of_curve],
         )
-
-
-def _catmull_rom(points: NDArray, cyclic: bool) -> Array:
-    """Return (n, 3) offsets to the handles of the equal Bézier curve: a sixth of the way from
-    neighbor to neighbor.
-    """
-    around = np.pad(points, ((1, 1), (0, 0)), "wrap" if cyclic else "edge")
-    return (around[2:] - around[:-2]) / 6.0
 
 
 def _values(curves, name: str, item: str, shape: tuple[int, int], default: float = 0.0) -> Array:
@@ -251,7 +244,7 @@ def _values(curves, name: str, item: str, shape: tuple[int, int], default: float
 
 def _require_finite(positions: NDArray, name: str) -> None:
     if not np.isfinite(positions).all():
-        raise ReadError(NON_FINITE_CONTROL_POINTS, subject=name)
+        raise ReadError(CONTROL_POINTS_INVALID, fault=NON_FINITE, subject=name)
 
 
 def _curve(

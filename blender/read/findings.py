@@ -144,6 +144,9 @@ NEEDS_OPENVDB = (
     "can only be read with the openvdb module, which this Blender lacks. Convert it to "
     "floats, or a level set to a mesh by a Grid to Mesh node"
 )
+IS_LEVEL_SET = (
+    "is a level set of distances, not densities. Set Measure As to Solid, or choose another grid"
+)
 GRID_UNSUPPORTED = error("grid_unsupported", "The grid “{grid}” {fault:word}.")
 NO_SCALAR_GRID = error(
     "no_scalar_grid", "No grid holds scalar numbers; the volume has {grids}. Choose another volume."

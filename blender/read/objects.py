@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ...core.bodies import Part, Reading, attribute_to_source
 from ...core.mesh import Surface
 from ...core.numerics import rotation_matrix
-from ...core.nurbs import NON_POSITIVE_WEIGHTS
+from ...core.nurbs import CONTROL_POINTS_INVALID, NON_POSITIVE_WEIGHTS
 from ...core.solid import NON_FINITE_VERTICES
 from ...core.verdict.finding import ReadError, finding
 from .curves import read_curves
@@ -48,7 +48,9 @@ def read_object(
     for part in parts:
         if not np.isfinite(part.surface.box).all():
             if obj.type == "SURFACE" and nonpositive_weights(obj.data.splines):
-                raise ReadError(NON_POSITIVE_WEIGHTS, subject=obj.name)
+                raise ReadError(
+                    CONTROL_POINTS_INVALID, fault=NON_POSITIVE_WEIGHTS, subject=obj.name
+                )
             require_finite(obj, part.surface.points, part.source_object_name)
     reading.parts = parts
     reading.findings = list(reading_findings(obj, gathered, depsgraph))

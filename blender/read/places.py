@@ -13,6 +13,8 @@ from bpy.types import Object
 from ...core.bodies import float64_matrix
 from ...core.numerics import Array
 
+_HALF_STEP = 2.0**-24  # relative rounding of a number in single precision
+_ROUNDINGS = 8.0  # of the product of two matrices, and of the numbers in them
 KEY = "body_file_places"  # a property of objects: the numbers of their matrices
 
 
@@ -31,3 +33,30 @@ def world_matrices(obj: Object) -> Array:
     if KEY in obj:
         return np.array(obj[KEY], np.float64).reshape(-1, 4, 4)
     return float64_matrix(obj.matrix_world)[None]
+
+
+def place_error(obj: Object) -> float:
+    """Return how far rounding to single precision may have moved an object, along the chain of its
+    parents, in Blender units: 0 if its file states the place.
+    """
+    if KEY in obj:
+        return 0.0
+    line = [obj]
+    while line[-1].parent is not None:
+        line.append(line[-1].parent)
+    error = 0.0
+    for level, one in enumerate(reversed(line)):
+        move = one.matrix_basis.translation.length
+        if one.parent is None:
+            error += _HALF_STEP * move
+            continue
+        inverse = float64_matrix(one.matrix_parent_inverse)
+        above = float64_matrix(one.parent.matrix_world)
+        move = _size(inverse[:3, :3]) * move + _size(inverse[:3, 3])
+        error += _HALF_STEP * _size(above[:3, :3]) * move * (1.0 + _ROUNDINGS * level)
+        error += _HALF_STEP * _ROUNDINGS * _size(above[:3, 3])
+    return error + (_HALF_STEP * obj.matrix_world.translation.length if obj.constraints else 0.0)
+
+
+def _size(values: Array) -> float:
+    return float(np.sqrt(np.square(values).sum()))

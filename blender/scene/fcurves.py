@@ -258,12 +258,20 @@ def replace_section(curve: FCurve, times: NDArray, values: NDArray) -> None:
     """Replace the keys between two times by those of a section; the keys at its ends keep their
     values.
     """
-    keys = cut(curve, cut(curve, read(curve), times[0]), times[-1])
+    old = read(curve)
+    keys = cut(curve, cut(curve, old.copy(), times[0]), times[-1])
     new = section_keys(times, values)
     before = keys[keys["co"][:, 0] <= times[0] + SAME_TIME]
     after = keys[keys["co"][:, 0] >= times[-1] - SAME_TIME]
     start, end = before[-1:], after[:1]
     _hold_slopes(curve, keys, start, end)
+    slope = np.diff(old["co"][-2:], axis=0)
+    is_line = curve.extrapolation == "LINEAR" and keys["interpolation"][-1] == LINEAR
+    if is_line and len(after) == 2 and len(slope) and end["co"][0, 0] not in old["co"][:, 0]:
+        # The line beyond the last key goes on from the key before it, which is a new one.
+        after["handle_right"][-1] = after["co"][-1] + slope[0]
+        after["handle_right_type"][-1] = FREE
+        after["interpolation"][-1] = BEZIER
     # Where the section has another turn of the same rotation, a key beside the end takes it up.
     jumps = [np.zeros(0, KEY)] * 2
     for row, (old, inward) in enumerate(((start, JUMP), (end, -JUMP))):
@@ -337,8 +345,8 @@ def _split(previous: NDArray, new: NDArray, following: NDArray, time: float) -> 
     points = np.concatenate(points).astype(np.float64)
     lengths = np.abs(points[[0, 3], 0] - points[[1, 2], 0])
     span = points[3, 0] - points[0, 0]
-    if lengths.sum() > span:  # Blender shortens handles that overlap
-        points[[1, 2]] = points[[0, 3]] + span / lengths.sum() * (points[[1, 2]] - points[[0, 3]])
+    shares = np.minimum(1.0, span / np.maximum(lengths, SAME_TIME))  # Blender shortens long handles
+    points[[1, 2]] = points[[0, 3]] + shares[:, None] * (points[[1, 2]] - points[[0, 3]])
     levels = [points]
     low, high = 0.0, 1.0
     for _ in range(60):

@@ -52,16 +52,14 @@ TRANSFORM_CONSTRAINED = error(
     "transform_constrained",
     "A constraint or the parent holds the {channel:word}. Apply or remove it.",
 )
-SHOWS_INSTANCES = error(
-    "shows_instances",
-    "It shows instances in place of its own geometry. Use Object > Apply > Make Instances Real.",
+SHOWS_INSTANCES = (
+    "it shows instances in place of its own geometry. Use Object > Apply > Make Instances Real"
 )
-DATA_WITHOUT_TRANSFORM = error(
-    "data_without_transform",
-    "Geometry of this type cannot be moved so inside its object. Use Object > Convert > Mesh, Add "
-    "Empty, or Align "
-    "Object to World.",
+WITHOUT_TRANSFORM = (
+    "geometry of this type stays where it is. Use Object > Convert > Mesh, Add Empty, or "
+    "Align Object to World"
 )
+REFRAME_IMPOSSIBLE = error("reframe_impossible", "Cannot be moved inside its object: {cause:word}.")
 DENSITY_COORDINATES = error(
     "density_coordinates",
     "The density polynomial uses {frame:word} coordinates, so the density would change. Change "
@@ -81,9 +79,6 @@ COPY_DIFFERS = error(
     "copy_differs",
     "Equal to “{object}” in shape, but not in {aspects}. Allow that under May Differ, or make it "
     "equal.",
-)
-SHAPE_WOULD_CHANGE = error(
-    "shape_would_change", "The shape would change. Apply the scale, or use Object > Convert > Mesh."
 )
 MODIFIERS_CHANGE_SHAPE = error(
     "modifiers_change_shape",

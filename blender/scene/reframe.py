@@ -51,14 +51,14 @@ from .dependents import (
 from .findings import (
     BOUND_TO_ARMATURE,
     DATA_COPIED,
-    DATA_WITHOUT_TRANSFORM,
     DENSITY_COORDINATES,
     FOLLOWS_MOVED,
     MODIFIERS_CHANGE_SHAPE,
     OWN_AXES_USED,
-    SHAPE_WOULD_CHANGE,
+    REFRAME_IMPOSSIBLE,
     SHOWS_INSTANCES,
     TRANSFORM_CONSTRAINED,
+    WITHOUT_TRANSFORM,
 )
 from .reframe_meshes import (
     Plan,
@@ -105,11 +105,11 @@ def check(obj: Object) -> None:
     if obj.library is not None or (obj.data is not None and obj.data.library is not None):
         raise EditRefusedError(LINKED_OBJECT)
     if obj.data is None:
-        raise EditRefusedError(SHOWS_INSTANCES)
+        raise EditRefusedError(REFRAME_IMPOSSIBLE, cause=SHOWS_INSTANCES)
     if obj.type not in {"MESH", "CURVE", "SURFACE", "META", "FONT"}:
-        raise EditRefusedError(DATA_WITHOUT_TRANSFORM)
+        raise EditRefusedError(REFRAME_IMPOSSIBLE, cause=WITHOUT_TRANSFORM)
     if obj.instance_type in {"VERTS", "FACES"} and obj.children:
-        raise EditRefusedError(SHOWS_INSTANCES)
+        raise EditRefusedError(REFRAME_IMPOSSIBLE, cause=SHOWS_INSTANCES)
     unseen = [
         modifier.name
         for modifier in obj.modifiers
@@ -373,7 +373,7 @@ def _translate_text(text: bpy.types.TextCurve, change: Matrix4) -> None:
     if np.abs(change[:3, :3] - np.eye(3)).max() > 1e-6 or abs(offset[2]) > 1e-6 * max(
         np.abs(offset).max(), text.size
     ):
-        raise EditRefusedError(DATA_WITHOUT_TRANSFORM)
+        raise EditRefusedError(REFRAME_IMPOSSIBLE, cause=WITHOUT_TRANSFORM)
     text.offset_x += offset[0]
     text.offset_y += offset[1]
 
@@ -385,5 +385,10 @@ def _reason_of_change(obj: Object, harmless: set[str]) -> Finding:
         if modifier.show_viewport and modifier.type not in harmless
     ]
     return (
-        finding(MODIFIERS_CHANGE_SHAPE, modifiers=names) if names else finding(SHAPE_WOULD_CHANGE)
+        finding(MODIFIERS_CHANGE_SHAPE, modifiers=names)
+        if names
+        else finding(
+            REFRAME_IMPOSSIBLE,
+            cause="the shape would change. Apply the scale, or use Object > Convert > Mesh",
+        )
     )

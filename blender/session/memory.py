@@ -5,6 +5,9 @@
 Nothing here is written to data. Loading a file and unregistering the add-on forget all of it
 (`forget_file`); other ends are said beside the declaration. Data-blocks are keys by their session
 uid, which survives renaming, undo and redo.
+
+Functions that keep their last results by the content of their arguments (`lru_cache`) do so
+themselves: such results cannot become out of date.
 """
 
 from __future__ import annotations

@@ -9,7 +9,7 @@ first.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from math import sqrt
 from typing import Any
 
@@ -33,11 +33,13 @@ def stored_document(
     caveats: Sequence[Finding] = (),
     file: str | None = None,
     blender: str | None = None,
+    place_error: Callable[[Any], float] | None = None,
 ) -> dict[str, Any]:
     """Return the document of the results stored on objects, in the scene's frame; their health is
     not stored.
 
-    outdated: names. caveats: about the total.
+    outdated: names. caveats: about the total. place_error: how far rounding may have moved an
+    object, in Blender units.
     """
     scene = context.scene
     unit = meters_per_unit(scene)
@@ -52,9 +54,11 @@ def stored_document(
             continue
         world = stored.in_world(obj.matrix_world, unit)
         bodies.append(world)
-        entries.append(
-            _stored_record(obj, world if frame == "world" else stored, obj.name in outdated)
-        )
+        entry = _stored_record(obj, world if frame == "world" else stored, obj.name in outdated)
+        if frame == "world" and place_error is not None:
+            inputs = entry["error_bound"]["input"]
+            inputs["center_of_mass"] += place_error(obj) * unit
+        entries.append(entry)
     total = _stored_total(entries, bodies) | described(caveats)
     return document(entries, total, errors, file=file, blender=blender, frame=frame)
 

@@ -89,7 +89,11 @@ def check_gltf(data: Data, path: str) -> None:
         for number, mesh in _placing_accessors(file.document).items():
             where = "accessor {}".format(number) if mesh is None else "mesh “{}”".format(mesh)
             with suppress(*MALFORMED):  # others may be whole
-                count, first = _bad_in_accessor(file, file.document["accessors"][number])
+                accessor = file.document["accessors"][number]
+                count, first = bad_in_table(file.table(accessor))
+                rows, values = file.sparse(accessor)
+                more, row = bad_in_table(values)
+                count, first = count + more, int(rows[row]) if more and not count else first
                 refuse_non_finite(count, where + ", row", first)
 
 
@@ -119,13 +123,6 @@ def _placing_accessors(document: dict[str, Any]) -> dict[int, str | None]:
             .values()
         )
     return found | {number: None for number in others if number is not None and number not in found}
-
-
-def _bad_in_accessor(file: GltfFile, accessor: dict[str, Any]) -> tuple[int, int]:
-    count, first = bad_in_table(file.table(accessor))
-    rows, values = file.sparse(accessor)
-    more, row = bad_in_table(values)
-    return count + more, int(rows[row]) if more and not count else first
 
 
 def bad_in_table(rows: NDArray) -> tuple[int, int]:

@@ -85,7 +85,9 @@ def write_result(
     try:
         if path is None or is_stdout(path):
             for piece in pieces:
-                _write_all(channel, piece)
+                view = memoryview(piece)
+                while view:
+                    view = view[os.write(channel, view) :]
         else:
             with whole_file(path, check) as file:
                 file.writelines(pieces)
@@ -106,12 +108,6 @@ def write_documents(
         return None
     text = FORMATS[options.format](documents)
     return write_result(text, options.output, channel, guard(options.force))
-
-
-def _write_all(channel: int, data: bytes) -> None:
-    view = memoryview(data)
-    while view:
-        view = view[os.write(channel, view) :]
 
 
 def is_replaceable(path: Path) -> bool:

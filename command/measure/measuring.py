@@ -31,7 +31,7 @@ from ...blender.settings.given import shows_collection
 from ...blender.settings.options import MeasureOptions
 from ...blender.write import spectrum
 from ...blender.write.thumbnail import thumbnail
-from ...core.bodies import SIGNATURE_NEEDS_POLYGONS
+from ...core.bodies import NEEDS_POLYGONS, SHAPE_UNAVAILABLE
 from ...core.files import OTHERS_LEFT_OUT
 from ...core.measurement import Measurement, flat_record
 from ...core.moments import flusser_invariants, hu_invariants, normalize
@@ -90,7 +90,7 @@ def measure_shape(
             findings = (finding(SIGNATURE_OF_DISPLAY_MESH),)
     elif options.signature:
         more["signature"] = None
-        findings = (finding(SIGNATURE_NEEDS_POLYGONS),)
+        findings = (finding(SHAPE_UNAVAILABLE, cause=NEEDS_POLYGONS),)
     return shape.measurement, more, findings
 
 

@@ -19,7 +19,9 @@ from ...blender.bodies.flat.flat import NO_BODY
 from ...blender.bodies.overlaps import overlap_caveats
 from ...blender.bodies.stack import Measured
 from ...blender.read.assembly import operands_of, total_caveats
+from ...blender.read.places import place_error
 from ...blender.read.tracking import tracking_paused
+from ...blender.scale import meters_per_unit
 from ...blender.session.tracking.staleness import mark_up_to_date
 from ...blender.settings import properties as settings
 from ...blender.settings.density import unset_density
@@ -237,7 +239,8 @@ class Scene:
             *(*measurement.findings, *of_shape, *findings),
             *(*self._default_density(obj, measurement), *body_findings(self.options, measurement)),
         )
-        named = replace(measurement, name=label, findings=findings)
+        moved = place_error(obj) * (self._wanted.unit_scale or meters_per_unit(bpy.context.scene))
+        named = replace(measurement, name=label, findings=findings, place_error=moved)
         colliders = (
             session.colliders.collider_record(obj, measurement, bpy.context)
             if COLLIDERS in obj

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ..density import POSITIONS_ONLY_AS_DENSITY, GridOptions
 from ..files import DEFAULT_LIMITS, Limits
-from ..measurement import NO_VOLUME, Body, Measurement, Settings
+from ..measurement import DENSITY_FROM, NO_VOLUME, Body, Measurement, Settings
 from ..moments import KNOWN_ORDER, Moments, affine_matrices
 from ..numerics import Array
 from ..scans import SCAN_UNSTATED, Scan, place_samples, read_all_positions, read_scan, sample_matrix
@@ -31,7 +31,6 @@ from ..streams import (
 from ..verdict import SELF_INTERSECTION, MeshHealth, Method, Procedure
 from ..verdict.finding import Finding, ReadError, finding
 from .findings import (
-    DENSITY_FROM_SAMPLES,
     GIVEN_DENSITY_IGNORED,
     GRID_AS_SHELL,
     GRID_DENSITY,
@@ -212,7 +211,7 @@ def measure_array(
                 scan.samples, shape, matrix, grid, None, scan.slope, scan.intercept, positions
             )
             made = density_body(samples, findings, progress, settings.order or KNOWN_ORDER)
-            made = replace(made, density_from=finding(DENSITY_FROM_SAMPLES))
+            made = replace(made, density_from=finding(DENSITY_FROM, source="samples"))
         else:
             made = _threshold_body(name, scan, matrix, array, settings, findings, progress)
         reading = bare_reading(name, "ARRAY")
@@ -258,5 +257,5 @@ def _threshold_body(
         grid,
         order=settings.order or KNOWN_ORDER,
     )
-    source = finding(DENSITY_FROM_SAMPLES) if filled else None
+    source = finding(DENSITY_FROM, source="samples") if filled else None
     return replace(body, findings=(*findings, *body.findings), density_from=source)

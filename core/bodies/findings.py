@@ -40,17 +40,11 @@ WALL_FOLDS = error(
     "{largest:length}. Reduce Thickness, change Wall, or set Wall to Thin.",
 )
 MASS_OVERFLOW = error("mass_overflow", "The densities are too large. Lower them.")
-DENSITY_FROM_SAMPLES = note("density_from_samples", "samples")
 DENSITY_FROM_GRID = note("density_from_grid", "grid “{grid}”")
 GRID_DENSITY = note("grid_density", "Density from {samples:size} samples. {cause}")
 GRID_WITHOUT_SURFACE = note(
     "grid_without_surface",
     "A grid has no surface: the area is 0, the volume is that of the voxels that are not empty.",
-)
-GRID_IS_LEVEL_SET = error(
-    "grid_is_level_set",
-    "The grid “{grid}” is a level set of distances, not densities. Set Measure As to Solid, or "
-    "choose another grid.",
 )
 GRID_EMPTY = error(
     "grid_empty",
@@ -98,13 +92,9 @@ SHAPE_OF_OPEN_SURFACE = error(
     "Pose and signature depend on the reference point, as the surface is open. Close it, or set "
     "Kind to Shell.",
 )
-SHAPE_FAR_FROM_ORIGIN = error(
-    "shape_far_from_origin",
-    "Too far from the world origin for an accurate shape. Move the object nearer.",
-)
-SIGNATURE_NEEDS_POLYGONS = error(
-    "signature_needs_polygons", "The signature needs polygons. Use Object > Convert > Mesh."
-)
+FAR_FROM_ORIGIN = "the object is too far from the world origin. Move it nearer"
+NEEDS_POLYGONS = "a signature needs polygons. Use Object > Convert > Mesh"
+SHAPE_UNAVAILABLE = error("shape_unavailable", "No pose or signature: {cause:word}.")
 MESH_STREAMED = warning(
     "mesh_streamed",
     "{count} face was read in blocks, without repair: self-intersection, nested and inside-out "

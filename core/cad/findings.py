@@ -10,9 +10,6 @@ IGES_DAMAGED = error(
     "possible. Export it "
     "again.",
 )
-IGES_UNIT = error(
-    "iges_unit", "The IGES file has the unknown unit “{unit}”. Export it in millimeters or meters."
-)
 NO_SURFACE_KEPT = error("no_surface_kept", "No surface of the file can be kept: {causes}")
 SURFACE_TRIMMED = warning(
     "surface_trimmed",
@@ -29,22 +26,17 @@ SURFACE_UNSUPPORTED = warning(
     "{names}. Convert "
     "them to B-spline surfaces, or export a mesh.",
 )
-SURFACE_ORDER = warning(
-    "surface_order",
-    "Not imported, because its order is {order}, and {limit} is the highest: {kind} {names}. Lower "
-    "its degree, or "
-    "export a mesh.",
-    "Not imported, because their order is {order}, and {limit} is the highest: {count} of the kind "
-    "{kind}: "
-    "{names}. Lower their degree, or export a mesh.",
-)
-SURFACE_TOO_LARGE = warning(
-    "surface_too_large",
-    "Not imported, because it needs {points} control points, and {limit} is the limit: {kind} "
-    "{names}. Split it.",
-    "Not imported, because they need {points} control points each, and {limit} is the limit: "
-    "{count} of the kind "
-    "{kind}: {names}. Split them.",
+SURFACE_BEYOND_LIMIT = warning(
+    "surface_beyond_limit",
+    (
+        "Not imported, because its {quantity:word} is {value}, and {limit} is the "
+        "highest: {kind} {names}. Lower its degree, split it, or export a mesh."
+    ),
+    (
+        "Not imported, because the {quantity:word} of each is {value}, and {limit} is "
+        "the highest: {count} {kind} {names}. Lower their degrees, split them, or export "
+        "meshes."
+    ),
 )
 SURFACE_POINTS = warning(
     "surface_points",

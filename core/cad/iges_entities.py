@@ -20,11 +20,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..files import FILE_UNREADABLE, FILE_UNRECOGNIZED
+from ..files import FILE_UNREADABLE, FILE_UNRECOGNIZED, HEADER_FIELD
 from ..numerics import Array, SplineSpace, clamped_space
 from ..nurbs import Curve, bezier_curves
 from ..verdict import FileError
-from .findings import IGES_DAMAGED, IGES_UNIT
+from .findings import IGES_DAMAGED
 
 FORMAT = "IGES (fixed ASCII form)"
 COLUMNS = 80  # columns
@@ -168,7 +168,13 @@ def _unit(fields: list[str]) -> float:
     flag = _integer(flag_word) or 1
     unit = UNIT_NAMES.get(name.strip().upper()) if flag == UNIT_BY_NAME else UNITS.get(flag)
     if unit is None:
-        raise FileError(IGES_UNIT, unit=name.strip() or str(flag))
+        raise FileError(
+            HEADER_FIELD,
+            format="IGES",
+            field="unit",
+            wanted="that of a known length",
+            text=name.strip() or str(flag),
+        )
     if not 0.0 < unit / scale < math.inf:
         raise ValueError("scale")
     return unit / scale

@@ -32,7 +32,7 @@ from ..numerics import Array, Index
 from ..nurbs import Face
 from ..streams import FileMesh, name_of_file, without_repeats
 from ..verdict import FileError
-from .findings import SURFACE_ORDER, SURFACE_TRIMMED, SURFACE_UNSUPPORTED
+from .findings import SURFACE_BEYOND_LIMIT, SURFACE_TRIMMED, SURFACE_UNSUPPORTED
 from .obj_text import Lines, blocks, check_obj_text
 from .surfaces import (
     MAX_ORDER,
@@ -206,7 +206,9 @@ def _faces(element: _Element, points: NDArray, weights: NDArray, for_blender: bo
         raise ValueError("degrees")
     limit = MAX_ORDER if for_blender else MAX_DEGREE + 1
     if max(degrees) >= limit:  # before knots are repeated so often
-        raise SurfaceRefusedError(SURFACE_ORDER, order=max(degrees) + 1, limit=limit)
+        raise SurfaceRefusedError(
+            SURFACE_BEYOND_LIMIT, quantity="order", value=max(degrees) + 1, limit=limit
+        )
     part = [_number(word) for word in element.words[:4]]
     used = _indices(element.words[4:], element.vertices)
     knots = [[_number(word) for word in element.knots.get(name, [])] for name in "uv"]
@@ -273,8 +275,7 @@ def read_obj_faces(
 
 def _read_points(lines: Lines) -> Array:
     """Return the (n, 3) vertices of a block."""
-    is_vertex = lines.kinds[0]
-    values, at, _ = parse_decimals(lines.keep(is_vertex))
+    values, at, _ = parse_decimals(lines.keep(lines.kinds[0]))
     line = np.searchsorted(lines.starts, at, "right")
     first = np.flatnonzero(np.diff(line, prepend=-1))
     return values[first[:, None] + np.arange(3)]
@@ -284,8 +285,7 @@ def _read_faces(lines: Lines) -> tuple[NDArray[np.int64], NDArray[np.int64], Ind
     """Return the (k,) vertices of the faces of a block, the (m,) counts of their corners, and their
     lines' offsets.
     """
-    is_face = lines.has_kind("f")
-    at, role, value = lines.indices(is_face)
+    at, role, value = lines.indices(lines.has_kind("f"))
     at, value = at[role == 0], value[role == 0]
     line = np.searchsorted(lines.starts, at, "right") - 1
     is_backward = lines.letters[at] == ord("-")

@@ -16,7 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 from ..files import FILE_TOO_LARGE, FILE_WITHOUT_OBJECTS
 from ..numerics import Array, SplineSpace
 from ..nurbs import (
-    NON_FINITE_CONTROL_POINTS,
+    CONTROL_POINTS_INVALID,
+    NON_FINITE,
     NON_POSITIVE_WEIGHTS,
     Face,
     Patch,
@@ -26,10 +27,9 @@ from ..nurbs import (
 from ..verdict.finding import FileError, Finding, MeasureError, finding, truncate_findings
 from .findings import (
     NO_SURFACE_KEPT,
+    SURFACE_BEYOND_LIMIT,
     SURFACE_DAMAGED,
-    SURFACE_ORDER,
     SURFACE_POINTS,
-    SURFACE_TOO_LARGE,
 )
 
 MAX_ORDER = 6  # largest order of the surfaces that are kept
@@ -162,7 +162,9 @@ def placed_surface(
     """
     points = np.asarray(points, np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
     if not (np.abs(points) < MAX_COORDINATE).all():
-        raise SurfaceRefusedError(SURFACE_POINTS, cause=finding(NON_FINITE_CONTROL_POINTS))
+        raise SurfaceRefusedError(
+            SURFACE_POINTS, cause=finding(CONTROL_POINTS_INVALID, fault=NON_FINITE)
+        )
     s_space, t_space = (
         SplineSpace(tuple(np.asarray(row, np.float64).tolist()), order, count)
         for row, order, count in zip(knots, orders, points.shape)
@@ -180,13 +182,22 @@ def bezier_surface(
     """
     order = max(space.order for space in surface.spaces)
     if for_blender and order > MAX_ORDER:
-        raise SurfaceRefusedError(SURFACE_ORDER, order=order, limit=MAX_ORDER)
+        raise SurfaceRefusedError(
+            SURFACE_BEYOND_LIMIT, quantity="order", value=order, limit=MAX_ORDER
+        )
     sizes = [len(space.spans) * (space.order - 1) + 1 for space in surface.spaces]
     if sizes[0] * sizes[1] > MAX_POINTS:
-        raise SurfaceRefusedError(SURFACE_TOO_LARGE, points=sizes[0] * sizes[1], limit=MAX_POINTS)
+        raise SurfaceRefusedError(
+            SURFACE_BEYOND_LIMIT,
+            quantity="number of control points",
+            value=sizes[0] * sizes[1],
+            limit=MAX_POINTS,
+        )
     patches = bezier_patches(surface, domain)
     if for_blender and not all(map(is_storable, patches)):
-        raise SurfaceRefusedError(SURFACE_POINTS, cause=finding(NON_POSITIVE_WEIGHTS))
+        raise SurfaceRefusedError(
+            SURFACE_POINTS, cause=finding(CONTROL_POINTS_INVALID, fault=NON_POSITIVE_WEIGHTS)
+        )
     return patches
 
 

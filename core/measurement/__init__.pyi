@@ -30,7 +30,7 @@ from .documents import radius_of_gyration as radius_of_gyration
 from .documents import table as table
 from .documents import to_csv as to_csv
 from .documents import to_json_lines as to_json_lines
-from .findings import DENSITY_FROM_MEMBERS as DENSITY_FROM_MEMBERS
+from .findings import DENSITY_FROM as DENSITY_FROM
 from .findings import NO_VOLUME as NO_VOLUME
 from .findings import WALL_UNSUPPORTED as WALL_UNSUPPORTED
 from .findings import ZERO_QUANTITY as ZERO_QUANTITY

@@ -29,7 +29,7 @@ from ..verdict import MeshHealth, Method, Procedure
 from ..verdict.finding import Finding, ReadError, finding
 from ..wall import NO_FACE_AREA
 from .findings import (
-    DENSITY_FROM_MEMBERS,
+    DENSITY_FROM,
     LARGE_BOUND,
     NO_VOLUME,
     WALL_UNSUPPORTED,
@@ -158,7 +158,10 @@ def measure_total(
         health=health or MeshHealth(closed=False, components=0),
         rotation=rotation,
         **(
-            {"method": Method(Procedure.ASSEMBLY), "density_from": finding(DENSITY_FROM_MEMBERS)}
+            {
+                "method": Method(Procedure.ASSEMBLY),
+                "density_from": finding(DENSITY_FROM, source="members"),
+            }
             | fields
         ),
     )

@@ -22,4 +22,4 @@ LARGE_BOUND = warning(
     "it, or move "
     "vertices nearer to the object's origin.",
 )
-DENSITY_FROM_MEMBERS = note("density_from_members", "members")
+DENSITY_FROM = note("density_from", "{source:word}")

@@ -98,7 +98,7 @@ class Measurement:
     display_volume: the volume of the display mesh of B-spline patches, m³; None if not requested.
     density_from: the source of the density, with a code `density_from_…`. materials: names of the
     materials considered
-        for it.
+        for it. place_error: how far the input's rounding may have moved the body as a whole, m.
     """
 
     name: str
@@ -124,6 +124,7 @@ class Measurement:
     length: float | None = None
     display_volume: float | None = None
     higher_mass: Moments | None = None
+    place_error: float = 0.0
 
     def moments_of_mass(self, order: int) -> Moments | None:
         """Return the moments of the mass, kg, to an order; None if they are not known to that

@@ -15,6 +15,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -99,7 +100,12 @@ def record(
             origin = measurement.location + measurement.rotation @ point
             placed = {name: moments.in_frame(axes, origin) for name, moments in domains.items()}
         else:
-            placed = {name: moments.about_point(point) for name, moments in domains.items()}
+            # A point of the body itself moves with it.
+            moved = 0.0 if about in ("center", "origin") else measurement.place_error
+            placed = {
+                name: _displaced(moments.about_point(point), moved)
+                for name, moments in domains.items()
+            }
         entry["moments"] = _moments_record(order, point, placed, monomials(order))
     entry |= more or {}
     if measurement.display_volume is not None:
@@ -108,7 +114,12 @@ def record(
             "difference": measurement.display_volume - measurement.volume,
         }
     entry["health"] = measurement.health.as_record()
-    entry["error_bound"] = measurement.error_bound
+    bound = measurement.error_bound
+    if frame == "world" and measurement.place_error:
+        inputs = bound["input"]
+        center = inputs["center_of_mass"] + measurement.place_error
+        bound = bound | {"input": inputs | {"center_of_mass": center}}
+    entry["error_bound"] = bound
     return plain(entry) | described(measurement.findings)
 
 
@@ -183,6 +194,23 @@ def _point(
     if about == "world" and frame == "object":
         return -measurement.rotation.T @ measurement.location
     return np.zeros(3) if about is None or isinstance(about, str) else np.asarray(about, np.float64)
+
+
+def _displaced(moments: Moments, distance: float) -> Moments:
+    """Return moments with the effect of a displacement of the body, in any direction, in their
+    `input_error`.
+    """
+    if distance == 0.0:
+        return moments
+    size = moments.order + 1
+    steps = np.array(
+        [[math.comb(p, a) * distance ** max(p - a, 0) for a in range(size)] for p in range(size)]
+    )
+    index = tuple(monomials(moments.order).T)
+    largest = np.zeros((size, size, size))
+    largest[index] = np.abs(moments.raw) + moments.input_error
+    spread = np.einsum("pa,qb,rc,abc->pqr", steps, steps, steps, largest, optimize=True)
+    return replace(moments, input_error=moments.input_error + (spread - largest)[index])
 
 
 def _moments_record(

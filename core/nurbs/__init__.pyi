@@ -11,8 +11,9 @@ from .blender_knots import display_parameters as display_parameters
 from .blender_knots import display_table as display_table
 from .curve_moments import length_moments as length_moments
 from .curve_moments import plane_moments as plane_moments
+from .findings import CONTROL_POINTS_INVALID as CONTROL_POINTS_INVALID
 from .findings import ERROR_ESTIMATE_LARGE as ERROR_ESTIMATE_LARGE
-from .findings import NON_FINITE_CONTROL_POINTS as NON_FINITE_CONTROL_POINTS
+from .findings import NON_FINITE as NON_FINITE
 from .findings import NON_POSITIVE_WEIGHTS as NON_POSITIVE_WEIGHTS
 from .flat_face import FlatFace as FlatFace
 from .flat_face import planar_region as planar_region

@@ -4,15 +4,9 @@
 
 from ..verdict import error, warning
 
-NON_FINITE_CONTROL_POINTS = error(
-    "non_finite_control_points",
-    "Some control points have no finite coordinates. Delete them, or fix the modifier or driver "
-    "that moves them.",
-)
-NON_POSITIVE_WEIGHTS = error(
-    "non_positive_weights",
-    "Some control points have weights that are not positive. Set their weights above zero.",
-)
+NON_FINITE = "no finite coordinates. Delete them, or fix the modifier or driver that moves them"
+NON_POSITIVE_WEIGHTS = "weights that are not positive. Set their weights above zero"
+CONTROL_POINTS_INVALID = error("control_points_invalid", "Some control points have {fault:word}.")
 CURVES_BOUND_NOTHING = error("curves_bound_nothing", "{fault:word}, or set Kind to Wire.")
 NO_EXTENT = error("no_extent", "All control points coincide. Move them apart.")
 DISCONTINUOUS_PATCH = error(

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..numerics import Array, SplineSpace, check_type, float_array
 from ..verdict import MeasureError, check_size
-from .findings import NON_FINITE_CONTROL_POINTS, NON_POSITIVE_WEIGHTS
+from .findings import CONTROL_POINTS_INVALID, NON_FINITE, NON_POSITIVE_WEIGHTS
 
 Face: TypeAlias = "Patch | FlatFace"
 # (fixed axis, end, run forward), counter-clockwise
@@ -36,12 +36,12 @@ def _freeze_points(part: Curve | Patch, *shape: int) -> None:
     """
     points = _frozen_copy(float_array("points", part.points, *shape, 3))
     if not np.isfinite(points).all():
-        raise MeasureError(NON_FINITE_CONTROL_POINTS)
+        raise MeasureError(CONTROL_POINTS_INVALID, fault=NON_FINITE)
     object.__setattr__(part, "points", points)
     if part.weights is not None:
         weights = _frozen_copy(float_array("weights", part.weights, *shape))
         if not (np.isfinite(weights).all() and (weights > 0.0).all()):
-            raise MeasureError(NON_POSITIVE_WEIGHTS)
+            raise MeasureError(CONTROL_POINTS_INVALID, fault=NON_POSITIVE_WEIGHTS)
         object.__setattr__(part, "weights", None if (weights == weights.flat[0]).all() else weights)
 
 

@@ -87,7 +87,8 @@ def momenta_between(course: Course, first: int, last: int) -> tuple[Array, Array
     step = course.step
     masses = course.masses
     center = course.center[rows]
-    axes = _axes(course.linear[rows, int(masses.argmax())])
+    polar, _ = polar_rotation(course.linear[rows, int(masses.argmax())])
+    axes = continuous(quaternion(polar * np.sign(np.linalg.det(polar))[:, None, None]))
     back = rotation_matrix(axes).swapaxes(-1, -2)[:, None]
     degree = DEGREE if step > CLOSE else CLOSE_DEGREE
     mean, rate = (
@@ -214,12 +215,6 @@ def continuous(quaternions: NDArray) -> NDArray:
     """Return (s, 4) quaternions, each with the sign that is nearer to the previous one."""
     signs = np.where((quaternions[1:] * quaternions[:-1]).sum(axis=1) < 0.0, -1.0, 1.0)
     return np.concatenate([quaternions[:1], quaternions[1:] * np.cumprod(signs)[:, None]])
-
-
-def _axes(linear: NDArray) -> Array:
-    """Return (f, 4) continuous quaternions of a part's axes."""
-    polar, _ = polar_rotation(linear)
-    return continuous(quaternion(polar * np.sign(np.linalg.det(polar))[:, None, None]))
 
 
 class _stencils:

@@ -32,6 +32,7 @@ from .model import ratio as ratio
 from .primitives import equal_inertia_shape as equal_inertia_shape
 from .primitives import moments_of as moments_of
 from .primitives import primitive_moments as primitive_moments
+from .totals import Expectation as Expectation
 
 __all__ = []
 

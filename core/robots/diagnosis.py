@@ -170,8 +170,7 @@ def diagnose(
     if not references:
         return []
     nearest = min(references, key=lambda reference: reference.compare(stated))
-    apart = nearest.compare(stated)
-    if apart <= DIFFERS:
+    if nearest.compare(stated) <= DIFFERS:
         return diagnose_density(stated, nearest)
     for change, reference in otherwise:
         if reference.compare(stated) < AGREES:
@@ -247,11 +246,9 @@ def diagnose_density(stated: StatedInertial, reference: Reference) -> list[Diagn
     for factor in (1e-3, 1e3):
         if USUAL_DENSITIES[0] <= density * factor <= USUAL_DENSITIES[1]:
             mass = float(_times(stated.mass, factor))
-            inertia = _times(stated.inertia, factor)
-            repaired = stated.along_link(inertia, mass=mass)
+            repaired = stated.along_link(_times(stated.inertia, factor), mass=mass)
             values = {"part": "mass and inertia", "factor": factor, "density": density}
-            change = _finding(AUDIT_UNIT, values)
-            return [Diagnosis(change, repaired, is_certain=False)]
+            return [Diagnosis(_finding(AUDIT_UNIT, values), repaired, is_certain=False)]
     return [Diagnosis(finding(AUDIT_DENSITY, density=density))]
 
 

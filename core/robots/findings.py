@@ -207,6 +207,10 @@ AUDIT_OVERRIDDEN = warning(
     "{program} uses another inertial, because of {cause}: {mass:.6g} kg, principal moments "
     "{first:.6g}, {second:.6g} and {third:.6g} kg·m². State that one, or remove the cause.",
 )
+AUDIT_JOINT = warning("audit_joint", "Joint {joint} is left out: {cause:word}. Correct it.")
+AUDIT_TOTAL = error(
+    "audit_total", "The {part:word} of the whole model is {value}, not {expected} as expected."
+)
 AUDIT_DENSITY = warning("audit_density", "The density is {density:.3g} kg/m³. Check mass and mesh.")
 AUDIT_UNIT = warning(
     "audit_unit", "Multiply the {part:word} by {factor:g}: {agree:word} then agree."

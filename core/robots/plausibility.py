@@ -156,8 +156,7 @@ def _nearest_shares(points: NDArray, chosen: list[int], shares: NDArray) -> tupl
     while True:
         corners = points[chosen]
         # Foot on the plane through them: shares that add up to one and leave nothing along it.
-        along = (corners[1:] - corners[0]).T
-        rest = np.linalg.lstsq(along, -corners[0], rcond=None)[0]
+        rest = np.linalg.lstsq((corners[1:] - corners[0]).T, -corners[0], rcond=None)[0]
         wanted = np.append(1.0 - rest.sum(), rest)
         if (wanted > 0.0).all():
             return chosen, wanted

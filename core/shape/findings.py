@@ -8,11 +8,6 @@ LIBRARY_LINE = error(
     "library_line",
     "{file}: line {line} is not a body_moments document. Write the library with --format jsonl.",
 )
-RECORD_WITHOUT_SHAPE = error(
-    "record_without_shape",
-    "{name}: no signature, as the body has no shape; see the findings of its record.",
-)
-RECORD_WITHOUT_SIGNATURE = error(
-    "record_without_signature", "{name}: no signature. Measure with --signature."
-)
+NO_SHAPE = "The body has no shape; see the findings of its record"
+RECORD_WITHOUT_SIGNATURE = error("record_without_signature", "{name}: no signature. {remedy:word}.")
 SIGNATURE_INVALID = error("signature_invalid", "The signature {fault:word}.")

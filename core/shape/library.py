@@ -15,7 +15,7 @@ from pathlib import Path
 
 from ..numerics import check_type
 from ..verdict.finding import FileError, Finding, finding
-from .findings import LIBRARY_LINE, RECORD_WITHOUT_SHAPE, RECORD_WITHOUT_SIGNATURE
+from .findings import LIBRARY_LINE, NO_SHAPE, RECORD_WITHOUT_SIGNATURE
 from .signatures import MAX_SIMILAR_DIFFERENCE, Likeness, Signature, similarity
 
 # signatures nearer than this are one shape's: some float32 steps, and no more than a careless
@@ -110,10 +110,11 @@ def read_library(path: Path) -> tuple[list[Entry], list[Finding]]:
                 )
             except FileError:
                 shapeless = "signature" in record and record["signature"] is None
-                label = _label(file, name)
                 missing.append(
                     finding(
-                        RECORD_WITHOUT_SHAPE if shapeless else RECORD_WITHOUT_SIGNATURE, name=label
+                        RECORD_WITHOUT_SIGNATURE,
+                        name=_label(file, name),
+                        remedy=NO_SHAPE if shapeless else "Measure with --signature",
                     )
                 )
     return entries, missing

@@ -57,45 +57,40 @@ def weld_patches(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     parts = mesh.state.open_parts
     if parts is None or parts.are_all:
         return mesh
-    is_open = np.zeros(len(mesh.triangles), bool)
-    is_open[parts.rows] = True
-    closed = np.flatnonzero(~is_open & has_distinct_vertices(mesh.triangles))
-    loose = _unique_sorted(mesh.triangles[parts.rows], len(mesh.points))
-    places = mesh.points[loose].astype(np.float64)
-    low, high = places.min(axis=0) - tolerance, places.max(axis=0) + tolerance
-    fixed = np.setdiff1d(_unique_sorted(mesh.triangles[closed], len(mesh.points)), loose)
-    fixed = fixed[((mesh.points[fixed] >= low) & (mesh.points[fixed] <= high)).all(axis=1)]
-    vertices = np.concatenate([fixed, loose])  # so that the first of a cluster is a fixed one
-    same = first_at_near_position(
-        mesh.points[vertices], vertex_tolerance(mesh.points, mesh.triangles, vertices, tolerance)
-    )[len(fixed) :]
-    onto = np.arange(len(mesh.points))
-    is_met = same < len(fixed)
-    onto[loose[is_met]] = fixed[same[is_met]]
-    triangles = mesh.triangles.copy()
-    triangles[parts.rows] = onto[triangles[parts.rows]]
-    rows = np.concatenate([closed, parts.rows])
-    group = same_vertices_groups(triangles[rows], mesh.face[rows])
-    is_copy = np.isin(group[len(closed) :], group[: len(closed)])
     given = mesh.triangles[parts.rows]
-    part, number = connected_components(len(parts.rows), *find_edges(given).adjacency())
-    is_patch = (np.bincount(part, is_copy, number) == np.bincount(part, minlength=number))[part]
+    loose = _unique_sorted(given, len(mesh.points))
+    low, high = mesh.points[loose].min(axis=0), mesh.points[loose].max(axis=0)
+    is_near = ((mesh.points >= low - tolerance) & (mesh.points <= high + tolerance)).all(axis=1)
+    is_candidate = is_near[mesh.triangles].all(axis=1) & has_distinct_vertices(mesh.triangles)
+    is_candidate[parts.rows] = False
+    closed = np.flatnonzero(is_candidate)
+    if not len(closed):
+        return mesh
+    fixed = np.setdiff1d(mesh.triangles[closed], loose)
+    vertices = np.concatenate([fixed, loose])  # so that the first of a cluster is a fixed one
+    rows = np.concatenate([closed, parts.rows])
+    reach = vertex_tolerance(mesh.points, mesh.triangles[rows], vertices, tolerance)
+    onto = np.arange(len(mesh.points))
+    onto[vertices] = vertices[first_at_near_position(mesh.points[vertices], reach)]
+    onto[fixed] = fixed
+    triangles = np.concatenate([mesh.triangles[closed], onto[given]])
+    group = same_vertices_groups(triangles, mesh.face[rows])
+    is_copy = np.isin(group[len(closed) :], group[: len(closed)])
+    part, number = connected_components(len(given), *find_edges(given).adjacency())
+    is_patch = np.bincount(part, ~is_copy, number)[part] == 0.0
     if not is_patch.any():
         return mesh
-    left = parts.rows[~is_patch]
-    welded = mesh.triangles.copy()
-    welded[parts.rows[is_patch]] = triangles[parts.rows[is_patch]]
-    moved = (
-        mesh.points[given[is_patch]].astype(np.float64) - mesh.points[welded[parts.rows[is_patch]]]
-    )
+    patch = given[is_patch]
+    moved = mesh.points[patch].astype(np.float64) - mesh.points[onto[patch]]
     size = np.linalg.norm(np.ptp(mesh.points, axis=0))
     share = float(np.linalg.norm(moved, axis=2).max() / size)
-    open_parts = copy_with(
-        parts, rows=left, vertices=np.intersect1d(parts.vertices, given[~is_patch])
-    )
+    welded = mesh.triangles.copy()
+    welded[parts.rows[is_patch]] = onto[patch]
     mesh = copy_with(mesh, triangles=welded).with_findings(finding(VERTICES_WELDED, share=share))
+    left = np.intersect1d(parts.vertices, given[~is_patch])
+    open_parts = copy_with(parts, rows=parts.rows[~is_patch], vertices=left)
     return mesh.with_report(welded=True).with_state(
-        edges=UNKNOWN, open_parts=open_parts if len(left) else None
+        edges=UNKNOWN, open_parts=None if is_patch.all() else open_parts
     )
 
 

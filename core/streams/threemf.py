@@ -146,8 +146,7 @@ class _Package:
         return self._models[part]
 
     def build(self) -> tuple[list[Placed], float]:
-        root = self._root()
-        model = self.model(root)
+        model = self.model(self._root())
         placed: list[Placed] = []
         for item in model.items:
             for one in self._placed(*item):
@@ -274,19 +273,12 @@ class _Model:
         )
         matrix = np.eye(4)
         if "transform" in values:
-            matrix[:3] = _transform(values["transform"])
+            text = values["transform"]
+            numbers = np.array(parse_numbers(text))
+            if len(numbers) != 12 or not np.isfinite(numbers).all():
+                raise ValueError(text)
+            matrix[:3] = numbers.reshape(4, 3).T
         return path, values["objectid"], matrix
-
-
-def _transform(text: str) -> Array:
-    """Return the (3, 4) matrix of a text, which lists its columns.
-
-    ValueError, with the text, if it is wrong.
-    """
-    numbers = np.array(parse_numbers(text))
-    if len(numbers) != 12 or not np.isfinite(numbers).all():
-        raise ValueError(text)
-    return numbers.reshape(4, 3).T
 
 
 def _coordinate(text: str) -> float:

@@ -77,7 +77,13 @@ def selected_document(context: Context) -> dict[str, Any]:
     caveats += bodies.overlap_caveats(counted, context.evaluated_depsgraph_get())
     version = ".".join(map(str, bpy.app.version))
     return write.text_report.stored_document(
-        context, objects, outdated, caveats, bpy.data.filepath or None, version
+        context,
+        objects,
+        outdated,
+        caveats,
+        bpy.data.filepath or None,
+        version,
+        read.places.place_error,
     )
 
 

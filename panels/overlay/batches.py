@@ -67,7 +67,18 @@ _regions: dict[int, _Drawn] = {}  # by the region's pointer
 def draw_region(context: Context) -> None:
     """Draw the overlay into a region, with current batches."""
     pointer = context.region.as_pointer()
-    key = _key(context)
+    settings = context.scene.body_moments.overlay
+    key = (
+        memory.state.generation,
+        context.scene.session_uid,
+        context.view_layer.name,
+        context.space_data.local_view is not None,
+        tuple(bone.name for bone in context.selected_pose_bones or ()),
+        tuple(active and active.name for active in (context.object, context.active_pose_bone)),
+        _axis_colors(),
+        *(getattr(settings, name) for name in SETTINGS),
+        _scale(),
+    )
     drawn = _regions.get(pointer)
     if drawn is None or drawn.key != key:
         if drawn is None and len(_regions) == MAX_REGIONS:
@@ -110,7 +121,12 @@ def _rebuild(context: Context, key: tuple, before: _Drawn | None) -> _Drawn:
         (segments.reshape(-1, 2, 3), colors.reshape(-1, 4)),
         *(detail.segments for detail in details),
     ]
-    fills = _fill_batches([detail.triangles for detail in details])
+    vertices = _joined([detail.triangles for detail in details])
+    fills = (
+        (batch_for_shader(gpu.shader.from_builtin("FLAT_COLOR"), "TRIS", vertices),)
+        if vertices
+        else ()
+    )
     texts = tuple(text for detail in details for text in detail.texts)
     return _Drawn(key, entries, active, bodies, segments, _line_batches(parts), fills, texts)
 
@@ -165,22 +181,6 @@ def forget_regions() -> None:
     _regions.clear()
 
 
-def _key(context: Context) -> tuple:
-    """Return everything that the drawing depends on, besides the view."""
-    settings = context.scene.body_moments.overlay
-    return (
-        memory.state.generation,
-        context.scene.session_uid,
-        context.view_layer.name,
-        context.space_data.local_view is not None,
-        tuple(bone.name for bone in context.selected_pose_bones or ()),
-        tuple(active and active.name for active in (context.object, context.active_pose_bone)),
-        _axis_colors(),
-        *(getattr(settings, name) for name in SETTINGS),
-        _scale(),
-    )
-
-
 def _scale() -> float:
     return bpy.context.preferences.system.ui_scale
 
@@ -201,15 +201,6 @@ def _joined(parts: list[Colored]) -> dict[str, NDArray[np.float32]]:
     points = np.concatenate([shapes for shapes, _ in parts]).astype(np.float32)
     colors = np.concatenate([colors for _, colors in parts]).astype(np.float32)
     return {"pos": points.reshape(-1, 3), "color": colors.repeat(points.shape[1], axis=0)}
-
-
-def _fill_batches(parts: list[Colored]) -> tuple[Batch, ...]:
-    vertices = _joined(parts)
-    return (
-        (batch_for_shader(gpu.shader.from_builtin("FLAT_COLOR"), "TRIS", vertices),)
-        if vertices
-        else ()
-    )
 
 
 def _line_batches(parts: list[Colored]) -> tuple[Batch, ...]:

@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 import bpy
+import numpy as np
 from body_moments.core.verdict.finding import finding
 
 from tests.records import valid
@@ -42,6 +43,14 @@ def add_box(name=BOX_NAME, center=CENTER, size=(1.0, 2.0, 3.0)):
     for vertex in box.data.vertices:
         vertex.co = [value * length for value, length in zip(vertex.co, size, strict=True)]
     return box
+
+
+def turn(degrees):
+    """A rotation about x, then y, then z, as a (3, 3) matrix."""
+    (a, b, c), (d, e, f) = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    x = np.array([[1, 0, 0], [0, a, -d], [0, d, a]])
+    y = np.array([[b, 0, e], [0, 1, 0], [-e, 0, b]])
+    return np.array([[c, -f, 0], [f, c, 0], [0, 0, 1]]) @ y @ x
 
 
 def empty_scene():

@@ -64,14 +64,6 @@ def by_name(found):
     return {entry["name"]: entry for entry in found["objects"]}
 
 
-def turn(degrees):
-    """A rotation about x, then y, then z."""
-    (a, b, c), (d, e, f) = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
-    x = np.array([[1, 0, 0], [0, a, -d], [0, d, a]])
-    y = np.array([[b, 0, e], [0, 1, 0], [-e, 0, b]])
-    return np.array([[c, -f, 0], [f, c, 0], [0, 0, 1]]) @ y @ x
-
-
 def draw(rng):
     properties = {name: rng.uniform(-150, 150, 3) for name in TURNS}
     properties |= {name: rng.uniform(-300, 300, 3) for name in MOVES}
@@ -108,8 +100,8 @@ def test_fbx_place_has_the_digits_of_the_file(tmp_path, far):
     inner["Lcl Scaling"] = [-3.0, 1.0, 0.5]
     path = write(tmp_path / "t.fbx", [("top", "Null", outer, 0), ("part", "Mesh", inner, 2)])
     body = measured(path)
-    center = turn([10, 20, 30]) @ (CENTER * [-3, 1, 0.5]) + [0.1, 0.7, far]
-    center = turn([0, 0, 30]) @ center + [far, -20, 3]
+    center = files.turn([10, 20, 30]) @ (CENTER * [-3, 1, 0.5]) + [0.1, 0.7, far]
+    center = files.turn([0, 0, 30]) @ center + [far, -20, 3]
     assert close(body["volume"], 9.0, 1e-12)
     assert np.allclose(body["center_of_mass"], center / 100, rtol=0, atol=1e-12 + far * 1e-17)
 
@@ -121,7 +113,7 @@ def test_fbx_scale_is_inherited_as_the_file_states(tmp_path, kind):
     inner |= {"RotationActive": 1, "InheritType": kind}
     models = [("top", "Null", outer | ACTIVE, 0), ("part", "Mesh", inner, 2)]
     body = measured(write(tmp_path / "t.fbx", models))
-    quarter, eighth = turn([0, 0, 90]), turn([0, 0, 45])
+    quarter, eighth = files.turn([0, 0, 90]), files.turn([0, 0, 45])
     parent, own = np.diag([2, 3, 4]), np.diag([5, 1, 1])
     linear = (
         quarter @ eighth @ parent @ own,

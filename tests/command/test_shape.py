@@ -216,10 +216,10 @@ def test_a_wall_of_curved_patches_has_a_pose_and_no_signature():
         and entry["signature"] is None
     )
     assert codes(entry).count(
-        "signature_needs_polygons"
+        "shape_unavailable"
     ) == 1 and "signature_of_display_mesh" not in codes(entry)
     (entry,) = document("--pose")["objects"]
-    assert "signature" not in entry and "signature_needs_polygons" not in codes(entry)
+    assert "signature" not in entry and "shape_unavailable" not in codes(entry)
 
 
 def test_a_picture_is_of_the_body_in_meters_whatever_its_unit():

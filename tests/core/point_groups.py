@@ -48,6 +48,18 @@ POINT_GROUPS = {
     "Ih": (120, [about([0, 1, GOLDEN], 5), about(DIAGONAL, 3), INVERSION]),
 }
 
+for n in (2, 3, 4, 5, 6, 7, 10, 16):
+    turn, both = about(Z, n), about(Z, 2 * n) @ ACROSS
+    POINT_GROUPS |= {
+        f"C{n}": (n, [turn]),
+        f"C{n}v": (2 * n, [turn, UPRIGHT]),
+        f"C{n}h": (2 * n, [turn, ACROSS]),
+        f"S{2 * n}": (2 * n, [both]),
+        f"D{n}": (2 * n, [turn, about(X, 2)]),
+        f"D{n}h": (4 * n, [turn, about(X, 2), ACROSS]),
+        f"D{n}d": (4 * n, [both, about(X, 2)]),
+    }
+
 
 def orbit(operations, corners):
     """The images of a tetrahedron under all operations, as one body."""

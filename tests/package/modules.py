@@ -21,7 +21,7 @@ ORDER = {
         ("polyhedron", "shape", "scans"),
         ("solid", "flat", "fourier", "rig", "streams"),
         ("density", "nurbs", "wall"),
-        ("statics", "cad"),
+        ("statics", "cuts", "cad"),
         ("measurement",),
         ("bodies",),
         ("robots",),

@@ -185,6 +185,22 @@ def test_balanced_inertia_is_compared_with_the_geometry(tmp_path):
     assert "inertial_triangle" not in [entry.finding.code for entry in one.entries]
 
 
+def test_full_tensor_of_negative_moments_stays_impossible(tmp_path):
+    """MuJoCo refuses it in spite of bounds, which raise a zero moment."""
+    model = MODEL.format(
+        '<compiler boundinertia="2"/>',
+        '<body><inertial mass="1" pos="0 0 0" fullinertia="{} 1 1 {} 0 0"/></body>',
+    )
+    (one,) = audited(tmp_path / "m.xml", model.format(0, 0))
+    assert [entry.finding.code for entry in one.entries] == ["audit_overridden"]
+    path = tmp_path / "m.xml"
+    path.write_text(model.format(-1, 0.1))
+    with pytest.raises(ValueError, match="positive"):
+        mujoco.MjModel.from_xml_path(str(path))
+    (one,) = Auditor(Roots.for_file(path)).audit(read_description(path)).links
+    assert [entry.finding.code for entry in one.entries] == ["inertial_not_positive"]
+
+
 def test_paths_of_meshes_are_stripped(tmp_path):
     (tmp_path / "here").mkdir()
     points = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"

@@ -47,7 +47,7 @@ def test_button_makes_colliders_that_undo_removes(window):
     window.ask(OPEN + CLOSE_OTHERS)
     window.open_tab("Moments")
     window.ask("bpy.ops.object.body_moments_measure()")
-    window.press(MAKE)
+    window.press("object.body_moments_make_colliders")
     window.wait(COUNT + " > 0")
     assert window.get("bpy.context.mode") == "OBJECT" and window.get(
         "[o.name for o in bpy.context.selected_objects]"

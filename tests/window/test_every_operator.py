@@ -195,6 +195,7 @@ bpy.ops.mesh.subdivide(number_cuts=4)
 bpy.ops.object.mode_set(mode="OBJECT")
 rig = bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig"))
 bpy.context.scene.collection.objects.link(rig)
+rig.select_set(True)
 bpy.context.view_layer.objects.active = rig
 bpy.ops.object.mode_set(mode="EDIT")
 for name, low in (("Lower", 0.0), ("Upper", 3.0)):

@@ -19,7 +19,7 @@ from bpy.types import Depsgraph, Object
 
 from ....core.bodies import merge_health, to_si
 from ....core.measurement import (
-    DENSITY_FROM_MEMBERS,
+    DENSITY_FROM,
     Extent,
     add_extents,
     extent_of,
@@ -204,7 +204,7 @@ def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -
             members_key(whole.member, fingerprints).encode(), place, structure_hash(whole.member)
         ),
         findings=(*findings_of(whole, depsgraph.scene), *_shared_space(whole, depsgraph)),
-        density_from=DENSITY_FROM_MASS if given else finding(DENSITY_FROM_MEMBERS),
+        density_from=DENSITY_FROM_MASS if given else finding(DENSITY_FROM, source="members"),
         health=merge_health(
             (measurement.health, 1, measurement.area) for _, measurement in measured
         )

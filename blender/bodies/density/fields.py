@@ -20,7 +20,6 @@ from ....core.bodies import (
     DENSITY_FROM_GRID,
     GRID_DENSITY,
     GRID_EMPTY,
-    GRID_IS_LEVEL_SET,
     GRID_TOO_LARGE,
     MASS_OVERFLOW,
     MAX_MASS_MOMENT,
@@ -48,7 +47,7 @@ from ....core.polyhedron import polyhedron_moments
 from ....core.solid.measure import SolidIntegrals
 from ....core.verdict import NEGLIGIBLE, Method, Procedure, Source
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
-from ...read.findings import OBJECT_UNREADABLE, VOLUME_WITHOUT_GRIDS
+from ...read.findings import GRID_UNSUPPORTED, IS_LEVEL_SET, OBJECT_UNREADABLE, VOLUME_WITHOUT_GRIDS
 from ...read.tracking import tracking_paused
 from ...read.volume import VolumeReading, volume_reading
 from ...settings.density import DensityField
@@ -229,7 +228,7 @@ def voxel_filled_body(
     if body.method.procedure == Procedure.OPEN:
         raise ReadError(OPEN_SURFACE_OF_GRID, subject=name)
     if reading.level_set:
-        raise ReadError(GRID_IS_LEVEL_SET, subject=name, **names)
+        raise ReadError(GRID_UNSUPPORTED, fault=IS_LEVEL_SET, subject=name, **names)
     # from corners of voxels, not from their centers
     corner = affine_matrices(np.eye(3), reading.low - 0.5)
     matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ corner

@@ -16,7 +16,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.bodies import SHAPE_FAR_FROM_ORIGIN, name_subject
+from ....core.bodies import FAR_FROM_ORIGIN, SHAPE_UNAVAILABLE, name_subject
 from ....core.inertia import NOISE_LEVEL
 from ....core.measurement import fingerprint
 from ....core.mesh import Surface
@@ -183,7 +183,7 @@ def flat_shape_of(
     with name_subject(obj.name):
         shape = FlatShape(region, region.moments(MAX_ORDER_BY_MOMENTS), mark)
     if np.finfo(np.float64).eps * np.abs(shape.center).max() > EXACT_DISTANCE * shape.size:
-        raise ReadError(SHAPE_FAR_FROM_ORIGIN, subject=obj.name)
+        raise ReadError(SHAPE_UNAVAILABLE, cause=FAR_FROM_ORIGIN, subject=obj.name)
     return shape
 
 

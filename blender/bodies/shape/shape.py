@@ -19,10 +19,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.bodies import (
-    SHAPE_FAR_FROM_ORIGIN,
+    FAR_FROM_ORIGIN,
+    NEEDS_POLYGONS,
     SHAPE_OF_GRID,
     SHAPE_OF_OPEN_SURFACE,
-    SIGNATURE_NEEDS_POLYGONS,
+    SHAPE_UNAVAILABLE,
     WIRE_UNSUPPORTED,
     with_input_error,
 )
@@ -375,7 +376,7 @@ def surface_shape(measured: MeasuredBody) -> Shape:
     """
     shape = shape_of_measured(measured, SURFACE_OPTIONS.threads)
     if not shape.has_surface:
-        raise NoShapeError(SIGNATURE_NEEDS_POLYGONS, shape.measurement)
+        raise NoShapeError(finding(SHAPE_UNAVAILABLE, cause=NEEDS_POLYGONS), shape.measurement)
     return shape
 
 
@@ -401,7 +402,7 @@ def shape_of_measured(measured: MeasuredBody, threads: int) -> Shape:
         raise NoShapeError(SHAPE_OF_OPEN_SURFACE, measurement)
     shape = Shape(measurement, body, threads)
     if np.finfo(np.float64).eps * np.abs(shape.center).max() > EXACT_DISTANCE * shape.size:
-        raise NoShapeError(SHAPE_FAR_FROM_ORIGIN, measurement)
+        raise NoShapeError(finding(SHAPE_UNAVAILABLE, cause=FAR_FROM_ORIGIN), measurement)
     return shape
 
 

@@ -108,8 +108,7 @@ class _Document:
             self.nodes[index]["extensions"] = {KHR: {"collider": {"geometry": geometry}}}
 
     def _mesh(self, surface: Surface) -> int:
-        triangles = surface.all_triangles()[0]
-        used, corners = np.unique(triangles, return_inverse=True)
+        used, corners = np.unique(surface.all_triangles()[0], return_inverse=True)
         points = (surface.points[used] @ Y_UP.T + 0.0).astype("<f4")
         ends = {"min": points.min(axis=0).tolist(), "max": points.max(axis=0).tolist()}
         position = self._accessor(points.tobytes(), 5126, "VEC3", len(points), 34962, ends)

@@ -81,7 +81,12 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
         if link.inertial is not None:
             _add_inertial(body, link.inertial)
         for shape in () if inertial_only else link.shapes:
-            _add_geoms(body, shape, meshes)
+            if shape.seen:
+                drawn = {"group": "2", "contype": "0", "conaffinity": "0", "mass": "0"}
+                _add_geom(body, shape, meshes, drawn)
+            if shape.collides and not shape.sheet:
+                mass = number(shape.mass) if shape.mass else "0"
+                _add_geom(body, shape, meshes, {"group": "3", "mass": mass})
     mimics = (
         []
         if inertial_only
@@ -176,21 +181,6 @@ def _add_inertial(body: Element, inertial: Inertial) -> None:
 def inertial_text(inertial: StatedInertial, *_: object) -> str:
     """Return the element of a repaired inertial."""
     return inertial_element(_add_inertial, inertial.principal())
-
-
-def _add_geoms(body: Element, shape: Shape, meshes: dict[tuple, str]) -> None:
-    """Add a geometry that is seen, and one that collides.
-
-    A flat mesh has no convex hull to collide with.
-    """
-    if shape.seen:
-        _add_geom(
-            body, shape, meshes, {"group": "2", "contype": "0", "conaffinity": "0", "mass": "0"}
-        )
-    if shape.collides and not shape.sheet:
-        _add_geom(
-            body, shape, meshes, {"group": "3", "mass": number(shape.mass) if shape.mass else "0"}
-        )
 
 
 def _add_geom(body: Element, shape: Shape, meshes: dict[tuple, str], role: dict[str, str]) -> None:

@@ -67,7 +67,14 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
         if not inertial_only:
             joint = robot.joint_of(link.name)
             if joint is None:
-                _add_root(joints, robot, link, names[link.name])
+                name = names[link.name]
+                is_free = not link.is_fixed and any(
+                    part.inertial is not None for part in robot.rigid_parts(link)
+                )
+                element = SubElement(
+                    joints, "FreeJoint" if is_free else "WeldJoint", name=name + "_ground"
+                )
+                _add_ends(element, (("", link.pose), (name, Pose())))
             else:
                 _add_joint(joints, robot, joint, joint_names[joint.name], names)
     return document(root, "osim", remarks)
@@ -123,14 +130,6 @@ def _add_ends(joint: Element, ends: Sequence[tuple[str, Pose]]) -> None:
     for side, (body, pose) in zip(("parent", "child"), ends):
         add_text(joint, "socket_{}_frame".format(side), side)
         _add_frame(frames, side, body, pose)
-
-
-def _add_root(joints: Element, robot: Robot, link: Link, name: str) -> None:
-    is_free = not link.is_fixed and any(
-        part.inertial is not None for part in robot.rigid_parts(link)
-    )
-    element = SubElement(joints, "FreeJoint" if is_free else "WeldJoint", name=name + "_ground")
-    _add_ends(element, (("", link.pose), (name, Pose())))
 
 
 def _add_joint(

@@ -223,7 +223,7 @@ def test_bought_part_has_given_mass_center_and_inertia():
     own = [found.code for found in measured(part).measurement.findings]
     assert own == ["assembly_mass_given", "given", "given"]
     sources = [measured(one).measurement.density_from.code for one in (root, part)]
-    assert sources == ["density_from_members", "density_from_mass"]
+    assert sources == ["density_from", "density_from_mass"]
     part.body_moments.given_inertia_diagonal = (1, 1, 5)
     with pytest.raises(MeasureError):
         measured(part)

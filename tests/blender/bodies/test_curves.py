@@ -299,14 +299,14 @@ def test_points_that_are_nowhere_are_refused(bevel):
     obj = poly([(0, 0, 0), (3, 0, 0), (3, 1, 0)])
     obj.body_moments.kind, obj.data.bevel_depth = "WIRE", bevel
     obj.data.splines[0].points[1].co.y = float("nan")
-    with refused("non_finite_control_points", obj.name):
+    with refused("control_points_invalid", obj.name):
         measured(obj)
     round_one = circle("bezier")
     round_one.body_moments.kind, round_one.data.bevel_depth = "WIRE", bevel
     point = round_one.data.splines[0].bezier_points[1]
     point.handle_left_type = point.handle_right_type = "FREE"
     point.handle_right.z = float("nan")
-    with refused("non_finite_control_points", round_one.name):
+    with refused("control_points_invalid", round_one.name):
         measured(round_one)
 
 

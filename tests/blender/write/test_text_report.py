@@ -9,6 +9,7 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 from body_moments.blender.bodies.measure_object import measure_object
+from body_moments.blender.read.places import place_error
 from body_moments.blender.write import text_report
 from body_moments.blender.write.properties import store
 from mathutils import Euler, Matrix
@@ -24,7 +25,9 @@ def stored(*objects):
     for obj in objects:
         store(obj, measure_object(obj, depsgraph))
     return text_report.text(
-        text_report.stored_document(bpy.context, list(bpy.context.scene.objects))
+        text_report.stored_document(
+            bpy.context, list(bpy.context.scene.objects), place_error=place_error
+        )
     )
 
 

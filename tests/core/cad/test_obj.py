@@ -143,7 +143,7 @@ def test_order_above_six_and_nonpositive_weights_are_refused(tmp_path):
     seventh = Patch(
         (clamped_space(7), clamped_space(2)), np.random.default_rng(1).uniform(size=(7, 2, 3))
     )
-    assert cause(tmp_path, obj_text([seventh])) == "surface_order"
+    assert cause(tmp_path, obj_text([seventh])) == "surface_beyond_limit"
     bad = [
         line.rsplit(" ", 1)[0] + " -1" if line.startswith("v ") else line
         for line in BALL_TEXT.splitlines()
@@ -159,7 +159,15 @@ def test_surfaces_are_counted_and_refused_one_by_one(tmp_path):
     found = read(tmp_path, "cstype".join([vertices, first, second, third, fourth]))
     assert len(found.bodies[0].patches) == 2 and found.notes == ()
     assert found.refused == (
-        finding("surface_order", kind="surf", count=1, names=["surf 2"], order=10, limit=6),
+        finding(
+            "surface_beyond_limit",
+            kind="surf",
+            count=1,
+            names=["surf 2"],
+            quantity="order",
+            value=10,
+            limit=6,
+        ),
         finding("surface_unsupported", kind="surf", count=1, names=["surf 3"], base="taylor"),
     )
 
@@ -208,7 +216,7 @@ def test_damaged_files_are_refused_or_read_and_nothing_else(tmp_path):
 def test_a_degree_beyond_all_memory_is_refused(tmp_path, kind):
     text = "v 0 0 0\ncstype {}\ndeg 1000000000000 1\nsurf 0 1 0 1 1\n".format(kind)
     text += "parm u 0 1\nparm v 0 1\nend\n"
-    assert cause(tmp_path, text) == "surface_order"
+    assert cause(tmp_path, text) == "surface_beyond_limit"
 
 
 def test_a_statement_of_many_lines_is_read_in_time(tmp_path):

@@ -254,14 +254,14 @@ def test_a_sheet_thicker_than_its_radius_is_refused():
 def test_nonpositive_weights_are_refused(bad):
     weights = np.ones((3, 3))
     weights[1, 1] = bad
-    with refused("non_positive_weights"):
+    with refused("control_points_invalid"):
         Patch((clamped_space(3), clamped_space(3)), np.zeros((3, 3, 3)), weights)
 
 
 def test_nonfinite_points_are_refused():
     points = np.zeros((3, 3, 3))
     points[0, 0, 0] = np.nan
-    with refused("non_finite_control_points"):
+    with refused("control_points_invalid"):
         Patch((clamped_space(3), clamped_space(3)), points)
 
 

@@ -15,6 +15,7 @@ from body_moments.core.measurement.record import plain
 from body_moments.core.moments.moments import stack_moments
 from body_moments.core.numerics.quadrature import triangle_rule
 from body_moments.core.polyhedron import polyhedron_moments
+from body_moments.core.shape.findings import NO_SHAPE
 from body_moments.core.shape.library import (
     SAME_SHAPE_DISTANCE,
     UNDECIDED_HANDEDNESS,
@@ -38,6 +39,8 @@ from tests.core.findings import refused
 from tests.core.recursion import moments
 
 PARTS = ("invariants", "zernike", "fourier", "chirality")
+
+MEASURE = "Measure with --signature"
 
 
 def signed(part, order=20):
@@ -286,9 +289,9 @@ def test_library_has_entries_and_findings_for_failed_bodies(tmp_path):
     entries, missing = read_library(path)
     assert [entry.label for entry in entries] == ["ä.blend:A", "E"]
     assert missing == [
-        Finding("record_without_shape", {"name": "ä.blend:B"}),
-        Finding("record_without_signature", {"name": "ä.blend:C"}),
-        Finding("record_without_signature", {"name": "ä.blend:D"}),
+        Finding("record_without_signature", {"name": "ä.blend:B", "remedy": NO_SHAPE}),
+        Finding("record_without_signature", {"name": "ä.blend:C", "remedy": MEASURE}),
+        Finding("record_without_signature", {"name": "ä.blend:D", "remedy": MEASURE}),
     ]
 
 

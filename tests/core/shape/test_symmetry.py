@@ -19,7 +19,7 @@ from body_moments.core.shape.zernike import disc_zernike
 
 from tests.core import bodies, shapes
 from tests.core.bodies import ball
-from tests.core.point_groups import ACROSS, POINT_GROUPS, UPRIGHT, X, Z, about, group_of, orbit_of
+from tests.core.point_groups import POINT_GROUPS, group_of, orbit_of
 from tests.core.recursion import moments
 
 
@@ -74,19 +74,6 @@ def test_round_looking_polygon_has_mirror_lines_of_its_corners(tolerance):
 
     holds = holds_by_outline(np.pad(corners, ((0, 0), (0, 1))), distance, tolerance)
     assert flat_symmetry(zernike, 8, corners, np.eye(3), holds).group == "C23v"
-
-
-for n in (2, 3, 4, 5, 6, 7, 10, 16):
-    turn, both = about(Z, n), about(Z, 2 * n) @ ACROSS
-    POINT_GROUPS |= {
-        f"C{n}": (n, [turn]),
-        f"C{n}v": (2 * n, [turn, UPRIGHT]),
-        f"C{n}h": (2 * n, [turn, ACROSS]),
-        f"S{2 * n}": (2 * n, [both]),
-        f"D{n}": (2 * n, [turn, about(X, 2)]),
-        f"D{n}h": (4 * n, [turn, about(X, 2), ACROSS]),
-        f"D{n}d": (4 * n, [both, about(X, 2)]),
-    }
 
 
 @pytest.mark.parametrize("name", POINT_GROUPS)

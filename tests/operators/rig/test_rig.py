@@ -147,7 +147,7 @@ def test_bones_have_densities_and_masses_of_their_own():
     sources = {
         "head": "density_from_value",
         "leg.L": "density_from_mass",
-        "leg.R": "density_from_members",
+        "leg.R": "density_from",
     }
     for name, code in sources.items():
         found = parts[name].measurement
@@ -159,7 +159,7 @@ def test_bones_have_densities_and_masses_of_their_own():
         )
     whole = rig.measurement
     assert (whole.name, whole.type, whole.kind) == (armature.name, "ARMATURE", "rig")
-    assert whole.density_from.code == "density_from_members" and str(whole.method) == "assembly"
+    assert whole.density_from.code == "density_from" and str(whole.method) == "assembly"
     assert whole.location.tolist() == [1.0, 2.0, 3.0] and close(
         whole.rotation[0, 0], np.cos(0.5), 1e-6
     )

@@ -213,10 +213,20 @@ def test_curves_outside_stay_to_the_last_bit(scene, kind, handles, extrapolation
         assert np.abs(np.subtract(values, before[channel])).max() < 2e-3
 
 
-def test_take_off_between_keys_divides_the_curve(scene):
-    """The curves before and after pass as before, up to the rounding of the keys to float32."""
+@pytest.mark.parametrize("reach", [None, 0.65], ids=["automatic", "overlapping"])
+def test_take_off_between_keys_divides_the_curve(scene, reach):
+    """The curves before and after pass as before, up to the rounding of the keys to float32.
+
+    reach: of free handles, relative to the distance of the keys, which they may pass together.
+    """
     rig = gymnast()
     flight = somersault(rig, 6, 24, "QUATERNION")
+    for points in (curve.keyframe_points for curve in curves_of(rig) if reach):
+        for one, two in zip(points[:-1], points[1:]):
+            one.handle_right_type = two.handle_left_type = "FREE"
+            length = reach * (two.co.x - one.co.x)
+            one.handle_right = one.co.x + length, one.co.y + 0.2
+            two.handle_left = two.co.x - length, two.co.y + 0.1
     inner = flight[0] + 3, flight[1] - 2
     outside = [*np.arange(1.0, inner[0], 0.1), *np.arange(inner[1] + 0.0, flight[1] + 9.0, 0.1)]
     before = {
@@ -227,6 +237,22 @@ def test_take_off_between_keys_divides_the_curve(scene):
     for curve in curves_of(rig):
         after = [curve.evaluate(time) for time in outside]
         assert np.abs(np.subtract(after, before[curve.data_path, curve.array_index])).max() < 1e-6
+
+
+def test_line_beyond_the_last_key_goes_on_from_a_held_key(scene):
+    """The flight ends within the last segment, which holds a value."""
+    rig = gymnast()
+    first, last = somersault(rig, 6, 24, "QUATERNION")
+    for curve in curves_of(rig):
+        curve.extrapolation = "LINEAR"
+        curve.keyframe_points.insert(last + 12, 0.7).interpolation = "LINEAR"
+        curve.keyframe_points[-2].interpolation = "CONSTANT"
+        curve.update()
+    beyond = np.arange(last + 4.0, last + 40.0, 0.5)
+    before = [[curve.evaluate(time) for time in beyond] for curve in curves_of(rig)]
+    assert PARABOLA(**typed((first, last + 4))) == {"FINISHED"}
+    after = [[curve.evaluate(time) for time in beyond] for curve in curves_of(rig)]
+    assert np.abs(np.subtract(after, before)).max() < 1e-5
 
 
 def test_easing_across_the_take_off_is_refused_by_name(scene):

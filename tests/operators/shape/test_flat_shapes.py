@@ -159,7 +159,7 @@ def test_overflowing_or_distant_flat_shape_is_refused():
     obj = sheet(regular(5))
     for change, code in (
         ({"scale": (1e36, 1e36, 1.0)}, "moments_overflow"),
-        ({"location": (1e12, 0, 0)}, "shape_far_from_origin"),
+        ({"location": (1e12, 0, 0)}, "shape_unavailable"),
     ):
         obj.scale, obj.location = (1, 1, 1), (0, 0, 0)
         for name, value in change.items():

@@ -122,7 +122,7 @@ def test_shape_far_from_origin_is_refused(operator, reported):
         assert run(operator) == {"FINISHED"}
     else:
         assert run(operator) == {"FINISHED"} and not far.is_property_set("body_moments_symmetry")
-    assert reported.codes.count("shape_far_from_origin") == (2 if operator == "find_similar" else 1)
+    assert reported.codes.count("shape_unavailable") == (2 if operator == "find_similar" else 1)
 
 
 @pytest.mark.parametrize("held", [0, 1, 2])
