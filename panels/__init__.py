@@ -16,6 +16,7 @@ MODULES = (
         "density",
         "colliders",
         "statics",
+        "floating",
         "selection",
         "assembly",
         "rig",

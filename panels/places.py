@@ -28,6 +28,7 @@ ORDER = (
     "apply",
     "colliders",
     "stability",
+    "floating",
     "selection",
     "assembly",
     "bones",

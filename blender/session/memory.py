@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from .live.following import Followed
     from .stored.computed_moments import ComputedMoments
     from .stored.faults import Faults
+    from .stored.floating import Afloat
     from .stored.outcome import ActionOutcome
     from .stored.sliders import SliderGrid, SliderWalls
     from .stored.stability import KnownHull
@@ -144,6 +145,7 @@ chosen: SessionCache[tuple[tuple, tuple[list[Object], dict[str, bool]]]] = Sessi
 # ---------------------------------------------------------------- Results too large to store
 
 hulls: SessionCache[KnownHull] = SessionCache()
+afloat: SessionCache[Afloat] = SessionCache(max_size=64)
 faults: SessionCache[Faults] = SessionCache()
 moments: SessionCache[ComputedMoments] = SessionCache(max_size=16)
 walls: SessionCache[SliderWalls] = SessionCache(max_size=64)

@@ -37,7 +37,7 @@ from .findings import (
 )
 from .formats import FORMATS
 from .model import Effect, Pose, Shape
-from .plausibility import LEAST_MASS, Hull, impossible, spread_directions
+from .plausibility import CENTER_RTOL, LEAST_MASS, Hull, impossible, spread_directions
 from .primitives import primitive_moments, second_moments
 from .read.descriptions import Roots
 from .read.meshes import read_mesh
@@ -183,7 +183,7 @@ class Auditor:
         if description.total > 0.0 and is_known and sum(masses) > 0.0:
             factor = description.total / sum(masses)
         used = [_scaled(stated, link, factor) for stated, link in pairs]
-        audits = tuple(map(self._link_alone, used))
+        audits = tuple(map(self._sure, map(self._link_alone, used)))
         tree = build_tree(description, self.joints)
         totals = add_up(tree, [(one.link, one.has_impossible) for one in audits])
         about = [*tree.findings, *((one, Place()) for one in self.expected.check(totals.whole))]
@@ -232,6 +232,14 @@ class Auditor:
             return LinkAudit(
                 link, (*_read_entries(link), Entry(internal_error.finding_of(error), link.place))
             )
+
+    def _sure(self, audit: LinkAudit) -> LinkAudit:
+        """Return the audit of a link without a repair that would itself have a new finding."""
+        if audit.repaired is None:
+            return audit
+        again = self._link_alone(replace(audit.link, inertial=audit.repaired, overridden=None))
+        new = {one.code for one in again.findings} - {one.code for one in audit.findings}
+        return replace(audit, repaired=None) if new else audit
 
     def _link(self, link: StatedLink) -> LinkAudit:
         entries = _read_entries(link)
@@ -341,6 +349,7 @@ def _weighed(shape: StatedShape, mass: Moments) -> Moments:
         return placed
     own = combine([(placed, 1.0)])
     body = shape.rules.complete(StatedInertial(own.mass, own.center, own.inertia))
+    assert body is not None
     second = np.trace(body.inertia) / 2.0 * np.eye(3) - body.inertia
     return replace(second_moments(body.mass, body.center, second), measure=placed.measure)
 
@@ -435,21 +444,46 @@ def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete:
     reference = references[0]
     geometry = reference.uniform(stated.mass)
     if left:
-        # It adds nothing to errors.
-        entries = [one for one in entries if one.finding.code != AUDIT_NOT_UNIFORM]
+        guessed = _guess(stated, geometry, hull)
+        if guessed is geometry:  # It adds nothing to errors.
+            entries = [one for one in entries if one.finding.code != AUDIT_NOT_UNIFORM]
         density = stated.mass / reference.volume
         # Geometry that cannot hold the mass, in kg or another unit, shows nothing about its place.
         unusual = diagnose_density(geometry, reference)
         holds = all(one.is_change for one in unusual)
         guess = finding(AUDIT_UNIFORM_INSTEAD) if holds else None
-        repaired = geometry if holds else None
-        entries += [Entry(one, place, (), guess, "guess" if guess else "", True) for one in left]
+        repaired = guessed if holds else None
+        certainty = "guess" if guess else ""
+        entries = [*(Entry(one, place, (), guess, certainty, True) for one in left), *entries]
         if unusual:
             entries.append(Entry(finding(AUDIT_DENSITY, density=density), place, compares=True))
     apart = min(one.compare(stated) for one in references)
     return LinkAudit(
         link, tuple(entries), repaired, stated.mass / reference.volume, geometry, apart, bool(wrong)
     )
+
+
+def _guess(stated: StatedInertial, geometry: StatedInertial, hull: Hull | None) -> StatedInertial:
+    """Return the inertial of the evenly filled geometry, about the stated center if that is
+    possible.
+    """
+    if hull is None or hull.distance(stated.center) > CENTER_RTOL * hull.size:
+        return geometry
+    reference = Reference(1.0, geometry.center, geometry.inertia / geometry.mass)
+    if reference.compare_centers(stated) <= DIFFERS:
+        return geometry
+    second = np.trace(geometry.inertia) / 2.0 * np.eye(3) - geometry.inertia
+    way = stated.center - geometry.center
+    way = way / np.linalg.norm(way)
+    # Near the border of the hull the geometry is shrunk towards it, until it fits.
+    for part in 0.5 ** np.arange(10.0):
+        shrink = np.eye(3) - (1.0 - part) * np.outer(way, way)
+        shrunk = shrink @ second @ shrink
+        tensor = np.trace(shrunk) * np.eye(3) - shrunk
+        guessed = replace(geometry, center=stated.center, tensor=tensor)
+        if not impossible(guessed, hull):
+            return guessed
+    return geometry
 
 
 def _entries(

@@ -16,7 +16,7 @@ from ...blender.scale import meters_per_unit
 from ...blender.scene import fcurves
 from ...blender.session import character
 from ...blender.session.character.weight import Weight
-from ...blender.session.stored import balance_groups, faults, stability
+from ...blender.session.stored import balance_groups, faults, floating, stability
 from ...blender.write import reports
 from ...core.numerics import Array
 from ...core.rig import ballistic_arc, find_flights
@@ -27,6 +27,7 @@ from .draw import shows_weight
 
 FILL = 0.25  # opacity of faces
 ARROW = 0.12  # length of the tipping arrow's head, relative to the support polygon's extent
+CROSS = 0.02  # half the width of a center's cross, relative to a floating body's size
 Colored = tuple[Array, NDArray[np.float32]]
 
 
@@ -74,7 +75,13 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
             details += _weight(context, weight)
     checked = [obj for obj in objects if stability.is_known(obj)] if settings.show_support else ()
     supports = [stability.support(obj, context.scene) for obj in checked]
-    return details + [support_detail(support) for support in supports if support is not None]
+    details += [support_detail(support) for support in supports if support is not None]
+    if settings.show_waterline:
+        afloat = {id(body): obj for obj in objects if (body := floating.known(obj)) is not None}
+        held = [floating.held(obj, context.scene) for obj in afloat.values()]
+        unit = meters_per_unit(context.scene)
+        details += [_waterline(body, unit) for body in held if isinstance(body, floating.Held)]
+    return details
 
 
 def _path(path: balance_groups.Path) -> Detail:
@@ -122,6 +129,33 @@ def _arcs(scene: Scene, path: balance_groups.Path) -> list[Detail]:
                 Detail(_tinted(lines, look.EDGE), _tinted(np.zeros((0, 3, 3)), look.EDGE))
             )
     return details
+
+
+def _waterline(held: floating.Held, unit: float) -> Detail:
+    """Return the waterline on the body, and crosses at its centers of buoyancy and gravity and its
+    metacenter, with a line through these.
+    """
+    state = held.state
+    body = state.body
+    heights = body.points @ state.up - state.level
+    first, second = body.triangles, np.roll(body.triangles, -1, axis=1)
+    crossed = (heights > 0.0)[first] != (heights > 0.0)[second]
+    a, b = first[crossed], second[crossed]
+    share = (heights[a] / (heights[a] - heights[b]))[:, None]
+    line = (body.points[a] + share * (body.points[b] - body.points[a])).reshape(-1, 2, 3)
+    buoyancy, gravity = state.center_of_buoyancy, state.center_of_gravity
+    metacenter = buoyancy + state.metacentric_radii[0] * state.up
+    places = np.array([buoyancy, gravity, metacenter])
+    crosses = places[:, None, None] + CROSS * body.size * np.stack([-np.eye(3), np.eye(3)], axis=1)
+    axis = np.array([[buoyancy, metacenter]])
+    segments = np.concatenate([line, axis, crosses.reshape(-1, 2, 3)])
+    color = look.WATER if held.is_at_rest else look.EDGE
+    texts = [(place / unit, letter, color) for place, letter in zip(held.to_world(places), "BGM")]
+    return Detail(
+        _tinted(held.to_world(segments) / unit, color),
+        _tinted(np.zeros((0, 3, 3)), color),
+        tuple(texts),
+    )
 
 
 def _faults(obj: Object, found: faults.Faults) -> Detail:

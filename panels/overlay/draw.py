@@ -40,6 +40,7 @@ SWITCHES = {
     "show_support": "Support",
     "show_faults": "Faults",
     "show_path": "Paths",
+    "show_waterline": "Waterline",
 }
 SETTINGS = BodyMomentsOverlaySettings.__annotations__
 EQUIVALENTS = [item[0] for item in SETTINGS["equivalent"].keywords["items"]]

@@ -5,6 +5,7 @@
 import csv
 import gzip
 import io
+import itertools
 import json
 import zipfile
 from pathlib import Path
@@ -386,3 +387,42 @@ def test_odd_density_of_shapes_is_found(density, code, tmp_path):
     record = json.loads(answer(path)[0])["links"][0]
     assert [one["code"] for one in record["findings"]] == [code]
     assert abs(record["density"] / density - 1.0) < 1e-12
+
+
+OFF = (
+    '<link name="{}"><inertial><origin xyz="{}"/><mass value="{}"/><inertia ixx="{}" iyy="{}" '
+    'izz="{}" ixy="0" ixz="0" iyz="0"/></inertial><visual><geometry><box size="2 1 0.5"/>'
+    "</geometry></visual></link>"
+)
+
+
+def test_guess_keeps_a_possible_center(tmp_path):
+    path = description(tmp_path / "r.urdf", OFF.format("a", "0.3 0.1 0", 500, 1, 1, 9))
+    (link,) = json.loads(answer(path)[0])["links"]
+    assert link["findings"][0]["certainty"] == "guess"
+    assert link["repaired"]["center_of_mass"] == [0.3, 0.1, 0.0]
+    assert abs(link["repaired"]["inertia"][0][0] / (500 * 1.25 / 12.0) - 1.0) < 1e-12
+    at_border = description(tmp_path / "s.urdf", OFF.format("a", "0.999 0 0", 500, 1, 1, 9))
+    (link,) = json.loads(answer(at_border)[0])["links"]
+    assert link["repaired"]["center_of_mass"] == [0.999, 0.0, 0.0]
+
+
+def test_repaired_copy_has_no_new_finding(tmp_path):
+    (tmp_path / "out").mkdir()
+    centers = ("0 0 0", "0.3 0.1 0", "0.999 0 0", "3 0 0")
+    moments = ((1, 1, 9), (0.5, 2, 2.4), (1e3, 4e3, 5e3), (0, 0, 0), (-1, 2, 2), (1e-9, 1e-9, 1e-9))
+    cases = itertools.product(centers, (1e-6, 5, 5e3, 5e6), moments)
+    links = [
+        OFF.format(index, center, mass, *tensor)
+        for index, (center, mass, tensor) in enumerate(cases)
+    ]
+    path = description(tmp_path / "r.urdf", *links)
+    before = json.loads(answer("--repair", tmp_path / "out", path)[0])["links"]
+    after = json.loads(answer(tmp_path / "out" / "r.urdf")[0])["links"]
+    assert sum(link["repaired"] is not None for link in before) > 20
+    for old, new in zip(before, after, strict=True):
+        codes = [
+            {found["code"] for one in link["findings"] for found in (one, *one["reasons"])}
+            for link in (old, new)
+        ]
+        assert codes[1] <= codes[0], old["name"]

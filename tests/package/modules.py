@@ -24,6 +24,7 @@ ORDER = {
         ("statics", "cuts", "cad"),
         ("measurement",),
         ("bodies",),
+        ("floating",),
         ("robots",),
         ("colliders",),
     ),

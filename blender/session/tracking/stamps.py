@@ -52,6 +52,7 @@ class Kind(Enum):
     COLLIDERS = "colliders"
     MOMENTS = "moments"  # in memory, as are the following
     HULL = "hull"
+    FLOATING = "floating"
     SETTINGS = "settings"  # live numbers and failed measurements
 
 

@@ -29,6 +29,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..inertia import frame_about
+from ..mesh import Surface
 from ..moments import (
     PAIRWISE_SUM_ROUNDINGS,
     Measure,
@@ -38,8 +39,10 @@ from ..moments import (
     monomials,
     unchecked_moments,
 )
-from ..numerics import Array, Index, batches, float_array, index_array, segment_ranges
-from ..verdict import check_size
+from ..numerics import Array, Index, PerBody, batches, float_array, index_array, segment_ranges
+from ..polyhedron import BOUNDARY_OPEN
+from ..solid import measure_solid
+from ..verdict import MeasureError, Procedure, check_size
 
 TRIANGLES_PER_BLOCK = 4096  # triangles whose products stay in the cache
 PAIRS_PER_BLOCK = 1 << 16
@@ -51,14 +54,16 @@ RAISED = np.array([3, 6, 8, 9, 10, 11, 12, 13, 14, 15])  # rows of each monomial
 LEVEL = np.array([0, 1, 2, 0, 4, 5, 1, 7, 2, 0])
 ACROSS = EXPONENTS[:, 2] == 0
 PAIRS = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)]
-# Errors in units of rounding: of rotated positions; of the products for one triangle.
+# Errors in units of rounding: of rotated positions; of the products for one triangle, relative to
+# its area and to the products in its area.
 PLACE_ROUNDINGS = 24.0
-PRODUCT_ROUNDINGS = 80.0
+PRODUCT_ROUNDINGS = 40.0
+SPREAD_ROUNDINGS = 8.0
 
 
 @dataclass(frozen=True, eq=False)
 class PartBelow:
-    """The parts of a body below k planes, and their cut faces.
+    """The parts of a body below k planes, and their cut faces; or below one, without leading axis.
 
     The face is the derivative of the part by the plane: a plane that moves by dh along its normal
     adds ``face_area`` dh to the volume and ``face_first`` dh to the first moments; one that tilts
@@ -87,28 +92,72 @@ class PartBelow:
         return self.part.about_point(origin), self.face.about_point(origin)
 
     @property
-    def volume(self) -> Array:
-        return self.part.raw[:, 0]
+    def volume(self) -> PerBody:
+        return self.part.total
 
     @property
     def first(self) -> Array:
-        return self._at_origin[0].raw[:, 1:4]
+        return self._at_origin[0].raw[..., 1:4]
 
     @property
     def second(self) -> Array:
         return self._at_origin[0].second()
 
     @property
-    def face_area(self) -> Array:
-        return self.face.raw[:, 0]
+    def face_area(self) -> PerBody:
+        return self.face.total
 
     @property
     def face_first(self) -> Array:
-        return self._at_origin[1].raw[:, 1:4]
+        return self._at_origin[1].raw[..., 1:4]
 
     @property
     def face_second(self) -> Array:
         return self._at_origin[1].second()
+
+
+def below(surface: Surface, plane: ArrayLike) -> PartBelow:
+    """Measure the part of the body that a surface bounds below a plane.
+
+    The surface is repaired as by `measure_solid`.
+
+    Parameters
+    ----------
+    surface : Surface
+    plane : float, (4,) or (k, 4) array_like
+        A height z; or rows a, b, c, d of planes: the parts where a x + b y + c z <= d.
+
+    Returns
+    -------
+    PartBelow
+
+    Raises
+    ------
+    MeasureError
+        If the surface bounds no body.
+
+    Examples
+    --------
+    >>> from body_moments.core import Surface, below
+    >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    >>> part = below(Surface.from_triangles(np.eye(4, 3, -1), faces), 0.5)
+    >>> round(part.volume * 48, 9), (part.first * 384).round(9).tolist()
+    (7.0, [15.0, 15.0, 11.0])
+    """
+    solid = measure_solid(surface)
+    if solid.method is Procedure.OPEN:
+        raise MeasureError(BOUNDARY_OPEN)
+    rows = np.asarray(plane, np.float64)
+    if rows.ndim == 0:
+        rows = np.append([0.0, 0.0, 1.0], rows)
+    single = rows.ndim == 1
+    rows = float_array("plane", rows[None] if single else rows, "k", 4, finite=True)
+    closed = solid.repaired_surface
+    triangles = closed.all_triangles()[0]
+    parts = measure_below(
+        closed.points, triangles, rows[:, :3], rows[:, 3], closed.coordinate_error
+    )
+    return PartBelow(parts.part.at(0), parts.face.at(0)) if single else parts
 
 
 def measure_below(
@@ -240,7 +289,7 @@ def _below(
         faces[:, heights > high[2]] = 0.0
     area, spread, edges, count, unclear, roundings = sizes
     largest = np.multiply.reduce((reach + shifts.sum(axis=0)) ** EXPONENTS[:, :, None], axis=1)
-    products = (PRODUCT_ROUNDINGS + roundings) * U * (area + spread)
+    products = U * ((PRODUCT_ROUNDINGS + roundings) * area + SPREAD_ROUNDINGS * spread)
     bounds = np.zeros((4, *parts.shape))
     bounds[0] = products * largest * reach[2] + 8.0 * U * np.abs(parts)
     bounds[2] = products * largest + 8.0 * U * np.abs(faces)
@@ -251,8 +300,9 @@ def _below(
         # A tip that only just reaches the plane counts by its width.
         edge = edges + 2.0 * shift * count + 4.0 * (reach[0] + reach[1])
         tilted = shift * edge + unclear
-        share = EXPONENTS.sum(axis=1)[:, None] * shift / np.maximum(reach[:2].max(axis=0), shift)
-        bounds[2 + i] += (tilted + np.where(shift > 0.0, share, 0.0) * area) * largest
+        across = np.maximum(reach[:2].max(axis=0), shift)
+        share = EXPONENTS.sum(axis=1)[:, None] * shift / np.where(across > 0.0, across, 1.0)
+        bounds[2 + i] += (tilted + share * area) * largest
     middle = np.zeros((len(levels), 3))
     middle[:, 2] = levels
     return parts.T, faces.T, middle, bounds.swapaxes(1, 2)
@@ -278,7 +328,8 @@ def _sums_below(
     order = np.flatnonzero(middle < k)
     if k > 1:
         order = order[np.argsort(middle[order], kind="stable")]
-    for start in range(0, len(order), TRIANGLES_PER_BLOCK):
+    whole = len(order)
+    for start in range(0, whole, TRIANGLES_PER_BLOCK):
         rows = order[start : start + TRIANGLES_PER_BLOCK]
         corners = points.take(triangles[rows].T, axis=1)
         weight, sizes = _weights(corners)
@@ -309,7 +360,8 @@ def _sums_below(
         _add_sums(table, corners, weight, sizes, level)
     sizes = np.zeros((6, k))
     sizes[:5] = table[16:]
-    sizes[5] = PAIRWISE_SUM_ROUNDINGS + k + (len(order) + counts.sum()) / TRIANGLES_PER_BLOCK
+    summed = 2 * (whole + int(counts.sum()))
+    sizes[5] = min(summed, PAIRWISE_SUM_ROUNDINGS + k + summed / TRIANGLES_PER_BLOCK)
     return table[:16] / DIVISORS[:, None], sizes
 
 
