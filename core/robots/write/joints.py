@@ -94,8 +94,7 @@ def host_names(robot: Robot) -> dict[str, str]:
     hosts: dict[str, str] = {}
     for link in robot.ordered():
         joint = robot.joint_of(link.name)
-        is_own = joint is None or joint.free
-        hosts[link.name] = link.name if is_own else hosts[joint.parent]
+        hosts[link.name] = link.name if joint is None or joint.free else hosts[joint.parent]
     return hosts
 
 

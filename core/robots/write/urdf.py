@@ -55,11 +55,12 @@ def check(robot: Robot) -> list[Finding]:
     if loose and len(robot.roots) > 1:
         name = BASE if len(loose) == len(robot.roots) else WORLD
         findings.append(finding(ROBOT_BASE_ADDED, count=len(loose), name=name))
-    root = robot.roots[0] if robot.roots else None
-    light = root is not None and root.inertial is None and not root.is_fixed
-    if len(loose) > 1 or light:
-        name = BASE if len(robot.roots) > 1 else root.name
-        findings.append(finding(URDF_ROOT_WITHOUT_MASS, name=name))
+    # The root of the file that is to be free: an added one, or a frame.
+    free = BASE if len(loose) == len(robot.roots) > 1 else ""
+    if len(robot.roots) == len(loose) == 1 and loose[0].inertial is None:
+        free = loose[0].name
+    if free:
+        findings.append(finding(URDF_ROOT_WITHOUT_MASS, name=free))
     findings += ellipsoids_as_boxes(robot)
     unknown = [
         joint.name
