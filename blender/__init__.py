@@ -4,8 +4,8 @@
 stored results.
 """
 
-# The modules with the settings of objects, materials, scenes, assemblies and bones.
-SETTINGS = ("settings.properties", "settings.scene", "settings.assembly")
+# The modules with the settings of objects, materials, scenes, assemblies, bones and liquids.
+SETTINGS = ("settings.properties", "settings.scene", "settings.assembly", "settings.floating")
 # The modules that are registered, in this order.
 MODULES = (
     "write.translations",

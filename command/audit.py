@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -20,6 +21,7 @@ from ..core.robots import (
     DESCRIPTION_UNKNOWN,
     Audit,
     Auditor,
+    Expectation,
     repaired_copy,
 )
 from ..core.robots.read.descriptions import Roots, read_description
@@ -33,6 +35,7 @@ from .supervisor.progress import Progress
 
 NO_DESCRIPTION = "there is no robot description in {}"
 OTHER_FILES = {DESCRIPTION_UNKNOWN, FILE_WITHOUT_OBJECTS, XML_ENTITIES}
+MASS_UNITS = {"kg": 1.0, "g": 1e-3, "t": 1e3, "lb": 0.45359237}
 _EPILOG = """\
 FILE is URDF, SDF, MJCF, USD or xacro; of a folder, all such files but xacro and .usdc are audited.
 USD that is binary or refers to other files needs the Python module usd-core, and xacro the module
@@ -107,6 +110,19 @@ def parse(argv: list[str]) -> argparse.Namespace:
         help="write the present findings, for --baseline",
     )
     add(
+        "--joint",
+        action="append",
+        type=_joint_value,
+        default=[],
+        metavar="NAME=VALUE",
+        help="position of a joint for the totals, radians or meters (0; MJCF: ref); repeatable",
+    )
+    add("--expect-mass", type=_mass, metavar="KG", help="total mass; kg, or with the unit g, lb, t")
+    add("--expect-center", type=option_types.triple, metavar="X,Y,Z",
+        help="center of mass of the whole model, m")  # fmt: skip
+    add("--within", type=_part, default=0.01, metavar="PERCENT",
+        help="tolerance of both, the center's per radius of gyration (1%%)")  # fmt: skip
+    add(
         "--jobs",
         type=option_types.count,
         default=1,
@@ -136,6 +152,29 @@ def parse(argv: list[str]) -> argparse.Namespace:
         _check_repair(options, parser)
     output.check_targets(options, [*options.names], parser.error)
     return options
+
+
+def _joint_value(text: str) -> tuple[str, float]:
+    """Return the name and the position of a joint."""
+    name, _, value = text.rpartition("=")
+    if not name:
+        raise argparse.ArgumentTypeError("{!r} is not NAME=VALUE".format(text))
+    return name, option_types.number(value)
+
+
+def _mass(text: str) -> float:
+    """Return a positive mass in kg."""
+    match = re.fullmatch(r"(.*?)\s*({})?".format("|".join(MASS_UNITS)), text.strip())
+    if match is None or not match[1]:
+        raise argparse.ArgumentTypeError("{!r} is not a mass".format(text))
+    return option_types.positive(match[1]) * MASS_UNITS[match[2] or "kg"]
+
+
+def _part(text: str) -> float:
+    """Return a positive percentage as a fraction."""
+    if not text.endswith("%"):
+        raise argparse.ArgumentTypeError("{!r} is not a percentage, such as 1%".format(text))
+    return option_types.positive(text[:-1]) / 100.0
 
 
 def _check_repair(options: argparse.Namespace, parser: Parser) -> None:
@@ -222,7 +261,9 @@ def _audit_file(task: tuple[Path, Path, argparse.Namespace]) -> dict[str, Any]:
     path, name, options = task
     try:
         roots = Roots.for_file(path, options.root, options.allow_outside)
-        audit = Auditor(roots).audit(read_description(path, roots))
+        expected = Expectation(options.expect_mass, options.expect_center, options.within)
+        auditor = Auditor(roots, dict(options.joint), expected)
+        audit = auditor.audit(read_description(path, roots))
         document = audit_report.document(str(path), audit, _write_copy(name, audit, options))
     except MeasureError as error:
         return audit_report.failed_document(str(path), error.finding)

@@ -35,8 +35,9 @@ def unknown_codes(codes: Iterable[str]) -> list[str]:
 
 def apply(document: dict[str, Any], options: Namespace) -> dict[str, Any]:
     """Return the document of a file after `--ignore`, `--light-links` and `--baseline`."""
+    whole = {"name": "", "mass": None, "findings": document["findings"]}
     links = []
-    for link in document["links"]:
+    for link in [whole, *document["links"]]:
         is_light = (
             options.light_links and link["mass"] is not None and link["mass"] <= options.light_links
         )
@@ -50,7 +51,8 @@ def apply(document: dict[str, Any], options: Namespace) -> dict[str, Any]:
                 found = found | {"known": True}
             findings.append(found)
         links.append(link | {"findings": findings})
-    return audit_report.with_status(document | {"links": links})
+    whole, *links = links
+    return audit_report.with_status(document | {"findings": whole["findings"], "links": links})
 
 
 def fails(documents: Iterable[dict[str, Any]], level: str) -> bool:
@@ -80,7 +82,11 @@ def write_baseline(path: Path, documents: Sequence[dict[str, Any]]) -> None:
 
     Raises OSError.
     """
-    links = [link for one in documents for link in one["links"]]
+    links = [
+        link
+        for one in documents
+        for link in [{"name": "", "findings": one["findings"]}, *one["links"]]
+    ]
     told = [
         (found, link)
         for link in links

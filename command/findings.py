@@ -68,6 +68,10 @@ ASSETS_NOT_MEASURED = warning(
     "as an object or "
     "collection: {names}. --all measures what is not rendered.",
 )
+MEASURED_AS_SHELL = note(
+    "measured_as_shell",
+    "The surface encloses no volume. For its cut and fill it was measured as a thin shell.",
+)
 PART_UNAVAILABLE = error("part_unavailable", "No {part}: {cause}")
 OPTIONS_UNUSED = warning(
     "options_unused",

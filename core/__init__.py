@@ -10,6 +10,7 @@ names that most uses need:
     Surface                                  triangles and quads over shared points
     measure_solid, polyhedron_moments        the body in a surface, repaired on a copy; its moments
                                              to any order
+    below                                    the part of a body below planes
     grid_moments, read_scan                  densities sampled on a grid; files of samples
     Moments, MassProperties                  raw moments; mass, center, inertia and principal
                                              moments
@@ -48,6 +49,7 @@ The packages, each with its own public names in its `__init__` (none imports a l
     wall         walls of real thickness
     statics      support polygons, resting poses; derivatives by every vertex, the least change that
                  moves the center
+    cuts         parts of bodies below planes; cut and fill; the hollow of a vessel
     cad          B-spline surfaces of IGES and .obj files, with Blender's knots
     measurement  `Measurement`, all results of one measured object
     robots       links, joints and inertials; their formats; the audit of inertials by geometry
@@ -65,6 +67,7 @@ __getattr__, __dir__, __all__ = lazy_names(
     MeasureError="verdict",
     Moments="moments",
     Surface="mesh",
+    below="cuts",
     grid_moments="density",
     mass_properties="measurement",
     measure_solid="solid",

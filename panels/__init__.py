@@ -16,10 +16,11 @@ MODULES = (
         "density",
         "colliders",
         "statics",
+        "floating",
         "selection",
         "assembly",
         "rig",
     ),
-    *("advanced", "section", "shape"),
+    *("advanced", "section", "cuts", "shape"),
     "overlay.draw",
 )

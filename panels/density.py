@@ -220,6 +220,9 @@ def _grid_settings(layout: UILayout, settings: PropertyGroup) -> bool:
     grid_as = common(settings, "grid_as")
     if grid_as in (None, "SOLID"):
         return False
+    if grid_as == "LABEL":
+        rows.setting(column, settings, "label")
+        return False
     if grid_as == "THRESHOLD":
         rows.setting(column, settings, "threshold")
         rows.setting(column, settings, "threshold_fill", expand=True)

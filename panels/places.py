@@ -30,6 +30,7 @@ ORDER = (
     "selection",
     "stability",
     "colliders",
+    "floating",
     "assembly",
     "bones",
     "section",

@@ -24,13 +24,14 @@ from ...core.bodies import (
     Samples,
     ThresholdGrid,
     density_body,
+    label_body,
     threshold_grid_body,
     to_si,
 )
-from ...core.density import Blocks, GridOptions, sample_positions
+from ...core.density import Blocks, GridOptions, sample_positions, sum_labels
 from ...core.measurement import Body, Settings
 from ...core.moments import KNOWN_ORDER, affine_matrices
-from ...core.scans import AXES, Positions
+from ...core.scans import AXES, LABEL_ABSENT, Positions
 from ...core.verdict import Method, Source
 from ...core.verdict.finding import ReadError, finding
 from ..read.findings import GRID_UNSUPPORTED, IS_LEVEL_SET
@@ -84,6 +85,9 @@ def _grid_body(reading: VolumeReading, options: GridOptions, settings: Settings)
     if options.threshold is not None:
         options.needs_even_samples(reading.grid)
         return threshold_grid_body(threshold_grid(reading, unit), options, order=order)
+    if options.label is not None:
+        options.needs_even_samples(reading.grid)
+        return _label(reading, options.label, unit)
     if options.solid:
         return _solid(reading, unit, settings.threads)
     if reading.level_set:
@@ -108,6 +112,17 @@ def _grid_body(reading: VolumeReading, options: GridOptions, settings: Settings)
         positions=positions,
     )
     return density_body(samples, findings, order=order)
+
+
+def _label(reading: VolumeReading, label: int, unit: float) -> Body:
+    """Return the body of the voxels of a label, or for 0 of all labels but 0."""
+    sums = sum_labels(reading.blocks)
+    chosen = [row for own, row in sums.items() if own == label or label == 0 != own]
+    if not chosen:
+        values = {"labels": [label], "others": sorted(sums.keys() - {0}), "remedy": "Label"}
+        raise ReadError(LABEL_ABSENT, file=reading.grid, **values)
+    matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object
+    return label_body(np.sum(chosen, axis=0), matrix @ affine_matrices(np.eye(3), reading.low))
 
 
 def _whole_axes(reading: VolumeReading, positions: Positions) -> Blocks:

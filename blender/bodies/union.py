@@ -20,7 +20,7 @@ from ...core.bodies import MeshBody
 from ...core.mesh import Surface, join_surfaces, overlapping_box_pairs
 from ...core.numerics import Array, Index
 from ...core.polyhedron import volume_and_center
-from ...core.solid import CAVITIES_BREAK_THROUGH, NON_MANIFOLD_COMPONENTS
+from ...core.solid import CAVITIES_BREAK_THROUGH, NON_MANIFOLD_COMPONENTS, measure_solid
 from ...core.verdict import Intersection, Procedure
 from ..read.mesh import mesh_surface
 
@@ -148,7 +148,31 @@ def _unit_cube(surface: Surface) -> tuple[Array, float]:
     return (low + high) / 2.0, 2.0 ** float(np.ceil(np.log2((high - low).max() / 2.0)))
 
 
-def _evaluate(body: Part, operands: Sequence[Part], solver: str) -> Surface:
+def subtract(body: Surface, cutters: Sequence[Surface]) -> Surface | None:
+    """Return the surface of a body without the space inside cutters, or None if the Boolean
+    fails; without triangles if nothing is left. All must be closed.
+    """
+    middle, scale = _unit_cube(join_surfaces([body, *cutters]))
+    first, *operands = (
+        ((surface.points - middle) / scale, surface.all_triangles()[0])
+        for surface in (body, *cutters)
+    )
+    left = _evaluate(first, operands, "EXACT", "DIFFERENCE")
+    if not left.triangle_count:
+        return left
+    left = left.transform(scale * np.eye(3), middle)
+    left = replace(left, displacement=2.0 * left.coordinate_error + body.coordinate_error)
+    solid = measure_solid(left)
+    before = volume_and_center(body)[0]
+    least = before - sum(volume_and_center(cutter)[0] for cutter in cutters)
+    slack = VOLUME_RTOL * before
+    is_right = least - slack <= solid.volume.total <= before + slack
+    return left if is_right and solid.method == Procedure.EXACT else None
+
+
+def _evaluate(
+    body: Part, operands: Sequence[Part], solver: str, operation: str = "UNION"
+) -> Surface:
     """Return the surface of Blender's Boolean of a body with itself or with operands."""
     made = []
     try:
@@ -170,12 +194,12 @@ def _evaluate(body: Part, operands: Sequence[Part], solver: str) -> Surface:
             (collection if index else scene.collection).objects.link(obj)
         obj = scene.collection.objects[0]
         boolean = obj.modifiers.new("", "BOOLEAN")
-        boolean.operation = "UNION"
+        boolean.operation = operation
         boolean.solver = solver
         boolean.operand_type = "COLLECTION"
         # With no operand the solver Exact still unites the object with itself.
         boolean.collection = collection
-        boolean.use_self = solver == "EXACT"
+        boolean.use_self = solver == "EXACT" and not operands
         scene.view_layers[0].update()
         evaluated = obj.evaluated_get(scene.view_layers[0].depsgraph)
         united = mesh_surface(evaluated.to_mesh(), edges=False)

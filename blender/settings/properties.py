@@ -50,6 +50,7 @@ COPIED_PROPERTIES = (
         "grid_as",
         "threshold",
         "threshold_fill",
+        "label",
         "values_from",
         "value_density",
         "transfer_table",
@@ -229,6 +230,13 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
             "Threshold",
             "The body where the values, linear between voxels, are at least a threshold",
         ),
+        ("LABEL", "Label", "The values are numbers of regions: the voxels of one, or of all"),
+    )
+    label: IntProperty(
+        name="Label",
+        description="Number of the region to measure. 0: all regions, the voxels that are not 0",
+        default=0,
+        update=changed,
     )
     threshold: FloatProperty(
         name="Threshold",

@@ -63,6 +63,17 @@ class BodyMomentsOverlaySettings(PropertyGroup):
         "stability was computed",
         default=True,
     )
+    show_level: BoolProperty(
+        name="Levels",
+        description="Draw the surfaces of liquids in vessels whose level was computed",
+        default=True,
+    )
+    show_waterline: BoolProperty(
+        name="Waterline",
+        description="Draw the waterline of floating objects, and their centers of buoyancy (B) and "
+        "gravity (G) and metacenter (M)",
+        default=True,
+    )
     show_path: BoolProperty(
         name="Path of Centers",
         description="Draw the path of the center of mass that was computed over the frame range",

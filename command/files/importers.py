@@ -8,18 +8,32 @@ Blender has none for .3mf and IGES; that of .obj leaves out ``surf``.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
 import bpy
 import numpy as np
 from mathutils import Matrix
+from numpy.typing import NDArray
 
+from ...blender.bodies.union import subtract
 from ...blender.scene.imports import show_bodies
 from ...core.cad import FACES_NOT_READ, SurfaceFile, has_surfaces, read_surfaces
 from ...core.files import file_limits
+from ...core.mesh import Surface
 from ...core.polyhedron import box_center
-from ...core.streams import KINDS, FileMesh, Placed, box_of_blocks, read_3mf
+from ...core.solid import measure_solid
+from ...core.streams import (
+    KINDS,
+    NEGATIVE_PARTS_CUT,
+    NEGATIVE_PARTS_UNFIT,
+    FileMesh,
+    Placed,
+    box_of_blocks,
+    read_3mf,
+)
+from ...core.verdict import Procedure
 from ...core.verdict.finding import FileError, Finding, finding
 from ..findings import FILE_HIDES
 from .references import Opened
@@ -80,11 +94,17 @@ def import_3mf(path: str) -> Opened:
     hidden: dict[str, Finding] = {}
     bpy.context.scene.unit_settings.scale_length = unit
     meshes: dict[tuple[str, str], bpy.types.Mesh] = {}
-    for one in placed:
+    errors: list[Finding] = []
+    notes: dict[str, tuple[Finding, ...]] = {}
+    for one, negative in _without_negative_parts(placed, errors):
         if one.key not in meshes:
             meshes[one.key] = _mesh(one)
         obj = bpy.data.objects.new(one.name, meshes[one.key])
         bpy.context.scene.collection.objects.link(obj)
+        if "density" in one.print_settings:
+            obj.body_moments.density = one.print_settings["density"]
+        if negative:
+            notes[obj.name] = (finding(NEGATIVE_PARTS_CUT, names=negative),)
         if one.hidden:
             obj.hide_render = True
             hidden[obj.name] = finding(FILE_HIDES, cause=one.hidden)
@@ -98,7 +118,45 @@ def import_3mf(path: str) -> Opened:
                 replace(one, points=one.points @ one.matrix[:3, :3].T + one.matrix[:3, 3])
             )
     bpy.context.view_layer.update()
-    return Opened(hidden=hidden)
+    return Opened(tuple(errors), by_object=notes, hidden=hidden)
+
+
+def _without_negative_parts(
+    placed: list[Placed], errors: list[Finding]
+) -> Iterator[tuple[Placed, list[str]]]:
+    """Yield the meshes with negative parts cut away, and the names of these; a mesh that cannot be
+    cut is left out, with an error.
+    """
+    for number, one in enumerate(placed):
+        if one.is_negative:
+            yield replace(one, hidden=one.hidden or "it is cut away from the other parts"), []
+            continue
+        cutters = [part for part in placed if part.is_negative and part.item == one.item]
+        cutters = [part for part in cutters if not part.hidden]
+        if one.hidden or not cutters:
+            yield one, []
+            continue
+        names = [cutter.name for cutter in cutters]
+        inverse = np.linalg.inv(one.matrix)
+        surfaces = [_closed_surface(part, inverse @ part.matrix) for part in (one, *cutters)]
+        closed = [surface for surface in surfaces if surface is not None]
+        left = subtract(closed[0], closed[1:]) if len(closed) == len(surfaces) else None
+        if left is not None and left.triangle_count:
+            triangles = left.all_triangles()[0].astype(np.int64)
+            yield replace(one, key=(number,), points=left.points, triangles=triangles), names
+            continue
+        cause = "they cover all of it"
+        if left is None:
+            cause = "the surfaces are not closed, or Blender's Boolean fails with them"
+        errors.append(finding(NEGATIVE_PARTS_UNFIT, names=names, object=one.name, cause=cause))
+
+
+def _closed_surface(part: Placed, matrix: NDArray) -> Surface | None:
+    """Return a part in its place with faces outward, or None if it is not closed."""
+    surface = Surface.from_triangles(part.points, part.triangles)
+    solid = measure_solid(surface.transform(matrix[:3, :3], matrix[:3, 3]))
+    is_closed = solid.method in (Procedure.EXACT, Procedure.REORIENTED)
+    return solid.repaired_surface if is_closed else None
 
 
 def _mesh(one: Placed) -> bpy.types.Mesh:

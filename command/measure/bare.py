@@ -22,8 +22,10 @@ from ...core.bodies import (
     DENSITY_DEFAULTED,
     SHAPE_OF_GRID,
     ArrayOptions,
+    about_file,
     body_of_mesh,
     measure_array,
+    measure_labels,
     measure_mesh_file,
     measure_reading,
     read_mesh,
@@ -32,6 +34,7 @@ from ...core.cad import has_surfaces, read_meshes
 from ...core.files import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...core.measurement import Measurement, Settings, record
 from ...core.robots import FORMATS as ROBOT_FORMATS
+from ...core.scans import LABEL_ABSENT, Label, read_label_table
 from ...core.scans import formats as scans
 from ...core.streams import FileMesh
 from ...core.verdict import open_body_caveats
@@ -45,12 +48,22 @@ from ...core.verdict.finding import (
 )
 from .. import measure
 from ..files.suffixes import STREAMED, check_file, file_suffix
-from ..findings import FOURIER_OBJECT_COUNT, NEEDS_BLEND, RESULTS_NOT_STORED, STREAM_OPTIONS
+from ..findings import (
+    FOURIER_OBJECT_COUNT,
+    MEASURED_AS_SHELL,
+    NEEDS_BLEND,
+    OPTIONS_UNUSED,
+    RESULTS_NOT_STORED,
+    STREAM_OPTIONS,
+    UNIT_ASSUMED,
+)
 from ..options.arguments import NEEDS_BLENDER, boolean_and_wire, options_of_blender, words
 from ..options.checks import OF_ARRAYS, body_findings, density_of, file_findings, unused
 from ..supervisor.listing import UNITLESS
 from ..supervisor.processes import has_blender
+from .cuts import cut_entries, is_open_sheet
 from .entries import Contents, failure
+from .floating import floating_entry
 
 BYTES_PER_FACE = 500  # approximate memory for reading and measuring a mesh
 # Least bytes for each face: a file's size limits its faces.
@@ -59,7 +72,8 @@ BYTES_OF_FILE = {
     ".ply": 19,
 }
 DEFAULT_DENSITY = 1000.0  # kg/m³
-_NOT_OF_STREAMS = ("wall", "polynomial", "density_from", "fourier")
+DEFAULT_THICKNESS = 0.001  # m, as of an object
+_NOT_OF_STREAMS = ("wall", "polynomial", "density_from", "fourier", "below", "against", "float")
 
 
 class BareFile:
@@ -152,6 +166,9 @@ class BareFile:
         """Measure the samples of a file, or its faces in blocks."""
         is_scan = self._is_scan
         name = os.path.basename(self._path)[: -len(file_suffix(self._path))]
+        if is_scan and self.options.label is not None:
+            self._measure_labels(name, contents)
+            return
         is_chosen = self._chosen([name], contents)
         if is_scan and self.options.fourier:
             contents.errors.append(failure(None, finding(FOURIER_OBJECT_COUNT, count=0)))
@@ -168,14 +185,44 @@ class BareFile:
         more = dict.fromkeys([*requested, *["thumbnail"] * bool(self.options.thumbnails)])
         self._add(contents, measurement, shapeless, more)
 
+    def _measure_labels(self, name: str, contents: Contents) -> None:
+        """Measure the labels of a label map, each with a record of its own."""
+        options = self.options
+        settings, findings = self._mesh_settings()
+        table = {}
+        if options.label_table is not None:
+            with about_file(options.label_table.name):
+                table = read_label_table(options.label_table, options.limits)
+        wanted = None if options.label == "all" else [options.label]
+        array = self._array_options()
+        measured = measure_labels(
+            self._path, name, array, replace(settings, unit=1.0), wanted, table
+        )
+        absent = [more["label"]["value"] for _, more in measured]
+        absent = [label for label in absent if label not in table]
+        if options.label_table is not None and absent:
+            values = {"labels": absent, "others": sorted(table), "remedy": "--label-table"}
+            raise FileError(LABEL_ABSENT, file=options.label_table.name, **values)
+        findings = [one for one in findings if one.code not in (UNIT_ASSUMED, OPTIONS_UNUSED)]
+        requested = ("spline_order", "density_scale", "pose", "signature", "fourier")
+        findings += unused(one for one in requested if getattr(options, one))
+        chosen = self._chosen([one.name for one, _ in measured], contents)
+        for one, more in measured:
+            density = table.get(more["label"]["value"], Label()).density
+            own = [each for each in findings if density is None or each.code != DENSITY_DEFAULTED]
+            if one.name in chosen:
+                self._add(contents, one, own, more)
+
     def _measure_array(self, name: str, progress: Callable[[int], None]) -> Measurement:
+        return measure_array(self._path, name, self._array_options(), self._settings(), progress)
+
+    def _array_options(self) -> ArrayOptions:
         taken = {
             one: getattr(self.options, one)
             for one in (*OF_ARRAYS, "unit_scale", "limits", "threshold")
         }
         taken["positions"] = dict(self.options.positions or ())
-        array = ArrayOptions(**{one: value for one, value in taken.items() if value is not None})
-        return measure_array(self._path, name, array, self._settings(), progress)
+        return ArrayOptions(**{one: value for one, value in taken.items() if value is not None})
 
     def _measure_stream(self, name: str, progress: Callable[[int], None]) -> Measurement:
         check_file(self._path)
@@ -207,9 +254,21 @@ class BareFile:
                 continue
             try:
                 reading = read_mesh(mesh, upright)
-                body = body_of_mesh(reading, settings)
-                measurement = measure_reading(reading, body, settings)
-                more = {}
+                try:
+                    body = body_of_mesh(reading, settings)
+                    measurement = measure_reading(reading, body, settings)
+                    sheet = []
+                except MeasureError as refusal:
+                    if not is_open_sheet(refusal, self.options):
+                        raise
+                    thickness = self.options.thickness or DEFAULT_THICKNESS
+                    shell = replace(settings, kind="shell", thickness=thickness)
+                    body = body_of_mesh(reading, shell)
+                    measurement = measure_reading(reading, body, shell)
+                    sheet = [finding(MEASURED_AS_SHELL)]
+                more, of_liquid = {}, ()
+                if self.options.float:
+                    more, of_liquid = floating_entry(body, measurement, self.options, contents)
                 if self.options.thumbnails:
                     surface = reading.join()
                     properties = measurement.mass_properties
@@ -218,7 +277,10 @@ class BareFile:
                     more["thumbnail"] = thumbnail(
                         points, triangles, properties.center, properties.principal.axes
                     )
-                self._add(contents, measurement, findings, more)
+                cuts, of_cuts = cut_entries(measurement, body, self.options, contents)
+                self._add(
+                    contents, measurement, (*findings, *sheet, *of_liquid, *of_cuts), more | cuts
+                )
             except MeasureError as refusal:
                 contents.errors.append(failure(mesh.name, refusal.finding))
 

@@ -59,6 +59,7 @@ def measured_together(
         return None
     if (
         options.threshold is not None
+        or options.label is not None
         or options.polynomial is not None
         or options.density_from is not None
     ):
@@ -252,7 +253,7 @@ def other_scenes(scene: bpy.types.Scene) -> Iterator[Finding]:
 
 
 def set_density(obj: bpy.types.Object, options: Namespace) -> None:
-    """Set the source of the object's density and the threshold of its grid, if given.
+    """Set the source of the object's density and the threshold or label of its grid, if given.
 
     Raises MeasureError.
 
@@ -262,6 +263,9 @@ def set_density(obj: bpy.types.Object, options: Namespace) -> None:
     if options.threshold is not None and obj.type == "VOLUME":
         settings.grid_as = "THRESHOLD"
         settings.threshold = options.threshold
+    if options.label is not None and obj.type == "VOLUME":
+        settings.grid_as = "LABEL"
+        settings.label = 0 if options.label == "all" else options.label
     if options.polynomial is not None:
         settings.mass_from = "DENSITY"
         settings.density_from = "POLYNOMIAL"

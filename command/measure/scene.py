@@ -15,13 +15,17 @@ from typing import Any
 import bpy
 
 from ...blender import session
+from ...blender.bodies.cuts import cut_fill_against
 from ...blender.bodies.flat.flat import NO_BODY
+from ...blender.bodies.measure_body import measure_body
 from ...blender.bodies.overlaps import overlap_caveats
 from ...blender.bodies.stack import Measured
 from ...blender.read.assembly import operands_of, total_caveats
 from ...blender.read.places import place_error
 from ...blender.read.tracking import tracking_paused
 from ...blender.scale import meters_per_unit
+from ...blender.scene.rigid_world import down
+from ...blender.session.findings import NO_SUCH_NAME
 from ...blender.session.tracking.staleness import mark_up_to_date
 from ...blender.settings import properties as settings
 from ...blender.settings.density import unset_density
@@ -30,10 +34,19 @@ from ...blender.settings.options import MeasureOptions
 from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...blender.write.properties import store
 from ...core.bodies import DENSITY_DEFAULTED
+from ...core.cuts import CutFill
 from ...core.files import FILE_UNREADABLE
 from ...core.measurement import Measurement, record
+from ...core.mesh import Surface
 from ...core.verdict import open_body_caveats
-from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
+from ...core.verdict.finding import (
+    FileError,
+    Finding,
+    MeasureError,
+    QueryError,
+    finding,
+    system_reason,
+)
 from ..files.files import newer_version, open_file, requested_file
 from ..files.placing import measure_at
 from ..files.references import Opened, blocked_scripts, missing_links, scripts_of_open_file
@@ -41,6 +54,7 @@ from ..files.saving import Place, write_assets
 from ..files.suffixes import file_suffix
 from ..findings import (
     FOURIER_OBJECT_COUNT,
+    MEASURED_AS_SHELL,
     NEEDS_BLEND,
     PART_UNAVAILABLE,
     RESULTS_NOT_STORED,
@@ -50,7 +64,9 @@ from ..options.checks import body_findings, density_of, file_findings, is_unitle
 from ..supervisor.listing import BLEND
 from . import robots
 from .combined import Combined, measure_combined
+from .cuts import cut_entries, is_open_sheet
 from .entries import Contents, failure
+from .floating import floating_entry
 from .measuring import (
     measure_shape,
     measured_together,
@@ -212,6 +228,7 @@ class Scene:
         measured by itself. findings: about the object's file.
         """
         order = self.options.order
+        wanted = self._wanted
         set_density(obj, self.options)
         try:
             measurement, more, of_shape = (
@@ -226,12 +243,18 @@ class Scene:
                     record_of_flat(label, obj, self.options, unit, refusal, findings)
                 )
                 return
-            if order is None:
+            if is_open_sheet(refusal, self.options):
+                wanted = replace(wanted, kind="shell")
+                measurement, more, of_shape = measure_shape(obj, self.options, wanted)
+                of_shape = (*of_shape, finding(MEASURED_AS_SHELL))
+            elif order is None:
                 raise
-            lower = replace(self._wanted, order=None)
-            measurement, more, of_shape = measure_shape(obj, self.options, lower)
-            contents.errors.append(failure(label, _unavailable("moments of this order", refusal)))
-            order = None
+            else:
+                lower = replace(wanted, order=None)
+                measurement, more, of_shape = measure_shape(obj, self.options, lower)
+                lost = _unavailable("moments of this order", refusal)
+                contents.errors.append(failure(label, lost))
+                order = None
         surface = (
             measurement.area_moments if self.options.surface_moments and order is not None else None
         )
@@ -247,6 +270,32 @@ class Scene:
             else None
         )
         more |= {} if colliders is None else {"colliders": colliders}
+        if self.options.below is not None or self.options.against is not None:
+            depsgraph = bpy.context.evaluated_depsgraph_get()
+            unit = self._wanted.unit_scale or meters_per_unit(bpy.context.scene)
+
+            def against_object(name: str, surface: Surface) -> CutFill:
+                other = bpy.context.scene.objects.get(name)
+                if other is None:
+                    raise QueryError(NO_SUCH_NAME, kind="object", name=name)
+                return cut_fill_against(other, surface, depsgraph, unit)
+
+            cuts, of_cuts = cut_entries(
+                named,
+                measure_body(obj, depsgraph, wanted).body,
+                self.options,
+                contents,
+                against_object,
+            )
+            more |= cuts
+            named = replace(named, findings=(*named.findings, *of_cuts))
+        if self.options.float:
+            depsgraph = bpy.context.evaluated_depsgraph_get()
+            body = measure_body(obj, depsgraph, self._wanted).body
+            up = -down(bpy.context.scene)
+            floating, of_liquid = floating_entry(body, named, self.options, contents, up)
+            more |= floating
+            named = replace(named, findings=(*named.findings, *of_liquid))
         if self.options.thumbnails:
             more["thumbnail"] = thumbnail_of(obj, measurement, self._wanted.unit_scale)
         entry = record.record(named, self.options.frame, order, surface, more, self.options.about)

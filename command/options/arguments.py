@@ -47,6 +47,7 @@ _ROOT = __name__.removesuffix(".command.options.arguments")
 ONE_FILE = "argument --format: {} takes one FILE, as a robot is one file"
 ONE_OBJECT = "argument --fourier: takes one object of one FILE"
 NEEDS_BLENDER = "{} Blender: add --blender PATH, or install the bpy module"
+RIM = "rim"
 _OF_OBJECTS = ("polynomial", "density_from", "fourier", "flat", "pose", "signature")
 
 
@@ -98,7 +99,10 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
         fail("argument --at-frame: a file keeps only results at its own frame")
     if options.resume and options.output is None:
         fail("argument --resume: needs the --output of the run to go on with")
+    if options.gz is not None and options.float is None:
+        fail("argument --gz: needs --float LIQUID")
     _check_fourier(options)
+    _check_labels(options)
     axes = [axis for axis, _ in options.positions or ()]
     if len(set(axes)) < len(axes):
         fail("--positions names an axis twice: {}".format(", ".join(axes)))
@@ -159,7 +163,16 @@ def files_of_options(
     name.
     """
     positions = (path for _, path in options.positions or ())
-    return [path for path in (*files, opened, options.q, *positions) if path]
+    named = options.q, options.label_table
+    return [path for path in (*files, opened, *named, *positions) if path]
+
+
+def _check_labels(options: argparse.Namespace) -> None:
+    """End with a message if the options of label maps do not go together."""
+    if options.label is not None and options.threshold is not None:
+        fail("arguments --label and --threshold exclude each other")
+    if options.label_table is not None and options.label is None:
+        fail("argument --label-table: needs --label N or --label all")
 
 
 def _check_fourier(options: argparse.Namespace) -> None:
@@ -208,7 +221,7 @@ def join_negative_values(argv: list[str]) -> list[str]:
     for word in argv:
         if (
             joined
-            and joined[-1] in {"--origin", "--spacing", "--about"}
+            and joined[-1] in {"--origin", "--spacing", "--about", "--below", "--against"}
             and word[:2].strip("0123456789.") == "-"
         ):
             joined[-1] += "=" + word
@@ -222,8 +235,10 @@ def options_of_blender(options: argparse.Namespace, is_scan: bool) -> list[str]:
     robot = ["format"] * (options.format in ROBOT_FORMATS)
     if is_scan:
         return robot
+    names_object = isinstance(options.against, str) and options.against != RIM
     return [
         *(name for name in _OF_OBJECTS if getattr(options, name)),
+        *["against"] * names_object,
         *boolean_and_wire(options),
         *robot,
     ]

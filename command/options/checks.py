@@ -93,7 +93,7 @@ def file_findings(path: str | None, options: Namespace) -> Iterator[Finding]:
     """Yield findings if the unit of a mesh file was assumed, or options for other kinds of files
     are unused.
     """
-    names = OF_ARRAYS if is_unitless(path) else (*OF_ARRAYS, "unit_scale")
+    names = [*OF_ARRAYS, "label_table", *([] if is_unitless(path) else ["unit_scale"])]
     if is_unitless(path) and options.unit_scale is None:
         yield finding(UNIT_ASSUMED)
     yield from unused(name for name in names if getattr(options, name) is not None)
@@ -104,6 +104,7 @@ def body_findings(options: Namespace, measurement: Measurement) -> Iterator[Find
     applies = {
         "thickness": measurement.kind == "shell",
         "threshold": measurement.type in ("ARRAY", "VOLUME"),
+        "label": measurement.type in ("ARRAY", "VOLUME"),
     }
     yield from unused(
         name for name in applies if getattr(options, name) is not None and not applies[name]

@@ -151,6 +151,22 @@ def _add_of_files(parser: Parser) -> None:
         "--density or "
         "--material, or with the values' own density (all of the grid)",
     )
+    parser.value(
+        "--label",
+        types.label,
+        "N|all",
+        "arrays and scans that are label maps: a record for label N, or for each label but 0, "
+        "filled with --density, --material or the densities of --label-table. Volume objects: "
+        "label N, or all labels but 0 as one body (all of the grid)",
+    )
+    parser.value(
+        "--label-table",
+        Path,
+        "FILE",
+        "with --label: names, colors and densities in kg/m³ of all its labels: .csv with columns "
+        "label, name, density, r, g, b, or .txt as ITK-SNAP or FreeSurfer write it (the header's "
+        "names)",
+    )
     parser.choice(
         "--stream",
         ("auto", "always", "never"),
@@ -212,6 +228,32 @@ def _add_results(parser: Parser) -> None:
         "from 0 to N - 1",
     )
     parser.value("--qmax", types.positive, "Q", "the largest along each axis of the grid, in rad/m")
+    parser.value(
+        "--below",
+        types.number,
+        "Z",
+        "add the part of each solid below this height, in meters, and its cut face",
+    )
+    parser.value(
+        "--against",
+        types.against,
+        "Z|OBJECT|rim",
+        "add cut and fill of each open surface against a height, against an object's plane or "
+        "surface, or against the plane through its rim",
+    )
+    parser.value(
+        "--float",
+        types.liquid,
+        "LIQUID",
+        "add where each body floats: in a liquid of the panel's list, such as Water or "
+        "“Sea Water”, or of a density in kg/m³",
+    )
+    parser.value(
+        "--gz",
+        types.heel_angles,
+        "A:B:STEP",
+        "with --float, add righting arms at these angles of heel, in degrees",
+    )
     parser.flag("--pose", "add the pose that is the body's own, and its symmetry")
     parser.flag("--signature", "add the numbers by which `similar` finds the shape again")
     parser.flag(
@@ -239,6 +281,12 @@ def _add_results(parser: Parser) -> None:
         "--fixed-base",
         robots + "fix links without a parent to the world (passive rigid bodies alone)",
     )
+    parser.flag(
+        "--merge-fixed",
+        robots + "put links on fixed joints into their parents; needed frames stay without mass",
+    )
+    text = robots + "the files of meshes, besides usd and gltf (stl)"
+    parser.choice("--mesh-format", ("obj", "stl"), text, default="stl")
     parser.value("--output", Path, "PATH", "(standard output)")
     parser.flag(
         "--force",

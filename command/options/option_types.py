@@ -12,6 +12,7 @@ from argparse import ArgumentTypeError
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
+from ...core.density import BY_NAME
 from ...core.files import parse_number, parse_whole
 from ...core.measurement import documents
 from ...core.robots import FORMATS as ROBOT_FORMATS
@@ -22,6 +23,7 @@ from ..parser import COMMANDS
 MAX_ORDER = 30
 MAX_SPLINE_ORDER = 16
 MAX_FRAME = 1_048_574  # Blender's limit
+MIN_HEEL_STEP = 0.1  # degrees
 MAX_GRID = 256  # frequencies along an axis: its arrays take a few gigabytes
 ABOUT = ("center", "origin", "world")
 # by source: True if a name follows
@@ -114,6 +116,14 @@ def triple(text: str) -> tuple[float, ...]:
     return values
 
 
+def label(text: str) -> int | str:
+    """Return the number of a label, or “all”."""
+    try:
+        return text if text == "all" else parse_whole(text.strip())
+    except ValueError:
+        raise ArgumentTypeError("{!r} is not a whole number or all".format(text)) from None
+
+
 def spacing(text: str) -> tuple[float, ...]:
     """Return three positive numbers."""
     values = triple(text)
@@ -142,6 +152,14 @@ def about(text: str) -> str | tuple[float, ...]:
     return text if text in ABOUT else triple(text)
 
 
+def against(text: str) -> float | str:
+    """Return a height, or the name of an object, or `rim`."""
+    try:
+        return number(text)
+    except ArgumentTypeError:
+        return text
+
+
 def split_source(text: str) -> tuple[str, str]:
     """Return a source of density, and the name after its colon, or an empty text."""
     source, _, name = text.partition(":")
@@ -158,6 +176,34 @@ def source(text: str) -> str:
             "{!r} is not value, materials, attribute:NAME or volume:NAME".format(text)
         )
     return text
+
+
+def liquid(text: str) -> float:
+    """Return the density of a liquid, kg/m³, from its name or as a number."""
+    if text in BY_NAME:
+        return BY_NAME[text].density
+    value = _float(text)
+    if not (0.0 < value < math.inf):
+        names = [name for name, material in BY_NAME.items() if material.category == "Liquids"]
+        raise ArgumentTypeError(
+            "{!r} is neither a positive number nor one of {}".format(text, "; ".join(names))
+        )
+    return value
+
+
+def heel_angles(text: str) -> tuple[float, ...]:
+    """Return the angles of A:B:STEP, in degrees."""
+    parts = [*map(_float, text.split(":"))]
+    if len(parts) == 3 and all(map(math.isfinite, parts)):
+        first, last, step = parts
+        if -180.0 <= first <= last <= 180.0 and step >= MIN_HEEL_STEP:
+            count = math.floor((last - first) / step + 1e-9) + 1
+            return tuple(first + i * step for i in range(count))
+    raise ArgumentTypeError(
+        "{!r} is not A:B:STEP, angles from -180 to 180 in steps of at least {}".format(
+            text, MIN_HEEL_STEP
+        )
+    )
 
 
 def file_range(text: str) -> tuple[int, int | None]:

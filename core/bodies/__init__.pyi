@@ -6,6 +6,7 @@ from typing import Any
 from .files import ArrayOptions as ArrayOptions
 from .files import body_of_mesh as body_of_mesh
 from .files import measure_array as measure_array
+from .files import measure_labels as measure_labels
 from .files import measure_mesh_file as measure_mesh_file
 from .files import read_mesh as read_mesh
 from .findings import DENSITY_DEFAULTED as DENSITY_DEFAULTED
@@ -29,6 +30,7 @@ from .grid import Samples as Samples
 from .grid import ThresholdGrid as ThresholdGrid
 from .grid import ThresholdGridBody as ThresholdGridBody
 from .grid import density_body as density_body
+from .grid import label_body as label_body
 from .grid import threshold_grid_body as threshold_grid_body
 from .instances import area_of_instances as area_of_instances
 from .instances import each_once as each_once
@@ -49,6 +51,7 @@ from .reading import FaceAttributes as FaceAttributes
 from .reading import Part as Part
 from .reading import Reading as Reading
 from .reading import SplineReading as SplineReading
+from .reading import about_file as about_file
 from .reading import attribute_to_source as attribute_to_source
 from .reading import float64_matrix as float64_matrix
 from .reading import measure_reading as measure_reading

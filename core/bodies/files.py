@@ -6,19 +6,29 @@ densities.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..density import POSITIONS_ONLY_AS_DENSITY, GridOptions
+from ..density import POSITIONS_ONLY_AS_DENSITY, GridOptions, sum_labels
 from ..files import DEFAULT_LIMITS, Limits
 from ..measurement import DENSITY_FROM, NO_VOLUME, Body, Measurement, Settings
 from ..moments import KNOWN_ORDER, Moments, affine_matrices
 from ..numerics import Array
-from ..scans import SCAN_UNSTATED, Scan, place_samples, read_all_positions, read_scan, sample_matrix
+from ..scans import (
+    LABEL_ABSENT,
+    SCAN_UNSTATED,
+    Label,
+    Scan,
+    place_samples,
+    read_all_positions,
+    read_scan,
+    sample_matrix,
+)
 from ..solid import INVERTED_COMPONENTS
 from ..streams import (
     FileMesh,
@@ -34,13 +44,23 @@ from .findings import (
     GIVEN_DENSITY_IGNORED,
     GRID_AS_SHELL,
     GRID_DENSITY,
+    GRID_EMPTY,
     GRID_TOO_LARGE,
     MESH_STREAMED,
     NO_GEOMETRY,
     SAMPLES_POSITIONED,
     STREAMED_OPEN,
 )
-from .grid import MAX_SAMPLES, TRILINEAR, Samples, ThresholdGrid, density_body, threshold_grid_body
+from .grid import (
+    MAX_SAMPLES,
+    TRILINEAR,
+    Samples,
+    ThresholdGrid,
+    density_body,
+    label_body,
+    label_value,
+    threshold_grid_body,
+)
 from .mesh_body import MeshBody, sum_of_instances
 from .reading import Part, Reading, about_file, bare_reading, measure_reading
 from .wall import WallBody, find_walls
@@ -176,6 +196,57 @@ class ArrayOptions:
     positions: Mapping[str, str] = field(default_factory=dict)
 
 
+def measure_labels(
+    path: str,
+    name: str,
+    array: ArrayOptions,
+    settings: Settings,
+    wanted: Sequence[int] | None,
+    table: Mapping[int, Label],
+) -> list[tuple[Measurement, dict[str, Any]]]:
+    """Return the measurement of each label of a file's samples, and its entry `label` of the
+    record.
+
+    wanted: the labels, None for all but 0. table: their names, colors and densities, else those of
+    the header and the settings.
+    """
+    if settings.kind != "solid":
+        raise ReadError(GRID_AS_SHELL, subject=name)
+    if array.positions:
+        raise ReadError(POSITIONS_ONLY_AS_DENSITY, grid=name)
+    with about_file(name):
+        scan = read_scan(path, array.limits)
+        matrix, placing = sample_matrix(scan, array.spacing, array.origin, array.unit_scale)
+        samples, matrix = in_file_order(scan.samples, matrix)
+        sums = {
+            label_value(label, scan.slope, scan.intercept): row
+            for label, row in sum_labels(samples).items()
+        }
+        present = sorted(sums.keys() - {0})
+        chosen = present if wanted is None else [*dict.fromkeys(wanted)]
+        if absent := [label for label in chosen if label not in sums]:
+            values = {"labels": absent, "others": sorted(sums), "remedy": "--label"}
+            raise ReadError(LABEL_ABSENT, file=os.path.basename(path), **values)
+        if not chosen:
+            raise ReadError(GRID_EMPTY)
+        known = {**scan.labels, **table}
+        names = [known.get(label, Label()).name or "{} {}".format(name, label) for label in chosen]
+        measured = []
+        for label, own_name in zip(chosen, names):
+            if names.count(own_name) > 1:
+                own_name = "{} ({})".format(own_name, label)
+            about = known.get(label, Label())
+            own = settings
+            if about.density is not None:
+                own = replace(settings, density=about.density, mass=None)
+            body = label_body(sums[label], matrix, (*scan.findings, *placing))
+            entry: dict[str, Any] = {"value": label, "voxels": int(sums[label][0])}
+            entry |= {"color": [*about.color]} if about.color is not None else {}
+            reading = bare_reading(own_name, "ARRAY")
+            measured.append((measure_reading(reading, body, own), {"label": entry}))
+    return measured
+
+
 def measure_array(
     path: str,
     name: str,
@@ -219,6 +290,12 @@ def measure_array(
         return measure_reading(reading, made, replace(settings, density=density))
 
 
+def in_file_order(samples: NDArray, matrix: Array) -> tuple[NDArray, Array]:
+    """Return samples and their matrix with axes in the order of the file, the slowest first."""
+    slowest = np.argsort([-abs(stride) for stride in samples.strides], kind="stable")
+    return samples.transpose(slowest), matrix @ affine_matrices(np.eye(3)[:, slowest])
+
+
 def _threshold_body(
     name: str,
     scan: Scan,
@@ -243,17 +320,14 @@ def _threshold_body(
     )
     if spline_order > TRILINEAR and scan.samples.size > MAX_SAMPLES:
         raise ReadError(GRID_TOO_LARGE, grid=name, samples=list(scan.samples.shape))
-    # read in the file's order
-    slowest = np.argsort([-abs(stride) for stride in scan.samples.strides], kind="stable")
-    turned = affine_matrices(np.eye(3)[:, slowest])
+    samples, matrix = in_file_order(scan.samples, matrix)
 
     def values(block: NDArray) -> Array:
         progress(block.size)
         return block * scan.slope + scan.intercept
 
-    samples = scan.samples.transpose(slowest)
     body = threshold_grid_body(
-        ThresholdGrid(name, samples, matrix @ turned, None, values),
+        ThresholdGrid(name, samples, matrix, None, values),
         grid,
         order=settings.order or KNOWN_ORDER,
     )

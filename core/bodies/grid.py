@@ -13,12 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..density import (
+    LABELS_UNFIT,
     Blocks,
     GridOptions,
     ThresholdBody,
     density_function,
     empty_background_note,
     grid_moments,
+    label_moments,
     smooth_threshold_body,
     threshold_body,
 )
@@ -270,4 +272,27 @@ def threshold_grid_body(
         estimated=True,
         grid=grid,
         options=options,
+    )
+
+
+def label_value(label: int, slope: float = 1.0, intercept: float = 0.0) -> int:
+    """Return the whole number that a stored label stands for, or raise ReadError."""
+    value = label * slope + intercept
+    if value != round(value):
+        raise ReadError(LABELS_UNFIT, cause="a sample is no whole number")
+    return round(value)
+
+
+def label_body(sums: NDArray, matrix: Array, findings: tuple[Finding, ...] = ()) -> Body:
+    """Return the body of the voxels with these sums over (i, j, k), (20,) whole numbers.
+
+    The voxel (i, j, k) is a box about matrix @ (i, j, k, 1), in meters.
+    """
+    volume = label_moments(sums).transform(matrix)
+    return Body(
+        volume,
+        Moments(np.zeros(1), volume.about, Measure.AREA),
+        MeshHealth(closed=True),
+        Method(Procedure.EXACT, Source.GRID),
+        (*findings, finding(GRID_WITHOUT_SURFACE)),
     )

@@ -4,12 +4,15 @@
 from typing import Any
 
 from .findings import GRID_TRANSFORM_SINGULAR as GRID_TRANSFORM_SINGULAR
+from .findings import LABELS_UNFIT as LABELS_UNFIT
 from .findings import POSITIONS_ONLY_AS_DENSITY as POSITIONS_ONLY_AS_DENSITY
 from .grid_options import GridOptions as GridOptions
 from .grid_values import density_function as density_function
 from .grid_values import empty_background_note as empty_background_note
 from .grid_values import positions_text as positions_text
 from .grid_values import sample_positions as sample_positions
+from .label_sums import label_moments as label_moments
+from .label_sums import sum_labels as sum_labels
 from .materials import BY_NAME as BY_NAME
 from .materials import CATEGORIES as CATEGORIES
 from .materials import CT_DENSITIES as CT_DENSITIES
@@ -40,6 +43,7 @@ from .voxel_fill import inside_moments as inside_moments
 __all__ = [
     "MATERIALS",
     "grid_moments",
+    "sum_labels",
     "threshold_body",
 ]
 

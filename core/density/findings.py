@@ -75,3 +75,8 @@ POSITIONS_ONLY_AS_DENSITY = error(
     "Set Measure As "
     "to Density, or import or measure the scan without positions.",
 )
+LABELS_UNFIT = error(
+    "labels_unfit",
+    "The samples are no labels: {cause:word}. Use --threshold or --density-scale instead of "
+    "--label.",
+)

@@ -18,7 +18,8 @@ class GridOptions(NamedTuple):
     smallest value inside the body, None for all of the grid; filled: with the grid's own density,
     not with one material. value_density: kg/m³ of a value of 1; table: a transfer table instead, ""
     for none. spline_order: 1 voxels, 2 trilinear, 4 cubic. sample_positions: the positions of
-    uneven samples, as `positions_text` writes them.
+    uneven samples, as `positions_text` writes them. label:
+    of a label map, 0 for all labels but 0; None to measure otherwise.
     """
 
     grid: str = ""
@@ -29,6 +30,7 @@ class GridOptions(NamedTuple):
     table: str = ""
     spline_order: int = 1
     sample_positions: str = ""
+    label: int | None = None
 
     @classmethod
     def from_settings(cls, settings, density: float | None = None) -> GridOptions:
@@ -47,11 +49,14 @@ class GridOptions(NamedTuple):
             table,
             settings.spline_order,
             settings.sample_positions,
+            settings.label if settings.grid_as == "LABEL" else None,
         )
 
     @property
     def key(self) -> tuple:
         """Tuple of the options that the results depend on."""
+        if self.label is not None:
+            return self.grid, "label", self.label
         if self.threshold is not None and not self.filled:
             return self.grid, "threshold", self.threshold, self.spline_order
         values = (

@@ -258,6 +258,13 @@ def _columns(entry: dict[str, Any]) -> dict[str, Any]:
             for i, axis in enumerate("xyz")
         }
     row |= _nested("display_mesh", entry.get("display_mesh", {}))
+    for name in ("below", "cut_fill"):
+        row |= _nested(name, entry.get(name) or {})
+    floating = dict(entry.get("floating") or {})
+    curve = floating.pop("gz", {})
+    for name in ("matrix", "rests"):
+        floating.pop(name, None)
+    row |= _nested("floating", floating) | {f"gz_{name}": value for name, value in curve.items()}
     row |= _nested("health", entry["health"]) | _nested("error_bound", entry["error_bound"] or {})
     for name in ("volume", "length", "surface", "mass"):
         powers = entry.get("moments", {}).get(name, {})

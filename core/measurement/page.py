@@ -53,6 +53,7 @@ th[aria-sort=descending] button::after{content:" \\25bc"}
 td.number{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
 td{min-width:4rem}td:nth-child(2){min-width:9rem}
 td img,td svg{width:96px;height:96px;display:block}
+td svg.curve{width:240px;height:150px}
 .crashed,.timeout,.memory,.error,.missing,.unsupported_version{color:#c33;font-weight:600}
 .warning{color:#a60}
 """
@@ -167,7 +168,8 @@ def _table_rows(document: dict[str, Any]) -> Iterator[str]:
         }
         values["bound"] = bound / abs(volume) if bound is not None and volume else None
         methods = entry.get("verdict", ""), entry["method"]
-        yield _row(_picture(entry), file, entry["name"], status, methods, values, _remarks(entry))
+        picture = _picture(entry) + _righting_plot(entry)
+        yield _row(picture, file, entry["name"], status, methods, values, _remarks(entry))
     for entry in document.get("flat", ()):
         yield _row(
             "", file, entry["name"], status, ("", "flat"), {"area": entry["area"]}, _remarks(entry)
@@ -176,6 +178,38 @@ def _table_rows(document: dict[str, Any]) -> Iterator[str]:
         yield _row(
             "", file, error["name"] or "", status, ("", ""), {}, [("error", error["reason"])]
         )
+
+
+def _righting_plot(entry: dict[str, Any]) -> str:
+    """Return HTML of the righting arms over the angles of heel; empty without them."""
+    curve = (entry.get("floating") or {}).get("gz") or {}
+    points = [
+        (math.degrees(angle), arm)
+        for angle, arm in zip(curve.get("angles", ()), curve.get("arms", ()))
+        if isinstance(angle, float) and isinstance(arm, float)
+    ]
+    if len(points) < 2:
+        return ""
+    first, last = points[0][0], points[-1][0]
+    low = min(0.0, *(arm for _, arm in points))
+    high = max(0.0, *(arm for _, arm in points))
+
+    def place(angle: float, arm: float) -> str:
+        across = 200.0 * (angle - first) / (last - first or 1.0)
+        return "{:.2f},{:.2f}".format(across, 100.0 * (high - arm) / (high - low or 1.0))
+
+    label = '<text x="{}" y="{}" font-size="12" fill="currentColor">{}</text>'
+    labels = (
+        label.format(0, -6, "GZ, {:.3g} to {:.3g} m".format(low, high)),
+        label.format(0, 116, "{:.4g}°".format(first)),
+        label.format(176, 116, "{:.4g}°".format(last)),
+    )
+    axis = '<path d="M{}L{}" stroke="#888"/>'.format(place(first, 0.0), place(last, 0.0))
+    line = '<path d="M{}" fill="none" stroke="#4860d6" stroke-width="2"/>'.format(
+        "L".join(place(*point) for point in points)
+    )
+    head = '<svg class="curve" viewBox="-10 -20 220 145" role="img" aria-label="GZ">'
+    return "".join([head, axis, line, *labels, "</svg>"])
 
 
 def _remarks(entry: dict[str, Any]) -> list[tuple[str, str]]:

@@ -4,6 +4,7 @@
 from typing import Any
 
 from .any_order import extend_small_moments as extend_small_moments
+from .findings import BOUNDARY_OPEN as BOUNDARY_OPEN
 from .integration import area_of_images as area_of_images
 from .integration import polyhedron_moments as polyhedron_moments
 from .integration import volume_and_center as volume_and_center

@@ -6,7 +6,7 @@ repaired copies.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import inf, pi, radians
 from pathlib import Path
@@ -21,7 +21,7 @@ from ..numerics import Array
 from ..solid import measure_solid
 from ..verdict import Procedure, internal_error, sentence, severity
 from ..verdict.finding import Finding, MeasureError, Severity, finding
-from .diagnosis import DIFFERS, Diagnosis, Reference, diagnose, diagnose_density
+from .diagnosis import DENSITIES, DIFFERS, Diagnosis, Reference, diagnose, diagnose_density
 from .findings import (
     AUDIT_ANGLES,
     AUDIT_DENSITY,
@@ -37,11 +37,13 @@ from .findings import (
 )
 from .formats import FORMATS
 from .model import Effect, Pose, Shape
-from .plausibility import LEAST_MASS, Hull, impossible, spread_directions
-from .primitives import primitive_moments
+from .plausibility import CENTER_RTOL, LEAST_MASS, Hull, impossible, spread_directions
+from .primitives import primitive_moments, second_moments
 from .read.descriptions import Roots
 from .read.meshes import read_mesh
+from .read.mjcf_meshes import CLOSED
 from .stated import Description, Place, StatedInertial, StatedLink, StatedShape, rotation_of_angles
+from .totals import Expectation, Totals, Tree, add_up, build_tree
 
 BALL = 2000  # points of a ball
 ROUND = 1.01  # Factor that encloses a round shape, of which only some points are known.
@@ -102,13 +104,24 @@ class LinkAudit:
         """All findings, first the reasons of each entry."""
         return tuple(found for entry in self.entries for found in (*entry.reasons, entry.finding))
 
+    @property
+    def has_impossible(self) -> bool:
+        """True if a finding says that no body has the inertial."""
+        return any(
+            one.code.startswith("inertial_") and severity(one) == Severity.ERROR
+            for one in self.findings
+        )
+
 
 @dataclass(frozen=True, eq=False)
 class Audit:
-    """Findings about a description."""
+    """Findings about a description. entries: about the whole of it."""
 
     description: Description
     links: tuple[LinkAudit, ...]
+    tree: Tree
+    totals: Totals
+    entries: tuple[Entry, ...] = ()
 
     def repairs(self) -> list[tuple[StatedLink, StatedInertial]]:
         """Return the links with a corrected inertial, if the file itself holds the inertial."""
@@ -150,9 +163,14 @@ Pieces = dict[str, list[tuple[StatedShape, _Piece]]]
 
 @dataclass
 class Auditor:
-    """An auditor of descriptions, which measures each mesh once, even if several links name it."""
+    """An auditor of descriptions, which measures each mesh once, even if several links name it.
+
+    joints: positions of joints by name, radians or meters.
+    """
 
     roots: Roots
+    joints: Mapping[str, float] = field(default_factory=dict)
+    expected: Expectation = Expectation()
     _meshes: dict[tuple, _Piece] = field(default_factory=dict)
 
     def audit(self, description: Description) -> Audit:
@@ -165,7 +183,11 @@ class Auditor:
         if description.total > 0.0 and is_known and sum(masses) > 0.0:
             factor = description.total / sum(masses)
         used = [_scaled(stated, link, factor) for stated, link in pairs]
-        return Audit(description, tuple(map(self._link_alone, used)))
+        audits = tuple(map(self._sure, map(self._link_alone, used)))
+        tree = build_tree(description, self.joints)
+        totals = add_up(tree, [(one.link, one.has_impossible) for one in audits])
+        about = [*tree.findings, *((one, Place()) for one in self.expected.check(totals.whole))]
+        return Audit(description, audits, tree, totals, tuple(Entry(*one) for one in about))
 
     def _use_rules(self, link: StatedLink) -> StatedLink:
         """Return a link with the inertial that its format's program uses; the stated one if masses
@@ -178,10 +200,15 @@ class Auditor:
             masses = []
             if any(shape.weight for shape in link.shapes):
                 pieces, unread = self._pieces(link.shapes)
-                if unread or link.findings:
+                is_open = any(
+                    one.weight and one.weight.inertia == CLOSED and piece.moments is None
+                    for several in pieces.values()
+                    for one, piece in several
+                )
+                if unread or link.findings or is_open:
                     return link
                 masses = [
-                    (piece.mass.transform(one.shape.pose.matrix), 1.0)
+                    (_weighed(one, piece.mass), 1.0)
                     for several in pieces.values()
                     for one, piece in several
                     if piece.mass is not None
@@ -189,6 +216,8 @@ class Auditor:
             if masses:
                 body = combine(masses)
                 inertial = StatedInertial(body.mass, body.center, body.inertia)
+            if inertial is None or masses:
+                inertial = link.rules.complete(inertial)
             return replace(link, inertial=link.rules.bound(inertial), from_shapes=bool(masses))
         except Exception:  # An unforeseen error returns when the link is audited.
             return link
@@ -203,6 +232,14 @@ class Auditor:
             return LinkAudit(
                 link, (*_read_entries(link), Entry(internal_error.finding_of(error), link.place))
             )
+
+    def _sure(self, audit: LinkAudit) -> LinkAudit:
+        """Return the audit of a link without a repair that would itself have a new finding."""
+        if audit.repaired is None:
+            return audit
+        again = self._link_alone(replace(audit.link, inertial=audit.repaired, overridden=None))
+        new = {one.code for one in again.findings} - {one.code for one in audit.findings}
+        return replace(audit, repaired=None) if new else audit
 
     def _link(self, link: StatedLink) -> LinkAudit:
         entries = _read_entries(link)
@@ -222,8 +259,18 @@ class Auditor:
         entries += unread
         entries += _describe_overridden(link, inertial)
         if link.from_shapes:
-            entries += [Entry(one, place) for one in impossible(inertial, None)]
-            return LinkAudit(link, tuple(entries))
+            reasons = impossible(inertial, None)
+            entries += [Entry(one, place) for one in reasons]
+            volume = sum(
+                piece.moments.raw[0]
+                for several in pieces.values()
+                for one, piece in several
+                if one.weight and one.weight.inertia != "shell" and piece.mass and piece.moments
+            )
+            density = float(inertial.mass / volume) if volume else None
+            if density and not reasons and not DENSITIES[0] <= density <= DENSITIES[1]:
+                entries.append(Entry(finding(AUDIT_DENSITY, density=density), place))
+            return LinkAudit(link, tuple(entries), density=density)
         found = _judge(link, inertial, pieces, incomplete)
         if any(piece.upright is not None for several in pieces.values() for _, piece in several):
             turned = {
@@ -287,9 +334,24 @@ class Auditor:
             piece = _measured(surface, upright) if fit is None else _primitive(fit)
             if weight:
                 solid = replace(shape, surface=surface) if fit is None else fit
-                piece = replace(piece, mass=weight.moments(solid))
+                if weight.inertia != CLOSED:
+                    piece = replace(piece, mass=weight.moments(solid))
+                elif piece.moments is not None:
+                    piece = replace(piece, mass=weight.fill(piece.moments))
             self._meshes[key] = piece if fit is None else piece.placed(fit.pose)
         return self._meshes[key]
+
+
+def _weighed(shape: StatedShape, mass: Moments) -> Moments:
+    """Return the moments of a shape's mass in its link, with what is stated of them."""
+    placed = mass.transform(shape.shape.pose.matrix)
+    if shape.rules is None:
+        return placed
+    own = combine([(placed, 1.0)])
+    body = shape.rules.complete(StatedInertial(own.mass, own.center, own.inertia))
+    assert body is not None
+    second = np.trace(body.inertia) / 2.0 * np.eye(3) - body.inertia
+    return replace(second_moments(body.mass, body.center, second), measure=placed.measure)
 
 
 def _scaled(stated: StatedLink, link: StatedLink, factor: float) -> StatedLink:
@@ -382,21 +444,46 @@ def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete:
     reference = references[0]
     geometry = reference.uniform(stated.mass)
     if left:
-        # It adds nothing to errors.
-        entries = [one for one in entries if one.finding.code != AUDIT_NOT_UNIFORM]
+        guessed = _guess(stated, geometry, hull)
+        if guessed is geometry:  # It adds nothing to errors.
+            entries = [one for one in entries if one.finding.code != AUDIT_NOT_UNIFORM]
         density = stated.mass / reference.volume
         # Geometry that cannot hold the mass, in kg or another unit, shows nothing about its place.
         unusual = diagnose_density(geometry, reference)
         holds = all(one.is_change for one in unusual)
         guess = finding(AUDIT_UNIFORM_INSTEAD) if holds else None
-        repaired = geometry if holds else None
-        entries += [Entry(one, place, (), guess, "guess" if guess else "", True) for one in left]
+        repaired = guessed if holds else None
+        certainty = "guess" if guess else ""
+        entries = [*(Entry(one, place, (), guess, certainty, True) for one in left), *entries]
         if unusual:
             entries.append(Entry(finding(AUDIT_DENSITY, density=density), place, compares=True))
     apart = min(one.compare(stated) for one in references)
     return LinkAudit(
         link, tuple(entries), repaired, stated.mass / reference.volume, geometry, apart, bool(wrong)
     )
+
+
+def _guess(stated: StatedInertial, geometry: StatedInertial, hull: Hull | None) -> StatedInertial:
+    """Return the inertial of the evenly filled geometry, about the stated center if that is
+    possible.
+    """
+    if hull is None or hull.distance(stated.center) > CENTER_RTOL * hull.size:
+        return geometry
+    reference = Reference(1.0, geometry.center, geometry.inertia / geometry.mass)
+    if reference.compare_centers(stated) <= DIFFERS:
+        return geometry
+    second = np.trace(geometry.inertia) / 2.0 * np.eye(3) - geometry.inertia
+    way = stated.center - geometry.center
+    way = way / np.linalg.norm(way)
+    # Near the border of the hull the geometry is shrunk towards it, until it fits.
+    for part in 0.5 ** np.arange(10.0):
+        shrink = np.eye(3) - (1.0 - part) * np.outer(way, way)
+        shrunk = shrink @ second @ shrink
+        tensor = np.trace(shrunk) * np.eye(3) - shrunk
+        guessed = replace(geometry, center=stated.center, tensor=tensor)
+        if not impossible(guessed, hull):
+            return guessed
+    return geometry
 
 
 def _entries(

@@ -66,12 +66,24 @@ USUAL_DENSITIES = (
 )
 AXES = np.array(list(permutations(range(3))))[1:]
 PRODUCT_NAMES = ("xy", "xz", "yz")
+# Six entries of a tensor as programs list them: URDF (the upper triangle row by row), MuJoCo, the
+# lower triangle row by row, Fusion, Simscape.
+SEQUENCES = (
+    ("xx", "xy", "xz", "yy", "yz", "zz"),
+    ("xx", "yy", "zz", "xy", "xz", "yz"),
+    ("xx", "xy", "yy", "xz", "yz", "zz"),
+    ("xx", "yy", "zz", "xy", "yz", "xz"),
+    ("xx", "yy", "zz", "yz", "xz", "xy"),
+)
+SAME = 1e-6  # Relative difference below which two changes lead to one inertial.
 # Parts of an inertial, as the findings name them.
 CENTER = "center of mass"
 PRODUCTS = "products of inertia"
 CENTER_AXES = "axes of the center of mass"
 CENTERS = (CENTER, CENTER_AXES)
 LENGTHS = "lengths of the inertial, the inertia twice,"
+GRAMS = "mass by 0.001 and the inertia, in g·mm² or g·cm²,"
+PER_MASS = "inertia, which is that of mass 1 in other units, by the mass and"
 IMPERIAL = "mass by 0.453592 and the inertia, in lb·in²,"
 WHOLE_IMPERIAL = "mass by 0.453592, the center by 0.0254 and the inertia, in lb·in²,"
 
@@ -202,12 +214,13 @@ def _best_change(stated: StatedInertial, references: Sequence[Reference]) -> Dia
     """
     apart = min(reference.compare(stated) for reference in references)
     best: tuple[float, Diagnosis] | None = None
-    fits: list[tuple[dict, StatedInertial]] = []
+    fits: list[tuple[dict, StatedInertial, bool]] = []
     for reference in references:
         for code, values, repaired in _changes(stated, reference):
             now = reference.compare(repaired)
             if now < AGREES and now < 0.1 * apart:
-                fits.append((values, repaired))
+                density = repaired.mass / reference.volume
+                fits.append((values, repaired, DENSITIES[0] <= density <= DENSITIES[1]))
                 if best is None or max(now, ROUNDING) < 0.1 * best[0]:
                     best = (
                         now,
@@ -217,12 +230,25 @@ def _best_change(stated: StatedInertial, references: Sequence[Reference]) -> Dia
                     )
     if best is None:
         return None
-    masses = [one.mass for _, one in fits]  # Inertials per kg agree, but the masses need not.
+    # A density that no robot has excludes a change, if another one leads to a possible density.
+    usable = [fit for fit in fits if fit[2]] or fits
+    masses = [one.mass for _, one, _ in usable]  # Inertials per kg agree, but the masses need not.
     part = best[1].finding.values.get("part")
     # Equal moments have no order of their own.
-    orders = {values.get("order") for values, _ in fits if values.get("part") == part}
-    is_certain = max(masses) <= (1.0 + DIFFERS) * min(masses) and len(orders) <= 1
+    orders = {values.get("order") for values, _, _ in usable if values.get("part") == part}
+    first = best[1].repaired
+    is_certain = (
+        max(masses) <= (1.0 + DIFFERS) * min(masses)
+        and len(orders) <= 1
+        and (first is None or all(_is_same(first, one) for _, one, _ in usable))
+    )
     return replace(best[1], is_certain=is_certain)
+
+
+def _is_same(first: StatedInertial, other: StatedInertial) -> bool:
+    """Return whether two inertials are equal but for rounding."""
+    body = Reference(1.0, first.center, first.inertia / first.mass)
+    return body.compare(other) <= SAME
 
 
 def _center_changes(stated: StatedInertial, references: Sequence[Reference]) -> Iterator[Diagnosis]:
@@ -318,13 +344,19 @@ def _units(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
                 {"part": "mass", "factor": factor},
                 replace(stated, mass=float(_times(mass, factor))),
             )
+        if DENSITIES[0] <= heavy <= DENSITIES[1] < density:
+            for unit in (1e-9, 1e-7):
+                tensor = stated.along_link(_times(inertia, unit), mass=float(_times(mass, factor)))
+                yield AUDIT_UNIT, {"part": GRAMS, "factor": unit}, tensor
     for factor in INERTIA_UNITS:
         yield (
             AUDIT_UNIT,
             {"part": "inertia", "factor": factor},
             stated.along_link(_times(inertia, factor)),
         )
-    for factor in LENGTH_UNITS:
+    # Any center becomes that of geometry at the origin, if it is only made small enough.
+    is_away = np.linalg.norm(reference.center) > DIFFERS * np.sqrt(np.trace(reference.inertia) / 2)
+    for factor in LENGTH_UNITS if is_away else ():
         yield (
             AUDIT_UNIT,
             {"part": CENTER, "factor": factor},
@@ -342,6 +374,9 @@ def _units(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
             {"part": part, "factor": factor},
             stated.along_link(inertia * factor),
         )
+    for factor in (INCH**2, 1e-4, 1e-6):
+        tensor = stated.along_link(_times(inertia, factor) * mass)
+        yield AUDIT_UNIT, {"part": PER_MASS, "factor": factor}, tensor
 
 
 def _pounds(stated: StatedInertial) -> Iterator[Change]:
@@ -443,8 +478,9 @@ def _mapped(
 
 def _orders(stated: StatedInertial) -> Iterator[Change]:
     """Yield changes that reorder the axes of the tensor, the center or both, or turn them by 90
-    degrees.
+    degrees; and six entries in another program's sequence.
     """
+    yield from _sequences(stated)
     for order in AXES:
         axes = {"order": "".join("xyz"[axis] for axis in order)}
         _, center, both = _mapped(stated, np.eye(3)[order])
@@ -464,6 +500,25 @@ def _orders(stated: StatedInertial) -> Iterator[Change]:
         for order in AXES:
             for values, tensor in _reordered(stated.tensor, order, " in its own frame"):
                 yield AUDIT_ORDER, values, replace(stated, tensor=tensor)
+
+
+def _sequences(stated: StatedInertial) -> Iterator[Change]:
+    """Yield tensors whose six entries were listed in one sequence and read in another one."""
+    places = {name: tuple("xyz".index(axis) for axis in name) for name in SEQUENCES[0]}
+    where = " in its own frame" if (stated.rotation != np.eye(3)).any() else ""
+    seen: set[tuple[str, ...]] = {SEQUENCES[0]}
+    for listed, read in permutations(SEQUENCES, 2):
+        names = tuple(listed[read.index(name)] for name in SEQUENCES[0])
+        # Orders of the products alone have a change of their own.
+        if names in seen or (names[0], names[3], names[5]) == ("xx", "yy", "zz"):
+            continue
+        seen.add(names)
+        tensor = np.empty((3, 3))
+        for name, other in zip(SEQUENCES[0], names):
+            i, j = places[other]
+            tensor[i, j] = tensor[j, i] = stated.tensor[places[name]]
+        values = {"part": "entries of the inertia" + where, "order": " ".join(names)}
+        yield AUDIT_ORDER, values, replace(stated, tensor=tensor)
 
 
 def _moments(stated: StatedInertial, reference: Reference) -> Iterator[Change]:

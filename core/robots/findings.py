@@ -29,6 +29,11 @@ URDF_EFFORT_UNKNOWN = note(
     "Set effort and velocity of {count} joints to those of their motors. They are placeholders: "
     "{joints}.",
 )
+URDF_ROOT_WITHOUT_MASS = note(
+    "urdf_root_without_mass",
+    "PyBullet fixes the root {name} to the world, as it has no mass. Parent the parts to one of "
+    "them, or load the file with a root of your own.",
+)
 JOINTS_CLOSE_LOOP = warning(
     "joints_close_loop",
     "A robot is a tree. {joints} would close a loop and is left out. Add it to the file as a "
@@ -77,6 +82,11 @@ GLTF_UNIT_SCALE = note(
     "Blender writes its units to glTF as meters: a node above all others scales them by {scale:g}. "
     "Readers differ "
     "about bodies that are scaled.",
+)
+USD_UNIT_SCALE = note(
+    "usd_unit_scale",
+    "The stage is in units of {scale:g} m (metersPerUnit). Newton 1.8 reads that and converts "
+    "nothing: set the scene's unit scale to 1, or export with --links or --geometry of your own.",
 )
 ROBOT_LINKS_BARE = note(
     "robot_links_bare",
@@ -155,7 +165,9 @@ INERTIAL_NOT_FINITE = error(
     "inertial_not_finite", "Mass, center or inertia is not a number, or is too large."
 )
 INERTIAL_OF_FRAME = note(
-    "inertial_of_frame", "Zero mass, inertia and no geometry: a mere frame. Leave the inertial out."
+    "inertial_of_frame",
+    "Zero mass, inertia and no geometry: a mere frame. Keep the zeros: PyBullet and urchin take "
+    "1 kg if they are missing. PyBullet fixes a root without mass to the world.",
 )
 INERTIAL_NOT_POSITIVE = error(
     "inertial_not_positive", "Impossible: the {part:word} is {value:.6g} {unit}."
@@ -186,7 +198,8 @@ INERTIAL_TOO_DENSE = error(
 )
 AUDIT_UNIFORM_INSTEAD = warning(
     "audit_uniform_instead",
-    "State the inertial of the geometry, filled evenly with the stated mass.",
+    "State the inertia of the geometry, filled evenly with the stated mass. Keep a possible "
+    "center.",
 )
 AUDIT_NOT_UNIFORM = note(
     "audit_not_uniform",
@@ -206,6 +219,10 @@ AUDIT_OVERRIDDEN = warning(
     "audit_overridden",
     "{program} uses another inertial, because of {cause}: {mass:.6g} kg, principal moments "
     "{first:.6g}, {second:.6g} and {third:.6g} kg·m². State that one, or remove the cause.",
+)
+AUDIT_JOINT = warning("audit_joint", "Joint {joint} is left out: {cause:word}. Correct it.")
+AUDIT_TOTAL = error(
+    "audit_total", "The {part:word} of the whole model is {value}, not {expected} as expected."
 )
 AUDIT_DENSITY = warning("audit_density", "The density is {density:.3g} kg/m³. Check mass and mesh.")
 AUDIT_UNIT = warning(

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..numerics import Array, rotation_matrix
 from ..verdict import Finding
-from .model import Inertial, Shape
+from .model import Inertial, Pose, Shape
 
 if TYPE_CHECKING:
     from .read.mjcf_meshes import Fit, Weight
@@ -88,9 +88,10 @@ class StatedShape:
     `shape`: for a mesh, its `file` is the name in the description. `angles`: roll, pitch and yaw,
     if the pose was stated so. `beside`: the file that the names of its meshes are relative to, ""
     for the description itself. `fit`: the primitive that stands for the mesh. `weight`: its mass,
-    if the link's inertial may come from its shapes. ValueError, with the numbers as text, if a size
-    is not positive, a factor of a mesh is zero, or a size or the place is not finite, or too large
-    or small to compute with.
+    if the link's inertial may come from its shapes; `rules`: more that is stated of it.
+
+    ValueError, with the numbers as text, if a size is not positive, a factor of a mesh is zero, or
+    a size or the place is not finite, or too large or small to compute with.
     """
 
     shape: Shape
@@ -100,6 +101,7 @@ class StatedShape:
     beside: str = ""
     fit: Fit | None = None
     weight: Weight | None = None
+    rules: Rules | None = None
 
     def __post_init__(self) -> None:
         shape = self.shape
@@ -112,17 +114,37 @@ class StatedShape:
 
 
 class Rules(NamedTuple):
-    """The changes that MuJoCo's compiler makes to a body's inertial.
+    """The changes that a format's program makes to a body's inertial, or that of one of its shapes.
 
     from_shapes: "true", "false", or "auto" if only a missing inertial comes from the shapes.
     least_mass, least_moment: lower bounds, kg and kg·m². balances: True if moments that no body has
-    become their mean.
+    become their mean. mass: kg, of the whole of the shapes; 0 if their own counts. center: (3,) and
+    inertia: (3, 3) about it, along the link's axes, instead of those of the shapes. radius: m, of
+    the ball that stands for missing shapes.
     """
 
     from_shapes: str = "auto"
     least_mass: float = 0.0
     least_moment: float = 0.0
     balances: bool = False
+    mass: float = 0.0
+    center: Array | None = None
+    inertia: Array | None = None
+    radius: float = 0.0
+
+    def complete(self, body: StatedInertial | None) -> StatedInertial | None:
+        """Return the inertial of shapes with the stated values; None if there is neither."""
+        if body is None:
+            if not self.mass or not self.radius and self.inertia is None:
+                return None
+            body = StatedInertial(1.0, np.zeros(3), 0.4 * self.radius**2 * np.eye(3))
+            body = replace(body, center=body.center if self.center is None else self.center)
+        mass = self.mass or body.mass
+        inertia = body.inertia * (mass / body.mass)
+        center = body.center if self.center is None else self.center
+        arm = center - body.center  # Programs state it about the new center with this term.
+        inertia = inertia + mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+        return StatedInertial(mass, center, inertia if self.inertia is None else self.inertia)
 
     def bound(self, stated: StatedInertial | None) -> StatedInertial | None:
         """Return the inertial within the bounds; itself if nothing changes."""
@@ -146,6 +168,7 @@ class Rules(NamedTuple):
 class StatedLink:
     """One link as its file states it.
 
+    `pose`: in the model, with all joints at zero; None if only joints place it.
     `place`, `inertial_place`: of the link and of its inertial, which is the link's if there is
     none. `span`: range of the inertial in the file, in bytes. `moves`: True if a missing inertial
     matters. `findings`: about content that the reader could not use. `local`: (4, 4) from the
@@ -167,12 +190,56 @@ class StatedLink:
     rules: Rules | None = None
     from_shapes: bool = False
     overridden: StatedInertial | None = None
+    pose: Pose | None = None
+
+
+class Motion(NamedTuple):
+    """One motion of a child link relative to its parent.
+
+    name: of the value of `--joint`. kind: "hinge", "slide", "fixed", or another one that has not
+    one value. axis: (3,) unit vector, and origin: (3,) point on it, m, in the child's frame. zero:
+    the value of the pose that the file states, radians or meters. leader: the name of the motion
+    that this one follows, with a factor and an offset.
+    """
+
+    name: str
+    kind: str = "fixed"
+    axis: Array = np.array([1.0, 0.0, 0.0])
+    origin: Array = np.zeros(3)
+    zero: float = 0.0
+    leader: str = ""
+    factor: float = 1.0
+    offset: float = 0.0
+
+    def pose(self, value: float) -> Pose:
+        """Return the pose of the moved child in the unmoved one."""
+        value = value - self.zero
+        if self.kind == "slide":
+            return Pose(value * self.axis)
+        turn = rotation_about(self.axis, value)
+        return Pose(self.origin - turn @ self.origin, turn)
+
+
+@dataclass(frozen=True, eq=False)
+class StatedJoint:
+    """The connection of a link with its parent, "" for the world, by motions in a row.
+
+    pose: of the child in the parent, unmoved; None if it follows from the poses of both links.
+    """
+
+    name: str
+    parent: str
+    child: str
+    pose: Pose | None = None
+    motions: tuple[Motion, ...] = ()
+    place: Place = Place()
 
 
 @dataclass(frozen=True, eq=False)
 class Description:
     """A robot description, with the whole file as `source`. scales: units of its "length" in m and
-    "mass" in kg. total: the mass that all inertials are scaled to, kg; 0 if they stay.
+    "mass" in kg. total: the mass that all inertials are scaled to, kg; 0 if they stay. findings:
+    about joints.
     """
 
     name: str
@@ -181,6 +248,8 @@ class Description:
     source: bytes = b""
     scales: Mapping[str, float] = field(default_factory=lambda: {"length": 1.0, "mass": 1.0})
     total: float = 0.0
+    joints: tuple[StatedJoint, ...] = ()
+    findings: tuple[Finding, ...] = ()
 
 
 def rotation_about(axis: NDArray, angle: float) -> Array:

@@ -3,6 +3,7 @@
 
 from typing import Any
 
+from .findings import LABEL_ABSENT as LABEL_ABSENT
 from .findings import SCAN_LABELS as SCAN_LABELS
 from .findings import SCAN_UNSTATED as SCAN_UNSTATED
 from .formats import AXES as AXES
@@ -12,7 +13,9 @@ from .formats import place_samples as place_samples
 from .formats import read_all_positions as read_all_positions
 from .formats import read_scan as read_scan
 from .formats import sample_matrix as sample_matrix
+from .labels import Label as Label
 from .labels import count_labels as count_labels
+from .labels import read_label_table as read_label_table
 from .nrrd import data_file as data_file
 from .nrrd import read_header as read_header
 from .numpy_files import map_array as map_array

@@ -44,7 +44,11 @@ SCAN_IN_MILLIMETERS = warning(
 SCAN_LABELS = warning(
     "scan_labels",
     "The samples look like labels ({count} whole numbers), between which a threshold has no "
-    "meaning. Save each label as a mask of 0 and 1, and use --density-scale without --threshold.",
+    "meaning. Set Measure As to Label, or use --label N or --label all.",
+)
+LABEL_ABSENT = error(
+    "label_absent",
+    "“{file:.80s}” has no label {labels}; it has {others}. Correct {remedy:word}.",
 )
 POSITIONS_COUNT = error(
     "positions_count",

@@ -1,14 +1,144 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Recognition of label maps, whose numbers name regions and measure nothing."""
+"""Recognition of label maps, whose numbers name regions and measure nothing; names, colors and
+densities of labels, from headers and tables.
+"""
 
 from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..files import LINE_MISREAD, MAX_TEXT, Limits, check_regular, parse_number, parse_whole
+from ..verdict import FileError
+
 MOST_LABELS = 256  # different numbers; scans of 8 bits may have as many, but change everywhere
 MAX_CHANGING = 0.5  # share of neighbors that differ, of those that are not both background
+
+# Rows of tables in text files, by ITK-SNAP and by FreeSurfer.
+_ITK_SNAP = re.compile(r'(?P<label>\d+)((?:\s+\d+){3})\s+[\d.]+\s+[01]\s+[01]\s+"(?P<name>.*)"')
+_FREESURFER = re.compile(r"(?P<label>\d+)\s+(?P<name>\S.*?)((?:\s+\d+){3})\s+\d+(\s.*)?")
+# Names of the columns of tables in .csv files; the first that a table has counts.
+_COLUMNS = {
+    "label": ("labelvalue", "value", "index", "id", "no", "number", "label"),
+    "name": ("name", "labelname", "structure", "segment", "label"),
+    "density": ("density", "densitykgm3"),
+    "red": ("r", "red", "colorr"),
+    "green": ("g", "green", "colorg"),
+    "blue": ("b", "blue", "colorb"),
+}
+_TABLE = "a label and its name, as ITK-SNAP, FreeSurfer or the columns label, name, density have it"
+
+
+class Label(NamedTuple):
+    """What a header or a table tells of a label: name, color (from 0 to 1), density in kg/m³."""
+
+    name: str = ""
+    color: tuple[float, ...] | None = None
+    density: float | None = None
+
+
+def read_label_table(path: Path, limits: Limits) -> dict[int, Label]:
+    """Return the labels of a table: a .csv file with named columns, or a text file as ITK-SNAP and
+    FreeSurfer write it.
+
+    Raises FileError and OSError.
+    """
+    check_regular(path)
+    limits.check(path, "text_bytes", path.stat().st_size)
+    lines = path.read_bytes().decode("utf-8-sig", "replace").splitlines()
+    rows = [
+        (number, line.strip())
+        for number, line in enumerate(lines, 1)
+        if line.strip() and not line.lstrip().startswith("#")
+    ]
+    is_table = path.suffix.lower() == ".csv"
+    columns, delimiter = _columns(*rows[0]) if is_table and rows else ({}, ",")
+    labels = {}
+    for number, line in rows[1 if is_table else 0 :]:
+        try:
+            label, entry = _csv_row(line, columns, delimiter) if is_table else _text_row(line)
+        except (ValueError, IndexError) as error:
+            raise _misread(number, line) from error
+        if label in labels:
+            raise _misread(number, line)
+        labels[label] = entry
+    if not labels:
+        raise _misread(1, "")
+    return labels
+
+
+def _misread(number: int, line: str) -> FileError:
+    return FileError(LINE_MISREAD, line=number, text=line[:MAX_TEXT], expected=_TABLE)
+
+
+def _columns(number: int, line: str) -> tuple[dict[str, int], str]:
+    """Return the places of the columns that a .csv file's first line names, and its delimiter."""
+    delimiter = max(",;\t", key=line.count)
+    names = [
+        re.sub(r"[^a-z0-9]", "", word.lower().replace("³", "3")) for word in _split(line, delimiter)
+    ]
+    places: dict[str, int] = {}
+    for column, known in _COLUMNS.items():
+        for name in known:
+            if name in names and names.index(name) not in places.values():
+                places[column] = names.index(name)
+                break
+    if "label" not in places or not places.keys() & {"name", "density"}:
+        raise _misread(number, line)
+    return places, delimiter
+
+
+def _split(line: str, delimiter: str) -> list[str]:
+    return [word.strip() for word in next(csv.reader([line], delimiter=delimiter))]
+
+
+def _csv_row(line: str, columns: Mapping[str, int], delimiter: str) -> tuple[int, Label]:
+    words = _split(line, delimiter)
+    texts = {column: words[place] for column, place in columns.items()}
+    colors = [texts[name] for name in ("red", "green", "blue") if texts.get(name)]
+    text = texts.get("density")
+    density = parse_number(text) if text else None
+    if density is not None and not 0.0 < density < np.inf:
+        raise ValueError(text)
+    color = _color(map(parse_number, colors)) if len(colors) == 3 else None
+    return parse_whole(texts["label"]), Label(texts.get("name", ""), color, density)
+
+
+def _text_row(line: str) -> tuple[int, Label]:
+    for pattern, group in ((_ITK_SNAP, 2), (_FREESURFER, 3)):
+        if found := pattern.fullmatch(line):
+            color = _color(map(float, found.group(group).split()))
+            return int(found["label"]), Label(found["name"], color)
+    label, name = line.split(None, 1)
+    return parse_whole(label), Label(name.strip('"'))
+
+
+def _color(values: Iterable[float]) -> tuple[float, ...]:
+    """Return a color from 0 to 1; values may be up to 255."""
+    channels = [*values]
+    unit = 255.0 if max(channels) > 1.0 else 1.0
+    return tuple(channel / unit for channel in channels)
+
+
+def segment_labels(fields: Mapping[str, str]) -> dict[int, Label]:
+    """Return the labels of the segments that the keys of an NRRD header describe."""
+    labels = {}
+    for key, text in fields.items():
+        if found := re.fullmatch(r"=(Segment\d+_)LabelValue", key):
+            color = fields.get("={}Color".format(found[1]), "").split()
+            try:
+                known = _color(map(parse_number, color)) if len(color) == 3 else None
+                labels[parse_whole(text)] = Label(fields.get("={}Name".format(found[1]), ""), known)
+            except ValueError:
+                continue  # a remark in the header, without effect on sums
+    return labels
 
 
 def count_labels(values: NDArray) -> int:

@@ -5,14 +5,29 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from pathlib import Path
+from typing import Literal
+from xml.parsers import expat
 
 import numpy as np
 
-from ..files import DAMAGE_CUT_SHORT, FILE_UNRECOGNIZED, Limits, damaged, wrong_field
+from ..files import (
+    DAMAGE_CUT_SHORT,
+    FILE_UNRECOGNIZED,
+    MALFORMED,
+    Limits,
+    damaged,
+    parse_number,
+    parse_whole,
+    parse_xml,
+    wrong_field,
+    xml_parser,
+)
 from ..numerics import Array, rotation_matrix
 from ..verdict import FileError
 from .findings import SCAN_IN_SEVERAL_FILES, SCAN_SAMPLE_TYPE, SCAN_SIZE
+from .labels import Label
 from .scan import (
     Scan,
     map_samples,
@@ -86,16 +101,60 @@ def read_nifti(path: Path, limits: Limits) -> Scan:
     if slope == 0.0 or math.isnan(slope):  # by the standard, and by its libraries: not scaled
         slope, intercept = 1.0, 0.0
     unit = UNITS.get(int(header["xyzt_units"]) & 7)
-    return Scan(samples, matrix, unit, placed, slope, intercept, usual_unit=1e-3)
+    is_big = header.dtype["dim"].base.byteorder == ">"
+    head = b""
+    if offset <= limits.header_bytes:
+        head = _first_bytes(path, packed, int(offset))[header.dtype.itemsize + 4 :]
+    labels = _extension_labels(head, "big" if is_big else "little")
+    return Scan(samples, matrix, unit, placed, slope, intercept, usual_unit=1e-3, labels=labels)
+
+
+def _extension_labels(text: bytes, order: Literal["little", "big"]) -> dict[int, Label]:
+    """Return the labels of a table in the XML of one of a header's extensions."""
+    labels: dict[int, Label] = {}
+    current: list = []
+
+    def begin(name: str, values: dict[str, str]) -> None:
+        if name == "Label":
+            color = [parse_number(values[channel]) for channel in ("Red", "Green", "Blue")]
+            current[:] = [parse_whole(values["Key"]), tuple(color), ""]
+
+    def add(text: str) -> None:
+        if current:
+            current[2] += text
+
+    def end(name: str) -> None:
+        if name == "Label":
+            key, color, text = current
+            labels[key] = Label(text.strip(), color)
+            current.clear()
+
+    while len(text) > 8 and (size := int.from_bytes(text[:4], order)) >= 8:
+        if b"<Label " in text[8:size]:
+            parser = xml_parser()
+            parser.StartElementHandler = begin
+            parser.CharacterDataHandler = add
+            parser.EndElementHandler = end
+            # a remark, without effect on sums
+            with suppress(*MALFORMED, expat.ExpatError, FileError):
+                parse_xml(parser, [text[8:size].rstrip(b"\0")])
+        text = text[size:]
+    return labels
+
+
+def _first_bytes(path: Path, packed: bool, count: int) -> bytes:
+    """Return the first bytes of a file, unpacked; fewer if it ends before."""
+    with open(path, "rb") as file:
+        blocks = unpacked_blocks(path, 0, "gzip") if packed else iter([file.read(count)])
+        head = b""
+        while len(head) < count and (block := next(blocks, b"")):
+            head += block
+    return head[:count]
 
 
 def _read_header(path: Path, packed: bool) -> np.void:
     """Return the fields of a header of either version and byte order. Raises FileError."""
-    with open(path, "rb") as file:
-        blocks = unpacked_blocks(path, 0, "gzip") if packed else iter([file.read(max(_SIZES))])
-        head = b""
-        while len(head) < max(_SIZES) and (block := next(blocks, b"")):
-            head += block
+    head = _first_bytes(path, packed, max(_SIZES))
     if len(head) < min(_SIZES):
         raise damaged(path, DAMAGE_CUT_SHORT, part="header")
     for order in "<>":

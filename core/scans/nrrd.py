@@ -27,6 +27,7 @@ from ..files import (
 from ..numerics import Array
 from ..verdict import FileError
 from .findings import NRRD_DATA_FILE_OUTSIDE, SCAN_IN_SEVERAL_FILES, SCAN_SAMPLE_TYPE
+from .labels import segment_labels
 from .scan import Scan, map_samples, parse_samples, shape_of, space_axes, unpack_samples
 
 HEADER_BLOCK = 1 << 16  # bytes of a header that are read at a time
@@ -122,7 +123,8 @@ _WORD = re.compile(r'"([^"]*)"|([^\s"]+)')
 
 
 def read_header(path: Path, limits: Limits) -> tuple[dict[str, str], int | None]:
-    """Return the fields by lower-case names, and the samples' offset, None if the file ends before.
+    """Return the fields by lower-case names and the keys after “=”, and the samples' offset, None
+    if the file ends before.
 
     FileError.
     """
@@ -146,7 +148,9 @@ def read_header(path: Path, limits: Limits) -> tuple[dict[str, str], int | None]
         lines = text.decode("latin-1").splitlines()
     for line in lines[1:]:
         name, colon, value = line.partition(":")
-        if colon and not value.startswith("="):  # “:=” sets a key's value
+        if colon and value.startswith("="):  # “:=” sets a key's value
+            fields["=" + name.strip()] = value[1:].strip()
+        elif colon:
             fields[name.strip().lower()] = value.strip()
     return fields, end.end() if end else None
 
@@ -202,7 +206,8 @@ def read_nrrd(path: Path, limits: Limits) -> Scan:
         samples = parse_samples(source, start + byte_skip, dtype, shape, limits)
     else:
         samples = unpack_samples(source, start, dtype, shape, byte_skip, limits, encoding)
-    return Scan(samples, matrix, unit, placed, usual_unit=1e-3 if is_anatomical else None)
+    usual = 1e-3 if is_anatomical else None
+    return Scan(samples, matrix, unit, placed, usual_unit=usual, labels=segment_labels(fields))
 
 
 def _spatial_fields(

@@ -12,8 +12,8 @@ from __future__ import annotations
 import bz2
 import math
 import zlib
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +23,7 @@ from ..files import DAMAGE_CUT_SHORT, DAMAGE_INCOMPLETE, DAMAGE_SIZE, Limits, ch
 from ..numerics import Array
 from ..verdict import FileError, Finding
 from .findings import SCAN_SAMPLE_TYPE, SCAN_SIZE
+from .labels import Label
 
 # Most bytes that one byte of a packed file can unpack to; bzip2 packs 900 kB of zeros in 39 bytes.
 MAX_RATIOS = {"gzip": 1032, "bzip2": 23_077}
@@ -50,6 +51,8 @@ class Scan:
     slope, intercept : float
     findings : tuple of Finding
         Decisions made on the way.
+    labels : mapping of int to Label
+        Names and colors of labels in the header.
 
     Examples
     --------
@@ -66,6 +69,7 @@ class Scan:
     intercept: float = 0.0
     findings: tuple[Finding, ...] = ()
     usual_unit: float | None = None
+    labels: Mapping[int, Label] = field(default_factory=dict)
 
 
 def space_axes(sizes: Sequence[int]) -> list[int]:

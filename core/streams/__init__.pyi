@@ -7,6 +7,8 @@ from .file_mesh import FileMesh as FileMesh
 from .file_mesh import box_of_blocks as box_of_blocks
 from .file_mesh import name_of_file as name_of_file
 from .file_mesh import without_repeats as without_repeats
+from .findings import NEGATIVE_PARTS_CUT as NEGATIVE_PARTS_CUT
+from .findings import NEGATIVE_PARTS_UNFIT as NEGATIVE_PARTS_UNFIT
 from .measure import KINDS as KINDS
 from .measure import MeshFile as MeshFile
 from .measure import StreamIntegrals as StreamIntegrals

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/streams`."""
 
-from ..verdict import error
+from ..verdict import error, note
 
 DAMAGE_PLY_ROWS = error(
     "damage_ply_rows",
@@ -15,4 +15,12 @@ THREEMF_EXTENSION = error(
     "threemf_extension",
     "The 3MF file needs an extension that is not read, and that may change its shape: {name}. "
     "Export it as plain meshes.",
+)
+NEGATIVE_PARTS_CUT = note(
+    "negative_parts_cut", "Negative parts of the project were cut away by Boolean: {names}."
+)
+NEGATIVE_PARTS_UNFIT = error(
+    "negative_parts_unfit",
+    "The negative parts {names} cannot be cut from “{object}”: {cause:word}. Correct them in the "
+    "slicer, or cut there and export the result.",
 )

@@ -13,8 +13,8 @@ import posixpath
 import zipfile
 import zlib
 from array import array
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from xml.parsers import expat
 
@@ -43,6 +43,7 @@ from ..files import (
 from ..numerics import Array
 from ..verdict import FileError, system_reason
 from .findings import THREEMF_EXTENSION
+from .slicer_parts import NEGATIVE, SlicerPart, SlicerProject
 
 MODEL = "model"  # the type of objects that are parts; supports and helpers have other types
 MAX_INSTANCES = 100_000  # meshes that the build places
@@ -90,15 +91,20 @@ class Placed:
     """A mesh at one of its places.
 
     key: the same at all places of a mesh. matrix: (4, 4), for column vectors. hidden: the reason
-    why it is no part of what is printed, or empty.
+    why it is no part of what is printed, or empty. item: the number of the build's item that it
+    belongs to. is_negative: true if it is cut away from the item's other meshes. print_settings: as
+    `SlicerProject.print_settings` returns them.
     """
 
     name: str
-    key: tuple[str, str]
+    key: tuple
     points: Array
     triangles: NDArray[np.int64]
     matrix: Array
     hidden: str = ""
+    item: int = 0
+    is_negative: bool = False
+    print_settings: Mapping[str, float] = field(default_factory=dict)
 
 
 def read_3mf(path: str, limits: Limits = DEFAULT_LIMITS) -> tuple[list[Placed], float]:
@@ -147,13 +153,17 @@ class _Package:
 
     def build(self) -> tuple[list[Placed], float]:
         model = self.model(self._root())
+        self._project = SlicerProject.read(self._entry)
         placed: list[Placed] = []
-        for item in model.items:
+        for number, item in enumerate(model.items):
             for one in self._placed(*item):
-                placed.append(one)
+                placed.append(replace(one, item=number))
                 if len(placed) > MAX_INSTANCES:
                     raise FileError(FILE_TOO_LARGE, limit=MAX_INSTANCES, content="placed meshes")
         return placed, UNITS[model.unit]
+
+    def _entry(self, name: str) -> bytes | None:
+        return b"".join(self.pieces(name)) if name in self._names else None
 
     def _root(self) -> str:
         """Return the part with the model: the target of the first relationship to one, else the
@@ -187,14 +197,50 @@ class _Package:
             raise FileError(FILE_TOO_LARGE, limit=MAX_DEPTH, content="nested components")
         found = self.model(part).objects[identifier]
         name = name or found.name
-        if found.type != MODEL:
+        top = above[0][1] if above else identifier
+        own = self._project.components.get((top, identifier))
+        if found.type != MODEL and own is None:
             hidden = hidden or "its type is {}".format(found.type)
         if len(found.triangles):
-            points, triangles = self._mesh(key, found)
-            yield Placed(name or "Object " + identifier, key, points, triangles, matrix, hidden)
+            yield from self._parts(
+                key,
+                top,
+                Placed(
+                    name or "Object " + identifier, key, *self._mesh(key, found), matrix, hidden
+                ),
+            )
         for part, identifier, local in found.components:
             yield from self._placed(
                 part, identifier, matrix @ local, hidden, (*above, key), found.name or name
+            )
+
+    def _parts(self, key: tuple[str, str], top: str, whole: Placed) -> Iterator[Placed]:
+        """Yield the parts of a mesh in the slicer's project. top: the id of the item's object."""
+        project = self._project
+        own = project.components.get((top, key[1]))
+        parts = project.parts.get(key[1]) or [own or SlicerPart()]
+        for part in parts:
+            one = replace(whole, key=(key, top))
+            if part.triangles is not None and len(parts) > 1:
+                first, last = part.triangles
+                if not 0 <= first <= last < len(whole.triangles):
+                    raise ValueError("a part has triangles that its object has not")
+                used, chosen = np.unique(whole.triangles[first : last + 1], return_inverse=True)
+                one = replace(
+                    one,
+                    key=(key, first),
+                    points=whole.points[used],
+                    triangles=chosen.reshape(-1, 3),
+                )
+            if part.name and (own or len(parts) > 1):
+                one = replace(one, name=part.name)
+            is_negative = part.kind == NEGATIVE
+            settings = {**project.objects.get(top, {}), **part.settings}
+            yield replace(
+                one,
+                hidden=one.hidden or ("" if is_negative else part.kind),
+                is_negative=is_negative,
+                print_settings=project.print_settings(settings),
             )
 
     def _mesh(self, key: tuple[str, str], found: _Object) -> tuple[NDArray, NDArray]:

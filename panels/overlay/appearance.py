@@ -24,6 +24,7 @@ DARK = np.array((0.03, 0.03, 0.03, 1.0), np.float32)
 WHITE = np.array((1.0, 1.0, 1.0, 1.0), np.float32)
 FAULT = np.array((0.95, 0.15, 0.30, 1.0), np.float32)
 SUPPORT = np.array((0.35, 0.70, 0.95, 1.0), np.float32)  # sky blue
+WATER = np.array((0.25, 0.65, 1.0, 1.0), np.float32)
 EDGE = np.array((0.96, 0.80, 0.10, 1.0), np.float32)  # stands, but near the edge of its support
 TIPS = np.array((0.95, 0.35, 0.10, 1.0), np.float32)
 PATH = np.array((0.35, 0.70, 0.95, 1.0), np.float32)

@@ -14,10 +14,11 @@ from numpy.typing import NDArray
 
 from ...blender.scale import meters_per_unit
 from ...blender.scene import fcurves
-from ...blender.session import character
+from ...blender.session import character, memory
 from ...blender.session.character.weight import Weight
-from ...blender.session.stored import balance_groups, faults, stability
+from ...blender.session.stored import balance_groups, cuts, faults, floating, stability
 from ...blender.write import reports
+from ...core.cuts import cut_outline
 from ...core.numerics import Array
 from ...core.rig import ballistic_arc, find_flights
 from ...core.statics import Support
@@ -27,6 +28,7 @@ from .draw import shows_weight
 
 FILL = 0.25  # opacity of faces
 ARROW = 0.12  # length of the tipping arrow's head, relative to the support polygon's extent
+CROSS = 0.02  # half the width of a center's cross, relative to a floating body's size
 Colored = tuple[Array, NDArray[np.float32]]
 
 
@@ -74,7 +76,17 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
             details += _weight(context, weight)
     checked = [obj for obj in objects if stability.is_known(obj)] if settings.show_support else ()
     supports = [stability.support(obj, context.scene) for obj in checked]
-    return details + [support_detail(support) for support in supports if support is not None]
+    details += [support_detail(support) for support in supports if support is not None]
+    if settings.show_level and any(obj in memory.levels for obj in objects):
+        unit = meters_per_unit(context.scene)
+        levels = [cuts.level_of(obj, context.scene) for obj in objects]
+        details += [_surface(level, unit) for level in levels if level is not None]
+    if settings.show_waterline:
+        afloat = {id(body): obj for obj in objects if (body := floating.known(obj)) is not None}
+        held = [floating.held(obj, context.scene) for obj in afloat.values()]
+        unit = meters_per_unit(context.scene)
+        details += [_waterline(body, unit) for body in held if isinstance(body, floating.Held)]
+    return details
 
 
 def _path(path: balance_groups.Path) -> Detail:
@@ -122,6 +134,36 @@ def _arcs(scene: Scene, path: balance_groups.Path) -> list[Detail]:
                 Detail(_tinted(lines, look.EDGE), _tinted(np.zeros((0, 3, 3)), look.EDGE))
             )
     return details
+
+
+def _surface(level: cuts.Level, unit: float) -> Detail:
+    """Return the surface of a liquid, and its outline on the vessel."""
+    hollow = level.hollow
+    outline = cut_outline(hollow.points, hollow.triangles, hollow.up, level.height) / unit
+    triangles = level.triangles / unit
+    return Detail(_tinted(outline, look.SUPPORT), _tinted(triangles, look.SUPPORT, FILL))
+
+
+def _waterline(held: floating.Held, unit: float) -> Detail:
+    """Return the waterline on the body, and crosses at its centers of buoyancy and gravity and its
+    metacenter, with a line through these.
+    """
+    state = held.state
+    body = state.body
+    line = cut_outline(body.points, body.triangles, state.up, state.level)
+    buoyancy, gravity = state.center_of_buoyancy, state.center_of_gravity
+    metacenter = buoyancy + state.metacentric_radii[0] * state.up
+    places = np.array([buoyancy, gravity, metacenter])
+    crosses = places[:, None, None] + CROSS * body.size * np.stack([-np.eye(3), np.eye(3)], axis=1)
+    axis = np.array([[buoyancy, metacenter]])
+    segments = np.concatenate([line, axis, crosses.reshape(-1, 2, 3)])
+    color = look.WATER if held.is_at_rest else look.EDGE
+    texts = [(place / unit, letter, color) for place, letter in zip(held.to_world(places), "BGM")]
+    return Detail(
+        _tinted(held.to_world(segments) / unit, color),
+        _tinted(np.zeros((0, 3, 3)), color),
+        tuple(texts),
+    )
 
 
 def _faults(obj: Object, found: faults.Faults) -> Detail:

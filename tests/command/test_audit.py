@@ -5,6 +5,7 @@
 import csv
 import gzip
 import io
+import itertools
 import json
 import zipfile
 from pathlib import Path
@@ -273,3 +274,155 @@ def test_all_faults_of_a_link_are_told_at_once(tmp_path):
     assert all(
         one["certainty"] == "guess" and one["geometry"]["mass"] == 8000 for one in found["findings"]
     )
+
+
+JOINT = (
+    '<joint name="{}" type="revolute"><origin xyz="3 0 0"/><parent link="{}"/><child link="{}"/>'
+    '<axis xyz="0 0 1"/></joint>'
+)
+PAIR = [BOX.format(name, 8000, *["5333.3333"] * 3) for name in "ab"]
+FRAME = '<link name="tool"/>'
+BARE = '<link name="c"><visual><geometry><sphere radius="1"/></geometry></visual></link>'
+
+
+def test_totals_of_the_robot_are_in_every_form(tmp_path):
+    path = description(
+        tmp_path / "r.urdf",
+        *(*PAIR, FRAME, BARE, JOINT.format("j", "a", "b")),
+        *(JOINT.format("t", "b", "tool"), JOINT.format("k", "b", "c")),
+    )
+    record = json.loads(answer(path)[0])
+    total = record["total"]
+    assert (total["mass"], total["center_of_mass"]) == (16000.0, [1.5, 0.0, 0.0])
+    assert abs(total["inertia"][1][1] / (2 * 5333.3333 + 16000.0 * 1.5**2) - 1.0) < 1e-12
+    assert (total["missing"], total["frames"]) == (["c"], ["tool"])
+    assert [link["subtree"]["mass"] for link in record["links"]] == [16000.0, 8000.0, 0.0, 0.0]
+    for form in ("text", "table", "html", "sarif"):
+        text = answer("--format", form, path)[0]
+        assert "16000" in text and "8000" in text and "1.5" in text, form
+    turned = json.loads(answer("--joint", "j=1.5707963267948966", path)[0])
+    assert turned["total"]["center_of_mass"] == [1.5, 0.0, 0.0]
+    again = json.loads(answer("--joint", "j=0.5", "--expect-mass", "16000", path)[0])
+    assert again["findings"] == []
+
+
+@pytest.mark.parametrize(
+    "words, code",
+    [
+        (("--expect-mass", "16000"), 0),
+        (("--expect-mass", "16.1t", "--expect-center", "1.5,0,0"), 0),
+        (("--expect-mass", "16.1t", "--within", "0.5%"), 1),
+        (("--expect-center", "1.4,0,0"), 1),
+        (("--joint", "none=1"), 1),
+    ],
+)
+def test_expectation_decides_the_exit_code(words, code, tmp_path):
+    path = description(tmp_path / "r.urdf", *PAIR, JOINT.format("j", "a", "b"))
+    text, found = answer(*words, path)
+    record = json.loads(text)
+    assert found == code and len(record["findings"]) == code
+    assert answer("--ignore", "audit_total", "--ignore", "audit_joint", *words, path)[1] == 0
+
+
+@pytest.mark.parametrize(
+    "words",
+    [("--expect-mass", "3 m"), ("--within", "1"), ("--joint", "j=x"), ("--expect-center", "1,2")],
+)
+def test_expectation_that_is_no_number_is_wrong_usage(words, tmp_path):
+    path = description(tmp_path / "r.urdf", *PAIR)
+    with pytest.raises(SystemExit) as ended:
+        answer(*words, path)
+    assert ended.value.code == 2
+
+
+@pytest.mark.parametrize(
+    "joints",
+    [
+        [("j", "a", "b"), ("k", "b", "a")],
+        [("j", "a", "b"), ("k", "a", "b")],
+        [("j", "", "b")],
+        [("j", "a", "nowhere")],
+    ],
+)
+def test_joint_outside_of_the_tree_is_one_finding(joints, tmp_path):
+    path = description(tmp_path / "r.urdf", *PAIR, "\n", *(JOINT.format(*one) for one in joints))
+    text, code = answer(path)
+    record = json.loads(text)
+    (found,) = record["findings"]
+    assert (found["code"], found["line"], code) == ("audit_joint", 2, 1)
+    assert record["total"]["mass"] == 16000.0
+
+
+AUTO = """<sdf version="1.11"><model name="m"><link name="b"><inertial auto="true">{}</inertial>
+<collision name="c">{}<geometry><box><size>1 2 3</size></box></geometry></collision>
+<collision name="d"><pose>2 0 0 0 0 0</pose><geometry><box><size>1 2 3</size></box></geometry>
+</collision></link></model></sdf>"""
+
+
+@pytest.mark.parametrize(
+    "inertial, collision, masses",
+    [
+        ("", "", (6000.0, 6000.0)),
+        ("", "<density>500</density>", (3000.0, 6000.0)),
+        ("<density>200</density>", "<density>500</density>", (3000.0, 1200.0)),
+        ("<mass>9</mass>", "<density>500</density>", (3.0, 6.0)),
+    ],
+)
+def test_automatic_inertial_comes_from_collisions(inertial, collision, masses, tmp_path):
+    path = tmp_path / "auto.sdf"
+    path.write_text(AUTO.format(inertial, collision), encoding="utf-8")
+    (link,) = json.loads(answer(path)[0])["links"]
+    first, second = masses
+    mass, arm = first + second, 2.0 * second / (first + second)
+    across = mass * 10.0 / 12.0 + first * arm**2 + second * (2.0 - arm) ** 2
+    assert link["from_shapes"] and abs(link["mass"] / mass - 1.0) < 1e-12
+    assert abs(link["center_of_mass"][0] - arm) < 1e-12
+    assert abs(link["inertia"][1][1] / across - 1.0) < 1e-12
+
+
+@pytest.mark.parametrize("density, code", [(5, "audit_density"), (50000, "inertial_too_dense")])
+def test_odd_density_of_shapes_is_found(density, code, tmp_path):
+    path = tmp_path / "auto.sdf"
+    path.write_text(AUTO.format("<density>{}</density>".format(density), ""), encoding="utf-8")
+    record = json.loads(answer(path)[0])["links"][0]
+    assert [one["code"] for one in record["findings"]] == [code]
+    assert abs(record["density"] / density - 1.0) < 1e-12
+
+
+OFF = (
+    '<link name="{}"><inertial><origin xyz="{}"/><mass value="{}"/><inertia ixx="{}" iyy="{}" '
+    'izz="{}" ixy="0" ixz="0" iyz="0"/></inertial><visual><geometry><box size="2 1 0.5"/>'
+    "</geometry></visual></link>"
+)
+
+
+def test_guess_keeps_a_possible_center(tmp_path):
+    path = description(tmp_path / "r.urdf", OFF.format("a", "0.3 0.1 0", 500, 1, 1, 9))
+    (link,) = json.loads(answer(path)[0])["links"]
+    assert link["findings"][0]["certainty"] == "guess"
+    assert link["repaired"]["center_of_mass"] == [0.3, 0.1, 0.0]
+    assert abs(link["repaired"]["inertia"][0][0] / (500 * 1.25 / 12.0) - 1.0) < 1e-12
+    at_border = description(tmp_path / "s.urdf", OFF.format("a", "0.999 0 0", 500, 1, 1, 9))
+    (link,) = json.loads(answer(at_border)[0])["links"]
+    assert link["repaired"]["center_of_mass"] == [0.999, 0.0, 0.0]
+
+
+def test_repaired_copy_has_no_new_finding(tmp_path):
+    (tmp_path / "out").mkdir()
+    centers = ("0 0 0", "0.3 0.1 0", "0.999 0 0", "3 0 0")
+    moments = ((1, 1, 9), (0.5, 2, 2.4), (1e3, 4e3, 5e3), (0, 0, 0), (-1, 2, 2), (1e-9, 1e-9, 1e-9))
+    cases = itertools.product(centers, (1e-6, 5, 5e3, 5e6), moments)
+    links = [
+        OFF.format(index, center, mass, *tensor)
+        for index, (center, mass, tensor) in enumerate(cases)
+    ]
+    path = description(tmp_path / "r.urdf", *links)
+    before = json.loads(answer("--repair", tmp_path / "out", path)[0])["links"]
+    after = json.loads(answer(tmp_path / "out" / "r.urdf")[0])["links"]
+    assert sum(link["repaired"] is not None for link in before) > 20
+    for old, new in zip(before, after, strict=True):
+        codes = [
+            {found["code"] for one in link["findings"] for found in (one, *one["reasons"])}
+            for link in (old, new)
+        ]
+        assert codes[1] <= codes[0], old["name"]

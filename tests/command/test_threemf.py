@@ -282,3 +282,77 @@ def test_items_that_are_no_printed_models_are_left_out(tmp_path):
     causes |= {"model.001": "it is not printed", "group": "its type is support"}
     assert reasons == {name: sentence("file_hides", cause=cause) for name, cause in causes.items()}
     assert len(document(path, "--all")["objects"]) == 7
+
+
+def box(low, high):
+    corners = [
+        (x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])
+    ]
+    quads = (0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)
+    return corners, [half for a, b, c, d in quads for half in ((a, b, c), (a, c, d))]
+
+
+BLOCK = box((-20, -10, 0), (20, 10, 24))
+CUTTER = box((-25, -15, 16), (25, 15, 40))
+INSIDE = box((-5, -5, 5), (5, 5, 15))
+
+
+def prusa(path, other, kind, settings="", project=""):
+    corners = BLOCK[0] + other[0]
+    faces = BLOCK[1] + [tuple(corner + 8 for corner in face) for face in other[1]]
+    volume = (
+        '<volume firstid="{}" lastid="{}"><metadata type="volume" key="name" value="{}"/>'
+        '<metadata type="volume" key="volume_type" value="{}"/>{}</volume>'
+    )
+    volumes = volume.format(0, 11, "block", "ModelPart", settings)
+    volumes += volume.format(12, 23, "other", kind, "")
+    text = model('<object id="1">{}</object>'.format(mesh(corners, faces)), '<item objectid="1"/>')
+    more = [("Metadata/Slic3r_PE_model.config", '<config><object id="1">{}</object></config>')]
+    more = [(name, data.format(volumes)) for name, data in more]
+    return package(path, text, [*more, ("Metadata/Slic3r_PE.config", project)])
+
+
+def bambu(path, other, subtype):
+    places = "".join(
+        '<component p:path="/3D/parts.model" objectid="{}"/>'.format(number) for number in (1, 2)
+    )
+    parts = '<object id="1">{}</object><object id="2" type="other">{}</object>'
+    config = '<part id="1" subtype="normal_part"/><part id="2" subtype="{}"/>'.format(subtype)
+    more = [
+        ("3D/parts.model", model(parts.format(mesh(*BLOCK), mesh(*other)), "")),
+        (
+            "Metadata/model_settings.config",
+            '<config><object id="3">{}</object></config>'.format(config),
+        ),
+    ]
+    whole = '<object id="3"><components>{}</components></object>'.format(places)
+    return package(path, model(whole, '<item objectid="3"/>'), more)
+
+
+@pytest.mark.parametrize("write", [prusa, bambu])
+@pytest.mark.parametrize("options", [[], ["--overlap", "union"]])
+@pytest.mark.parametrize(
+    ("other", "kinds", "volume"),
+    [
+        (CUTTER, ("NegativeVolume", "negative_part"), 12_800),
+        (INSIDE, ("ParameterModifier", "modifier_part"), 19_200),
+        (INSIDE, ("SupportBlocker", "support_blocker"), 19_200),
+        (INSIDE, ("NegativeVolume", "negative_part"), 18_200),
+    ],
+)
+def test_parts_of_slicer_projects_count_as_printed(tmp_path, write, options, other, kinds, volume):
+    path = write(tmp_path / "project.3mf", other, kinds[write is bambu])
+    found = document(path, *options)
+    assert close(found["total"]["volume"], volume * 1e-9, 1e-6) and not found["errors"]
+    assert [entry["name"] for entry in found["left_out"]] == [
+        "other" if write is prusa else "Object 2"
+    ]
+
+
+@pytest.mark.parametrize("write", [prusa, bambu])
+def test_negative_part_over_all_is_refused_by_name(tmp_path, write):
+    kind = "NegativeVolume" if write is prusa else "negative_part"
+    found = document(write(tmp_path / "a.3mf", box((-30,) * 3, (30,) * 3), kind))
+    assert found["status"] == "error" and not found["objects"]
+    name = "block" if write is prusa else "Object 1"
+    assert "“{}”: they cover all".format(name) in found["errors"][0]["reason"]

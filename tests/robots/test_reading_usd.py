@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from body_moments.core.robots.audit import Auditor
 from body_moments.core.robots.read.descriptions import Roots, read_description
-from pxr import Gf
+from pxr import Gf, Usd, UsdGeom, UsdPhysics
 
 from tests.robots.links import near, rotation
 from tests.robots.stage import stage_of
@@ -90,3 +90,80 @@ def test_prims_with_a_mass_in_a_body_are_no_links(tmp_path):
     links = audited(tmp_path / "r.usda", text)
     assert [one.link.name for one in links] == ["body", "base"]
     assert [shape.role for shape in links[0].link.shapes] == ["collision"]
+
+
+MASSES = (
+    ("", "", ""),
+    ("", "", "physics:density = 0.0005"),
+    ("physics:density = 0.0003", "", "physics:density = 0.0005"),
+    ("physics:density = 0.0003", "physics:density = 0.0007", "physics:density = 0.0005"),
+    ("physics:mass = 9", "physics:mass = 3", ""),
+    ("physics:mass = 5|point3f physics:centerOfMass = (50, 0, 10)", "", ""),
+    (
+        "float3 physics:diagonalInertia = (10000, 20000, 25000)|"
+        "quatf physics:principalAxes = (0.6, 0, 0, 0.8)",
+        "physics:mass = 3",
+        "",
+    ),
+    ("", "physics:mass = 3|point3f physics:centerOfMass = (10, 20, 0)", ""),
+    ("", "float3 physics:diagonalInertia = (1e4, 2e4, 2.5e4)|physics:mass = 2", ""),
+)
+
+
+@pytest.mark.parametrize("body, shape, material", MASSES)
+def test_masses_of_colliders_are_those_of_usd(body, shape, material, tmp_path):
+    def lines(text):
+        named = [
+            line if "f " in line or "3 " in line else "float " + line for line in text.split("|")
+        ]
+        return "\n".join(named) if text else ""
+
+    path = tmp_path / "robot.usda"
+    path.write_text(COLLIDERS.format(*map(lines, (body, shape, material))), encoding="utf-8")
+    stage = Usd.Stage.Open(str(path))
+
+    def volume_of(prim):
+        found = UsdPhysics.RigidBodyAPI.MassInformation()
+        place = UsdGeom.Xformable(prim).GetLocalTransformation()
+        found.volume = 1e6
+        found.inertia = Gf.Matrix3f(1e6 * 1e4 / 6.0)
+        found.localPos = Gf.Vec3f(place.ExtractTranslation())
+        found.localRot = Gf.Quatf(place.ExtractRotationQuat())
+        return found
+
+    prim = UsdPhysics.RigidBodyAPI(stage.GetPrimAtPath("/b"))
+    mass, moments, center, axes = prim.ComputeMassProperties(volume_of)
+    (link,) = Auditor(Roots.for_file(path)).audit(read_description(path)).links
+    inertial = link.link.inertial
+    turn = np.array(Gf.Matrix3f(axes)).T
+    inertia = (turn * np.array(moments)) @ turn.T * 1e-4
+    assert link.link.from_shapes and abs(inertial.mass / mass - 1.0) < 1e-6
+    assert near(inertial.center, np.array(center) / 100.0, 1e-6, scale=1.0)
+    assert near(inertial.inertia, inertia, 1e-5)
+
+
+COLLIDERS = """#usda 1.0
+( metersPerUnit = 0.01 )
+def Xform "b" ( apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"] )
+{{
+    {}
+    def Cube "c" ( apiSchemas = ["PhysicsCollisionAPI", "PhysicsMassAPI", "MaterialBindingAPI"] )
+    {{
+        double size = 100
+        double3 xformOp:translate = (0, 30, 0)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+        rel material:binding:physics = </m>
+        {}
+    }}
+    def Cube "d" ( apiSchemas = ["PhysicsCollisionAPI"] )
+    {{
+        double size = 100
+        double3 xformOp:translate = (200, 0, 0)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }}
+}}
+def Material "m" ( apiSchemas = ["PhysicsMaterialAPI"] )
+{{
+    {}
+}}
+"""

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reader of MJCF: the inertials and shapes of its bodies.
+"""Reader of MJCF: the inertials and shapes of its bodies, and their joints.
 
 It applies defaults by class, the compiler's angle unit and Euler order, and mesh folders. Models
 that it attaches have their own.
@@ -11,7 +11,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from math import inf, radians
+from math import radians
 from typing import NamedTuple
 
 import numpy as np
@@ -27,19 +27,29 @@ from ..stated import (
     MOST,
     Angles,
     Description,
+    Motion,
     Rules,
     StatedInertial,
+    StatedJoint,
     StatedLink,
     StatedShape,
     rotation_about,
 )
 from .meshes import checked_surface
-from .mjcf_meshes import LEGACY, Fit, Weight, builtin_surface
-from .xml import FLAT_KINDS, Node, attempt, check_size, number, numbers, stated_link
+from .mjcf_meshes import LEGACY, WATER, Fit, Weight, builtin_surface
+from .xml import (
+    FLAT_KINDS,
+    Node,
+    attempt,
+    axis_of,
+    check_size,
+    direction,
+    number,
+    numbers,
+    stated_link,
+)
 
 SQUARE_ATOL = 1e-9  # of the entries of a rotation between axes, which are 0 or 1
-LEAST_LENGTH = 1e-14  # of a direction; shorter ones are rounding errors, also for MuJoCo
-WATER = 1000.0  # kg/m³, of geoms that state neither mass nor density
 SIZES = {"sphere": 1, "ellipsoid": 3, "box": 3, "capsule": 2, "cylinder": 2}
 
 
@@ -231,22 +241,55 @@ def read(root: Node, data: bytes) -> Description:
     """Return a description from the element `mujoco`."""
     outside = _Frame(_Model(root, itertools.count(1)))
     links: list[StatedLink] = []
+    joints: list[StatedJoint] = []
     for world in root.all("worldbody"):
         refused: list[Finding] = []  # of frames of the world, which the bodies in them report
-        waiting = [
-            *reversed(
-                [part for part in _parts(world.children, outside, refused) if part[0].tag == "body"]
-            )
-        ]
+        waiting = [("", part) for part in reversed([*_parts(world.children, outside, refused)])]
         while waiting:
-            body, above = waiting.pop()
+            parent, (body, above) = waiting.pop()
+            if body.tag != "body":
+                continue
             outer = attempt(refused, body, above.enter) or above._replace(pose=Pose())
             parts = [*_parts(body.children, outer, refused)]
-            links.append(_link(body, outer, parts, len(links), refused))
+            findings = [*refused]
+            pose = attempt(findings, body, _body_pose, above)
+            motions = tuple(
+                motion
+                for node, frame in parts
+                if node.tag in ("joint", "freejoint")
+                and (motion := attempt(findings, node, _motion, frame)) is not None
+            )
+            link = _link(body, outer, parts, len(links), findings)
+            links.append(link)
+            joints.append(StatedJoint("", parent, link.name, pose or Pose(), motions, body.place))
             refused = []
-            waiting += reversed([part for part in parts if part[0].tag == "body"])
+            waiting += ((link.name, part) for part in reversed(parts))
     total = parse_numbers(outside.model.compiler.get("settotalmass", ""))
-    return Description(root.get("model"), "mjcf", tuple(links), data, total=sum(total))
+    return Description(
+        root.get("model"), "mjcf", tuple(links), data, total=sum(total), joints=tuple(joints)
+    )
+
+
+def _body_pose(body: Node, above: _Frame) -> Pose:
+    """Return the pose of a body in its parent's. above: the frame that it stands in."""
+    position = numbers(body.get("pos"), 3, (0.0, 0.0, 0.0))
+    return above.place(position, _rotation(body.attributes, above.model)[0])
+
+
+def _motion(joint: Node, frame: _Frame) -> Motion:
+    """Return the motion of a joint in its body."""
+    values = frame.model.attributes(joint, frame.defaults)
+    kind = "free" if joint.tag == "freejoint" else values.get("type", "hinge")
+    unit = 1.0
+    if kind == "hinge" and frame.model.compiler.get("angle") != "radian":
+        unit = radians(1.0)
+    return Motion(
+        frame.prefix + joint.get("name") + frame.suffix,
+        kind,
+        frame.pose.rotation @ axis_of(values.get("axis", ""), (0.0, 0.0, 1.0)),
+        frame.place(numbers(values.get("pos", ""), 3, (0.0, 0.0, 0.0)), np.eye(3)).position,
+        number(values.get("ref", ""), 0.0) * unit,
+    )
 
 
 def _parts(
@@ -347,17 +390,17 @@ def _rotation(attributes: dict[str, str], model: _Model) -> Rotation:
     if "axisangle" in attributes:
         values = numbers(attributes["axisangle"], 4, (0.0, 0.0, 1.0, 0.0))
         text = attributes["axisangle"]
-        turn = rotation_about(_direction(values[:3], text), values[3] * unit)
+        turn = rotation_about(direction(values[:3], text), values[3] * unit)
     elif "xyaxes" in attributes:
         values = numbers(attributes["xyaxes"], 6, ())
         text = attributes["xyaxes"]
-        x = _direction(values[:3], text)
-        y = _direction(values[3:], text)
-        y = _direction(y - (y @ x) * x, text)
+        x = direction(values[:3], text)
+        y = direction(values[3:], text)
+        y = direction(y - (y @ x) * x, text)
         turn = np.column_stack([x, y, np.cross(x, y)])
     elif "zaxis" in attributes:
         turn = _upright(
-            _direction(numbers(attributes["zaxis"], 3, (0.0, 0.0, 1.0)), attributes["zaxis"])
+            direction(numbers(attributes["zaxis"], 3, (0.0, 0.0, 1.0)), attributes["zaxis"])
         )
     return turn, None, None
 
@@ -366,13 +409,6 @@ def _upright(z: NDArray) -> Array:
     """Return the (3, 3) least rotation from the z axis to a unit vector."""
     half = np.array([1.0 + z[2], -z[1], z[0], 0.0])
     return rotation_matrix(half if half.any() else [0.0, 1.0, 0.0, 0.0])
-
-
-def _direction(vector: NDArray, text: str) -> Array:
-    length = np.linalg.norm(vector)
-    if not LEAST_LENGTH < length < inf:
-        raise ValueError(text)
-    return vector / length
 
 
 def _shape(geom: Node, frame: _Frame, findings: list[Finding], weighs: bool) -> StatedShape | None:
@@ -445,7 +481,7 @@ def _primitive(kind: str, attributes: dict[str, str], pose: Pose) -> Shape | Non
         ends = numbers(attributes["fromto"], 6, ())
         along = ends[:3] - ends[3:]
         length = float(np.linalg.norm(along))
-        turn = _upright(_direction(along, attributes["fromto"]))
+        turn = _upright(direction(along, attributes["fromto"]))
         sizes = {
             "box": (2.0 * size[0], 2.0 * size[0], length),
             "ellipsoid": (size[0], size[0], length / 2.0),

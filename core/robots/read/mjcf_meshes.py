@@ -28,12 +28,14 @@ from .xml import check_size
 
 SHEETS = ("wedge", "plate", "square", "disc")
 LEGACY = "legacy"
+CLOSED = "closed"  # the kind of meshes whose volume counts only if it is certain
 THOMSEN = 1.6075  # the exponent of Thomsen's formula for the area of an ellipsoid
 # Factors of a derivative by steps of -2, -1, 1 and 2; exact for polynomials of degree 4.
 STENCIL = ((-2, 1.0), (-1, -8.0), (1, 8.0), (2, -1.0))
 STEP = 1e-3
 TINY = 1e-12  # of sines and cosines that are zero but for rounding
 MOST_STEPS = 1000  # of a mesh's parameters
+WATER = 1000.0  # kg/m³, of shapes that state neither mass nor density
 LEAST_MASS = 1e-15  # mjMINVAL, kg
 
 
@@ -237,6 +239,10 @@ class Weight(NamedTuple):
             body = _shell_moments(shape)
         else:
             body = primitive_moments(shape)
+        return self.fill(body)
+
+    def fill(self, body: Moments) -> Moments | None:
+        """Return the moments of the mass, kg, evenly in a body; None if there is no mass."""
         volume = float(body.raw[0])
         factor = self.density if self.mass is None else self.mass / volume
         return replace(body, raw=body.raw * factor) if factor * volume > LEAST_MASS else None

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reader of URDF: the inertials and shapes of its links."""
+"""Reader of URDF: the inertials and shapes of its links, and its joints."""
 
 from __future__ import annotations
 
@@ -8,13 +8,52 @@ import numpy as np
 
 from ...verdict import Finding
 from ..model import Pose
-from ..stated import ENTRIES, Angles, Description, StatedInertial, StatedLink, rotation_of_angles
-from .xml import Node, attempt, number, numbers, read_shapes, stated_link
+from ..stated import (
+    ENTRIES,
+    Angles,
+    Description,
+    Motion,
+    StatedInertial,
+    StatedJoint,
+    StatedLink,
+    rotation_of_angles,
+)
+from .xml import Node, attempt, axis_of, number, numbers, read_shapes, stated_link
+
+KINDS = {"revolute": "hinge", "continuous": "hinge", "prismatic": "slide"}
 
 
 def read(root: Node, data: bytes) -> Description:
     """Return a description from the element `robot`."""
-    return Description(root.get("name"), "urdf", tuple(map(_link, root.all("link"))), data)
+    findings: list[Finding] = []
+    joints = [attempt(findings, node, _joint) for node in root.all("joint")]
+    return Description(
+        root.get("name"),
+        "urdf",
+        tuple(map(_link, root.all("link"))),
+        data,
+        joints=tuple(joint for joint in joints if joint is not None),
+        findings=tuple(findings),
+    )
+
+
+def _joint(node: Node) -> StatedJoint:
+    name = node.get("name")
+    kind = node.get("type")
+    parent, child = (
+        end.get("link") if (end := node.find(tag)) else "" for tag in ("parent", "child")
+    )
+    pose, _ = _origin(node)
+    motion = Motion(name, KINDS.get(kind, kind))
+    if kind in KINDS and (axis := node.find("axis")):
+        motion = motion._replace(axis=axis_of(axis.get("xyz"), (1.0, 0.0, 0.0)))
+    if mimic := node.find("mimic"):
+        motion = motion._replace(
+            leader=mimic.get("joint"),
+            factor=number(mimic.get("multiplier"), 1.0),
+            offset=number(mimic.get("offset"), 0.0),
+        )
+    return StatedJoint(name, parent, child, pose, (motion,), node.place)
 
 
 def _link(node: Node) -> StatedLink:

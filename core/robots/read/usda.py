@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -26,13 +26,17 @@ from ..stated import (
     LEAST,
     MOST,
     Description,
+    Motion,
     Place,
+    Rules,
     StatedInertial,
+    StatedJoint,
     StatedLink,
     StatedShape,
     rotation_about,
 )
 from .meshes import checked_surface
+from .mjcf_meshes import CLOSED, WATER, Weight
 from .xml import check_size
 
 _TOKEN = re.compile(
@@ -43,6 +47,17 @@ _TOKEN = re.compile(
 _FIELD = re.compile(r"[^\s()\[\],]+")
 _REFERENCE = re.compile(r"\breferences\s*=\s*\[?\s*<([^>]*)>")
 OTHER_SOLIDS = ("Cone", "Capsule_1", "Cylinder_1", "NurbsPatch", "PointInstancer", "TetMesh")
+JOINTS = {
+    "PhysicsRevoluteJoint": "hinge",
+    "PhysicsPrismaticJoint": "slide",
+    "PhysicsFixedJoint": "fixed",
+    "PhysicsSphericalJoint": "ball",
+    "PhysicsJoint": "several axes",
+}
+BALL_RADIUS = 0.1  # m, of the ball that stands for a body of known mass without colliders
+JOINT_AXES = ("X", "Y", "Z")
+TRUE = ("true", "1")
+SINGLE_RTOL = 1e-5  # of places and turns in single precision
 _SPECIFIERS = {"def", "over", "class"}
 
 
@@ -200,20 +215,38 @@ def _description(text: str, data: bytes) -> Description:
         if parser.peek() not in _SPECIFIERS:
             raise _invalid(text, parser.tokens[parser.index][1])
         roots.append(parser.prim(0))
-    _resolve(roots)
+    by_path = _resolve(roots)
     scales = {
         "length": _scale(metadata, "metersPerUnit", 0.01),
         "mass": _scale(metadata, "kilogramsPerUnit", 1.0),
     }
     links: list[StatedLink] = []
+    joints: list[tuple[str, Prim]] = []
     for root in roots:
-        _visit(root, np.eye(4), root.name, scales, links, text)
-    return Description(roots[0].name if roots else "", "usd", tuple(links), data, scales)
+        _visit(root, np.eye(4), root.name, scales, links, joints, by_path, text)
+    by_name = {link.name: link for link in links}
+    usable: list[StatedJoint] = []
+    findings: list[Finding] = []
+    for path, prim in joints:
+        try:
+            usable.append(_joint(path, prim, by_name, scales["length"]))
+        except ValueError as error:
+            values = {"text": str(error), "element": prim.name, "line": prim.line}
+            findings.append(finding(DESCRIPTION_NUMBER, **values))
+    return Description(
+        roots[0].name if roots else "",
+        "usd",
+        tuple(links),
+        data,
+        scales,
+        joints=tuple(usable),
+        findings=tuple(findings),
+    )
 
 
-def _resolve(roots: list[Prim]) -> None:
+def _resolve(roots: list[Prim]) -> dict[str, Prim]:
     """Give prims that refer to another prim of the layer its attributes, unless they state their
-    own.
+    own; return all prims by their paths.
     """
     by_path: dict[str, Prim] = {}
     waiting = [("/" + prim.name, prim) for prim in roots]
@@ -226,6 +259,7 @@ def _resolve(roots: list[Prim]) -> None:
         other = by_path.get(match[1]) if match else None
         if other is not None:
             prim.kind, prim.values = prim.kind or other.kind, other.values | prim.values
+    return by_path
 
 
 def _scale(metadata: str, name: str, default: float) -> float:
@@ -242,18 +276,62 @@ def _visit(
     path: str,
     scales: Mapping[str, float],
     links: list[StatedLink],
+    joints: list[tuple[str, Prim]],
+    materials: Mapping[str, Prim],
     text: str,
     is_within: bool = False,
 ) -> None:
-    """Add the links at and below a prim. is_within: True in a body, whose parts are no links."""
+    """Add the links and joints at and below a prim. is_within: True in a body, whose parts are no
+    links.
+    """
     matrix = _placed(prim, above)
+    # Joints that close a loop are marked.
+    if prim.kind in JOINTS and prim.values.get("physics:excludeFromArticulation") not in TRUE:
+        joints.append((path, prim))
     is_body = "PhysicsRigidBodyAPI" in prim.metadata
     is_fixed = "MassAPI" in prim.metadata and "PhysicsCollisionAPI" not in prim.metadata
     if is_body or is_fixed and not is_within:
-        links.append(_link(prim, matrix, path, scales, text))
+        links.append(_link(prim, matrix, path, scales, materials, text))
     for child in prim.children:
         below = path + "/" + child.name
-        _visit(child, matrix, below, scales, links, text, is_within or is_body)
+        _visit(child, matrix, below, scales, links, joints, materials, text, is_within or is_body)
+
+
+def _joint(path: str, prim: Prim, links: Mapping[str, StatedLink], unit: float) -> StatedJoint:
+    """Return a joint: both of its frames coincide when it is at zero. links: by their names.
+
+    ValueError if a number is wrong.
+    """
+    names = []
+    frames = []
+    for end in "01":
+        words = prim.values.get("physics:body" + end, "").strip("[]<> ")
+        name = words.strip("/")
+        while name and name not in links:  # A prim in a body is a part of it.
+            name = name.rpartition("/")[0]
+        names.append(name)
+        place = prim.vector("physics:localPos" + end, (0.0, 0.0, 0.0))
+        turn = prim.vector("physics:localRot" + end, (1.0, 0.0, 0.0, 0.0))
+        local = links[name].local if name else None
+        place = place if local is None else local[:3, :3] @ place
+        frames.append(Pose(place * unit, rotation_matrix(turn if turn.any() else [1, 0, 0, 0])))
+    is_reversed = bool(names[0]) and not names[1]
+    ends = [*zip(names, frames)]
+    (parent, first), (child, second) = reversed(ends) if is_reversed else ends
+    pose = None
+    outer, inner = (links[name].pose if name in links else None for name in (parent, child))
+    if outer is not None and inner is not None:
+        pose = first @ second.inverse()
+        placed = outer.inverse() @ inner
+        apart = np.abs(pose.matrix - placed.matrix).max()
+        # The prims' places have more digits than the frames.
+        if apart <= SINGLE_RTOL * max(1.0, np.abs(placed.position).max()):
+            pose = None
+    axis = prim.values.get("physics:axis", '"X"').strip("\"'")
+    column = second.rotation[:, "XYZ".index(axis) if axis in JOINT_AXES else 0]
+    sign = -1.0 if is_reversed else 1.0
+    motion = Motion(prim.name, JOINTS[prim.kind], sign * column, second.position)
+    return StatedJoint(path, parent, child, pose, (motion,), Place(prim.line))
 
 
 def _placed(prim: Prim, above: NDArray) -> Array:
@@ -289,7 +367,12 @@ def _placed(prim: Prim, above: NDArray) -> Array:
 
 
 def _link(
-    prim: Prim, matrix: NDArray, path: str, scales: Mapping[str, float], text: str
+    prim: Prim,
+    matrix: NDArray,
+    path: str,
+    scales: Mapping[str, float],
+    materials: Mapping[str, Prim],
+    text: str,
 ) -> StatedLink:
     """Return a body in the axes of its prim, in meters; the prim's scale is applied to its shapes
     and its center.
@@ -314,11 +397,17 @@ def _link(
             return None
 
     inertial, overridden = attempt(prim, _inertials, to_link @ matrix, scales) or (None, None)
-    read_shapes = [
-        attempt(part, _shape, to_link @ place, scales["length"])
-        for part, place in _parts(prim, matrix)
-    ]
-    shapes = [shape for shape in read_shapes if shape is not None]
+    rules = None if inertial else attempt(prim, _rules, to_link @ matrix, scales)
+    density = rules and attempt(prim, Prim.number, "physics:density", 0.0)
+    shapes = []
+    for part, place in _parts(prim, matrix):
+        shape = attempt(part, _shape, to_link @ place, scales["length"])
+        if shape is not None and rules is not None and shape.role == "collision":
+            weight = attempt(part, _weight, density or 0.0, materials, scales)
+            own = attempt(part, _rules, to_link @ place, scales)
+            shape = replace(shape, weight=weight, rules=own and own._replace(mass=0.0))
+        if shape is not None:
+            shapes.append(shape)
     span = len(text[: prim.start].encode()), len(text[: prim.end].encode())
     place = Place(prim.line)
     return StatedLink(
@@ -326,12 +415,14 @@ def _link(
         inertial,
         tuple(shapes),
         span,
-        moves=False,
+        moves="PhysicsRigidBodyAPI" in prim.metadata,
+        rules=rules,
         findings=tuple(findings),
         local=to_link @ matrix,
         place=place,
         inertial_place=place,
         overridden=overridden,
+        pose=Pose(matrix[:3, 3] * scales["length"], turn),
     )
 
 
@@ -366,6 +457,44 @@ def _inertials(
     xx, yy, zz, xy, xz, yz = prim.vector("newton:inertia", (0.0,) * 6)
     tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) * unit
     return StatedInertial(mass * kilograms, placed, tensor), own
+
+
+def _rules(prim: Prim, local: NDArray, scales: Mapping[str, float]) -> Rules:
+    """Return the values of PhysicsMassAPI that replace those of colliders, as
+    `UsdPhysics.RigidBodyAPI.ComputeMassProperties` uses them.
+    """
+    unit = scales["length"]
+    turn = _turn(local)
+    center = prim.vector("physics:centerOfMass", (0.0, 0.0, 0.0))
+    diagonal = prim.vector("physics:diagonalInertia", (0.0, 0.0, 0.0))
+    axes = prim.vector("physics:principalAxes", (1.0, 0.0, 0.0, 0.0))
+    axes = turn @ rotation_matrix(axes if axes.any() else [1.0, 0.0, 0.0, 0.0])
+    inertia = (axes * diagonal) @ axes.T * unit**2 * scales["mass"]
+    return Rules(
+        mass=max(prim.number("physics:mass", 0.0), 0.0) * scales["mass"],
+        center=(local[:3, :3] @ center + local[:3, 3]) * unit if center.any() else None,
+        inertia=inertia if diagonal.any() else None,
+        radius=BALL_RADIUS,
+    )
+
+
+def _weight(
+    prim: Prim, density: float, materials: Mapping[str, Prim], scales: Mapping[str, float]
+) -> Weight:
+    """Return the mass of a collider. density: that of its body, 0 if it has none.
+
+    Mass comes before density, the collider's before the body's, and both before its material's.
+    """
+    bound = prim.values.get("material:binding:physics") or prim.values.get("material:binding", "")
+    material = materials.get(bound.strip("[]<> "))
+    stated = [prim.number("physics:density", 0.0), density]
+    if material is not None:
+        stated.append(material.number("physics:density", 0.0))
+    unit = scales["mass"] / scales["length"] ** 3
+    mass = prim.number("physics:mass", 0.0) * scales["mass"]
+    used = next((value * unit for value in stated if value > 0.0), WATER)
+    hull = prim.values.get("physics:approximation", "").strip("\"'") == "convexHull"
+    return Weight(mass if mass > 0.0 else None, used, "convex" if hull else CLOSED)
 
 
 def _parts(prim: Prim, matrix: NDArray) -> Iterator[tuple[Prim, NDArray]]:

@@ -15,6 +15,7 @@ from typing import Any, TypeVar, cast
 from xml.parsers import expat
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...files import FILE_TOO_LARGE, parse_numbers, parse_xml, xml_parser
 from ...numerics import Array
@@ -26,6 +27,7 @@ from ..stated import Place, StatedLink, StatedShape
 MAX_ELEMENTS = 1_000_000
 MAX_DEPTH = 200
 FLAT_KINDS = ("empty", "plane", "heightmap", "hfield", "image")  # shapes of no volume, and terrain
+LEAST_LENGTH = 1e-14  # of a direction; shorter ones are rounding errors, also for MuJoCo
 NOWHERE = -1  # The position of elements from another file.
 Value = TypeVar("Value")
 _TAG = re.compile(rb"""(?:[^>"']|"[^"]*"|'[^']*')*>""")  # Quoted attributes may contain ">".
@@ -148,6 +150,19 @@ def number(text: str, default: float | None = None) -> float:
     ValueError, with the text, if it is wrong.
     """
     return float(numbers(text, 1, () if default is None else (default,))[0])
+
+
+def direction(vector: NDArray, text: str) -> Array:
+    """Return a vector of length 1. ValueError, with its text, if it has no direction."""
+    length = np.linalg.norm(vector)
+    if not LEAST_LENGTH < length < np.inf:
+        raise ValueError(text)
+    return vector / length
+
+
+def axis_of(text: str, default: Sequence[float]) -> Array:
+    """Return the (3,) unit vector of a text, the default if it is empty."""
+    return direction(numbers(text, 3, default), text)
 
 
 def attempt(

@@ -24,9 +24,9 @@ _IN_PROPERTIES = ((":", "%3A"), (",", "%2C"))
 
 
 def _located(documents: Sequence[dict[str, Any]]) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Yield all entries, each with the name of its link; "" for files that could not be read."""
+    """Yield all entries, each with the name of its link, "" if it is about the file."""
     for one in documents:
-        yield from (("", reason) for reason in one["errors"])
+        yield from (("", reason) for reason in [*one["errors"], *one["findings"]])
         yield from ((link["name"], found) for link in one["links"] for found in link["findings"])
 
 
@@ -88,6 +88,16 @@ def to_sarif(documents: Sequence[dict[str, Any]]) -> str:
         "invocations": [{"executionSuccessful": is_read}],
         "columnKind": "unicodeCodePoints",
         "results": results,
+        "properties": {
+            "totals": [
+                {
+                    "file": _uri(str(one["file"])),
+                    "total": one["total"],
+                    "subtrees": {link["name"]: link["subtree"] for link in one["links"]},
+                }
+                for one in documents
+            ]
+        },
     }
     log = {"$schema": SARIF_SCHEMA, "version": "2.1.0", "runs": [run]}
     return json.dumps(log, ensure_ascii=False, indent=2, allow_nan=False) + "\n"

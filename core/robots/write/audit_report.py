@@ -19,6 +19,7 @@ from ...verdict import Finding, Severity, sentence, severity
 from ..audit import Audit, Entry, LinkAudit
 from ..findings import INERTIAL_CENTER_OUTSIDE, INERTIAL_SPREAD_OUTSIDE
 from ..stated import StatedInertial
+from ..totals import Body
 from .annotations import to_github, to_sarif
 from .marker import AUDIT_COLUMNS as COLUMNS
 from .marker import AUDIT_PAGE, AUDIT_TEXT
@@ -28,6 +29,12 @@ RESTS_ON = (
     "What is said of the geometry rests on one assumption: the drawn shapes of a link hold all of "
     "its mass."
 )
+_UNCOUNTED = {
+    "missing": "without inertial, not counted",
+    "frames": "frames without mass",
+    "impossible": "impossible inertial",
+    "left_out": "no positive mass, not counted",
+}
 NONE_READ = "No file could be read, so nothing was audited."
 _STYLE = (
     "body{font:15px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:75rem;"
@@ -42,6 +49,7 @@ def document(file: str, audit: Audit, repaired: str | None) -> dict[str, Any]:
     """Return the report document of one file. repaired: name of the repaired copy, None if there is
     none.
     """
+    parents = {name: joint.parent or None for name, joint in audit.tree.above.items()}
     repairs = {id(link): _inertial(inertial) for link, inertial in audit.repairs()}
     links = [
         {
@@ -51,6 +59,8 @@ def document(file: str, audit: Audit, repaired: str | None) -> dict[str, Any]:
             "density": one.density,
             "colliders": None if one.colliders is None else one.colliders.as_record(),
             "line": one.link.place.line,
+            "parent": parents.get(one.link.name),
+            "subtree": _total(audit.totals.subtrees[one.link.name]),
             "findings": [_entry(entry, one, file) for entry in one.entries],
             "repaired": repairs.get(id(one.link)),
         }
@@ -59,7 +69,21 @@ def document(file: str, audit: Audit, repaired: str | None) -> dict[str, Any]:
     form = audit.description.format
     robot = audit.description.name
     head = {"schema": SCHEMA, "file": file, "status": "ok", "format": form, "robot": robot}
-    return with_status(plain(head | {"repaired": repaired, "links": links, "errors": []}))
+    total = _total(audit.totals.whole) | {
+        name: list(getattr(audit.totals, name)) for name in _UNCOUNTED
+    }
+    whole = {
+        "total": total,
+        "findings": [_entry(entry, None, file) for entry in audit.entries],
+        "links": links,
+        "errors": [],
+    }
+    return with_status(plain(head | {"repaired": repaired} | whole))
+
+
+def _total(body: Body) -> dict[str, Any]:
+    """Return the mass, the center and the inertia about it of several links as a record."""
+    return {"mass": body.mass, "center_of_mass": body.center, "inertia": body.inertia}
 
 
 def with_status(document: dict[str, Any]) -> dict[str, Any]:
@@ -76,6 +100,7 @@ def count_findings(document: dict[str, Any]) -> dict[str, int]:
     """
     found = [
         *document["errors"],
+        *document["findings"],
         *(found for link in document["links"] for found in link["findings"]),
     ]
     levels = [one["severity"] for one in found if not one.get("known")]
@@ -93,6 +118,8 @@ def failed_document(file: str, reason: Finding) -> dict[str, Any]:
         "format": None,
         "robot": None,
         "repaired": None,
+        "total": None,
+        "findings": [],
     }
     place = {
         "file": reason.values.get("source") or file,
@@ -111,16 +138,16 @@ def _finding(one: Finding) -> dict[str, Any]:
     }
 
 
-def _entry(one: Entry, link: LinkAudit, file: str) -> dict[str, Any]:
+def _entry(one: Entry, link: LinkAudit | None, file: str) -> dict[str, Any]:
     """Return one fault as a record. file: of the description, which the place may differ from."""
     place = {"file": one.place.file or file, "line": one.place.line, "column": one.place.column}
     head = _finding(one.finding) | {"severity": str(one.severity), "message": one.message} | place
+    compared = link if one.compares else None
+    geometry = compared and compared.geometry
     return head | {
         "reasons": [_finding(reason) for reason in one.reasons],
-        "stated": _inertial(link.link.inertial) if one.compares else None,
-        "geometry": _inertial(link.geometry)
-        if one.compares and link.geometry is not None
-        else None,
+        "stated": compared and _inertial(compared.link.inertial),
+        "geometry": geometry and _inertial(geometry),
         "change": None if one.change is None else sentence(one.change),
         "certainty": one.certainty or None,
     }
@@ -141,7 +168,7 @@ def to_json(documents: Sequence[dict[str, Any]]) -> str:
 
 def _table_rows(documents: Iterable[dict[str, Any]]) -> Iterable[list[Any]]:
     for one in documents:
-        for reason in one["errors"]:
+        for reason in [*one["errors"], *one["findings"]]:
             yield [
                 one["file"],
                 "",
@@ -197,6 +224,13 @@ def to_html(documents: Sequence[dict[str, Any]]) -> str:
             ]
             lines.append("<tr>{}</tr>".format("".join(cells)))
         lines.append("</table>")
+        if one["total"]:
+            lines += ["<table>", "<tr><th>Part<th>Mass, center, inertia about it</tr>"]
+            lines += (
+                "<tr>{}</tr>".format("".join(map("<td>{}".format, map(html.escape, row))))
+                for row in _total_rows(one)
+            )
+            lines.append("</table>")
     lines += map("<p>{}</p>".format, _remarks(documents))
     return "\n".join([*lines, "</html>", ""])
 
@@ -207,6 +241,21 @@ def _summary(document: dict[str, Any]) -> str:
         return "not read"
     counts = count_findings(document)
     return ", ".join(counted(counts[one + "s"], one) for one in ("link", *map(str, Severity)))
+
+
+def _total_rows(document: dict[str, Any]) -> list[tuple[str, str]]:
+    """Return names and texts of the whole model, of its subtrees, and of links beside the total."""
+    total = document["total"]
+    parents = {link["parent"] for link in document["links"]}
+    rows = [("total", _numbers(total))]
+    for name, told in _UNCOUNTED.items():
+        if total[name]:
+            rows.append((told, ", ".join(total[name])))
+    return rows + [
+        ("subtree {}".format(link["name"]), _numbers(link["subtree"]))
+        for link in document["links"]
+        if link["name"] in parents
+    ]
 
 
 def _remarks(documents: Sequence[dict[str, Any]]) -> list[str]:
@@ -226,8 +275,10 @@ def _rests_on_geometry(documents: Iterable[dict[str, Any]]) -> bool:
 
 def _numbers(inertial: dict[str, Any] | None) -> str:
     """Return an inertial in one line."""
-    if inertial is None or inertial["mass"] is None or inertial["inertia"] is None:
+    if inertial is None or inertial["mass"] is None:
         return "unknown"
+    if inertial["inertia"] is None:
+        return "mass {:.6g} kg, center and inertia unknown".format(inertial["mass"])
     center = " ".join(
         "-" if value is None else "{:.4g}".format(value) for value in inertial["center_of_mass"]
     )
@@ -247,13 +298,17 @@ def to_text(documents: Sequence[dict[str, Any]]) -> str:
     for one in documents:
         for reason in one["errors"]:
             lines.append("{file}:{line}:{column}: {severity}: {message}".format(**reason))
-        for link in one["links"]:
+        for link in [{"name": "", "findings": one["findings"]}, *one["links"]]:
             for found in link["findings"]:
                 head = "{file}:{line}:{column}: {severity}: ".format(**found)
                 known = " (known)" if found.get("known") else ""
                 lines.append(
-                    "{}{}: {} [{}]{}".format(
-                        head, link["name"], found["message"], found["code"], known
+                    "{}{}{} [{}]{}".format(
+                        head,
+                        link["name"] and link["name"] + ": ",
+                        found["message"],
+                        found["code"],
+                        known,
                     )
                 )
                 if found["severity"] != Severity.NOTE and found["stated"] is not None:
@@ -261,6 +316,7 @@ def to_text(documents: Sequence[dict[str, Any]]) -> str:
                     lines.append("    shapes: {}".format(_numbers(found["geometry"])))
                 if found["change"] is not None:
                     lines.append("    change: {} ({})".format(found["change"], found["certainty"]))
+        lines += map("{0[0]}: {0[1]}".format, _total_rows(one) if one["total"] else ())
         lines.append("{}: {}".format(one["file"], _summary(one)))
         if one["repaired"]:
             lines.append("repaired copy: {}".format(one["repaired"]))
@@ -273,7 +329,7 @@ def to_text(documents: Sequence[dict[str, Any]]) -> str:
 def to_table(documents: Sequence[dict[str, Any]]) -> str:
     """Return one line for each file, in columns, and their totals."""
     rows: list[tuple[str, ...]] = [
-        ("errors", "warnings", "notes", "links", "can be repaired", "status", "file")
+        ("errors", "warnings", "notes", "links", "can be repaired", "mass, kg", "status", "file")
     ]
     totals = [0] * 5
     for one in documents:
@@ -282,13 +338,20 @@ def to_table(documents: Sequence[dict[str, Any]]) -> str:
         numbers = [*(counts[key] for key in ("errors", "warnings", "notes", "links")), repairs]
         totals = [total + number for total, number in zip(totals, numbers)]
         texts = [*map(str, numbers[:3]), *("--" if one["errors"] else map(str, numbers[3:]))]
-        rows.append((*texts, one["status"], visible(str(one["file"]))))
-    rows.append((*map(str, totals), "", counted(len(documents), "file")))
+        mass = "{:.6g}".format(one["total"]["mass"]) if one["total"] else "-"
+        rows.append((*texts, mass, one["status"], visible(str(one["file"]))))
+    rows.append((*map(str, totals), "", "", counted(len(documents), "file")))
     widths = [max(map(len, column)) for column in zip(*rows)]
     lines = [
-        "  ".join(map(str.rjust, row[:5], widths)) + "  {}  {}".format(row[5].ljust(8), row[6])
+        "  ".join(map(str.rjust, row[:6], widths)) + "  {}  {}".format(row[6].ljust(8), row[7])
         for row in rows
     ]
+    for one in documents:
+        if one["total"]:
+            told = _total_rows(one)
+            wide = max(len(name) for name, _ in told)
+            lines += ["", *(visible(name.ljust(wide) + "  " + text) for name, text in told)]
+            lines[-len(told)] += "  " + visible(str(one["file"]))
     return "\n".join([AUDIT_TEXT, *lines, *_remarks(documents), ""])
 
 

@@ -228,6 +228,40 @@ def test_square_inches_of_kg_or_pounds_keep_the_mass_uncertainly():
         assert found.repaired.mass == mass and REFERENCE.compare(found.repaired) < 1e-12
 
 
+SEQUENCES = {
+    "urdf": "00 01 02 11 12 22",
+    "mujoco": "00 11 22 01 02 12",
+    "lower": "00 10 11 20 21 22",
+    "fusion": "00 11 22 01 12 02",
+}
+
+
+@pytest.mark.parametrize("read, listed", [*permutations(SEQUENCES, 2)])
+@pytest.mark.parametrize("turn", [np.eye(3), rotation_of_angles(*ANGLES)])
+def test_six_numbers_in_another_order_are_certain(read, listed, turn):
+    truth = turn.T @ INERTIA @ turn
+    tensor = np.empty((3, 3))
+    for (i, j), (k, m) in zip(SEQUENCES[read].split(), SEQUENCES[listed].split()):
+        tensor[int(i), int(j)] = tensor[int(j), int(i)] = truth[int(k), int(m)]
+    found = diagnose(StatedInertial(MASS, CENTER, tensor, turn), [REFERENCE])[0]
+    assert found.finding.code == "audit_order" and found.is_certain
+    assert REFERENCE.compare(found.repaired) < 1e-12
+
+
+@pytest.mark.parametrize("unit", [INCH**2, 1e-4, 1e-6])
+def test_inertia_of_mass_1_in_square_lengths_is_found(unit):
+    (found,) = diagnose(of_inertia(INERTIA / MASS / unit), [REFERENCE])
+    assert found.finding.values["factor"] == unit and REFERENCE.compare(found.repaired) < 1e-12
+
+
+@pytest.mark.parametrize("unit", [1e-9, 1e-7])
+def test_grams_and_their_inertia_are_one_certain_change(unit):
+    stated = StatedInertial(MASS * 1e3, CENTER, INERTIA / unit)
+    (found,) = diagnose(stated, [REFERENCE])
+    assert found.is_certain and close(found.repaired.mass, MASS, 1e-14)
+    assert close(found.repaired.inertia, INERTIA, 1e-14)
+
+
 def of_density(density):
     return replace(REFERENCE, volume=MASS / density)
 

@@ -1,0 +1,49 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Objects as planes and surfaces that others are compared with, in meters and the world."""
+
+from __future__ import annotations
+
+import numpy as np
+from bpy.types import Depsgraph, Object
+
+from ...core.cuts import CutFill, cut_fill, cut_fill_between
+from ...core.flat import fit_plane
+from ...core.mesh import Surface
+from ...core.numerics import Array, Index
+from ...core.verdict import MeasureError
+from ..read.objects import read_object
+from ..read.visibility import measurable
+
+
+def world_surface(obj: Object, depsgraph: Depsgraph, unit: float) -> Surface:
+    """Return the faces that an object shows, before any repair. unit: meters per Blender unit."""
+    surface = read_object(obj, depsgraph, edges=False).join()
+    return surface.transform(unit * np.eye(3), np.zeros(3))
+
+
+def cut_fill_against(other: Object, surface: Surface, depsgraph: Depsgraph, unit: float) -> CutFill:
+    """Return cut and fill of a surface against an object: its plane if it is flat or shows no
+    faces (its X and Y axes), else its surface.
+    """
+    points, triangles = surface.points.astype(np.float64), surface.all_triangles()[0]
+    if not measurable(other):
+        matrix = np.array(other.matrix_world, np.float64)
+        normal = np.cross(matrix[:3, 0], matrix[:3, 1])
+        return _against_plane(points, triangles, normal, unit * matrix[:3, 3], surface)
+    shown = world_surface(other, depsgraph, unit)
+    faces = shown.all_triangles()[0]
+    try:
+        error = float(shown.coordinate_error.max())
+        plane = fit_plane(shown.points, faces, np.eye(3), np.zeros(3), error)
+    except MeasureError:
+        return cut_fill_between(points, triangles, shown.points, faces)
+    return _against_plane(points, triangles, plane.axes[:, 2], plane.origin, surface)
+
+
+def _against_plane(
+    points: Array, triangles: Index, normal: Array, place: Array, surface: Surface
+) -> CutFill:
+    """Return cut and fill against the plane through a place; its upper side counts as up."""
+    normal = normal if normal[2] >= 0.0 else -normal
+    return cut_fill(points, triangles, normal, float(normal @ place), surface.coordinate_error)

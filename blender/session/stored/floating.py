@@ -1,0 +1,307 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Floating objects: where they rest, and the numbers of the place in which they are held.
+
+An object floats as one body with the objects that it carries (its children). The body is read on
+request; it is remembered until a shape, a setting or a place within it changes, and read again
+then if Live is on. The waterline follows the place, the liquid and its density at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+
+import bpy
+import numpy as np
+from bpy.types import Context, Depsgraph, Object, Scene
+
+from ....core.bodies import float64_matrix
+from ....core.floating import (
+    FLOAT_UNAVAILABLE,
+    NO_GRAVITY,
+    Flotation,
+    RightingCurve,
+    heel_and_trim,
+    righting_curve,
+    settle,
+)
+from ....core.numerics import Array, rotation_matrix
+from ....core.verdict import Finding, MeasureError
+from ...bodies.measure_body import measure_body
+from ...read.fingerprint import settings_hash
+from ...read.visibility import measurable
+from ...scale import meters_per_unit
+from ...scene import fcurves, reframe
+from ...scene.changes import ancestors
+from ...scene.rigid_world import down
+from ...scene.transforms import TransformChannels, world
+from ...settings.floating import liquid_density
+from .. import memory
+from ..live import following
+from ..tracking import handlers, staleness, stamps
+from ..tracking.stamps import Kind, Stamp
+
+PLACE_RTOL = 1e-5  # of float32 matrices
+GZ_KEY = "body_righting_arm"
+
+
+@dataclass(eq=False)
+class Afloat:
+    """A floating body.
+
+    members: its objects; places: (k, 4, 4) their matrices when it was read; roles: of the members.
+    rest: where it settles from there, in m. curve: its righting arms. rests: all positions of rest.
+    shown: the generation and the scene, and what is displayed for them.
+    """
+
+    members: tuple[Object, ...]
+    places: Array
+    roles: tuple
+    rest: Flotation
+    curve: RightingCurve | None = None
+    rests: tuple[Flotation, ...] = ()
+    shown: tuple[tuple, Held | Finding | None] | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Held:
+    """A body as its objects stand now.
+
+    state: the position with their attitude, in the body's coordinates. matrix: (4, 4) from these to
+    the world, m. up: against gravity. is_at_rest: whether it is at its level, and does not turn.
+    heel, trim: of the root's axes, rad.
+    """
+
+    afloat: Afloat
+    state: Flotation
+    matrix: Array
+    up: Array
+    is_at_rest: bool
+    heel: float
+    trim: float
+
+    def to_world(self, points: Array) -> Array:
+        """Return (..., 3) points in the world, m."""
+        return points @ self.matrix[:3, :3].T + self.matrix[:3, 3]
+
+
+def bodies_of(objects: Iterable[Object], as_one: bool) -> list[tuple[Object, ...]]:
+    """Return the objects of each floating body, those that carry others first."""
+    chosen = [_carrier(obj) for obj in objects]
+    roots = [obj for obj in chosen if not any(other in chosen for other in ancestors(obj.parent))]
+    bodies = [
+        (root, *[child for child in root.children_recursive if measurable(child)])
+        for root in dict.fromkeys(roots)
+    ]
+    bodies = [body for body in bodies if any(map(measurable, body))]
+    if as_one and bodies:
+        return [tuple(dict.fromkeys(obj for body in bodies for obj in body))]
+    return bodies
+
+
+def _carrier(obj: Object) -> Object:
+    """Return the body that an object belongs to as a tank or a flooded space, else the object."""
+    while obj.body_moments_tank.role != "BODY" and obj.parent is not None:
+        obj = obj.parent
+    return obj
+
+
+def _up(scene: Scene) -> Array:
+    if not scene.use_gravity or not np.any(scene.gravity):
+        raise MeasureError(FLOAT_UNAVAILABLE, fault=NO_GRAVITY)
+    return -down(scene)
+
+
+def _roles(members: Iterable[Object]) -> tuple:
+    tanks = [member.body_moments_tank for member in members]
+    return tuple((tank.role, tank.fill if tank.role == "TANK" else 0.0) for tank in tanks)
+
+
+def read(depsgraph: Depsgraph, members: Sequence[Object]) -> Afloat:
+    """Read a floating body and settle it, without moving anything; MeasureError if it does not
+    float.
+    """
+    scene = depsgraph.scene
+    parts = {obj: measure_body(obj, depsgraph) for obj in members if measurable(obj)}
+
+    def having(role: str) -> list[Object]:
+        return [obj for obj in parts if obj.body_moments_tank.role == role]
+
+    properties = [parts[obj].mass_properties for obj in having("BODY")]
+    mass = float(sum(each.mass for each in properties))
+    center = sum((each.mass * each.center for each in properties), np.zeros(3)) / (mass or 1.0)
+    rest = settle(
+        [parts[obj].body for obj in having("BODY")],
+        mass,
+        center,
+        liquid_density(scene),
+        _up(scene),
+        [
+            (parts[obj].body, obj.body_moments_tank.fill / 100.0, parts[obj].measurement.density)
+            for obj in having("TANK")
+        ],
+        [parts[obj].body for obj in having("FLOODED")],
+    )
+    places = np.array([float64_matrix(obj.matrix_world) for obj in members])
+    return Afloat(tuple(members), places, _roles(members), rest)
+
+
+def remember(afloat: Afloat, depsgraph: Depsgraph) -> None:
+    """Keep a body for the panel and the overlay."""
+    for obj in afloat.members:
+        memory.afloat[obj] = afloat
+        settings = settings_hash(obj, depsgraph.scene)
+        stamp = stamps.carry(obj, Kind.FLOATING, memory.state.updates, settings=settings)
+        staleness.mark_stamp(obj, stamp, depsgraph)
+        handlers.count_change(obj)
+
+
+def float_body(
+    context: Context, members: Sequence[Object], position: int, notes: list[Finding]
+) -> bool:
+    """Move the objects of a body to where it rests, from where it is (0) or in another position;
+    return whether they had to move.
+    """
+    roots = [obj for obj in members if not any(other in members for other in ancestors(obj.parent))]
+    for root in roots:
+        reframe.check_movable(root)
+    known = memory.afloat.get(members[0])
+    afloat = read(context.evaluated_depsgraph_get(), members)
+    rest = afloat.rest
+    if position:
+        rests = known.rests if known is not None and known.rests else rest.body.find_rests()
+        up = rests[(position - 1) % len(rests)].up
+        if known is not None and known.rests:
+            up = _turn_since(afloat, known) @ up
+        rest = rest.body.settle(up)
+    notes += rest.findings
+    scene = context.scene
+    unit = meters_per_unit(scene)
+    matrix = rest.matrix(_up(scene), scene.body_moments_liquid.level * unit)
+    matrix[:3, 3] /= unit
+    size = rest.body.size / unit
+    saved = [TransformChannels(root) for root in roots]
+    is_moved = False
+    try:
+        for root in roots:
+            target = matrix @ world(root)
+            off = np.abs(target - world(root))
+            if off[:, :3].max() > 1e-6 * np.abs(target[:, :3]).max() or off[
+                :, 3
+            ].max() > reframe.location_tolerance(root, size):
+                is_moved = True
+                reframe.move(context, reframe.Plan(root, target, size, move_only=False))
+    except BaseException:
+        for channels in saved:
+            channels.restore()
+        context.view_layer.update()
+        raise
+    remember(replace(afloat, rest=rest), context.evaluated_depsgraph_get())
+    return is_moved
+
+
+def _turn_since(afloat: Afloat, known: Afloat) -> Array:
+    """Return the (3, 3) rotation of a body since it was read before."""
+    turn = afloat.places[0] @ np.linalg.inv(known.places[0])
+    return turn[:3, :3] / np.cbrt(np.linalg.det(turn[:3, :3]))
+
+
+def find_positions(context: Context, members: Sequence[Object]) -> Afloat:
+    """Find all positions of rest of a body, and keep them."""
+    afloat = read(context.evaluated_depsgraph_get(), members)
+    afloat.rests = tuple(afloat.rest.body.find_rests())
+    remember(afloat, context.evaluated_depsgraph_get())
+    return afloat
+
+
+def heel(context: Context, members: Sequence[Object], angles: Array, free_trim: bool) -> Afloat:
+    """Compute the righting arms of a body from where it settles, and keep them."""
+    afloat = read(context.evaluated_depsgraph_get(), members)
+    afloat.curve = righting_curve(afloat.rest, angles, free_trim=free_trim)
+    remember(afloat, context.evaluated_depsgraph_get())
+    return afloat
+
+
+def add_curve(context: Context, afloat: Afloat) -> Object:
+    """Add an empty with an F-curve of the righting arms, a frame for each degree of heel."""
+    assert afloat.curve is not None
+    empty = bpy.data.objects.new("GZ {:s}".format(afloat.members[0].name), None)
+    context.scene.collection.objects.link(empty)
+    empty[GZ_KEY] = 0.0
+    empty.id_properties_ui(GZ_KEY).update(description="Righting arm GZ, m; frames are degrees")
+    fcurves.write_keys(
+        fcurves.ensure_curves(empty, alone=True),
+        ('["{:s}"]'.format(GZ_KEY), 0),
+        fcurves.time_scale(context.scene) * np.degrees(afloat.curve.angles),
+        afloat.curve.arms,
+    )
+    return empty
+
+
+def stamp_of(obj: Object) -> Stamp | None:
+    """Return the stamp of an object's floating body."""
+    return stamps.carried(obj, Kind.FLOATING)
+
+
+def known(obj: Object) -> Afloat | None:
+    """Return the floating body of an object, if it was read."""
+    return memory.afloat.get(obj)
+
+
+def held(obj: Object, scene: Scene) -> Held | Finding | None:
+    """Return an object's floating body as it stands now, the reason if it does not float, or None
+    if it was not read or is out of date.
+    """
+    afloat = memory.afloat.get(obj)
+    if afloat is None:
+        return None
+    try:
+        roles = _roles(afloat.members)
+    except ReferenceError:  # an object was removed
+        return None
+    liquid = scene.body_moments_liquid.level, liquid_density(scene)
+    key = (memory.state.generation, scene.session_uid, *liquid, roles)
+    if afloat.shown is None or afloat.shown[0] != key:
+        try:
+            value = _held(obj, afloat, scene)
+        except MeasureError as refusal:
+            value = refusal.finding
+        afloat = memory.afloat[obj]
+        afloat.shown = (key, value)
+    return afloat.shown[1]
+
+
+def _held(obj: Object, afloat: Afloat, scene: Scene) -> Held | None:
+    present = np.array([float64_matrix(member.matrix_world) for member in afloat.members])
+    is_stale = _roles(afloat.members) != afloat.roles or any(
+        staleness.stale_reason(member, scene, stamp_of) for member in afloat.members
+    )
+    is_live = any(map(following.is_live, afloat.members))
+    turn = present[0] @ np.linalg.inv(afloat.places[0])
+    carried = turn @ afloat.places
+    is_stale |= bool((np.abs(carried - present) > PLACE_RTOL * np.abs(present).max()).any())
+    scale = np.linalg.svd(turn[:3, :3], compute_uv=False)
+    is_stale |= bool((np.abs(scale - 1.0) > PLACE_RTOL).any())
+    if is_stale:
+        if not is_live:
+            return None
+        depsgraph = bpy.context.view_layer.depsgraph
+        fresh = read(depsgraph, afloat.members)
+        remember(fresh, depsgraph)
+        return _held(obj, fresh, scene)
+    unit = meters_per_unit(scene)
+    turn[:3, 3] *= unit
+    up = _up(scene)
+    rest = afloat.rest
+    body = rest.body
+    if body.density != liquid_density(scene):
+        body = replace(body, density=liquid_density(scene))
+    state = body.at(turn[:3, :3].T @ up)
+    level = scene.body_moments_liquid.level * unit
+    height = float(up @ turn[:3, 3]) + state.level
+    is_at_rest = state.residual < PLACE_RTOL and abs(
+        height - level
+    ) < PLACE_RTOL * body.size + 1e-6 * abs(level)
+    axes = rotation_matrix(obj.matrix_world.to_quaternion())
+    return Held(afloat, state, turn, up, is_at_rest, *heel_and_trim(up, axes))

@@ -1,0 +1,88 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Entries of records about parts of bodies, and cut and fill. SI units, world frame."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..mesh import Surface
+from ..moments import Moments
+from ..verdict import MeasureError
+from ..verdict.finding import Finding, finding
+from .findings import COMPARED_IN_PART, LEVEL_UNAVAILABLE, PLANE_MISSES
+from .open_surfaces import CutFill
+from .part_below import measure_below
+
+MAX_LEFT_OUT = 1e-9  # share of the area
+UP = (0.0, 0.0, 1.0)
+
+
+def below_record(surface: Surface, level: float) -> dict[str, Any]:
+    """Return the entry `below` of a closed surface; MeasureError if the plane misses it."""
+    low, high = surface.box
+    if not low[2] < level < high[2]:
+        raise MeasureError(LEVEL_UNAVAILABLE, fault=PLANE_MISSES)
+    triangles = surface.all_triangles()[0]
+    found = measure_below(
+        surface.points.astype(np.float64), triangles, [UP], [level], surface.coordinate_error
+    )
+    part, face = found.part.at(0), found.face.at(0)
+    return {
+        "level": level,
+        **_moments("volume", part),
+        "face": _moments("area", face),
+        "error_bound": {
+            "volume": part.rounding_error[0],
+            "face": face.rounding_error[0],
+            "input": {"volume": part.input_error[0], "face": face.input_error[0]},
+        },
+    }
+
+
+def _moments(name: str, moments: Moments) -> dict[str, Any]:
+    central = moments.about_center()
+    return {
+        name: moments.total,
+        "center": central.about,
+        "second_moments": central.second(),
+    }
+
+
+def partly_compared(found: CutFill) -> tuple[Finding, ...]:
+    """Return a finding if a part of the surface has no counterpart."""
+    if found.compared > 1.0 - MAX_LEFT_OUT:
+        return ()
+    return (finding(COMPARED_IN_PART, share=found.compared),)
+
+
+def cut_fill_record(found: CutFill, against: str) -> dict[str, Any]:
+    """Return the entry `cut_fill`. against: the height, `rim`, or the other object's name."""
+    sides = {
+        name: {
+            "volume": part.total,
+            "area": area,
+            "center": part.center if part.total > 0.0 else None,
+        }
+        for name, part, area in (
+            ("cut", found.cut, found.cut_area),
+            ("fill", found.fill, found.fill_area),
+        )
+    }
+    bounds = [
+        float(found.cut.rounding_error[0] + found.fill.rounding_error[0]),
+        float(found.cut.input_error[0] + found.fill.input_error[0]),
+    ]
+    plane = None
+    if found.offset is not None:
+        plane = {"normal": found.normal, "offset": found.offset}
+    return {
+        "against": against,
+        "plane": plane,
+        **sides,
+        "net": found.net,
+        "compared": found.compared,
+        "error_bound": {"net": bounds[0], "input": {"net": bounds[1]}},
+    }

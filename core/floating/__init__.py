@@ -1,0 +1,7 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Floating bodies: where they rest in a liquid, and their righting arms."""
+
+from ..lazy import lazy_names
+
+__getattr__, __dir__, __all__ = lazy_names(__name__)

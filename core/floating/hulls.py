@@ -1,0 +1,146 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The surface that keeps a liquid out of measured bodies.
+
+It is their outer side: cavities, and bodies inside of others, displace nothing more. Holes and
+hollows that are open upward keep the liquid out as long as their rims are above the waterline.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..bodies import MeshBody, WallBody
+from ..cuts import find_hollow
+from ..measurement import Body
+from ..mesh import Bvh, Surface, intersecting_pairs, sort_components, uncancelled_sides
+from ..numerics import Array, Index, Mask
+from ..solid import (
+    COMPONENTS_OVERLAP,
+    SELF_INTERSECTING,
+    SolidIntegrals,
+    classify_pairs,
+    measure_solid,
+)
+from ..verdict import MeasureError, Procedure, welding_tolerance
+from ..wall import split_thickness
+from .findings import FLOAT_UNAVAILABLE, NO_BODY, OPEN_HULL, SHARED_SPACE
+
+NOT_UNITED = {COMPONENTS_OVERLAP, SELF_INTERSECTING}
+
+LEAST_HOLLOW = 1e-6  # relative to the volume: smaller hollows count as wet
+MAX_HOLLOWS = 8
+
+
+@dataclass(frozen=True, eq=False)
+class Hull:
+    """A closed surface, (n, 3) points and (m, 3) triangles, and the (k, 3) points of its rims."""
+
+    points: Array
+    triangles: NDArray[np.integer]
+    openings: Array
+
+
+def outer_surface(body: Body) -> Iterator[tuple[SolidIntegrals, Array]]:
+    """Yield the closed solids that a body displaces, and the (k, 4, 4) maps to their places, m."""
+    if isinstance(body, WallBody):
+        for piece in body.walls.pieces:
+            outward = split_thickness(body.walls.side, body.thickness / piece.scale)[1]
+            offset = piece.offset
+            points = offset.points + outward * offset.vectors
+            yield measure_solid(Surface(points, offset.triangles)), piece.matrices
+    elif isinstance(body, MeshBody):
+        yield from body.solids
+    elif body.has_surface:
+        for surface in body.surfaces(False):
+            yield measure_solid(surface), np.eye(4)[None]
+
+
+def find_hull(bodies: Iterable[Body]) -> Hull:
+    """Return the outer side of bodies with their holes closed, or raise MeasureError."""
+    points, triangles, caps, part, rims = [], [], [], [], []
+    start = number = 0
+    for body in bodies:
+        for solid, matrices in outer_surface(body):
+            if solid.method is Procedure.OPEN:
+                raise MeasureError(FLOAT_UNAVAILABLE, fault=OPEN_HULL)
+            if any(found.code in NOT_UNITED for found in solid.findings):
+                raise MeasureError(FLOAT_UNAVAILABLE, fault=SHARED_SPACE)
+            closed = solid.parts()
+            mesh = solid.oriented.mesh
+            rim = mesh.points[np.unique(mesh.capped_edges)].astype(np.float64)
+            for matrix in matrices:
+                linear = matrix[:3, :3].T
+                step = 1 if np.linalg.det(linear) > 0.0 else -1
+                points.append(closed.points.astype(np.float64) @ linear + matrix[:3, 3])
+                triangles.append(closed.triangles[:, ::step] + start)
+                caps.append(closed.face < 0)
+                part.append(closed.part + number)
+                rims.append(rim @ linear + matrix[:3, 3])
+                start += len(closed.points)
+                number += closed.number
+    if not points:
+        raise MeasureError(FLOAT_UNAVAILABLE, fault=NO_BODY)
+    joined = np.concatenate(points)
+    faces = np.concatenate(triangles)
+    owner = np.concatenate(part)
+    kept = _outer_parts(joined, faces, owner, np.concatenate(caps), number)
+    return Hull(joined, faces[kept[owner]], np.concatenate(rims))
+
+
+def _outer_parts(
+    points: Array, triangles: NDArray[np.integer], part: Index, is_cap: Mask, number: int
+) -> Mask:
+    """Return a (number,) mask of the parts that no other one contains; MeasureError if parts
+    overlap.
+    """
+    parts = sort_components(points, triangles, part, number)
+    is_solid = parts.volume > 0.0
+    low, high = points.min(axis=0), points.max(axis=0)
+    reach = float(np.maximum(np.abs(low), np.abs(high)).max())
+    tolerance = welding_tolerance(
+        float(np.linalg.norm(high - low)), float(np.spacing(np.float32(reach)))
+    )
+    relations = classify_pairs(points, parts, is_solid, tolerance)
+    kept = is_solid.copy()
+    kept[relations.contained_in[:, 0]] = False
+    if len(relations.intersecting):
+        # What goes through a cap alone, as a mast or a crew, is inside of an open hull.
+        skins = sort_components(points, triangles[~is_cap], part[~is_cap], number)
+        tree = Bvh(points, skins, kept)
+        small, large = relations.intersecting.T
+        pierced, unfinished = intersecting_pairs(tree, small, large, tolerance)
+        if (pierced | unfinished).any():
+            raise MeasureError(FLOAT_UNAVAILABLE, fault=SHARED_SPACE)
+        kept[small] = False
+    return kept
+
+
+def fill_hollows(hull: Hull, up: Array) -> Hull:
+    """Return the hull with the hollows that are open upward filled up to lids on their rims."""
+    points, triangles, openings = hull.points, hull.triangles, hull.openings
+    for _ in range(MAX_HOLLOWS):
+        try:
+            hollow = find_hollow(points, triangles, up)
+        except MeasureError:
+            break
+        volume = float(
+            sort_components(points, triangles, np.zeros(len(triangles), int), 1).volume[0]
+        )
+        if hollow.capacity <= LEAST_HOLLOW * volume:
+            break
+        _, start, stop = uncancelled_sides(
+            hollow.triangles, np.zeros(len(hollow.triangles), np.intp)
+        )
+        rim = hollow.points[start]
+        count = len(hollow.points)
+        lid = np.stack([stop, start, np.full(len(start), count)], axis=1)
+        added = np.concatenate([hollow.triangles, lid])
+        triangles = np.concatenate([triangles, added + len(points)])
+        points = np.concatenate([points, hollow.points, rim.mean(axis=0)[None]])
+        openings = np.concatenate([openings, rim])
+    return hull if triangles is hull.triangles else Hull(points, triangles, openings)

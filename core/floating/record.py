@@ -1,0 +1,158 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Floating bodies as entries of records."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..measurement import Body, Measurement
+from ..numerics import Array
+from ..verdict import MeasureError
+from ..verdict.finding import finding
+from .findings import HOLLOW_FLOODED, LIQUID_ENTERS
+from .flotation import FloatingBody, Flotation, Tank, Vessel
+from .hulls import Hull, fill_hollows, find_hull
+from .righting import RightingCurve, righting_curve
+
+
+def settle(
+    bodies: Iterable[Body],
+    mass: float,
+    center: Array,
+    density: float,
+    up: ArrayLike,
+    tanks: Iterable[tuple[Body, float, float]] = (),
+    flooded: Iterable[Body] = (),
+) -> Flotation:
+    """Return the position in which measured bodies rest as one, downhill from where they are.
+
+    Parameters
+    ----------
+    bodies : iterable of Body
+    mass : float
+        Of all of them, kg.
+    center : (3,) array
+        Center of mass, m.
+    density : float
+        Of the liquid, kg/m³.
+    up : (3,) array_like
+        Unit vector against gravity.
+    tanks : iterable of (Body, float, float)
+        Tanks, each with the filled share of its volume and the density of its liquid.
+    flooded : iterable of Body
+        Spaces that the liquid around the body fills, too.
+
+    Returns
+    -------
+    Flotation
+
+    Raises
+    ------
+    MeasureError
+        If it sinks, leaks, or does not rest.
+    """
+    wet = find_hull(bodies)
+    dry = fill_hollows(wet, np.asarray(up, np.float64))
+    lost = [find_hull([space]) for space in flooded]
+    liquids = []
+    for tank, fill, tank_density in tanks:
+        hull = find_hull([tank])
+        vessel = Vessel(hull.points, hull.triangles, 1.0)
+        liquids.append(Tank(replace(vessel, volume=fill * vessel.whole[0]), tank_density))
+
+    def floating(hull: Hull) -> FloatingBody:
+        points, triangles = hull.points, hull.triangles
+        for space in lost:
+            triangles = np.concatenate([triangles, space.triangles[:, ::-1] + len(points)])
+            points = np.concatenate([points, space.points])
+        return FloatingBody(points, triangles, mass, center, density, hull.openings, tuple(liquids))
+
+    try:
+        return floating(dry).settle(up)
+    except MeasureError as refusal:
+        if dry is wet or refusal.finding.code != LIQUID_ENTERS:
+            raise
+        try:
+            rest = floating(wet).settle(up)
+        except MeasureError:
+            raise refusal from None
+        depth = refusal.finding.values["depth"]
+        return replace(rest, findings=(finding(HOLLOW_FLOODED, depth=depth),))
+
+
+def heel_and_trim(up: Array, axes: Array) -> tuple[float, float]:
+    """Return the heel about the X axis and the trim about the Y axis of a (3, 3) frame, rad.
+
+    up: (3,) unit vector against gravity.
+    """
+    x, y, z = up @ axes
+    return float(np.arctan2(y, z)), float(-np.arcsin(np.clip(x, -1.0, 1.0)))
+
+
+def float_record(
+    rest: Flotation,
+    measurement: Measurement,
+    frame: str,
+    angles: ArrayLike = (),
+    rests: Iterable[Flotation] = (),
+) -> dict[str, Any]:
+    """Return the entry `floating` of an object's record.
+
+    frame: "world" or "object", of the centers. angles: of heel, rad, for the righting arms. rests:
+    all positions of rest.
+    """
+    axes, origin = measurement.rotation, measurement.location
+    if frame == "world":
+        axes, origin = np.eye(3), np.zeros(3)
+
+    def height(point: Array) -> float:
+        return float(rest.up @ point) - rest.keel
+
+    heel, trim = heel_and_trim(rest.up, measurement.rotation)
+    entry: dict[str, Any] = {
+        "liquid_density": rest.body.density,
+        "displacement": rest.displacement,
+        "draught": rest.draught,
+        "heel": heel,
+        "trim": trim,
+        "kb": height(rest.center_of_buoyancy),
+        "kg": height(rest.center_of_gravity),
+        "bm": rest.metacentric_radii,
+        "gm": rest.metacentric_heights,
+        "waterplane_area": rest.plane.area,
+        "waterplane_moments": rest.waterplane_moments,
+        "center_of_buoyancy": axes.T @ (rest.center_of_buoyancy - origin),
+        "center_of_flotation": axes.T @ (rest.center_of_flotation - origin),
+        "residual": rest.residual,
+        "matrix": rest.matrix(),
+        "rests": [
+            {
+                **dict(zip(("heel", "trim"), heel_and_trim(other.up, measurement.rotation))),
+                "draught": other.draught,
+                "gm": other.metacentric_heights,
+                "energy": other.energy - rest.energy,
+            }
+            for other in rests
+        ],
+    }
+    if np.size(angles):
+        entry["gz"] = _curve_record(righting_curve(rest, angles))
+    return entry
+
+
+def _curve_record(curve: RightingCurve) -> dict[str, Any]:
+    return {
+        "angles": curve.angles,
+        "arms": curve.arms,
+        "trims": curve.trims,
+        "energies": curve.energies,
+        "stable_range": curve.stable_range,
+        "capsize": curve.capsize,
+        "flooding": curve.flooding,
+    }

@@ -1,0 +1,197 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Righting arms of a heeled body.
+
+From the position of rest, with axes f forward, s to the side and k up, heel by p about f and trim
+by q put gravity against
+
+    u = (-sin q, cos q sin p, cos q cos p).
+
+At each heel the level keeps the displacement, and a free trim is where the energy e(u) of
+`flotation` is least along q. The righting arm is the derivative of e by p over cos q, the
+horizontal distance between the verticals through gravity and buoyancy, and positive if it rights.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..numerics import Array, Index, check_filled, float_array
+from .flotation import Flotation
+
+MAX_STEPS = 30
+MAX_TRIM_STEP = 0.2  # rad
+LEVEL_TRIM = 1e-12  # relative to the size: smaller trimming arms count as none
+ROUNDS = 40  # of the search for an angle
+ANGLE_ATOL = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class RightingCurve:
+    """Righting arms over angles of heel, rad, ascending.
+
+    `arms`: (k,) GZ, m. `trims`: (k,) rad. `energies`: (k,) work against the arms per weight from
+    rest, m. `is_free`: whether the trim is free. `capsize`, `flooding`: the angles beyond which it
+    turns over, or liquid runs in through an opening, below and above zero; nan if not among the
+    angles.
+    """
+
+    angles: Array
+    arms: Array
+    trims: Array
+    energies: Array
+    is_free: bool
+    capsize: tuple[float, float]
+    flooding: tuple[float, float]
+
+    @property
+    def stable_range(self) -> tuple[float, float]:
+        """The angles between which it comes back, as far as they are known."""
+        low = np.fmax(np.fmax(self.capsize[0], self.flooding[0]), self.angles[0])
+        high = np.fmin(np.fmin(self.capsize[1], self.flooding[1]), self.angles[-1])
+        return float(low), float(high)
+
+
+def righting_curve(
+    rest: Flotation,
+    angles: ArrayLike,
+    forward: ArrayLike | None = None,
+    free_trim: bool = True,
+) -> RightingCurve:
+    """Compute the righting arms of a body that heels from its position of rest.
+
+    Parameters
+    ----------
+    rest : Flotation
+    angles : (k,) array_like
+        Of heel, rad; positive toward the right of `forward`.
+    forward : (3,) array_like, optional
+        The axis of heel, projected onto the water; that of least stiffness without it.
+    free_trim : bool
+
+    Returns
+    -------
+    RightingCurve
+
+    Examples
+    --------
+    >>> from body_moments.core.floating import FloatingBody, righting_curve
+    >>> log = FloatingBody(
+    ...     np.array([[x, y, z] for x in (-3.0, 3.0) for y in (-1.0, 1.0) for z in (-0.5, 0.5)]),
+    ...     [
+    ...         [0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
+    ...         [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3],
+    ...     ],
+    ...     mass=6000.0,
+    ...     center=[0.0, 0.0, 0.0],
+    ...     density=1000.0,
+    ... )
+    >>> curve = righting_curve(log.settle([0.0, 0.0, 1.0]), np.radians([0.0, 45.0, 100.0]))
+    >>> np.degrees(curve.capsize[1]).round(6)
+    np.float64(90.0)
+    """
+    angles = np.unique(float_array("angles", angles, "k", finite=True))
+    check_filled("angles", angles)
+    axis = rest.heel_axis if forward is None else float_array("forward", forward, 3)
+    axis = axis - rest.up * float(rest.up @ axis)
+    axis = axis / float(np.linalg.norm(axis))
+    frame = np.stack([axis, np.cross(rest.up, axis), rest.up])
+    heeled: dict[float, tuple[float, Flotation]] = {}
+    for side in (angles[angles >= 0.0], angles[angles < 0.0][::-1]):
+        near = (0.0, rest)
+        for angle in side.tolist():
+            near = heeled[angle] = _heel(angle, *near, frame, free_trim)
+    states = [heeled[angle] for angle in angles.tolist()]
+
+    def arm_at(angle: float, near: tuple[float, Flotation]) -> float:
+        return _arm(angle, _heel(angle, *near, frame, free_trim)[1], frame)
+
+    def depth_at(angle: float, near: tuple[float, Flotation]) -> float:
+        return -_heel(angle, *near, frame, free_trim)[1].depth_of_openings
+
+    arms = np.array([_arm(angle, state, frame) for angle, (_, state) in zip(angles, states)])
+    arms = np.where(np.abs(arms) <= LEVEL_TRIM * rest.body.size, 0.0, arms)
+    dry = np.array([-state.depth_of_openings for _, state in states])
+    capsize, flooding = [], []
+    for sign in (-1.0, 1.0):
+        side = np.flatnonzero(sign * angles >= 0.0)[:: int(sign)]
+        capsize.append(
+            _first_change(angles, sign * arms, side, states, lambda *at, s=sign: s * arm_at(*at))
+        )
+        flooding.append(_first_change(angles, dry, side, states, depth_at))
+    return RightingCurve(
+        angles,
+        arms,
+        np.array([trim for trim, _ in states]),
+        np.array([state.energy for _, state in states]) - rest.energy,
+        free_trim,
+        tuple(capsize),
+        tuple(flooding),
+    )
+
+
+def _heel(
+    angle: float, trim: float, near: Flotation, frame: Array, free_trim: bool
+) -> tuple[float, Flotation]:
+    """Return the trim and the position at an angle of heel, from those at another angle near it."""
+    cosine, sine = np.cos(angle), np.sin(angle)
+    side = np.array([0.0, sine, cosine])
+    state = near
+    low, high = -np.inf, np.inf
+    for _ in range(MAX_STEPS):
+        up = (np.array([-np.sin(trim), 0.0, 0.0]) + np.cos(trim) * side) @ frame
+        state = near.body.at(up, state)
+        if not free_trim:
+            break
+        along = (np.array([-np.cos(trim), 0.0, 0.0]) - np.sin(trim) * side) @ frame
+        slope = float(state.arm @ along)
+        if abs(slope) <= LEVEL_TRIM * near.body.size:
+            break
+        low, high = (low, trim) if slope > 0.0 else (trim, high)
+        curvature = float(along @ state.stiffness @ along) - state.energy
+        step = -slope / curvature if curvature > 0.0 else -np.sign(slope) * MAX_TRIM_STEP
+        step = float(np.clip(step, -MAX_TRIM_STEP, MAX_TRIM_STEP))
+        if abs(step) <= ANGLE_ATOL * 1e-3:
+            break
+        trim = trim + step if low < trim + step < high else (low + high) / 2.0
+    return trim, state
+
+
+def _arm(angle: float, state: Flotation, frame: Array) -> float:
+    """Return the righting arm: how far buoyancy pushes up at the side that is lower."""
+    return float(state.arm @ (np.array([0.0, np.cos(angle), -np.sin(angle)]) @ frame))
+
+
+def _first_change(
+    angles: Array,
+    values: Array,
+    side: Index,
+    states: list[tuple[float, Flotation]],
+    value_at: Callable[[float, tuple[float, Flotation]], float],
+) -> float:
+    """Return the angle nearest to zero at which values turn from positive to negative; nan if none
+    does.
+
+    side: indices of angles on one side, outward.
+    """
+    for i, j in zip(side, side[1:]):
+        if not (values[i] > 0.0 >= values[j]):
+            continue
+        low, high, first, last = angles[i], angles[j], values[i], values[j]
+        middle = high
+        for _ in range(ROUNDS):
+            # The Illinois method: regula falsi that halves a value kept twice.
+            middle = low + (high - low) * first / (first - last) if np.isfinite(last) else high
+            value = value_at(float(middle), states[i])
+            if value > 0.0:
+                low, first, last = middle, value, last / 2.0
+            else:
+                high, last, first = middle, value, first / 2.0
+            if abs(high - low) <= ANGLE_ATOL or abs(value) <= ANGLE_ATOL * 1e-3:
+                break
+        return float(middle)
+    return float("nan")

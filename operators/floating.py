@@ -1,0 +1,150 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Floating objects: where they rest in a liquid, all such positions, and righting arms."""
+
+from bpy.props import BoolProperty, FloatProperty, IntProperty
+from bpy.types import Context, Object, Operator
+
+from ..blender import session
+from ..blender.session import stored
+from ..blender.write import reports
+from ..core.verdict import Finding
+from . import selection
+
+
+class OnFloating(selection.OnSelectionInObjectMode):
+    """Base of operators on floating bodies: each selected object, with its children."""
+
+    as_one: BoolProperty(
+        name="As One Body",
+        description="All selected objects are one body. Otherwise each floats by itself, with its "
+        "children",
+    )
+
+    def for_each_body(self, context: Context, act, done: tuple[str, str]) -> set[str]:
+        """Run a function for each body, and report how many it returned True for."""
+        bodies = {
+            body[0]: body
+            for body in stored.floating.bodies_of(context.view_layer.objects.selected, self.as_one)
+        }
+        notes: list[Finding] = []
+
+        def run(root: Object) -> bool:
+            return act(bodies[root], notes)
+
+        changed, failures = selection.apply_to_all([*bodies], run)
+        text = reports.phrase(*done, count=len(changed))
+        idle = reports.phrase("already at rest")
+        return selection.summarize(
+            self, len(changed), len(bodies), text, failures, notes, idle, "Nothing selected floats"
+        )
+
+
+class OBJECT_OT_body_moments_float(OnFloating, Operator):
+    """Move and turn the selected objects to where they rest in a liquid."""
+
+    bl_idname = "object.body_moments_float"
+    bl_label = "Float"
+    bl_description = (
+        "Move and turn the selected objects, with their children, to where they come to rest in "
+        "the scene's liquid, from where they are"
+    )
+
+    position: IntProperty(
+        name="Position",
+        description="Position of rest, the one with the lowest energy first. 0 for the one that it "
+        "settles in from where it is",
+        default=0,
+        min=0,
+        soft_max=12,
+    )
+
+    def execute(self, context: Context) -> set[str]:
+        moved: list[Object] = []
+
+        def settle(members: tuple[Object, ...], notes: list[Finding]) -> bool:
+            is_moved = stored.floating.float_body(context, members, self.position, notes)
+            moved.extend(members if is_moved else ())
+            return is_moved
+
+        texts = ("Set {count} body afloat", "Set {count} bodies afloat")
+        result = self.for_each_body(context, settle, texts)
+        session.remeasure(context, moved)
+        return result
+
+
+class OBJECT_OT_body_moments_float_positions(OnFloating, Operator):
+    """Find all positions in which the selected objects rest in a liquid."""
+
+    bl_idname = "object.body_moments_float_positions"
+    bl_label = "Find Positions"
+    bl_description = (
+        "Find the positions in which the selected objects rest in the scene's liquid, from 26 "
+        "starts, and list them. Nothing moves"
+    )
+
+    def execute(self, context: Context) -> set[str]:
+        def find(members: tuple[Object, ...], _notes: list[Finding]) -> bool:
+            return bool(stored.floating.find_positions(context, members).rests)
+
+        texts = ("Found the positions of {count} body", "Found the positions of {count} bodies")
+        return self.for_each_body(context, find, texts)
+
+
+class OBJECT_OT_body_moments_righting_arms(OnFloating, Operator):
+    """Compute the righting arms of the selected objects over angles of heel."""
+
+    bl_idname = "object.body_moments_righting_arms"
+    bl_label = "Righting Arms"
+    bl_description = (
+        "Compute the righting arms GZ of the selected objects over angles of heel from where they "
+        "rest, and the range of stability. Nothing moves"
+    )
+
+    last: FloatProperty(
+        name="Largest Heel",
+        description="Largest angle of heel, to both sides",
+        default=3.14159265,
+        min=0.01745,
+        max=3.14159265,
+        subtype="ANGLE",
+    )
+    step: FloatProperty(
+        name="Step",
+        description="Angle from one righting arm to the next",
+        default=0.0872664626,
+        min=0.0087,
+        max=0.5236,
+        subtype="ANGLE",
+    )
+    free_trim: BoolProperty(
+        name="Free Trim",
+        description="At each angle the body pitches until no moment is left. Otherwise the trim "
+        "stays as at rest",
+        default=True,
+    )
+    add_curve: BoolProperty(
+        name="Add F-Curve",
+        description="Add an empty with an F-curve of the righting arms in meters, with a frame for "
+        "each degree of heel",
+    )
+
+    def execute(self, context: Context) -> set[str]:
+        count = round(self.last / self.step)
+        angles = [self.last * i / count for i in range(-count, count + 1)]
+
+        def heel(members: tuple[Object, ...], _notes: list[Finding]) -> bool:
+            afloat = stored.floating.heel(context, members, angles, self.free_trim)
+            if self.add_curve:
+                stored.floating.add_curve(context, afloat)
+            return True
+
+        texts = ("Heeled {count} body", "Heeled {count} bodies")
+        return self.for_each_body(context, heel, texts)
+
+
+CLASSES = (
+    OBJECT_OT_body_moments_float,
+    OBJECT_OT_body_moments_float_positions,
+    OBJECT_OT_body_moments_righting_arms,
+)

@@ -1,0 +1,158 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sub-panel of floating: the liquid, the position, hydrostatics, and righting arms."""
+
+from __future__ import annotations
+
+from math import degrees, isfinite, pi
+from typing import TYPE_CHECKING
+
+from bpy.types import Context, UILayout
+
+from ..blender.read.visibility import measurable
+from ..blender.session import stored
+from ..blender.session.displayed import shown_objects
+from ..blender.session.selected import subject
+from ..core.lazy import loaded_module
+from ..core.verdict import Finding
+from . import rows
+from .places import in_both_places
+
+if TYPE_CHECKING:
+    from ..blender.session.stored.floating import Afloat, Held
+    from ..core.floating import RightingCurve
+
+MAX_POSITIONS = 6
+
+
+class FloatingPanel:
+    """Where the object floats, and how stable it is"""
+
+    bl_label = "Floating"
+
+    def draw(self, context: Context) -> None:
+        layout = self.layout
+        objects = shown_objects(context)
+        obj = objects[0] if len(objects) == 1 else subject(context)
+        settings = context.scene.body_moments_liquid
+        column = layout.column(align=True)
+        rows.button(column, "object.body_moments_float", "MOD_OCEAN").position = 0
+        row = column.row(align=True)
+        rows.button(row, "object.body_moments_float_positions", "VIEWZOOM", short="Positions")
+        rows.button(row, "object.body_moments_righting_arms", "FCURVE", short="GZ")
+        column = layout.column(align=True)
+        column.use_property_split = True
+        column.prop(settings, "liquid")
+        if settings.liquid == "OTHER":
+            column.prop(settings, "density")
+        column.prop(settings, "level")
+        if obj is not None:
+            tank = obj.body_moments_tank
+            column.prop(tank, "role")
+            if tank.role == "TANK":
+                column.prop(tank, "fill")
+        floating = loaded_module(stored, "floating")
+        afloat = None if floating is None or obj is None else floating.known(obj)
+        if afloat is None:
+            rows.remark(layout, "Press Float to see where it rests.")
+            return
+        held = floating.held(obj, context.scene)
+        if isinstance(held, Finding):
+            rows.message(layout, held)
+        elif held is None:
+            rows.remark(layout, "The object has changed. Press Float again.", icon="FILE_REFRESH")
+        else:
+            _numbers(layout, held)
+            _positions(layout, held.afloat)
+            if held.afloat.curve is not None:
+                _stability(layout, held.afloat.curve)
+
+
+def _numbers(layout: UILayout, held: Held) -> None:
+    state = held.state
+    stable = state.metacentric_heights[0] > 0.0
+    if not held.is_at_rest:
+        layout.label(text="Not at Rest: Held as Placed", icon="INFO")
+    else:
+        layout.label(text="Afloat", icon="CHECKMARK" if stable else "ERROR")
+    for found in held.afloat.rest.findings:
+        rows.message(layout, found)
+    column = layout.column(align=True)
+    rows.quantities(
+        column,
+        [
+            ("Draught", "length", state.draught),
+            ("Displacement", "volume", state.displacement),
+            ("Mass", "mass", state.body.total_mass),
+        ],
+    )
+    rows.table(column, [_angle("Heel, about X", held.heel), _angle("Trim, about Y", held.trim)])
+    smaller, larger = state.metacentric_heights
+    rows.quantities(column, [("GM", "length", smaller), ("GM, Lengthwise", "length", larger)])
+    body = rows.fold(layout, "body_moments_floating_more", "Hydrostatics")
+    if body is not None:
+        column = body.column(align=True)
+        keel = state.keel
+        rows.quantities(
+            column,
+            [
+                ("KB", "length", float(state.up @ state.center_of_buoyancy) - keel),
+                ("KG", "length", float(state.up @ state.center_of_gravity) - keel),
+                ("BM", "length", state.metacentric_radii[0]),
+                ("BM, Lengthwise", "length", state.metacentric_radii[1]),
+                ("Waterplane", "area", state.plane.area),
+                ("Second Moment", "area_moment", state.waterplane_moments[0]),
+                ("Lengthwise", "area_moment", state.waterplane_moments[1]),
+            ],
+        )
+        size = state.body.size
+        for label, point in (
+            ("Center of Buoyancy", state.center_of_buoyancy),
+            ("Center of Flotation", state.center_of_flotation),
+        ):
+            rows.group(body, label, rows.AXIS_LABELS, "length", held.to_world(point), size)
+
+
+def _angle(label: str, angle: float) -> rows.Cell:
+    shown = "{:.2f}°".format(round(degrees(angle), 2) + 0.0).replace("-", "−")
+    return (label, shown, repr(degrees(angle)), "°")
+
+
+def _positions(layout: UILayout, afloat: Afloat) -> None:
+    if not afloat.rests:
+        return
+    layout.label(text="Positions of Rest")
+    column = layout.column(align=True)
+    for place, rest in enumerate(afloat.rests[:MAX_POSITIONS], 1):
+        row = column.row(align=True)
+        gm = rows.scene_units().text("length", rest.metacentric_heights[0])
+        row.label(text="{:d}: GM {:s}".format(place, gm), translate=False)
+        row.operator("object.body_moments_float", text="", icon="MOD_OCEAN").position = place
+    more = len(afloat.rests) - MAX_POSITIONS
+    if more > 0:
+        rows.filled(column, "{:d} more", more)
+
+
+def _stability(layout: UILayout, curve: RightingCurve) -> None:
+    layout.label(text="Righting Arms")
+    column = layout.column(align=True)
+    largest = int(curve.arms.argmax())
+    low, high = curve.stable_range
+    rows.table(
+        column,
+        [
+            rows.quantity_cell("Largest GZ", "length", float(curve.arms[largest])),
+            _angle("At Heel", float(curve.angles[largest])),
+            _angle("Stable From", low),
+            _angle("Stable To", high),
+        ],
+    )
+    for label, angles in (("Capsizes Beyond", curve.capsize), ("Floods Beyond", curve.flooding)):
+        reached = [abs(angle) for angle in angles if isfinite(angle)]
+        if reached:
+            rows.table(column, [_angle(label, min(reached))])
+    if high >= pi - 1e-6 and low <= 1e-6 - pi:
+        rows.remark(column, "It comes back from any heel.")
+
+
+CLASSES = in_both_places(FloatingPanel, "floating", shown_for=measurable, of_all=True)

@@ -1,0 +1,64 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""--float and --gz, their columns and their plot."""
+
+import numpy as np
+import pytest
+
+pytest.importorskip("bpy")
+import bpy
+from body_moments.core.measurement import FORMATS, to_html
+
+from tests.blender import batch_files as files
+from tests.blender.batch_files import document
+
+pytestmark = pytest.mark.usefixtures("scene")
+WORDS = ("--float", "1000", "--density", "500", "--gz", "0:60:10")
+
+
+def floating_box(*words, size=(3.0, 2.0, 1.0)):
+    files.add_box(center=(5.0, 6.0, 7.0), size=size)
+    return document(*WORDS, *words)
+
+
+@pytest.mark.parametrize("frame", ["world", "object"])
+def test_floating_box_has_closed_form_record(frame):
+    entry = floating_box("--frame", frame)["objects"][0]["floating"]
+    center = np.array([5.0, 6.0, 7.0]) if frame == "world" else np.zeros(3)
+    assert entry["draught"] == pytest.approx(0.5, rel=1e-12)
+    assert entry["displacement"] == pytest.approx(3.0, rel=1e-12)
+    assert entry["center_of_buoyancy"] == pytest.approx(center - [0.0, 0.0, 0.25], abs=1e-12)
+    assert entry["gm"] == pytest.approx([2.0 / 3.0 - 0.25, 1.5 - 0.25], rel=1e-12)
+    assert np.array(entry["matrix"])[2] == pytest.approx([0.0, 0.0, 1.0, -7.0], abs=1e-12)
+    assert entry["rests"][0]["energy"] == pytest.approx(0.0, abs=1e-12)
+    curve = entry["gz"]
+    assert np.degrees(curve["angles"]) == pytest.approx(np.arange(0.0, 61.0, 10.0))
+    sine, tangent = np.sin(curve["angles"][2]), np.tan(curve["angles"][2])
+    arm = sine * (entry["gm"][0] + entry["bm"][0] * tangent**2 / 2.0)
+    assert curve["arms"][2] == pytest.approx(arm, rel=1e-12)
+
+
+def test_floating_record_becomes_columns_and_plot():
+    files_document = floating_box()
+    text = "".join(FORMATS["csv"]([files_document]))
+    header = text.splitlines()[0].split(",")
+    assert {"floating_draught", "floating_gm_1", "gz_arms"} <= {*header}
+    assert "matrix" not in header
+    page = "".join(to_html([files_document]))
+    assert 'class="curve"' in page and "60°" in page
+
+
+def test_heavy_box_is_an_error_with_remedy():
+    files.add_box()
+    found = document("--float", "1000", "--density", "2000")
+    assert found["objects"][0]["floating"] is None
+    assert "remove more than 6000 kg of its 12000 kg" in found["errors"][0]["reason"]
+
+
+def test_mesh_file_floats_as_its_object(tmp_path):
+    there = floating_box()["objects"][0]["floating"]
+    path = files.save(tmp_path / "box.obj")
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    here = document(*WORDS, path)["objects"][0]["floating"]
+    assert here["gm"] == pytest.approx(there["gm"], rel=1e-6)
+    assert here["draught"] == pytest.approx(0.5, rel=1e-6)

@@ -1,0 +1,124 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Liquids in vessels against closed forms."""
+
+import numpy as np
+import pytest
+from body_moments.core.cuts import find_hollow, spill_tilt
+from body_moments.core.verdict import MeasureError
+
+from tests.core.bodies import box, inverted, joined
+
+SIDES = 48
+CIRCLE = SIDES / 2 * np.sin(2 * np.pi / SIDES)  # area of the unit polygon
+
+
+def lathed(*profile):
+    """A polygon revolved about z; its ends at radius 0."""
+    angle = np.arange(SIDES) * (2 * np.pi / SIDES)
+    ring = np.stack([np.cos(angle), np.sin(angle), np.zeros(SIDES)], axis=1)
+    points = np.concatenate([ring * r + [0, 0, z] for r, z in profile])
+    i = np.arange(SIDES)
+    j = (i + 1) % SIDES
+    triangles = []
+    for k in range(len(profile) - 1):
+        low, high = k * SIDES, (k + 1) * SIDES
+        if profile[k][0]:
+            triangles.append(np.stack([low + i, low + j, high + j], axis=1))
+        if profile[k + 1][0]:
+            triangles.append(np.stack([low + i, high + j, high + i], axis=1))
+    return points, np.concatenate(triangles)
+
+
+def cone_volume(low, high, height):
+    return CIRCLE * height * (low * low + low * high + high * high) / 3
+
+
+CUP = lathed((0, 0), (1.2, 0), (1.2, 3), (1, 3), (1, 0.5), (0, 0.5))
+FLASK = lathed((0, 0), (2.2, 0), (0.7, 3), (0.5, 3), (2, 0.3), (0, 0.3))
+SHEET = lathed((0, 0), (1, 0), (1.5, 2))
+TANK = joined(box((0, 0, 0), (4, 4, 4)), inverted(box((1, 1, 1), (3, 2, 3))))
+VESSELS = [
+    (CUP, 0.5, 3, CIRCLE * 2.5),
+    (FLASK, 0.3, 3, cone_volume(2, 0.5, 2.7)),
+    (SHEET, 0, 2, cone_volume(1, 1.5, 2)),
+    (inverted(SHEET), 0, 2, cone_volume(1, 1.5, 2)),
+    (TANK, 1, 3, 4),
+]
+
+
+@pytest.mark.parametrize(("vessel", "bottom", "spill", "capacity"), VESSELS)
+def test_vessel_has_its_hollow_wherever_it_stands(vessel, bottom, spill, capacity):
+    rng = np.random.default_rng(3)
+    turn = np.linalg.qr(rng.standard_normal((3, 3)))[0]
+    turn *= np.sign(np.linalg.det(turn))
+    for axes, place in ((np.eye(3), np.zeros(3)), (turn, 1e3 * rng.standard_normal(3))):
+        up = axes @ [0, 0, 1]
+        hollow = find_hollow(vessel[0] @ axes.T + place, vessel[1], up)
+        accuracy = 1e-12 * (1 + np.abs(place).max())
+        assert abs(hollow.bottom - bottom - up @ place) < accuracy
+        assert abs(hollow.spill - spill - up @ place) < accuracy
+        assert abs(hollow.capacity - capacity) < 10 * accuracy
+
+
+@pytest.mark.parametrize("share", [1e-6, 0.1, 0.5, 0.999, 1.0])
+@pytest.mark.parametrize(("vessel", "bottom", "spill", "capacity"), VESSELS)
+def test_level_of_a_volume_has_that_volume(vessel, bottom, spill, capacity, share):
+    hollow = find_hollow(*vessel)
+    level = hollow.level_of(share * capacity)
+    assert bottom < level <= spill
+    assert abs(hollow.below([level]).volume[0] - share * capacity) < 1e-12 * capacity
+
+
+def test_free_surface_of_a_cup_is_its_polygon():
+    liquid = find_hollow(*CUP).contents(2.0)
+    central = liquid.face.about_point(liquid.face.center)
+    second = CIRCLE / 12 * (2 + np.cos(2 * np.pi / SIDES))
+    np.testing.assert_allclose(central.second()[0], np.diag([second, second, 0]), atol=1e-14)
+
+
+def test_level_beside_a_pillar_and_under_a_hook():
+    # A pillar on the bottom, and a ring that hangs from the wall into the liquid.
+    vessel = lathed(
+        *((0, 0), (3, 0), (3, 4), (2.5, 4), (2.5, 3), (2, 3), (2, 1.5)),
+        *((2.25, 1.5), (2.25, 2.5), (2.5, 2.5), (2.5, 1), (1, 1), (1, 2), (0, 2)),
+    )
+    hollow = find_hollow(*vessel)
+    assert hollow.spill == 4
+    volumes = hollow.below([1.5, 1.75]).volume / CIRCLE
+    np.testing.assert_allclose(np.diff(volumes), 0.25 * (2.5**2 - 1 - (2.25**2 - 2**2)))
+
+
+def test_open_vessel_spills_at_its_lowest_hole():
+    points, triangles = SHEET
+    heights = points[triangles][:, :, 2]
+    hole = np.flatnonzero((heights == 0).sum(axis=1) == 2)[-1:]
+    points = points + [0, 0, 1]
+    points[triangles[hole, 2], 2] = 2
+    with pytest.raises(MeasureError, match="No level"):
+        find_hollow(points, np.delete(triangles, hole, axis=0))
+
+
+@pytest.mark.parametrize("solid", [box(), (CUP[0] * [1, 1, -1], CUP[1][:, ::-1])])
+def test_body_without_a_hollow_is_refused(solid):
+    with pytest.raises(MeasureError, match="neither a cavity nor a hollow"):
+        find_hollow(*solid)
+
+
+def test_more_than_the_capacity_and_nothing_are_refused():
+    hollow = find_hollow(*CUP)
+    for call in (lambda: hollow.level_of(8.0), lambda: hollow.contents(3.1)):
+        with pytest.raises(MeasureError, match=r"at most 7\.83"):
+            call()
+    for call in (lambda: hollow.level_of(0.0), lambda: hollow.contents(0.5)):
+        with pytest.raises(MeasureError, match="below the bottom"):
+            call()
+
+
+@pytest.mark.parametrize("level", [1.5, 2.0, 2.5])
+def test_tilted_cup_spills_where_its_surface_meets_the_rim(level):
+    # Above half its height the surface of a cylinder turns about the middle.
+    angle, direction = spill_tilt(*CUP, CIRCLE * (level - 0.5))
+    assert level < 1.75 or abs(np.tan(angle) - (3 - level)) < 1e-6
+    assert abs(direction @ [0, 0, 1]) < 1e-12
+    assert spill_tilt(*TANK, 1.0)[0] == np.pi

@@ -1,0 +1,52 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sums over the voxels of labels: whole numbers, equal to those over lists of indices."""
+
+import numpy as np
+import pytest
+from body_moments.core.density import label_sums, sum_labels
+from body_moments.core.density.label_sums import label_moments
+from body_moments.core.moments.moments import monomials
+from body_moments.core.verdict import MeasureError
+
+
+def listed_sums(labels, label):
+    index = np.argwhere(labels == label).astype(object)
+    return [int((index ** np.array(power)).prod(axis=1).sum()) for power in monomials(3).tolist()]
+
+
+@pytest.mark.parametrize("dtype", ["u1", "i2", ">i4", "f4", "f8", "u8"])
+def test_sums_of_labels_equal_sums_over_indices(dtype, monkeypatch):
+    monkeypatch.setattr(label_sums, "BLOCK", 40)
+    monkeypatch.setattr(label_sums, "ROW", 5)
+    labels = np.random.default_rng(1).integers(0, 5, (7, 6, 11)).astype(dtype)
+    sums = sum_labels(labels)
+    assert {label: row.tolist() for label, row in sums.items()} == {
+        label: listed_sums(labels, label) for label in range(5)
+    }
+
+
+def test_labels_far_apart_are_told_apart():
+    labels = np.array([[[-3, 0, 7]], [[10**9, 10**12, 7]]])
+    sums = sum_labels(labels)
+    assert {label: row[0] for label, row in sums.items()} == {
+        **dict.fromkeys((-3, 0, 10**9, 10**12), 1),
+        7: 2,
+    }
+
+
+def test_sums_far_from_first_voxel_stay_exact():
+    offset = (1 << 20, 3, 1 << 22)
+    sums = sum_labels(lambda: iter([(offset, np.ones((2, 2, 2), np.uint8))]))
+    corner = sum_labels(np.ones((2, 2, 2)))
+    moments = label_moments(sums[1])
+    assert moments.total == 8.0
+    assert np.array_equal(moments.center, np.array(offset) + 0.5)
+    central = moments.about_center().raw - label_moments(corner[1]).about_center().raw
+    assert np.abs(central).max() < 1e-8
+
+
+@pytest.mark.parametrize("samples", [[0.0, 0.5], [np.nan, 1.0], [np.inf, 1.0], range(10_001)])
+def test_samples_that_are_no_labels_are_refused(samples):
+    with pytest.raises(MeasureError, match="no labels"):
+        sum_labels(np.array(samples, np.float64)[None, None])

@@ -1,0 +1,286 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Floating bodies against closed forms."""
+
+import numpy as np
+import pytest
+from body_moments.core import MeasureError
+from body_moments.core.floating import FloatingBody, Tank, Vessel, righting_curve
+
+UP = (0.0, 0.0, 1.0)
+BOX_FACES = [
+    *([0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1]),
+    *([2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]),
+]
+
+
+def box_points(low, high):
+    return np.array(
+        [[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
+    )
+
+
+def log(length, width, height, share, place=(0.0, 0.0, 0.0), **more):
+    half = np.array([length, width, height]) / 2.0
+    points = box_points(place - half, place + half)
+    mass = 1000.0 * share * length * width * height
+    return FloatingBody(points, BOX_FACES, mass, np.array(place), 1000.0, **more)
+
+
+def lathe(radii, heights, count):
+    """Return points and triangles of a closed body of revolution with `count` sides."""
+    turn = 2.0 * np.pi * np.arange(count) / count
+    rings = [
+        np.stack([r * np.cos(turn), r * np.sin(turn), np.full(count, z)], axis=1)
+        for r, z in zip(radii, heights)
+    ]
+    points = np.concatenate([*rings, [[0, 0, heights[0]], [0, 0, heights[-1]]]])
+    i = np.arange(count)
+    j = (i + 1) % count
+    faces = [np.stack([np.full(count, len(points) - 2), j, i], axis=1)]
+    for k in range(len(radii) - 1):
+        a, b = k * count, (k + 1) * count
+        faces += [np.stack([a + i, a + j, b + j], axis=1), np.stack([a + i, b + j, b + i], axis=1)]
+    faces.append(np.stack([np.full(count, len(points) - 1), b + i, b + j], axis=1))
+    return points, np.concatenate(faces)
+
+
+@pytest.mark.parametrize("place", [(0.0, 0.0, 0.0), (100.0, -30.0, 7.0)])
+def test_box_has_closed_form_numbers(place):
+    rest = log(6.0, 2.0, 1.0, 0.4, place).settle([0.0, 1e-3, 1.0])
+    size = 1e-12 * max(1.0, np.abs(place).max())
+    assert rest.residual < 1e-9
+    assert rest.draught == pytest.approx(0.4, abs=size)
+    assert rest.level == pytest.approx(place[2] - 0.1, abs=size)
+    assert rest.center_of_buoyancy == pytest.approx(np.add(place, (0, 0, -0.3)), abs=1e2 * size)
+    assert rest.center_of_flotation == pytest.approx(np.add(place, (0, 0, -0.1)), abs=1e2 * size)
+    assert rest.plane.area == pytest.approx(12.0, abs=1e-12)
+    assert rest.waterplane_moments == pytest.approx([4.0, 36.0], rel=1e-12)
+    assert rest.metacentric_radii == pytest.approx([4.0 / 4.8, 36.0 / 4.8], rel=1e-12)
+    assert rest.metacentric_heights == pytest.approx([4 / 4.8 - 0.3, 36 / 4.8 - 0.3], rel=1e-12)
+    assert np.abs(rest.heel_axis) == pytest.approx([1.0, 0.0, 0.0], abs=1e-9)
+
+
+@pytest.mark.parametrize("share", [0.05, 0.1, 0.2, 0.211, 0.789, 0.8, 0.95])
+def test_light_and_heavy_logs_float_flat(share):
+    rest = log(20.0, 1.0, 1.0, share).settle([0.0, 0.01, 1.0])
+    assert rest.up == pytest.approx([0.0, 0.0, 1.0], abs=1e-9)
+
+
+@pytest.mark.parametrize("share", [0.22, 0.235, 0.25, 0.75, 0.765, 0.78])
+def test_log_tilts_by_wall_sided_formula(share):
+    rest = log(20.0, 1.0, 1.0, share).settle([0.0, 0.01, 1.0])
+    light = min(share, 1.0 - share)
+    radius = 1.0 / (12.0 * light)
+    height = light / 2.0 + radius - 0.5
+    tangent = np.sqrt(-2.0 * height / radius)
+    assert abs(rest.up[1] / rest.up[2]) == pytest.approx(tangent, rel=1e-9)
+    assert rest.residual < 1e-9
+
+
+@pytest.mark.parametrize("share", [0.282, 0.35, 0.5, 0.65, 0.718])
+def test_medium_log_floats_on_its_edge(share):
+    rest = log(20.0, 1.0, 1.0, share).settle([0.0, 0.01, 1.0])
+    assert abs(rest.up[1]) == pytest.approx(np.sqrt(0.5), abs=1e-8)
+
+
+@pytest.mark.parametrize("share", [0.25, 0.3, 0.5])
+def test_rests_are_minima_in_every_direction(share):
+    body = log(1.3, 1.0, 1.0, share)
+    rests = body.find_rests()
+    for rest in rests:
+        assert rest.residual < 1e-9
+        for angle in np.arange(12) * np.pi / 6.0:
+            toward = rest.axes @ [np.cos(angle), np.sin(angle)]
+            assert body.at(rest.up + 0.02 * toward).energy > rest.energy - 1e-14
+    assert [rest.energy for rest in rests] == sorted(rest.energy for rest in rests)
+
+
+def test_cube_of_half_density_rests_on_corners():
+    rests = log(1.0, 1.0, 1.0, 0.5).find_rests()
+    assert len(rests) == 8
+    assert np.abs([rest.up for rest in rests]) == pytest.approx(np.sqrt(1 / 3), abs=1e-9)
+
+
+def test_wedge_floats_at_root_of_its_share():
+    points = [[x, *corner] for x in (-2.0, 2.0) for corner in ((0.0, 0.0), (1.0, 1.0), (-1.0, 1.0))]
+    faces = [
+        [0, 2, 1],
+        [3, 4, 5],
+        *([0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4], [2, 0, 3], [2, 3, 5]),
+    ]
+    rest = FloatingBody(points, faces, 1000.0, [0.0, 0.0, 0.3], 1000.0).settle(UP)
+    depth = 0.5
+    assert rest.draught == pytest.approx(depth, rel=1e-12)
+    assert rest.center_of_buoyancy == pytest.approx([0.0, 0.0, 2.0 * depth / 3.0], abs=1e-12)
+    assert rest.waterplane_moments[0] == pytest.approx(4.0 * (2.0 * depth) ** 3 / 12.0, rel=1e-12)
+    assert rest.metacentric_heights[0] == pytest.approx(2.0 / 3.0 - 0.3, rel=1e-12)
+
+
+def test_round_hull_has_closed_form_numbers():
+    count, radius = 48, 1.5
+    points, faces = lathe([radius, radius], [0.0, 1.0], count)
+    area = count / 2.0 * np.sin(2.0 * np.pi / count) * radius**2
+    side = 2.0 * radius * np.sin(np.pi / count)
+    rest = FloatingBody(points, faces, 400.0 * area, [0.0, 0.0, 0.3], 1000.0).settle(UP)
+    assert rest.draught == pytest.approx(0.4, rel=1e-12)
+    moment = area * (6.0 * radius**2 - side**2) / 24.0
+    assert rest.waterplane_moments == pytest.approx([moment, moment], rel=1e-12)
+    assert rest.metacentric_heights == pytest.approx(moment / (0.4 * area) + 0.2 - 0.3, rel=1e-12)
+
+
+def test_paraboloid_converges_to_closed_form():
+    # Of z = r²: V = π h² / 2, KB = 2 h / 3, BM = 1 / 2 whatever the draught.
+    errors = []
+    for count in (40, 80):
+        heights = np.linspace(1e-3, 1.0, count) ** 2
+        points, faces = lathe(np.sqrt(heights), heights, 2 * count)
+        mass = 1000.0 * np.pi * 0.5**2 / 2.0
+        rest = FloatingBody(points, faces, mass, [0.0, 0.0, 0.6], 1000.0).settle([0.02, 0.0, 1.0])
+        errors.append(
+            [
+                rest.level - 0.5,
+                rest.center_of_buoyancy[2] - 1.0 / 3.0,
+                rest.metacentric_radii[0] - 0.5,
+            ]
+        )
+    coarse, fine = np.array(errors)
+    assert np.abs(fine).max() < 2e-4
+    assert (np.abs(fine) < np.abs(coarse) / 3.0).all()
+
+
+def test_wigley_hull_converges_to_its_polynomial():
+    # y = B/2 (1 - (2x/L)²)(1 - (z/T)²), L = 10, B = 1, T = 0.625, with straight sides above.
+    length, beam, depth = 10.0, 1.0, 0.625
+    values = []
+    for count in (24, 48):
+        x = np.linspace(-1.0, 1.0, 2 * count + 1)
+        z = np.concatenate([np.linspace(-1.0, 0.0, count + 1), [0.5]])
+        width = beam / 2.0 * (1.0 - x[:, None] ** 2) * (1.0 - np.minimum(z, 0.0) ** 2)
+        grid = np.stack(np.broadcast_arrays(x[:, None] * length / 2.0, width, z * depth), axis=-1)
+        points = np.concatenate([grid.reshape(-1, 3), grid.reshape(-1, 3) * [1, -1, 1]])
+        row, column = np.meshgrid(np.arange(len(x) - 1), np.arange(len(z) - 1), indexing="ij")
+        a = (row * len(z) + column).ravel()
+        b, c, d = a + 1, a + len(z) + 1, a + len(z)
+        right = np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+        left = right[:, ::-1] + len(grid.reshape(-1, 3))
+        top = np.arange(len(x)) * len(z) + len(z) - 1
+        below = top + len(grid.reshape(-1, 3))
+        deck = np.concatenate(
+            [
+                np.stack([top[:-1], below[:-1], below[1:]], 1),
+                np.stack([top[:-1], below[1:], top[1:]], 1),
+            ]
+        )
+        mass = 1025.0 * 4.0 / 9.0 * length * beam * depth
+        body = FloatingBody(
+            points, np.concatenate([right, left, deck]), mass, [0.0, 0.0, -0.2], 1025.0
+        )
+        rest = body.at(UP)
+        values.append(
+            [
+                rest.level,
+                rest.plane.area,
+                rest.center_of_buoyancy[2],
+                *rest.waterplane_moments,
+            ]
+        )
+    coarse, fine = np.array(values)
+    exact = [
+        0.0,
+        2.0 / 3.0 * length * beam,
+        -3.0 / 8.0 * depth,
+        16.0 / 35.0 * beam**3 * length / 12.0,
+        beam * length**3 / 30.0,
+    ]
+    assert (4.0 * fine - coarse) / 3.0 == pytest.approx(exact, rel=1e-5, abs=1e-5)
+
+
+def test_righting_arms_of_box_are_wall_sided():
+    rest = log(6.0, 2.0, 1.0, 0.5).settle(UP)
+    angles = np.radians(np.arange(0.0, 27.0, 5.0))
+    curve = righting_curve(rest, angles)
+    height, radius = rest.metacentric_heights[0], rest.metacentric_radii[0]
+    arms = np.sin(angles) * (height + radius * np.tan(angles) ** 2 / 2.0)
+    assert curve.arms == pytest.approx(arms, abs=1e-12)
+
+
+def test_righting_arms_integrate_to_energy():
+    rest = log(6.0, 2.0, 1.0, 0.3).settle(UP)
+    curve = righting_curve(rest, np.radians(np.arange(-90.0, 181.0, 1.0)))
+    middle = (curve.arms[1:] + curve.arms[:-1]) / 2.0 * np.diff(curve.angles)
+    work = np.concatenate([[0.0], np.cumsum(middle)])
+    assert curve.energies - curve.energies[0] == pytest.approx(work, abs=1e-4)
+    assert curve.stable_range[1] == pytest.approx(np.pi / 2.0, abs=1e-8)
+
+
+def test_free_trim_leaves_no_trimming_arm():
+    points = box_points((-3.0, -1.0, -0.5), (3.0, 1.0, 0.5)) * 1.0
+    points[4:, 1] *= 0.2  # a pointed bow
+    body = FloatingBody(points, BOX_FACES, 3000.0, [-0.6, 0.0, 0.0], 1000.0)
+    rest = body.settle(UP)
+    angles = np.radians([10.0, 30.0, 60.0])
+    free = righting_curve(rest, angles)
+    fixed = righting_curve(rest, angles, free_trim=False)
+    assert np.abs(free.trims).max() > 0.02
+    assert (free.energies < fixed.energies).all()
+    heel, trim = angles[-1], free.trims[-1]
+
+    def energy(trim):
+        side = np.cos(trim) * np.array([np.sin(heel), np.cos(heel)])
+        forward = rest.heel_axis
+        across = np.cross(rest.up, forward)
+        return body.at(-np.sin(trim) * forward + side[0] * across + side[1] * rest.up).energy
+
+    assert energy(trim) == pytest.approx(rest.energy + free.energies[-1], abs=1e-13)
+    assert min(energy(trim - 0.01), energy(trim + 0.01)) > energy(trim)
+
+
+def test_full_tank_is_a_fixed_mass():
+    points = box_points((-1.0, -0.8, -0.4), (1.0, 0.8, 0.0))
+    full = Tank(Vessel(points, np.array(BOX_FACES), 1.28), 800.0)
+    rest = log(6.0, 2.0, 1.0, 0.3, tanks=(full,)).settle(UP)
+    volume = 3.6 + 1.024
+    height = volume / 24.0 - 0.5 + 4.0 / volume - 1.024 * -0.2 / volume
+    assert rest.metacentric_heights[0] == pytest.approx(height, rel=1e-12)
+
+
+def test_free_surface_lowers_metacenter():
+    tank = Tank(
+        Vessel(box_points((-1.0, -0.8, -0.4), (1.0, 0.8, 0.0)), np.array(BOX_FACES), 0.64), 800.0
+    )
+    empty = log(6.0, 2.0, 1.0, 0.3)
+    rest = log(6.0, 2.0, 1.0, 0.3, tanks=(tank,)).settle(UP)
+    volume = 3.6 + 0.512
+    depth = volume / 12.0
+    gravity = 0.512 * -0.3 / volume
+    second = 6.0 * 8.0 / 12.0 - 0.8 * 2.0 * 1.6**3 / 12.0
+    assert rest.draught == pytest.approx(depth, rel=1e-12)
+    height = depth / 2.0 - 0.5 + second / volume - gravity
+    assert rest.metacentric_heights[0] == pytest.approx(height, rel=1e-12)
+    assert rest.body.total_mass == pytest.approx(empty.total_mass + 512.0)
+
+
+@pytest.mark.parametrize(
+    ("share", "code"), [(1.2, "sinks"), (1.0, "sinks"), (0.0, "float_unavailable")]
+)
+def test_body_that_cannot_float_is_refused(share, code):
+    with pytest.raises(MeasureError) as refusal:
+        log(1.0, 1.0, 1.0, share)
+    assert refusal.value.finding.code == code
+
+
+def test_liquid_without_density_is_refused():
+    with pytest.raises(MeasureError, match="density"):
+        FloatingBody(box_points((0, 0, 0), (1, 1, 1)), BOX_FACES, 1.0, [0.5, 0.5, 0.5], 0.0)
+
+
+def test_opening_below_waterline_is_refused():
+    body = log(6.0, 2.0, 1.0, 0.5, openings=[[0.0, 1.0, -0.2]])
+    with pytest.raises(MeasureError, match="20 mm|0.2 m"):
+        body.settle(UP)
+    dry = log(6.0, 2.0, 1.0, 0.5, openings=[[0.0, -1.0, 0.2]])
+    curve = righting_curve(dry.settle(UP), np.radians([-30.0, 0.0, 30.0]))
+    assert np.abs(curve.flooding).tolist()[0 if np.isfinite(curve.flooding[0]) else 1] == (
+        pytest.approx(np.arctan(0.2), abs=1e-8)
+    )

@@ -1,0 +1,149 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Float, its positions and righting arms: places through Blender's matrices, tanks, refusals."""
+
+import bpy
+import numpy as np
+import pytest
+
+from tests.blender import objects
+from tests.operators.standing import box
+from tests.panels.drawing import shown
+
+BLENDER = 2e-6  # of the size, through float32 matrices
+
+
+def hull(sides=(6.0, 2.0, 1.0), density=500.0, **place):
+    obj = objects.add(box(sides, offset=-np.array(sides) / 2.0), **place)
+    obj.body_moments.density = density
+    return obj
+
+
+def water(scene, density=1000.0, level=0.0):
+    scene.body_moments_liquid.liquid = "OTHER"
+    scene.body_moments_liquid.density = density
+    scene.body_moments_liquid.level = level
+
+
+def held(obj):
+    from body_moments.blender.session.stored import floating
+
+    bpy.context.view_layer.update()
+    return floating.held(obj, bpy.context.scene)
+
+
+@pytest.mark.parametrize("scale", [1.0, 0.01])
+def test_box_floats_at_its_draught(scene, scale):
+    scene.unit_settings.scale_length = scale
+    water(scene, level=3.0)
+    obj = hull(location=(4.0, 5.0, 9.0), rotation=(0.2, -0.1, 0.7))
+    assert bpy.ops.object.body_moments_float() == {"FINISHED"}
+    found = held(obj)
+    assert found.is_at_rest
+    assert tuple(obj.matrix_world.col[2][:3]) == pytest.approx((0.0, 0.0, 1.0), abs=BLENDER)
+    assert tuple(obj.location) == pytest.approx((4.0, 5.0, 3.0), abs=1e-5)
+    assert obj.rotation_euler.z == pytest.approx(0.7, abs=0.05)
+    assert found.state.draught == pytest.approx(0.5 * scale, rel=1e-6)
+    assert found.to_world(found.state.center_of_buoyancy) / scale == pytest.approx(
+        (4.0, 5.0, 2.75), abs=1e-5
+    )
+    assert bpy.ops.object.body_moments_float() == {"CANCELLED"}  # already at rest
+    assert tuple(obj.location) == pytest.approx((4.0, 5.0, 3.0), abs=1e-5)
+
+
+def test_turned_body_shows_its_righting_arm(scene):
+    water(scene)
+    obj = hull()
+    bpy.ops.object.body_moments_float()
+    obj.rotation_euler.x = 0.2
+    found = held(obj)
+    assert not found.is_at_rest
+    assert found.heel == pytest.approx(0.2, abs=1e-6)
+    arm = np.sin(0.2) * (2.0 / 3.0 - 0.25 + 2.0 / 3.0 * np.tan(0.2) ** 2 / 2.0)
+    assert np.linalg.norm(found.state.slope) == pytest.approx(arm, rel=1e-5)
+    scene.body_moments_liquid.density = 800.0
+    assert held(obj).state.displacement == pytest.approx(7.5, rel=1e-6)
+    obj.data.vertices[0].co.x -= 1.0
+    obj.data.update()
+    assert held(obj) is None
+
+
+def test_children_and_tanks_float_as_one_body(scene):
+    water(scene)
+    boat = hull(density=300.0)
+    tank = hull((2.0, 1.6, 0.8), density=800.0)
+    tank.parent = boat
+    tank.body_moments_tank.role = "TANK"
+    assert bpy.ops.object.body_moments_float() == {"FINISHED"}
+    found = held(boat)
+    mass = 3600.0 + 800.0 * 1.28
+    assert found.state.body.total_mass == pytest.approx(mass, rel=1e-6)
+    assert boat.location.z == pytest.approx(0.5 - mass / 12000.0, abs=1e-5)
+    tank.body_moments_tank.role = "FLOODED"
+    assert held(boat) is None
+    bpy.ops.object.body_moments_float()
+    # The part of the flooded space below the waterline displaces nothing.
+    depth = 0.5 + (3.6 - 12.0 * 0.1) / (12.0 - 3.2) - 0.4
+    assert held(boat).state.draught == pytest.approx(depth, rel=1e-5)
+
+
+def test_positions_and_righting_arms_move_nothing(scene):
+    water(scene)
+    obj = hull((6.0, 1.0, 1.0), density=250.0)
+    before = [*obj.matrix_world]
+    assert bpy.ops.object.body_moments_float_positions() == {"FINISHED"}
+    assert len(held(obj).afloat.rests) >= 4
+    assert bpy.ops.object.body_moments_righting_arms(add_curve=True) == {"FINISHED"}
+    assert [*obj.matrix_world] == before
+    curve = held(obj).afloat.curve
+    (empty,) = [one for one in scene.objects if one.type == "EMPTY"]
+    scene.frame_set(10)
+    arm = np.interp(np.radians(10.0), curve.angles, curve.arms)
+    assert empty["body_righting_arm"] == pytest.approx(arm, abs=1e-6)
+    texts = [entry[1] for entry in shown() if entry[0] == "label"]
+    assert "Righting Arms" in texts
+
+
+def test_each_listed_position_is_reached(scene):
+    water(scene)
+    obj = hull((6.0, 2.0, 1.0), rotation=(0.3, 0.2, 0.1))
+    bpy.ops.object.body_moments_float_positions()
+    rests = held(obj).afloat.rests
+    for place in range(1, len(rests) + 1):
+        assert bpy.ops.object.body_moments_float(position=place) == {"FINISHED"}
+        found = held(obj)
+        assert found.is_at_rest
+        assert found.state.draught == pytest.approx(rests[place - 1].draught, rel=1e-4)
+        bpy.ops.object.body_moments_float_positions()
+
+
+@pytest.mark.parametrize(
+    ("change", "code", "word"),
+    [
+        (lambda scene, _: water(scene, 400.0), "sinks", "remove"),
+        (lambda scene, _: water(scene, 0.0), "float_unavailable", "density"),
+        (lambda scene, _: setattr(scene, "use_gravity", False), "float_unavailable", "gravity"),
+        (lambda _, obj: setattr(obj, "lock_location", (True,) * 3), "channel_locked", "lock"),
+    ],
+)
+def test_refused_float_moves_nothing(scene, reported, change, code, word):
+    water(scene)
+    obj = hull(location=(0.0, 0.0, 2.0), rotation=(0.3, 0.0, 0.0))
+    change(scene, obj)
+    bpy.context.view_layer.update()
+    before = [*obj.matrix_world]
+    assert bpy.ops.object.body_moments_float() == {"CANCELLED"}
+    assert code in reported.codes
+    assert any(word in str(found) for found in reported)
+    assert [*obj.matrix_world] == before
+    assert held(obj) is None and "body_mass" not in obj
+
+
+def test_overlapping_parts_are_refused(scene, reported):
+    water(scene)
+    boat = hull()
+    cargo = hull((2.0, 4.0, 0.5))
+    cargo.parent = boat
+    objects.only(boat)
+    assert bpy.ops.object.body_moments_float() == {"CANCELLED"}
+    assert "overlap" in reported.values("float_unavailable")["fault"]
