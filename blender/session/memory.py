@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from .displayed import Displayed, Listing, Total
     from .live.following import Followed
     from .stored.computed_moments import ComputedMoments
+    from .stored.cuts import KnownCutFill, Level
     from .stored.faults import Faults
     from .stored.floating import Afloat
     from .stored.outcome import ActionOutcome
@@ -145,6 +146,8 @@ chosen: SessionCache[tuple[tuple, tuple[list[Object], dict[str, bool]]]] = Sessi
 # ---------------------------------------------------------------- Results too large to store
 
 hulls: SessionCache[KnownHull] = SessionCache()
+levels: SessionCache[Level] = SessionCache(max_size=64)
+cut_fills: SessionCache[KnownCutFill] = SessionCache(max_size=64)
 afloat: SessionCache[Afloat] = SessionCache(max_size=64)
 faults: SessionCache[Faults] = SessionCache()
 moments: SessionCache[ComputedMoments] = SessionCache(max_size=16)
