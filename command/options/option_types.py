@@ -198,14 +198,16 @@ def source(text: str) -> str:
 
 def liquid(text: str) -> float:
     """Return the density of a liquid, kg/m³, from its name or as a number."""
-    if text in BY_NAME:
-        return BY_NAME[text].density
+    liquids = {
+        one.casefold(): BY_NAME[one] for one in BY_NAME if BY_NAME[one].category == "Liquids"
+    }
+    name = "oil, hydraulic" if text.casefold() == "oil" else text.casefold()
+    if name in liquids:
+        return liquids[name].density
     value = _float(text)
     if not (0.0 < value < math.inf):
-        names = [name for name, material in BY_NAME.items() if material.category == "Liquids"]
-        raise ArgumentTypeError(
-            "{!r} is neither a positive number nor one of {}".format(text, "; ".join(names))
-        )
+        names = "; ".join(material.name for material in liquids.values())
+        raise ArgumentTypeError(f"{text!r} is neither a positive number nor one of {names}")
     return value
 
 
