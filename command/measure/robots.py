@@ -29,6 +29,7 @@ from ...blender.settings.options import MeasureOptions
 from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...core.measurement import Measurement, print_message
 from ...core.robots import FORMATS, Robot, robot_name
+from ...core.robots.write.joints import merge_fixed
 from ...core.robots.write.shapes import with_primitives, without_collision
 from ...core.robots.write.texts import robot_text, with_geometry
 from ...core.verdict import sentence, severity
@@ -73,7 +74,13 @@ def complete(
                 else made.with_colliders().robot
             )
             robot, told = with_geometry(
-                seen, options.format, surface_of, options.output, read, options.force
+                seen,
+                options.format,
+                surface_of,
+                options.output,
+                read,
+                options.force,
+                options.mesh_format,
             )
         except OSError as error:
             failed = [
@@ -81,6 +88,7 @@ def complete(
                     FILE_NOT_WRITTEN, file=error.filename or "meshes", error=system_reason(error)
                 )
             ]
+    robot = merge_fixed(robot) if options.merge_fixed else robot
     text, findings = robot_text(
         robot, options.format, [*made.findings, *told], inertial_only=options.inertial_only
     )

@@ -349,6 +349,7 @@ def _weighed(shape: StatedShape, mass: Moments) -> Moments:
         return placed
     own = combine([(placed, 1.0)])
     body = shape.rules.complete(StatedInertial(own.mass, own.center, own.inertia))
+    assert body is not None
     second = np.trace(body.inertia) / 2.0 * np.eye(3) - body.inertia
     return replace(second_moments(body.mass, body.center, second), measure=placed.measure)
 

@@ -506,7 +506,7 @@ def _sequences(stated: StatedInertial) -> Iterator[Change]:
     """Yield tensors whose six entries were listed in one sequence and read in another one."""
     places = {name: tuple("xyz".index(axis) for axis in name) for name in SEQUENCES[0]}
     where = " in its own frame" if (stated.rotation != np.eye(3)).any() else ""
-    seen = {SEQUENCES[0]}
+    seen: set[tuple[str, ...]] = {SEQUENCES[0]}
     for listed, read in permutations(SEQUENCES, 2):
         names = tuple(listed[read.index(name)] for name in SEQUENCES[0])
         # Orders of the products alone have a change of their own.

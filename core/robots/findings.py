@@ -29,6 +29,11 @@ URDF_EFFORT_UNKNOWN = note(
     "Set effort and velocity of {count} joints to those of their motors. They are placeholders: "
     "{joints}.",
 )
+URDF_ROOT_WITHOUT_MASS = note(
+    "urdf_root_without_mass",
+    "PyBullet fixes the root {name} to the world, as it has no mass. Parent the parts to one of "
+    "them, or load the file with a root of your own.",
+)
 JOINTS_CLOSE_LOOP = warning(
     "joints_close_loop",
     "A robot is a tree. {joints} would close a loop and is left out. Add it to the file as a "
@@ -77,6 +82,11 @@ GLTF_UNIT_SCALE = note(
     "Blender writes its units to glTF as meters: a node above all others scales them by {scale:g}. "
     "Readers differ "
     "about bodies that are scaled.",
+)
+USD_UNIT_SCALE = note(
+    "usd_unit_scale",
+    "The stage is in units of {scale:g} m (metersPerUnit). Newton 1.8 reads that and converts "
+    "nothing: set the scene's unit scale to 1, or export with --links or --geometry of your own.",
 )
 ROBOT_LINKS_BARE = note(
     "robot_links_bare",
@@ -155,7 +165,9 @@ INERTIAL_NOT_FINITE = error(
     "inertial_not_finite", "Mass, center or inertia is not a number, or is too large."
 )
 INERTIAL_OF_FRAME = note(
-    "inertial_of_frame", "Zero mass, inertia and no geometry: a mere frame. Leave the inertial out."
+    "inertial_of_frame",
+    "Zero mass, inertia and no geometry: a mere frame. Keep the zeros: PyBullet and urchin take "
+    "1 kg if they are missing. PyBullet fixes a root without mass to the world.",
 )
 INERTIAL_NOT_POSITIVE = error(
     "inertial_not_positive", "Impossible: the {part:word} is {value:.6g} {unit}."

@@ -122,7 +122,7 @@ class Shape:
     file: a mesh's file, with slashes, relative to the file that names it. sheet: True if the mesh
     bounds no volume. surface: the geometry of a mesh that is to be written, in meters along the
     axes of the shape. collides: False for a shape that is only seen. seen: False for a shape that
-    only collides, with its mass in kg.
+    only collides. mass: kg, of the part of the link that the shape stands for, if known.
     """
 
     kind: str

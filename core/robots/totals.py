@@ -38,7 +38,12 @@ class Body(NamedTuple):
         if not self.mass or not other.mass:
             return self if self.mass else other
         mass = self.mass + other.mass
-        if self.center is None or other.center is None:
+        if (
+            self.center is None
+            or other.center is None
+            or self.inertia is None
+            or other.inertia is None
+        ):
             return Body(mass)
         arm = other.center - self.center
         share = other.mass / mass
@@ -86,24 +91,21 @@ class Expectation(NamedTuple):
         """
         findings = []
         if self.mass is not None and not abs(whole.mass - self.mass) <= self.within * self.mass:
-            findings.append(
-                finding(
-                    AUDIT_TOTAL,
-                    part="mass",
-                    value="{:.6g} kg".format(whole.mass),
-                    expected="{:.6g} kg".format(self.mass),
-                )
-            )
+            texts = ("{:.6g} kg".format(mass) for mass in (whole.mass, self.mass))
+            findings.append(_unexpected("mass", *texts))
         if self.center is None:
             return findings
         text = "unknown"
-        if whole.center is not None:
+        if whole.center is not None and whole.inertia is not None:
             radius = sqrt(max(float(np.trace(whole.inertia)), 0.0) / 2.0 / whole.mass)
             if np.linalg.norm(whole.center - self.center) <= self.within * radius:
                 return findings
             text = _point(whole.center.tolist())
-        values = {"part": "center", "value": text, "expected": _point(self.center)}
-        return [*findings, finding(AUDIT_TOTAL, **values)]
+        return [*findings, _unexpected("center", text, _point(self.center))]
+
+
+def _unexpected(part: str, value: str, expected: str) -> Finding:
+    return finding(AUDIT_TOTAL, part=part, value=value, expected=expected)
 
 
 def _point(numbers: Sequence[float]) -> str:

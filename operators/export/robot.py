@@ -21,7 +21,7 @@ from ...blender import session
 from ...blender.write import reports
 from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...core import files
-from ...core.robots import FORMATS, ROBOT_SCALED, RobotFormat, write
+from ...core.robots import FORMATS, ROBOT_SCALED, USD_UNIT_SCALE, RobotFormat, write
 from ...core.verdict import sentence
 from ...core.verdict.finding import EditRefusedError, FileError, Finding, finding, system_reason
 from .. import selection
@@ -88,6 +88,19 @@ class RobotExport(selection.InObjectMode, ExportHelper):
         name="Fixed Base",
         description="Fix links without a parent to the world; else passive rigid bodies alone",
     )
+    merge_fixed: BoolProperty(
+        name="Merge Fixed Links",
+        description="Put links on fixed joints into their parents; frames that joints need stay, "
+        "without mass",
+    )
+    mesh_format: EnumProperty(
+        name="Mesh Files",
+        description="Format of the files of meshes",
+        items=(
+            ("STL", "STL", "Binary STL"),
+            ("OBJ", "OBJ", "Wavefront OBJ, the only one that Drake reads from MJCF"),
+        ),
+    )
     inertial_only: BoolProperty(
         name="Inertials Only",
         description="Write mass, center and inertia of each link and nothing else",
@@ -130,12 +143,17 @@ class RobotExport(selection.InObjectMode, ExportHelper):
         if self.geometry == "MESH" and not self.inertial_only:
             try:
                 robot, bare = write.texts.with_geometry(
-                    robot, self.FORMAT, partial(made.surface, context), path
+                    robot,
+                    self.FORMAT,
+                    partial(made.surface, context),
+                    path,
+                    mesh_format=self.mesh_format.lower(),
                 )
             except OSError as error:
                 raise FileError(
                     FILE_NOT_WRITTEN, file=path.name, error=system_reason(error)
                 ) from error
+        robot = write.joints.merge_fixed(robot) if self.merge_fixed else robot
         found = [*made.findings, *bare]
         text, findings = write.texts.robot_text(
             robot, self.FORMAT, found, inertial_only=self.inertial_only
@@ -160,7 +178,10 @@ class RobotExport(selection.InObjectMode, ExportHelper):
         column = layout.column()
         column.enabled = not self.inertial_only
         column.prop(self, "fixed_base")
+        column.prop(self, "merge_fixed")
         column.prop(self, "geometry")
+        if not FORMATS[self.FORMAT].holds_meshes:
+            column.prop(self, "mesh_format")
         column.prop(self, "use_collision")
 
 
@@ -228,6 +249,8 @@ class UsdExport(GeometryExport):
         scaled = [link.name for link in robot.roots if min(link.scale) < 0.0]
         if scaled:
             findings.append(finding(ROBOT_SCALED, count=len(scaled), links=scaled))
+        if made.unit != 1.0:
+            findings.append(finding(USD_UNIT_SCALE, scale=made.unit))
         remarks = list(map(sentence, findings))
         text = usd.write_over(robot, paths, "./" + geometry.name, made.unit, remarks)
         selection.write_file(path, [text])

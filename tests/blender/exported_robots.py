@@ -84,7 +84,9 @@ def exported_links(path):
         }
     assert audit.answer(audit.parse(["audit", str(path)]))[1] == 0
     roots = Roots.for_file(path)
-    links = [link for link in read_description(path, roots).links if link.inertial is not None]
+    links = [
+        link for link in read_description(path, roots).links if link.inertial and link.inertial.mass
+    ]
     return {link.name.rsplit("/", 1)[-1]: _stated(link, roots) for link in links}
 
 

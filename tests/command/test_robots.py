@@ -71,7 +71,8 @@ def test_urdf_has_the_record_numbers_along_link_axes(unit):
     root = ElementTree.fromstring(text("measure", "--format", "urdf"))
     records = {entry["name"]: entry for entry in document("--frame", "object")["objects"]}
     links = {link.get("name"): link.find("inertial") for link in root.iter("link")}
-    assert links.keys() == {*records, "base_link"} and links["base_link"] is None
+    assert links.keys() == {*records, "base_link"}
+    assert links["base_link"].find("mass").get("value") == "0"
     for name, record in records.items():
         inertial = links[name]
         assert inertial.find("origin").get("rpy") == "0 0 0"

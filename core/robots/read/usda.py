@@ -319,9 +319,10 @@ def _joint(path: str, prim: Prim, links: Mapping[str, StatedLink], unit: float) 
     ends = [*zip(names, frames)]
     (parent, first), (child, second) = reversed(ends) if is_reversed else ends
     pose = None
-    if parent and parent in links and child in links:
+    outer, inner = (links[name].pose if name in links else None for name in (parent, child))
+    if outer is not None and inner is not None:
         pose = first @ second.inverse()
-        placed = links[parent].pose.inverse() @ links[child].pose
+        placed = outer.inverse() @ inner
         apart = np.abs(pose.matrix - placed.matrix).max()
         # The prims' places have more digits than the frames.
         if apart <= SINGLE_RTOL * max(1.0, np.abs(placed.position).max()):

@@ -25,7 +25,7 @@ from ...numerics import Array, along_x, quaternion
 from ...verdict import Finding
 from ..model import FreeAxis, Joint, Link, Pose, Robot, Shape
 from .gltf import KHR, OMI, Y_UP, body_extensions
-from .joints import NAMES, lost_values
+from .joints import NAMES, lost_values, split_frames
 from .marker import MARKER
 from .shapes import box_of_ellipsoid, ellipsoids_as_boxes
 from .text import unique_names
@@ -40,6 +40,7 @@ def check(robot: Robot) -> list[Finding]:
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
     """Return a robot as the text of a .gltf file. remarks, inertial_only: as in `urdf.write`."""
+    robot = robot if inertial_only else split_frames(robot)[0]
     document = _Document(robot)
     for link in robot.ordered():
         document.add_link(link, inertial_only)

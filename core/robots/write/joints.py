@@ -12,6 +12,7 @@ from dataclasses import replace
 from ...verdict.finding import Finding, finding
 from ..findings import JOINT_VALUES_LOST
 from ..model import Joint, Link, Pose, Robot
+from .shapes import with_masses
 from .text import unique_names
 
 # Names of values in each format, by ours. UsdPhysics and glTF have drives, others dynamics, limits
@@ -54,6 +55,69 @@ def lost_values(
     joints = [name for name, names in lost.items() if names]
     values = sorted(set().union(*lost.values()))
     return [finding(JOINT_VALUES_LOST, format=form, values=values, joints=joints)] if joints else []
+
+
+def merge_fixed(robot: Robot) -> Robot:
+    """Return a robot in which links on fixed joints belong to their parents: mass, inertia and
+    shapes.
+
+    Those that a moving joint needs, and frames without mass, stay as frames without mass.
+    """
+    robot = with_masses(robot)
+    needed = {joint.parent for joint in robot.joints if joint.free}
+    hosts = host_names(robot)
+    links = []
+    for link in robot.links:
+        to_link = link.pose.inverse()
+        if hosts[link.name] == link.name:
+            shapes = [
+                shape if part is link else replace(shape, pose=to_link @ part.pose @ shape.pose)
+                for part in robot.rigid_parts(link)
+                for shape in part.shapes
+            ]
+            links.append(replace(link, inertial=robot.rigid_inertial(link), shapes=tuple(shapes)))
+        elif link.name in needed or link.inertial is None:
+            links.append(replace(link, inertial=None, shapes=()))
+    kept = {link.name for link in links}
+    joints = tuple(
+        joint if joint.free else replace(joint, parent=hosts[joint.parent])
+        for joint in robot.joints
+        if joint.child in kept
+    )
+    return replace(robot, links=tuple(links), joints=joints)
+
+
+def host_names(robot: Robot) -> dict[str, str]:
+    """Return for each link the name of the first link above it, or itself, that can move in its
+    parent or has none.
+    """
+    hosts: dict[str, str] = {}
+    for link in robot.ordered():
+        joint = robot.joint_of(link.name)
+        hosts[link.name] = link.name if joint is None or joint.free else hosts[joint.parent]
+    return hosts
+
+
+def split_frames(robot: Robot) -> tuple[Robot, dict[str, list[Link]]]:
+    """Return a robot without its fixed frames without mass, whose joints go to the links that carry
+    them, and these frames by the names of those links.
+    """
+    carriers: dict[str, str] = {}
+    frames: dict[str, list[Link]] = {}
+    for link in robot.ordered():
+        joint = robot.joint_of(link.name)
+        if joint is None or joint.free or link.inertial is not None or link.shapes:
+            carriers[link.name] = link.name
+        else:
+            carriers[link.name] = carriers[joint.parent]
+            frames.setdefault(carriers[link.name], []).append(link)
+    joints = [
+        replace(joint, parent=carriers[joint.parent])
+        for joint in robot.joints
+        if carriers[joint.child] == joint.child
+    ]
+    links = [link for link in robot.links if carriers[link.name] == link.name]
+    return replace(robot, links=tuple(links), joints=tuple(joints)), frames
 
 
 def with_axis_frames(

@@ -17,6 +17,7 @@ from ..findings import MJCF_INERTIA_TOO_SMALL
 from ..model import Inertial, Joint, Link, Pose, Robot, Shape
 from ..stated import StatedInertial
 from .joints import NAMES, lost_values
+from .shapes import with_masses
 from .text import (
     document,
     inertial_element,
@@ -68,6 +69,7 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
         if smallest_inertials(robot, LEAST):
             bounds = {"boundmass": number(LEAST), "boundinertia": number(LEAST)}
         SubElement(root, "compiler", bounds, angle="radian", autolimits="true")
+    robot = robot if inertial_only else with_masses(robot)
     meshes = {} if inertial_only else _add_meshes(root, robot)
     world = SubElement(root, "worldbody")
     elements: dict[str, Element] = {}
@@ -81,12 +83,13 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
         if link.inertial is not None:
             _add_inertial(body, link.inertial)
         for shape in () if inertial_only else link.shapes:
+            mass = {"mass": number(shape.mass) if shape.mass else "0"}
+            is_collider = shape.collides and not shape.sheet
             if shape.seen:
-                drawn = {"group": "2", "contype": "0", "conaffinity": "0", "mass": "0"}
-                _add_geom(body, shape, meshes, drawn)
-            if shape.collides and not shape.sheet:
-                mass = number(shape.mass) if shape.mass else "0"
-                _add_geom(body, shape, meshes, {"group": "3", "mass": mass})
+                drawn = {"group": "2", "contype": "0", "conaffinity": "0"}
+                _add_geom(body, shape, meshes, drawn | ({"mass": "0"} if is_collider else mass))
+            if is_collider:
+                _add_geom(body, shape, meshes, {"group": "3"} | mass)
     mimics = (
         []
         if inertial_only

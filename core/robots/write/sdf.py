@@ -19,7 +19,7 @@ from ...verdict.finding import Finding, finding
 from ..findings import SDF_FRAMES_ADDED
 from ..model import Inertial, Joint, Link, Pose, Robot, Shape
 from ..stated import ENTRIES, StatedInertial
-from .joints import NAMES, lost_values, with_axis_frames
+from .joints import NAMES, lost_values, split_frames, with_axis_frames
 from .shapes import shape_values
 from .text import (
     add_text,
@@ -65,6 +65,12 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
     joint_names = unique_names([joint.name for joint in robot.joints], _name, names.values())
     root = Element("sdf", version=VERSION)
     model = SubElement(root, "model", name=_name(robot.name))
+    robot, frames = (robot, {}) if inertial_only else split_frames(robot)
+    for carrier, several in frames.items():
+        for frame in several:
+            values = {"name": names[frame.name], "attached_to": names[carrier]}
+            element = SubElement(model, "frame", values)
+            _add_pose(element, robot.link(carrier).pose.inverse() @ frame.pose)
     for link in robot.ordered():
         element = SubElement(model, "link", name=names[link.name])
         if not inertial_only:

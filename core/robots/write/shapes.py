@@ -16,7 +16,7 @@ from ...mesh import Surface
 from ...verdict.finding import Finding, finding
 from ..findings import ROBOT_ELLIPSOID_AS_BOX, ROBOT_LINKS_BARE
 from ..model import Link, Pose, Robot, Shape
-from ..primitives import equal_inertia_shape
+from ..primitives import equal_inertia_shape, moments_of
 from .text import number, numbers
 
 BOX_OF_ELLIPSOID = 2.0 * sqrt(3.0 / 5.0)  # sides over semi-axes at equal mass and inertia
@@ -102,6 +102,31 @@ def with_colliders(robot: Robot, colliders_of: Callable[[Link], Sequence[Shape]]
             if colliders
             else link.shapes
         )
+
+    return _with_shapes(robot, shapes_of)
+
+
+def with_masses(robot: Robot) -> Robot:
+    """Return a robot whose colliders, or else drawn shapes, have masses that add up to their
+    link's.
+
+    Known masses are scaled; unknown ones are in proportion to the volumes.
+    """
+
+    def shapes_of(link: Link) -> Sequence[Shape]:
+        colliders = [shape for shape in link.shapes if shape.collides and not shape.sheet]
+        heavy = colliders or [shape for shape in link.shapes if shape.seen]
+        if link.inertial is None:
+            return link.shapes
+        mass = link.inertial.mass
+        shares = np.array([shape.mass for shape in heavy])
+        if not (shares > 0.0).any():
+            is_known = all(shape.kind != "mesh" or shape.surface for shape in heavy)
+            shares = np.array([moments_of(one).raw[0] if is_known else 1.0 for one in heavy])
+        if not shares.sum() > 0.0 or (shares < 0.0).any():
+            shares = np.ones(len(heavy))
+        masses = dict(zip(map(id, heavy), (mass * shares / shares.sum()).tolist()))
+        return [replace(shape, mass=masses.get(id(shape), 0.0)) for shape in link.shapes]
 
     return _with_shapes(robot, shapes_of)
 

@@ -48,21 +48,27 @@ def to_obj(surface: Surface) -> bytes:
 
 
 def write_meshes(
-    robot: Robot, output: Path, read: Path | None = None, force: bool = False
+    robot: Robot,
+    output: Path,
+    read: Path | None = None,
+    force: bool = False,
+    mesh_format: str = "stl",
 ) -> Robot:
     """Write the surfaces of a robot's meshes to files, and return the robot with the names of these
     files.
 
     output: the robot's own file; the meshes go to the folder `meshes` beside it. read: a file that
     is never replaced. OSError if a file cannot be written, or exists, is no mesh of ours, and
-    `force` is False; then none is written.
+    `force` is False; then none is written. mesh_format: "stl", of small meshes, or "obj".
     """
     shapes = {
         (link.name, index): shape for link in robot.links for index, shape in enumerate(link.shapes)
     }
     files = mesh_files(shapes, output.stem)
     for key, shape in shapes.items():
-        if shape.surface is not None and len(shape.surface.all_triangles()[0]) > MOST_TRIANGLES:
+        if shape.surface is not None and (
+            mesh_format == "obj" or len(shape.surface.all_triangles()[0]) > MOST_TRIANGLES
+        ):
             files[key] = files[key].removesuffix("stl") + "obj"
     surfaces = {
         files[key]: shape.surface for key, shape in shapes.items() if shape.surface is not None

@@ -30,13 +30,14 @@ def with_geometry(
     output: Path,
     read: Path | None = None,
     force: bool = False,
+    mesh_format: str = "stl",
 ) -> tuple[Robot, list[Finding]]:
     """Return a robot with meshes, written to files unless the format embeds them, and a finding
     about bare links.
     """
     robot, findings = with_meshes(robot, surface_of)
     return robot if FORMATS[format_name].holds_meshes else write_meshes(
-        robot, output, read, force
+        robot, output, read, force, mesh_format
     ), findings
 
 

@@ -17,7 +17,7 @@ import numpy as np
 
 from ...mesh import Surface
 from ...verdict.finding import Finding, finding
-from ..findings import ROBOT_BASE_ADDED, URDF_EFFORT_UNKNOWN
+from ..findings import ROBOT_BASE_ADDED, URDF_EFFORT_UNKNOWN, URDF_ROOT_WITHOUT_MASS
 from ..model import FreeAxis, Inertial, Joint, Pose, Robot, Shape
 from ..stated import ENTRIES, StatedInertial
 from .joints import lost_values, with_axis_frames
@@ -55,6 +55,12 @@ def check(robot: Robot) -> list[Finding]:
     if loose and len(robot.roots) > 1:
         name = BASE if len(loose) == len(robot.roots) else WORLD
         findings.append(finding(ROBOT_BASE_ADDED, count=len(loose), name=name))
+    # The root of the file that is to be free: an added one, or a frame.
+    free = BASE if len(loose) == len(robot.roots) > 1 else ""
+    if len(robot.roots) == len(loose) == 1 and loose[0].inertial is None:
+        free = loose[0].name
+    if free:
+        findings.append(finding(URDF_ROOT_WITHOUT_MASS, name=free))
     findings += ellipsoids_as_boxes(robot)
     unknown = [
         joint.name
@@ -85,11 +91,13 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
         elif len(robot.roots) > 1:
             base = _free_name(BASE, names)
     if base is not None:
-        SubElement(root, "link", name=base)
+        _add_no_mass(SubElement(root, "link", name=base))
     for link in robot.ordered():
         element = SubElement(root, "link", name=names[link.name])
         if link.inertial is not None:
             _add_inertial(element, link.inertial)
+        else:
+            _add_no_mass(element)
         if not inertial_only:
             _add_shapes(element, link.shapes)
     for link in () if inertial_only else robot.ordered():
@@ -158,6 +166,13 @@ def _add_inertial(parent: Element, inertial: Inertial) -> None:
     if missing > 0.0:
         tensor = tensor - missing * np.outer(axis, axis)
     SubElement(element, "inertia", {name: number(tensor[i, j]) for name, i, j in ENTRIES})
+
+
+def _add_no_mass(parent: Element) -> None:
+    """Add zeros; some readers take 1 kg for a link without inertial."""
+    element = SubElement(parent, "inertial")
+    SubElement(element, "mass", value="0")
+    SubElement(element, "inertia", {name: "0" for name, _, _ in ENTRIES})
 
 
 def inertial_text(inertial: StatedInertial, *_: object) -> str:

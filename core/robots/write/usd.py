@@ -23,7 +23,7 @@ from ...verdict.finding import Finding, finding
 from ..findings import USD_INERTIA_TOO_SMALL
 from ..model import FreeAxis, Inertial, Joint, Pose, Robot, Shape
 from ..stated import Description, StatedInertial, StatedLink
-from .joints import NAMES, lost_values
+from .joints import NAMES, lost_values, split_frames
 from .marker import MARKER
 from .text import number, unique_names
 
@@ -61,6 +61,7 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
     """
     names = unique_names([link.name for link in robot.links], identifier)
     joints = unique_names([joint.name for joint in robot.joints], identifier, names.values())
+    robot, frames = (robot, {}) if inertial_only else split_frames(robot)
     # Prims without mass stand.
     heavy = [link for link in robot.roots if link.is_fixed and link.inertial is not None]
     bases = {} if inertial_only else {link.name: link for link in heavy}
@@ -84,6 +85,9 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
                     inner += _collider(
                         shape, names[link.name], count, () if shape.seen else lines_of_shape
                     )
+            for frame in frames.get(link.name, ()):
+                place = _transform(link.pose.inverse() @ frame.pose)
+                inner += _prim("def Xform", names[frame.name], place)
         is_tree = not is_one and link.name in trees and link.name not in bases
         apis = ARTICULATION * is_tree + (() if inertial is None else APIS)
         lines += _prim("def Xform", names[link.name], inner, apis)
