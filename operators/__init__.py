@@ -13,7 +13,7 @@ MODULES = (
         for name in ("measure_selected", "moments", "select_faults", "copy", "library", "fourier")
     ),
     *("snap.frames", "snap.sculpt_balance"),
-    *("statics", "floating"),
+    *("statics", "floating", "cuts"),
     *("export." + name for name in ("robot", "audit")),
     "rig",
     "motion",

@@ -257,6 +257,18 @@ def measure_below(
     )
 
 
+def cut_outline(
+    points: Array, triangles: NDArray[np.integer], normal: ArrayLike, offset: float
+) -> Array:
+    """Return (k, 2, 3) segments along which triangles cross the plane normal · x = offset."""
+    heights = points @ np.asarray(normal) - offset
+    start, stop = triangles, np.roll(triangles, -1, axis=1)
+    crossed = (heights > 0.0)[start] != (heights > 0.0)[stop]
+    start, stop = start[crossed], stop[crossed]
+    share = (heights[start] / (heights[start] - heights[stop]))[:, None]
+    return (points[start] + share * (points[stop] - points[start])).reshape(-1, 2, 3)
+
+
 def _below(
     points: Array,
     triangles: NDArray[np.integer],

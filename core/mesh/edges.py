@@ -39,7 +39,7 @@ from .surface import Surface, face_of_each
 
 HASH_FACTOR = np.uint32(0x9E3779B1)  # a prime of xxHash, by Yann Collet
 FACES_PER_BLOCK = 1 << 14  # in the cache with all that is made of them
-MAX_SORTED_SIDES = 3 << 10  # a table is made for more
+MAX_SORTED_SIDES = 3 << 13  # a table is made for more
 # primes of xxHash, by Yann Collet
 HASH_FACTORS = (
     0x9E3779B1,
@@ -351,12 +351,13 @@ class _Table:
         flat = faces.ravel()
         first = len(self.sides) >> self.bits + 1
         number = np.flatnonzero((flat >= first) & (flat < first + SAMPLED_VERTICES))
-        start = flat[number]
+        start = flat[number] - first
         stop = flat[_following(number, faces.shape[1])]
-        return sorted(
-            HASH_FACTORS,
-            key=lambda factor: -len(np.unique(self.places(start, stop, np.uint32(factor)))),
-        )
+
+        def distinct_places(factor: int) -> int:
+            return int(np.count_nonzero(np.bincount(self.places(start, stop, np.uint32(factor)))))
+
+        return sorted(HASH_FACTORS, key=distinct_places, reverse=True)
 
 
 def _pair(

@@ -19,7 +19,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics import NEXT_AXIS, Array, Index, Mask, batches, cross, float_array, segment_ranges
+from ..numerics import (
+    NEXT_AXIS,
+    Array,
+    Index,
+    Mask,
+    batches,
+    cross,
+    float_array,
+    segment_ranges,
+    sorted_distinct,
+)
 from ..verdict import MeasureError
 from .findings import HULL_WITHOUT_EXTENT
 
@@ -288,7 +298,7 @@ class _GrowingHull:
             beyond = self.neighbors[face, side]
             sees = self._heights(apexes[apex], beyond) > 0.0
             edges.append(np.stack([apex, face, side], axis=1)[~sees])
-            new = np.unique(apex[sees] * size + beyond[sees])
+            new = sorted_distinct(apex[sees] * size + beyond[sees])
             new = np.setdiff1d(new, known, assume_unique=True)
             known = np.sort(np.concatenate([known, new]))
             front = np.stack(np.divmod(new, size), axis=1)

@@ -24,6 +24,7 @@ from ..numerics import (
     first_occurrence,
     hash_uint64,
     lengths,
+    sorted_distinct,
 )
 
 # Points near to each other are near along this direction, too; planes and axes of usual bodies are
@@ -129,7 +130,7 @@ def same_vertices_groups(triangles: NDArray[np.integer], faces: NDArray[np.integ
         sums[k, faces[single]] = hashes[:, 0] + hashes[:, 1] + hashes[:, 2]
     if not single.all():
         vertices = int(triangles.max()) + 1
-        corner = np.unique(
+        corner = sorted_distinct(
             np.repeat(faces[~single], 3).astype(np.int64) * vertices + triangles[~single].ravel()
         )
         owner = corner // vertices

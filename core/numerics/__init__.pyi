@@ -30,6 +30,7 @@ from .arrays import lengths as lengths
 from .arrays import power_table as power_table
 from .arrays import segment_ranges as segment_ranges
 from .arrays import segment_starts as segment_starts
+from .arrays import sorted_distinct as sorted_distinct
 from .arrays import spread_bits as spread_bits
 from .arrays import sums_by_index as sums_by_index
 from .arrays import unique_pairs as unique_pairs
