@@ -42,12 +42,11 @@ class SectionPanel:
             layout.label(text="Not Measured", icon="RADIOBUT_OFF")
             return
         _verdict(layout, stored, stale_reason(obj, context.scene, of_section))
-        remedies.lines(
-            layout, context, [Group(found) for found in stored.findings], can_accept=False
-        )
+        groups = [Group(found) for found in stored.findings]
+        remedies.lines(layout, context, groups, can_accept=False)
         _numbers(layout, stored.section)
         _more_numbers(layout, stored.section)
-        remedies.notes(layout, "body_moments_section_notes", stored.findings)
+        remedies.notes(layout, "body_moments_section_notes", groups)
 
 
 def _may_be_cut(obj: Object) -> bool:

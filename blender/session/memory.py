@@ -19,9 +19,10 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 from bpy.types import ID, Object, Scene
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from ...core.statics import Support
+    from ...core.verdict import Finding
     from .character.weight import Character, Weight
     from .displayed import Displayed, Listing, Total
     from .live.following import Followed
@@ -140,6 +141,8 @@ moved: set[int] = _remembered(set())
 totals: SessionCache[tuple[tuple, Total]] = SessionCache()
 masses: SessionCache[tuple[tuple, dict[int, str]]] = SessionCache()
 listings: SessionCache[tuple[tuple, Listing]] = SessionCache()
+# scene → the last measured objects with their places (`displayed.places`), and their overlaps
+overlaps: SessionCache[tuple[frozenset, Sequence[Finding]]] = SessionCache()
 # scene → the selection, the objects whose settings are shown, and names of settings that differ
 chosen: SessionCache[tuple[tuple, tuple[list[Object], dict[str, bool]]]] = SessionCache()
 

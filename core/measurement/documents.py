@@ -257,6 +257,7 @@ def _columns(entry: dict[str, Any]) -> dict[str, Any]:
             f"principal_axis_{number + 1}_{axis}": entry["principal_axes"][i][number]
             for i, axis in enumerate("xyz")
         }
+    row |= _nested("label", entry.get("label", {})) | _nested("print", entry.get("print", {}))
     row |= _nested("display_mesh", entry.get("display_mesh", {}))
     below = dict(entry.get("below") or {})
     below["contents"] = dict(below.get("contents") or {})
