@@ -35,14 +35,26 @@ class PrintBalance(NamedTuple):
 
 
 def balance_print(
-    context: Context, obj: Object, corners: Array, margin: float
+    context: Context,
+    obj: Object,
+    corners: Array | None,
+    margin: float,
+    point: tuple[float, ...] | None = None,
 ) -> PrintBalance | None:
     """Return the nearest walls and infill with the center inside a polygon by a margin, else those
-    with the largest margin; None if nothing can be printed.
+    with the largest margin; None if the polygon is none.
 
-    corners: (k, 3) in the world, counterclockwise from above. margin: in Blender units. The walls
-    stay if the infill alone suffices. Raises MeasureError.
+    corners: (k, 3) of the base in the world, counterclockwise from above; None if unknown. margin:
+    in Blender units. point: the center has to be above or below it within the margin, in place of
+    the base. The walls stay if the infill alone suffices. Raises MeasureError.
     """
+    axes = ground_axes(down(context.scene))[:, :2]
+    if point is not None:
+        turn = np.pi / 4.0 * np.arange(8)
+        ring = np.column_stack([np.cos(turn), np.sin(turn)])
+        corners, margin = point + margin * ring @ axes.T, 0.0
+    if corners is None or len(corners) < 3:
+        return None
     request = Request.resolve(obj, context.evaluated_depsgraph_get())
     settings = replace(request.settings, kind="printed", mass=None, density=1.0)
     made = mesh.mesh_body(
@@ -52,7 +64,6 @@ def balance_print(
         union=settings.overlap == "union",
         threads=settings.threads,
     )
-    axes = ground_axes(down(context.scene))[:, :2]
     middle = corners.mean(axis=0)
     flat = (corners - middle) @ axes
     about = middle * settings.unit

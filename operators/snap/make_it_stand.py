@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Make It Stand: change the infill, and if need be the walls, of a print least."""
 
-import numpy as np
 from bpy.props import EnumProperty, FloatProperty
 from bpy.types import Context, Operator
 
@@ -57,18 +56,10 @@ class OBJECT_OT_body_moments_make_it_stand(Operator):
         try:
             session.check_stability(context, obj, [])
             support = stored.stability.support(obj, context.scene)
-            margin = self.margin
-            if self.target == "CURSOR":
-                turn = np.pi / 4.0 * np.arange(8)
-                ring = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(8)])
-                corners = np.array(context.scene.cursor.location) + self.margin * ring
-                margin = 0.0
-            else:
-                corners = np.empty((0, 3)) if support is None else support.polygon
-            found = (
-                session.print_balance.balance_print(context, obj, corners, margin)
-                if len(corners) > 2
-                else None
+            over_cursor = self.target == "CURSOR"
+            point = context.scene.cursor.location[:] if over_cursor else None
+            found = session.print_balance.balance_print(
+                context, obj, None if support is None else support.polygon, self.margin, point
             )
         except MeasureError as error:
             return selection.refuse(self, reports.failure(obj.name_full, error))
