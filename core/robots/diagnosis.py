@@ -322,16 +322,21 @@ def _changes(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
     """Yield each change that may correct an inertial, with the corrected inertial; likelier changes
     come first.
     """
-    yield from _units(stated, reference)
-    yield from _points(stated, reference)
-    yield from _frames(stated)
-    yield from _signs(stated)
-    yield from _orders(stated)
-    yield from _moments(stated, reference)
-    yield from _transposed(stated)
+    # Changes that keep a wrong center cannot make it agree.
+    keeps = reference.compare_centers(stated) <= AGREES
+    yield from _units(stated, reference, keeps)
+    if keeps:
+        yield from _points(stated, reference)
+        yield from _frames(stated)
+    yield from _signs(stated, keeps)
+    yield from _orders(stated, keeps)
+    if keeps:
+        yield from _moments(stated, reference)
+        yield from _transposed(stated)
 
 
-def _units(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
+def _units(stated: StatedInertial, reference: Reference, keeps: bool) -> Iterator[Change]:
+    """Yield changes of units. keeps: True if changes that keep the center may help."""
     inertia = stated.inertia
     center = stated.center
     mass = stated.mass
@@ -348,7 +353,7 @@ def _units(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
             for unit in (1e-9, 1e-7):
                 tensor = stated.along_link(_times(inertia, unit), mass=float(_times(mass, factor)))
                 yield AUDIT_UNIT, {"part": GRAMS, "factor": unit}, tensor
-    for factor in INERTIA_UNITS:
+    for factor in INERTIA_UNITS if keeps else ():
         yield (
             AUDIT_UNIT,
             {"part": "inertia", "factor": factor},
@@ -374,7 +379,7 @@ def _units(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
             {"part": part, "factor": factor},
             stated.along_link(inertia * factor),
         )
-    for factor in (INCH**2, 1e-4, 1e-6):
+    for factor in (INCH**2, 1e-4, 1e-6) if keeps else ():
         tensor = stated.along_link(_times(inertia, factor) * mass)
         yield AUDIT_UNIT, {"part": PER_MASS, "factor": factor}, tensor
 
@@ -439,11 +444,11 @@ def _frames(stated: StatedInertial) -> Iterator[Change]:
     yield AUDIT_FRAME_NOT_MEANT, {}, replace(stated, rotation=np.eye(3))
 
 
-def _signs(stated: StatedInertial) -> Iterator[Change]:
+def _signs(stated: StatedInertial, keeps: bool) -> Iterator[Change]:
     rows = np.array([0, 0, 1])
     columns = np.array([1, 2, 2])
     _, *some, all_of_them = product((1.0, -1.0), repeat=3)
-    for signs in (all_of_them, *some):
+    for signs in (all_of_them, *some) if keeps else ():
         for along_link in (True, False):
             tensor = (stated.inertia if along_link else stated.tensor).copy()
             tensor[rows, columns] = tensor[columns, rows] = tensor[rows, columns] * signs
@@ -476,15 +481,16 @@ def _mapped(
     )
 
 
-def _orders(stated: StatedInertial) -> Iterator[Change]:
+def _orders(stated: StatedInertial, keeps: bool) -> Iterator[Change]:
     """Yield changes that reorder the axes of the tensor, the center or both, or turn them by 90
     degrees; and six entries in another program's sequence.
     """
-    yield from _sequences(stated)
+    if keeps:
+        yield from _sequences(stated)
     for order in AXES:
         axes = {"order": "".join("xyz"[axis] for axis in order)}
         _, center, both = _mapped(stated, np.eye(3)[order])
-        for values, tensor in _reordered(stated.inertia, order, ""):
+        for values, tensor in _reordered(stated.inertia, order, "") if keeps else ():
             yield AUDIT_ORDER, values, stated.along_link(tensor)
         yield AUDIT_ORDER, {"part": CENTER_AXES, **axes}, center
         yield AUDIT_ORDER, {"part": "axes of the inertial", **axes}, both
@@ -496,7 +502,7 @@ def _orders(stated: StatedInertial) -> Iterator[Change]:
         )
         yield AUDIT_TURNED, {"part": "inertial", "axis": "xyz"[axis]}, both
         yield AUDIT_TURNED, {"part": "inertia", "axis": "xyz"[axis]}, tensor
-    if (stated.rotation != np.eye(3)).any():
+    if keeps and (stated.rotation != np.eye(3)).any():
         for order in AXES:
             for values, tensor in _reordered(stated.tensor, order, " in its own frame"):
                 yield AUDIT_ORDER, values, replace(stated, tensor=tensor)
