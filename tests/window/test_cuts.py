@@ -66,7 +66,7 @@ def test_level_of_a_volume_takes_three_clicks(window):
     window.ask(CUP + SHOW)
     window.open_tab("Moments")
     x, y = window.place("object.body_moments_level")
-    window.click(x, y)
+    window.press("object.body_moments_level")
     window.click(x + FIELD[0], y + FIELD[1])
     window.type("ctrl+a", "1", "5", "0", "Return")  # cm³
     window.key("Return")
@@ -81,6 +81,12 @@ def test_level_of_a_volume_takes_three_clicks(window):
 
 def test_pit_below_its_rim(window):
     window.ask(PIT + SHOW)
+    window.press("object.body_moments_cut_fill")
+    window.redraw()
+    window.picture("cut-fill-dialog")
+    window.key("Return")
+    memory = f"__import__('sys').modules['{PACKAGE}.blender.session.memory']"
+    window.wait(f"bpy.data.objects['Pit'] in {memory}.cut_fills")
     window.ask("bpy.ops.object.body_moments_cut_fill(against='RIM')")
     window.point_at_view()
     window.picture("cut-fill-pit")
