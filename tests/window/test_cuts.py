@@ -58,8 +58,18 @@ if 'DEFAULT_CLOSED' in panel.bl_options:
     bpy.utils.unregister_class(inner)
     bpy.utils.register_class(inner)
 """
-FIELD = -77, -29  # pixels from the button to the field of the dialog
 CUTS = f"import sys\ncuts = sys.modules['{PACKAGE}.blender.session.stored.cuts']\n"
+
+
+def field(window, x, y):
+    """Return the place of the dialog's number near the pointer, which Ctrl C over it copies."""
+    manager = "bpy.context.window_manager"
+    for up in range(-120, 240, 8):
+        window.move(x - 60, y + up, "key", "ctrl+c")
+        copied = window.ask(f"result = {manager}.clipboard\n{manager}.clipboard = '-'")
+        if "250" in copied or "0.00025" in copied:
+            return x - 60, y + up
+    raise LookupError(window.output())
 
 
 def test_level_of_a_volume_takes_three_clicks(window):
@@ -67,7 +77,7 @@ def test_level_of_a_volume_takes_three_clicks(window):
     window.open_tab("Moments")
     x, y = window.place("object.body_moments_level")
     window.press("object.body_moments_level")
-    window.click(x + FIELD[0], y + FIELD[1])
+    window.click(*field(window, x, y))
     window.type("ctrl+a", "1", "5", "0", "Return")  # cm³
     window.key("Return")
     window.wait(f"'{PACKAGE}.blender.session.stored.cuts' in __import__('sys').modules")
