@@ -116,6 +116,24 @@ def triple(text: str) -> tuple[float, ...]:
     return values
 
 
+PRINT_COUNTS = "walls", "top", "bottom"
+PRINT_VALUES = "line_width", "layer_height", "infill", "price", "spool"
+
+
+def print_settings(text: str) -> tuple[tuple[str, float], ...]:
+    """Return the pairs of NAME=VALUE,…, settings of a print."""
+    pairs = []
+    for part in text.split(","):
+        name, _, value = part.partition("=")
+        known = name in PRINT_COUNTS or name in PRINT_VALUES
+        if not known or (name in PRINT_COUNTS and not value.isdecimal()):
+            names = ", ".join((*PRINT_COUNTS, *PRINT_VALUES))
+            message = "{!r} is not NAME=VALUE with one of {}; the first three are whole numbers"
+            raise ArgumentTypeError(message.format(part, names))
+        pairs.append((name, int(value) if name in PRINT_COUNTS else number(value)))
+    return tuple(pairs)
+
+
 def label(text: str) -> int | str:
     """Return the number of a label, or “all”."""
     try:

@@ -18,6 +18,7 @@ from mathutils import Vector
 from ....core.cuts import (
     LEVEL_UNAVAILABLE,
     SHARED_SPACE,
+    TABLE_ROWS,
     CutFill,
     Hollow,
     PartBelow,
@@ -40,7 +41,6 @@ from ..tracking import handlers, staleness, stamps
 from ..tracking.stamps import Kind, Stamp
 
 MAX_TILTED_TRIANGLES = 20_000  # of vessels whose spill tilt is computed
-TABLE_ROWS = 33
 
 
 @dataclass(eq=False)
