@@ -103,6 +103,7 @@ class VIEW3D_MT_body_moments_shape(_Groups, Menu):
             ("object.body_moments_rest_on_ground", "TRIA_DOWN_BAR"),
             ("object.body_moments_balance_group", "CON_FOLLOWPATH"),
             ("object.body_moments_sculpt_balance", "SCULPTMODE_HLT"),
+            ("object.body_moments_make_it_stand", "MOD_THICKNESS"),
         ),
         (
             ("object.body_moments_float", "MOD_OCEAN"),

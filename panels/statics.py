@@ -51,6 +51,8 @@ class StabilityPanel:
             edge = support.foot + support.margin * support.direction
             balance.target = "POINT"
             balance.point = (edge + support.polygon.mean(axis=0)) / 2.0
+        if obj is not None and obj.body_moments.kind == "PRINTED":
+            rows.button(column, "object.body_moments_make_it_stand", "MOD_THICKNESS")
         rows.button(
             column, "object.body_moments_balance_group", "CON_FOLLOWPATH", text="Follow Center..."
         )

@@ -72,3 +72,48 @@ def test_live_waterline_follows_an_edit(window):
     window.wait(f"{SESSION}.held({HULL}, bpy.context.scene) is not None")
     _, draught, _ = window.ask(HELD)
     assert draught == pytest.approx(0.8 * 2.0 * 500.0 / 1023.343, rel=1e-5)
+
+
+BOAT = """
+from math import cos, pi, sin
+for obj in list(bpy.data.objects):
+    bpy.data.objects.remove(obj)
+points, faces = [], []
+for i in range(13):
+    x = i / 12.0 * 2.0 - 1.0
+    beam = 0.9 * (1.0 - 0.98 * max(x, 0.0) ** 2) * (1.0 - 0.25 * min(x, 0.0) ** 2)
+    for j in range(9):
+        turn = (j / 8.0 - 0.5) * pi
+        height = 0.9 * (1.0 - cos(turn) ** 0.7) + 0.2 * x * x
+        points.append((2.5 * x, beam * sin(turn), height))
+for i in range(12):
+    for j in range(8):
+        a = 9 * i + j
+        faces.append((a, a + 1, a + 10, a + 9))
+faces.append(tuple(range(8, -1, -1)))
+mesh = bpy.data.meshes.new("Boat")
+mesh.from_pydata(points, [], faces)
+mesh.flip_normals()
+boat = bpy.data.objects.new("Boat", mesh)
+bpy.context.collection.objects.link(boat)
+bpy.context.view_layer.objects.active = boat
+boat.select_set(True)
+boat.location.z = 1.0
+settings = boat.body_moments
+settings.kind, settings.wall, settings.thickness, settings.density = "SHELL", "INWARD", 0.04, 650.0
+bpy.ops.view3d.view_selected()
+"""
+
+
+def test_open_boat_floats_and_shows_its_range(window):
+    window.ask(BOAT)
+    window.press("object.body_moments_float")
+    window.wait("bpy.data.objects['Boat'].location.z < 0.5")
+    window.press("object.body_moments_righting_arms")
+    held = HELD.replace("'Cube'", "'Boat'")
+    window.wait(f"{SESSION}.known(bpy.data.objects['Boat']).curve is not None")
+    at_rest, draught, heel = window.ask(held)
+    assert at_rest and abs(heel) < 1e-3 and 0.1 < draught < 0.5
+    window.ask("bpy.data.objects['Boat'].rotation_euler.x = 0.3")
+    window.point_at_view()
+    window.picture("floating-boat")
