@@ -102,7 +102,7 @@ def test_overflowing_pose_is_refused_and_the_mass_is_not():
     for words in (["--pose"], ["--pose", "--order", "4"]):
         refused = document(*words)
         assert refused["objects"] == [] and [error["reason"] for error in refused["errors"]] == [
-            sentence("object_too_large")
+            sentence("object_size")
         ]
     (entry,) = document()["objects"]
     assert close(entry["mass"], 6000.0 * float(np.float32(1e35)) ** 3, 1e-6)
