@@ -12,8 +12,8 @@ MODULES = (
         "measure." + name
         for name in ("measure_selected", "moments", "select_faults", "copy", "library", "fourier")
     ),
-    *("snap.frames", "snap.sculpt_balance"),
-    *("statics", "floating"),
+    *("snap.frames", "snap.sculpt_balance", "snap.make_it_stand"),
+    *("statics", "floating", "cuts"),
     *("export." + name for name in ("robot", "audit")),
     "rig",
     "motion",

@@ -31,7 +31,7 @@ FLAT_AND_BODY = error(
 COLLIDERS_BEYOND_TOLERANCE = warning(
     "colliders_beyond_tolerance",
     "{object}: the tolerance is not kept: the colliders stand out by {outward:length}, the object "
-    "by {inward:length}. Allow more pieces or vertices, or more distance.",
+    "by {inward:length}. {remedy:word}",
 )
 POSE_NOT_A_COPY = warning(
     "pose_not_a_copy",

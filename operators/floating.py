@@ -5,7 +5,6 @@
 from bpy.props import BoolProperty, FloatProperty, IntProperty
 from bpy.types import Context, Object, Operator
 
-from ..blender import session
 from ..blender.session import stored
 from ..blender.write import reports
 from ..core.verdict import Finding
@@ -60,17 +59,11 @@ class OBJECT_OT_body_moments_float(OnFloating, Operator):
     )
 
     def execute(self, context: Context) -> set[str]:
-        moved: list[Object] = []
-
         def settle(members: tuple[Object, ...], notes: list[Finding]) -> bool:
-            is_moved = stored.floating.float_body(context, members, self.position, notes)
-            moved.extend(members if is_moved else ())
-            return is_moved
+            return stored.floating.float_body(context, members, self.position, notes)
 
         texts = ("Set {count} body afloat", "Set {count} bodies afloat")
-        result = self.for_each_body(context, settle, texts)
-        session.remeasure(context, moved)
-        return result
+        return self.for_each_body(context, settle, texts)
 
 
 class OBJECT_OT_body_moments_float_positions(OnFloating, Operator):
@@ -139,7 +132,10 @@ class OBJECT_OT_body_moments_righting_arms(OnFloating, Operator):
                 stored.floating.add_curve(context, afloat)
             return True
 
-        texts = ("Heeled {count} body", "Heeled {count} bodies")
+        texts = (
+            "Computed righting arms of {count} body",
+            "Computed righting arms of {count} bodies",
+        )
         return self.for_each_body(context, heel, texts)
 
 

@@ -21,6 +21,6 @@ MODULES = (
         "assembly",
         "rig",
     ),
-    *("advanced", "section", "shape"),
+    *("advanced", "section", "cuts", "shape"),
     "overlay.draw",
 )

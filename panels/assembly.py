@@ -140,15 +140,15 @@ def draw_assembly(layout: UILayout, context: Context, root: Root, target: str) -
     actions.enabled = stored is not None
     _actions(actions, target, isinstance(root, Collection))
     reason = None if stored is None else stale_reason(root, context.scene)
-    rows.state(layout, rows.outdated(reason) if reason else "", "FILE_REFRESH" if reason else "")
+    rows.stale_state(layout, reason)
     if stored is None:
         return
-    findings = properties.findings(root)
+    groups = [Group(found) for found in properties.findings(root)]
     rows.quantities(layout, [("Mass", "mass", stored.mass)])
     _tree(layout, settings)
     _numbers(layout, stored, isinstance(root, Collection))
-    remedies.lines(layout, context, [Group(found) for found in findings], can_accept=False)
-    remedies.notes(layout, "body_moments_assembly_notes", findings)
+    remedies.lines(layout, context, groups, can_accept=False)
+    remedies.notes(layout, "body_moments_assembly_notes", groups)
 
 
 def _actions(column: UILayout, target: str, is_collection: bool) -> None:

@@ -3,14 +3,15 @@
 """The main panel: the answer (a verdict, mass, volume and center of mass), the buttons, and then
 the findings.
 
-Nothing that comes and goes stands above a button of this panel: warnings are below them, refusals
-of the last action below all sub-panels. The rest is in sub-panels, in the order of CAD's mass
-property dialogs (`places.ORDER`).
+It always has the same rows, so that no button moves: one row shows the first warning; all findings
+and the refusals of the last action are below all sub-panels. The rest is in sub-panels, in the
+order of CAD's mass property dialogs (`places.ORDER`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from bpy.types import Context, Object, UILayout
 
@@ -55,6 +56,25 @@ LIVE = {
 }
 
 
+class Answer(NamedTuple):
+    """The displayed numbers of one object, or of the selected objects as one body.
+
+    size: label, quantity and SI value of a volume, or of the length of a wire. state: the row about
+    the state of the numbers, and its icon. groups: of findings.
+    """
+
+    name: str
+    icon: str
+    verdict: Verdict | None
+    numbers: PlainBody | None
+    heading: str
+    density: str
+    size: tuple[str, str, float | None]
+    state: tuple[str, str]
+    method: str
+    groups: Sequence[Group]
+
+
 class BodyPanel:
     """Mass properties"""
 
@@ -67,65 +87,87 @@ class BodyPanel:
             draw_links(row, icons_only=True)
 
     def draw(self, context: Context) -> None:
-        objects = shown_objects(context)
-        obj = context.object
-        if obj is not None and armatures.stands_for_meshes(obj) or len(objects) > 1:
-            _several_objects(self.layout, context)
-        else:
-            _one_object(self.layout, context, objects[0])
+        layout = self.layout
+        answer = _answer(context)
+        row = layout.row(align=True)
+        row.label(text=answer.name, icon=answer.icon, translate=False)
+        end = row.row(align=True)
+        end.alignment = "RIGHT"
+        icon, word = rows.VERDICTS[answer.verdict]
+        end.label(text=word, icon=icon)
+        _quantities(layout, answer)
+        material_row(layout, context)
+        _buttons(layout, context)
+        column = layout.column(align=True)
+        rows.state(column, *answer.state)
+        remedies.summary(column, context, answer.groups, _questioned(context) is not None)
+        area = None
+        density = None
+        if answer.numbers is not None:
+            area = answer.numbers.area or None  # neither a wire nor a grid has a surface
+            density = None if answer.size[1] == "length" else answer.numbers.density
+        column = layout.column(align=True)
+        rows.quantities(column, [("Area", "area", area), ("Density", "density", density)])
+        rows.table(column, [("Method", answer.method or "–", "", "")])
+        row = layout.column(align=True) if rows.is_narrow() else layout.row(align=True)
+        row.menu("VIEW3D_MT_body_moments_copy", icon="COPYDOWN")
+        rows.button(row, "object.body_moments_clear", "TRASH")
 
 
-def _one_object(layout: UILayout, context: Context, obj: Object) -> None:
+def _answer(context: Context) -> Answer:
+    objects = shown_objects(context)
+    obj = context.object
+    is_sum = len(objects) > 1 or obj is not None and armatures.stands_for_meshes(obj)
+    return _of_several(context) if is_sum else _of_one(context, objects[0])
+
+
+def _of_one(context: Context, obj: Object) -> Answer:
     shown = displayed(obj, context.scene)
     frame = context.scene.body_moments.frame
-    _verdict(layout, obj.name, "OBJECT_DATA", None if shown is None else shown.verdict)
     length = properties.optional(obj, "body_length")
     numbers = None if shown is None else shown.in_frame(frame)
     is_rig = obj.type == "ARMATURE" and shown is not None and not shown.is_posed
+    size = ("Volume", "volume", None if numbers is None else numbers.volume)
     density = ""
-    if shown is not None and numbers is not None and numbers.mass > 0.0:
+    if numbers is not None and numbers.mass > 0.0:
         density = _density(numbers, length, "at {:s}, not set" if shown.is_assumed else "at {:s}")
-    heading = (RESTING_HEADINGS if is_rig else CENTER_HEADINGS)[frame]
-    _answer(layout, numbers, heading, density, length)
-    material_row(layout, context)
-    _buttons(layout, context)
-    state = ""
-    icon = ""
-    now = current_numbers(obj)
+    state = ("", "")
     if shown is not None and shown.reason is not None:
-        state = rows.outdated(shown.reason)
-        icon = "FILE_REFRESH"
+        state = rows.outdated(shown.reason), "FILE_REFRESH"
     elif shown is not None and shown.live is not None:
-        state = localized(LIVE[shown.lag]).format(milliseconds=1e3 * shown.live.seconds)
-        icon = "REC"
-    rows.state(layout, state, icon)
-    if now is not None and now.refusal is not None and outcome.last() is None:
-        rows.message(layout, now.refusal)
-    _details(layout, obj, shown, numbers)
-    row = layout.column(align=True) if rows.is_narrow() else layout.row(align=True)
-    row.menu("VIEW3D_MT_body_moments_copy", icon="COPYDOWN")
-    rows.button(row, "object.body_moments_clear", "TRASH")
+        live = localized(LIVE[shown.lag]).format(milliseconds=1e3 * shown.live.seconds)
+        state = live, "REC"
     findings = () if shown is None else shown.findings
-    remedies.notes(layout, "body_moments_notes", findings)
-    remedies.lines(layout, context, [Group(found) for found in findings])
-    if shown is not None:
-        remedies.unit_question(layout, context, obj, shown.world)
+    now = current_numbers(obj)
+    if now is not None and now.refusal is not None and outcome.last() is None:
+        findings = now.refusal, *findings
+    return Answer(
+        obj.name,
+        "OBJECT_DATA",
+        None if shown is None else shown.verdict,
+        numbers,
+        (RESTING_HEADINGS if is_rig else CENTER_HEADINGS)[frame],
+        density,
+        size if length is None else ("Length", "length", length),
+        state,
+        "" if shown is None else _method(obj, shown),
+        [Group(found) for found in findings],
+    )
 
 
-def _several_objects(layout: UILayout, context: Context) -> None:
-    """Draw the selected objects, or the meshes of a posed armature, as one body."""
+def _of_several(context: Context) -> Answer:
+    """Return the selected objects, or the meshes of a posed armature, as one body."""
     shown = total(context)
     active = context.object
     count = shown.count + len(shown.missing)
     posed = None
     if active is not None and armatures.stands_for_meshes(active):
         posed = displayed(active, context.scene)
-        text = localized("{:s}: {:d} Mesh" if count == 1 else "{:s}: {:d} Meshes")
-        text = text.format(active.name, count)
+        name = localized("{:s}: {:d} Mesh" if count == 1 else "{:s}: {:d} Meshes")
+        name = name.format(active.name, count)
     else:
-        text = localized("{:d} Objects").format(count)
+        name = localized("{:d} Objects").format(count)
     is_rest = posed is not None and properties.optional(active, "body_mass") is not None
-    _verdict(layout, text, "GROUP", posed.verdict if is_rest else shown.verdict)
     numbers = shown.numbers if posed is None else posed.world
     density = ""
     if numbers is not None:
@@ -134,28 +176,34 @@ def _several_objects(layout: UILayout, context: Context) -> None:
             is_all = shown.assumed == shown.count
             template = "at {:s}, not set" if is_all else "at {:s}, not set: {:d} of {:d}"
         density = _density(numbers, None, template, shown.assumed, count)
-    volume = shown.volume if shown.count and not is_rest else None
-    _answer(layout, numbers, CENTER_HEADINGS["WORLD"], density, volume=volume)
-    material_row(layout, context)
-    _buttons(layout, context)
+    volume = None if numbers is None else numbers.volume
     if is_rest:
-        reason = posed.reason
-        text = "The mass is that of the rest pose"
-        rows.state(
-            layout,
-            localized(text) if reason is None else rows.outdated(reason),
-            "INFO" if reason is None else "FILE_REFRESH",
-        )
+        state = rows.outdated(posed.reason) if posed.reason else ""
+        state = state or localized("The mass is that of the rest pose")
+        icon = "FILE_REFRESH" if posed.reason else "INFO"
     else:
+        volume = shown.volume if shown.count else volume
         missing = shown.missing if shown.count else ()  # of none the verdict says it
         texts = [
             _outstanding(text, names, count)
             for names, text in ((missing, "Not measured: {:s}"), (shown.stale, "Out of date: {:s}"))
             if names
         ]
-        rows.state(layout, "; ".join(texts), "FILE_REFRESH" if texts else "")
-    findings, groups = (posed.findings, ()) if is_rest else (shown.findings, shown.groups)
-    remedies.lines(layout, context, [*map(Group, findings), *groups])
+        state = "; ".join(texts)
+        icon = "FILE_REFRESH" if texts else ""
+    return Answer(
+        name,
+        "GROUP",
+        posed.verdict if is_rest else shown.verdict,
+        numbers,
+        CENTER_HEADINGS["WORLD"],
+        density,
+        ("Volume", "volume", volume),
+        (state, icon),
+        "",
+        [*map(Group, posed.findings if is_rest else shown.findings)]
+        + ([] if is_rest else [*shown.groups]),
+    )
 
 
 def _outstanding(template: str, names: Sequence[str], count: int) -> str:
@@ -164,16 +212,6 @@ def _outstanding(template: str, names: Sequence[str], count: int) -> str:
     if rows.fits(1.0, text):
         return text
     return localized(template).format(localized("{} of {}").format(len(names), count))
-
-
-def _verdict(layout: UILayout, text: str, icon: str, verdict: Verdict | None) -> None:
-    """Draw a translated name, and the verdict on its numbers at the right end."""
-    row = layout.row(align=True)
-    row.label(text=text, icon=icon, translate=False)
-    end = row.row(align=True)
-    end.alignment = "RIGHT"
-    icon, word = rows.VERDICTS[verdict]
-    end.label(text=word, icon=icon)
 
 
 def _density(numbers: PlainBody, length: float | None, template: str, *counts: int) -> str:
@@ -185,38 +223,14 @@ def _density(numbers: PlainBody, length: float | None, template: str, *counts: i
     return localized(template).format(text, *counts)
 
 
-def _answer(
-    layout: UILayout,
-    numbers: PlainBody | None,
-    heading: str,
-    density: str,
-    length: float | None = None,
-    volume: float | None = None,
-) -> None:
-    """Draw mass, its density, volume and center, in as many rows before they are known.
-
-    length: of a wire, in place of the volume. volume: of several objects, which is known if they
-    have no mass.
-    """
+def _quantities(layout: UILayout, answer: Answer) -> None:
+    """Draw mass, its density, volume and center, in as many rows before they are known."""
     column = layout.column(align=True)
-    size = ("Volume", "volume", volume) if length is None else ("Length", "length", length)
-    mass = ("Mass", "–", "", "")
-    if numbers is not None:
-        mass = rows.quantity_cell("Mass", "mass", numbers.mass)
-        if length is None and volume is None:
-            size = ("Volume", "volume", numbers.volume)
-    rows.table(column, [mass])
-    rows.right(column, density)
-    rows.table(
-        column,
-        [("Volume", "–", "", "") if numbers is None else rows.quantity_cell(*size)],
-    )
-    if numbers is not None:
-        rows.center(layout, heading, numbers)
-        return
-    column = layout.column(align=True)
-    rows.title(column.row(align=True), heading)
-    rows.table(column, [(label, "–", "", "") for label in rows.AXIS_LABELS])
+    mass = None if answer.numbers is None else answer.numbers.mass
+    rows.quantities(column, [("Mass", "mass", mass)])
+    rows.right(column, answer.density)
+    rows.quantities(column, [answer.size])
+    rows.center(layout, answer.heading, answer.numbers)
 
 
 def _buttons(layout: UILayout, context: Context) -> None:
@@ -238,30 +252,41 @@ def _buttons(layout: UILayout, context: Context) -> None:
     row.operator("object.body_moments_select_faults", text="", icon="ZOOM_SELECTED")
 
 
-def _details(
-    layout: UILayout, obj: Object, shown: Displayed | None, numbers: PlainBody | None
-) -> None:
-    """Draw area, density and method; an unknown method, of another version of the add-on, by its
-    stored text.
-    """
-    column = layout.column(align=True)
-    if shown is None or numbers is None:
-        rows.table(column, [(name, "–", "", "") for name in ("Area", "Density", "Method")])
-        return
-    if numbers.area:  # neither a wire nor a grid of densities has a surface
-        rows.quantities(column, [("Area", "area", numbers.area)])
-    if properties.optional(obj, "body_length") is None:
-        rows.quantities(column, [("Density", "density", numbers.density)])
-    source = properties.density_from(obj)
-    if source:
-        rows.remark(column, "Mean density, from {cause}", icon="BLANK1", cause=source)
+def _method(obj: Object, shown: Displayed) -> str:
+    """Return the method; an unknown one, of another version of the add-on, by its stored text."""
     key = method_key(shown.method, any(found.code == WALL_MEASURED for found in shown.findings))
     origin = (
         Source.POLYGONS if shown.method is None or key == str(shown.method) else shown.method.source
     )
     name = METHODS[key][0] if key in METHODS else properties.method_text(obj).title()
-    method = localized(SOURCES.get(origin, "{:s}")).format(localized(name))
-    rows.table(column, [("Method", method, "", "")])
+    return localized(SOURCES.get(origin, "{:s}")).format(localized(name))
+
+
+class FindingsPanel:
+    """Warnings, notes and questions, below everything that they could move"""
+
+    bl_label = "Findings"
+
+    def draw(self, context: Context) -> None:
+        layout = self.layout
+        groups = _answer(context).groups
+        remedies.lines(layout, context, groups)
+        if questioned := _questioned(context):
+            remedies.unit_question(layout, context, *questioned)
+        remedies.notes(layout, "body_moments_notes", groups)
+        objects = shown_objects(context)
+        source = properties.density_from(objects[0]) if len(objects) == 1 else ""
+        if source:
+            rows.remark(layout, "Mean density, from {cause}", icon="BLANK1", cause=source)
+
+
+def _questioned(context: Context) -> tuple[Object, PlainBody] | None:
+    """Return the object and its numbers if they raise the question of units."""
+    objects = shown_objects(context)
+    shown = displayed(objects[0], context.scene) if len(objects) == 1 else None
+    if shown is None or not remedies.is_unit_questioned(context, objects[0], shown.world):
+        return None
+    return objects[0], shown.world
 
 
 class RefusedPanel:
@@ -299,8 +324,7 @@ class ApplyPanel:
         button = rows.button(column, "object.body_moments_set_rigid_body_mass", "RIGID_BODY")
         button.add = not any(obj.rigid_body for obj in chosen_objects(context))
         rows.button(layout, "object.body_moments_add_nodes", "GEOMETRY_NODES")
-        if context.mode == "EDIT_MESH":
-            rows.button(layout, "object.body_moments_sculpt_balance", "SCULPTMODE_HLT")
+        rows.button(layout, "object.body_moments_sculpt_balance", "SCULPTMODE_HLT")
 
 
 VIEW3D_PT_body_moments, OBJECT_PT_body_moments = in_both_places(
@@ -309,5 +333,8 @@ VIEW3D_PT_body_moments, OBJECT_PT_body_moments = in_both_places(
 CLASSES = (
     *(VIEW3D_PT_body_moments, OBJECT_PT_body_moments),
     *in_both_places(ApplyPanel, "apply", shown_for=measurable, of_all=True),
+    *in_both_places(
+        FindingsPanel, "findings", options=frozenset(), shown_for=lambda obj: True, of_all=True
+    ),
     *in_both_places(RefusedPanel, "refused", options={"HIDE_HEADER"}),
 )

@@ -14,9 +14,8 @@ from bpy.types import Context, Object, OperatorProperties
 
 from ..blender.read.visibility import measurable
 from ..blender.scale import meters_per_unit
-from ..blender.session.displayed import shown_objects
 from ..blender.session.selected import subject
-from ..blender.session.stored.collider_tolerance import is_beyond_tolerance
+from ..blender.session.stored.collider_tolerance import is_beyond_tolerance, tolerance_remedy
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.session.tracking.stamps import of_colliders
 from ..blender.settings.given import COLLIDER, COLLIDERS
@@ -50,7 +49,6 @@ REMEDIES = {
 # No correction changes boxes, spheres, capsules and cylinders.
 PRIMITIVE_REMEDY = "Choose Convex Pieces, or a shape of equal inertia."
 SHAPE_NAMES = {key: name for key, name, _ in SHAPES}
-BEYOND = "The tolerance is not kept. Allow more pieces or vertices, or more distance."
 
 
 class CollidersPanel:
@@ -62,33 +60,37 @@ class CollidersPanel:
         layout = self.layout
         chosen = subject(context)
         body = None if chosen is None else _body(chosen)
-        if body is not None and (body != chosen or len(shown_objects(context)) > 1):
-            layout.label(text=body.name, icon="OBJECT_DATA", translate=False)
+        layout.label(text="" if body is None else body.name, icon="OBJECT_DATA", translate=False)
         group = None if body is None else body.get(COLLIDERS)
         stored = group if hasattr(group, "keys") and KEYS.issubset(group.keys()) else None
         make_colliders = "object.body_moments_make_colliders"
+        kind = SHAPES[0][0] if stored is None else str(stored["shape"]).upper()
+        correct = "NONE" if stored is None else str(stored["correct"]).upper()
         row = layout.row(align=True)
         renew = {} if stored is None else {"text": "Renew Colliders"}
         make = rows.button(row, make_colliders, "MESH_ICOSPHERE", **renew)
-        if stored is None:
-            rows.remark(layout, "Engines take mass, center and inertia from colliders.")
-            return
-        row.operator("object.body_moments_remove_colliders", text="", icon="X")
-        make.shape = kind = str(stored["shape"]).upper()
-        _repeat(make, stored, str(stored["correct"]).upper())
+        make.shape = kind
+        _repeat(make, stored, correct)
+        remove = row.row(align=True)
+        remove.enabled = stored is not None
+        remove.operator("object.body_moments_remove_colliders", text="", icon="X")
         # These buttons show progress, and Esc cancels them; the redo panel cannot.
         text = SHAPE_NAMES.get(kind, "Shape")
         choice = layout.operator_menu_enum(make_colliders, "shape", text=text, icon="MESH_DATA")
-        _repeat(choice, stored, str(stored["correct"]).upper())
+        _repeat(choice, stored, correct)
         row = layout.row(align=True)
-        for correct, label in (("NONE", "Off"), ("MASSES", "Masses"), ("VERTICES", "Vertices")):
-            is_chosen = stored["correct"] == correct.lower()
+        for name, label in (("NONE", "Off"), ("MASSES", "Masses"), ("VERTICES", "Vertices")):
+            is_chosen = stored is not None and name == correct
             again = rows.button(row, make_colliders, "NONE", text=label, depress=is_chosen)
             again.shape = kind
-            _repeat(again, stored, correct)
-        if stored["count"] > 1 and context.space_data.type == "VIEW_3D":
+            _repeat(again, stored, name)
+        if getattr(context.space_data, "type", "") == "VIEW_3D":
             layout.prop(context.space_data.shading, "wireframe_color_type", text="Wire Color")
-        rows.stale_row(layout, stale_reason(body, context.scene, of_colliders))
+        reason = None if stored is None else stale_reason(body, context.scene, of_colliders)
+        rows.stale_state(layout, reason)
+        if stored is None:
+            rows.remark(layout, "Engines take mass, center and inertia from colliders.")
+            return
         column = layout.column(align=True)
         rows.filled(
             column, "1 Collider" if stored["count"] == 1 else "{:d} Colliders", stored["count"]
@@ -109,7 +111,8 @@ class CollidersPanel:
         else:
             rows.remark(column, "An engine simulates the body within 1%.", icon="CHECKMARK")
         if is_beyond_tolerance(stored):
-            rows.remark(column, BEYOND, icon="ERROR")
+            rows.remark(column, "The tolerance is not kept.", icon="ERROR")
+            rows.remark(column, tolerance_remedy(stored))
         rows.title(layout, "Of the Object's")
         labels = ("Volume", "Mass", "Moment 1", "Moment 2", "Moment 3")
         moments = stored.get("moment_ratios", (None,) * 3)
@@ -131,10 +134,14 @@ class CollidersPanel:
         rows.table(column, [("Axes", "{:.3f}°".format(turn), repr(turn), "")])
 
 
-def _repeat(make: OperatorProperties, stored: Mapping[str, Any], correct: str) -> None:
-    """Set an operator to make colliders with the stored limits, and with a kind of correction."""
-    make.engine = str(stored["engine"]).upper()
+def _repeat(make: OperatorProperties, stored: Mapping[str, Any] | None, correct: str) -> None:
+    """Set an operator to make colliders with the stored limits, if any, and with a kind of
+    correction.
+    """
     make.correct = correct
+    if stored is None:
+        return
+    make.engine = str(stored["engine"]).upper()
     if "tolerance" in stored and "limits" in stored:
         make.tolerance = "LENGTH"
         make.outward, make.inward = stored["tolerance"]

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from itertools import chain
 
+import bpy
 from bpy.types import Context, Mesh, Object, Panel, PropertyGroup, UILayout
 
 from ..blender.session import stored
@@ -109,15 +110,39 @@ def _shape_settings(
         row = rows.labeled_row(column, "Kind", CONTEXT)
         row.use_property_split = False
         may_be_wire = kind == "WIRE" or all(obj.type == "CURVE" for obj in objects)
-        for item in ("SOLID", "SHELL", "WIRE") if may_be_wire else ("SOLID", "SHELL"):
+        for item in ("SOLID", "SHELL", "PRINTED", *(["WIRE"] if may_be_wire else [])):
             row.prop_enum(settings, "kind", item)
     if kind == "SHELL":
         rows.setting(column, settings, "wall")
         rows.setting(column, settings, "thickness")
         if len(objects) == 1:
             _max_thickness(column, objects[0])
-    elif kind == "SOLID":
+    elif kind == "PRINTED":
+        _print_settings(column, settings)
+    if kind in ("SOLID", "PRINTED"):
         rows.setting(column, settings, "overlap")
+
+
+def _print_settings(column: UILayout, settings: PropertyGroup) -> None:
+    """Draw how the bodies are printed, and the price of the filament."""
+    rows.setting(column, settings, "print_preset")
+    for name, text in (
+        ("print_walls", "Walls"),
+        ("print_line_width", "Line Width (mm)"),
+        ("print_top_layers", "Top Layers"),
+        ("print_bottom_layers", "Bottom Layers"),
+        ("print_layer_height", "Layer Height (mm)"),
+        ("print_infill", "Infill"),
+        ("spool_price", "Price of a Spool"),
+    ):
+        rows.setting(column, settings, name, text=text)
+    if common(settings, "spool_price"):
+        rows.setting(column, settings, "spool_mass", text="Spool (kg)")
+    objects = owners(bpy.context)
+    if len(objects) == 1 and "body_material_volume" in objects[0]:
+        rows.filled(column, "Material: {:.5g} cm³", 1e6 * objects[0]["body_material_volume"])
+        if "body_price" in objects[0]:
+            rows.filled(column, "Price: {:.2f}", objects[0]["body_price"])
 
 
 def _density_settings(

@@ -13,6 +13,7 @@ from ..blender.session import stored
 from ..blender.session.displayed import displayed, shown_objects, total
 from ..blender.session.selected import subject
 from ..blender.session.tracking import armatures
+from ..blender.write.translations import localized
 from ..core.inertia import PlainBody
 from ..core.verdict import Finding
 from . import rows
@@ -39,21 +40,18 @@ class InertiaPanel:
         row.enabled = not _are_several(context)
         row.prop(context.scene.body_moments, "frame", expand=True)
         shown = _shown(context)
-        if shown is None:
-            layout.label(text="Not Measured", icon="RADIOBUT_OFF")
-            return
-        moments = shown.moments
+        moments = None if shown is None else shown.moments
         rows.group(layout, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", moments)
         column = layout.column(align=True)
-        rows.heading(column, "Principal Axes", "", shown.axes)
-        for label, axis in zip(rows.PRINCIPAL_LABELS, shown.axes):
-            rows.direction(column, label, axis)
-        error = shown.error_bound["inertia"] + shown.error_bound["input"]["inertia"]
-        equal = [b - a <= ERROR_OF_A_DIFFERENCE * error for a, b in zip(moments, moments[1:])]
-        text = EQUAL_MOMENTS.get(tuple(equal))
-        if text:
-            rows.remark(column, text)
-        rows.group(layout, "Radii of Gyration", rows.PRINCIPAL_LABELS, "length", shown.gyration)
+        if shown is None:
+            rows.title(column.row(align=True), "Principal Axes")
+        else:
+            rows.heading(column, "Principal Axes", "", shown.axes)
+        for place, label in enumerate(rows.PRINCIPAL_LABELS):
+            rows.direction(column, label, None if shown is None else shown.axes[place])
+        rows.state(column, "" if shown is None else localized(_equal_moments(shown)))
+        gyration = None if shown is None else shown.gyration
+        rows.group(layout, "Radii of Gyration", rows.PRINCIPAL_LABELS, "length", gyration)
         body = rows.fold(layout, "body_moments_tensor", "Inertia Tensor", closed=False)
         if body is not None:
             rows.group(
@@ -61,8 +59,15 @@ class InertiaPanel:
                 "About the center of mass, Ixy = −∫xy dm",
                 rows.TENSOR_LABELS,
                 "inertia",
-                shown.inertia,
+                None if shown is None else shown.inertia,
             )
+
+
+def _equal_moments(shown: PlainBody) -> str:
+    error = shown.error_bound["inertia"] + shown.error_bound["input"]["inertia"]
+    pairs = zip(shown.moments, shown.moments[1:])
+    equal = tuple(b - a <= ERROR_OF_A_DIFFERENCE * error for a, b in pairs)
+    return EQUAL_MOMENTS.get(equal, "")
 
 
 def _are_several(context: Context) -> bool:
@@ -102,6 +107,9 @@ class ReferencePanel:
                 "EYEDROPPER",
                 short="From Selection",
             )
+        row = layout.row(align=True)
+        rows.button(row, "object.body_moments_store_reference", "FILE_TICK", short="Store")
+        rows.button(row, "object.body_moments_copy", "COPYDOWN").what = "REFERENCE"
         result = (
             stored.reference.referred(obj, scene)
             if obj is not None and "body_mass" in obj
@@ -128,9 +136,6 @@ class ReferencePanel:
         size = max(map(abs, result.inertia))
         bounds = [(label, "inertia", error["inertia"], size) for label, error in sources]
         rows.bounds(layout.column(align=True), bounds)
-        row = layout.row(align=True)
-        rows.button(row, "object.body_moments_store_reference", "FILE_TICK", short="Store")
-        rows.button(row, "object.body_moments_copy", "COPYDOWN").what = "REFERENCE"
 
 
 CLASSES = (

@@ -57,6 +57,11 @@ PAGES = (
     *((_OPERATOR + name + "*", "densities.html") for name in ("set_material", "preset")),
     ("bpy.ops.material.body_moments*", "densities.html"),
     (_OPERATOR + "fourier*", "fourier.html"),
+    *((_OPERATOR + name + "*", "floating.html") for name in ("float", "righting_arms")),
+    *(
+        ("bpy.types.bodymoments" + name + "settings*", "floating.html")
+        for name in ("liquid", "tank")
+    ),
     *(
         (_OPERATOR + name + "*", "colliders.html")
         for name in ("make_colliders", "remove_colliders", "equal_inertia")
@@ -98,6 +103,12 @@ class VIEW3D_MT_body_moments_shape(_Groups, Menu):
             ("object.body_moments_rest_on_ground", "TRIA_DOWN_BAR"),
             ("object.body_moments_balance_group", "CON_FOLLOWPATH"),
             ("object.body_moments_sculpt_balance", "SCULPTMODE_HLT"),
+            ("object.body_moments_make_it_stand", "MOD_THICKNESS"),
+        ),
+        (
+            ("object.body_moments_float", "MOD_OCEAN"),
+            ("object.body_moments_float_positions", "VIEWZOOM"),
+            ("object.body_moments_righting_arms", "FCURVE"),
         ),
         (
             ("object.body_moments_find_symmetry", "MOD_MIRROR"),

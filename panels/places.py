@@ -19,22 +19,24 @@ from ..blender.session.displayed import shown_objects
 from ..blender.session.selected import subject
 from ..blender.settings.chosen import chosen_objects
 
-# posed objects first, then the order of CAD's mass property dialogs
+# posed objects first, then the order of CAD's mass property dialogs; panels whose height depends on
+# results are below those that always have the same rows
 ORDER = (
     "weight",
     "inertia",
     "density",
     "given",
     "apply",
-    "colliders",
-    "stability",
-    "floating",
     "selection",
+    "stability",
+    "colliders",
+    "floating",
     "assembly",
     "bones",
     "section",
     "shape",
     "advanced",
+    "findings",
     "refused",
 )
 ROOT = "body_moments"

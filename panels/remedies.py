@@ -34,41 +34,66 @@ def lines(
     """Draw a line for each group of errors and warnings, with its first remedy; its sentence opens
     on click.
     """
-    acceptable = 0
-    for group in groups:
-        shown = group.finding
-        if severity(shown) == Severity.NOTE:
-            continue
-        header, body = layout.panel("body_moments_" + shown.code, default_closed=True)
-        is_acceptable = can_accept and severity(shown) == Severity.WARNING
-        acceptable += is_acceptable
-        own = _remedies(context, group)
-        text = _headline(context, group)
-        header.label(text=text, icon=rows.ICONS[severity(shown)], translate=False)
-        buttons = header.row(align=True)
-        buttons.alignment = "RIGHT"
-        if own:
-            _remedy(buttons, group, own[0], with_text=rows.fits(LINE_SHARE, text + _name(own[0])))
-        if is_acceptable:
-            _accept(buttons, shown.code, "CHECKMARK")
+    warnings = [group for group in groups if severity(group.finding) != Severity.NOTE]
+    for group in warnings:
+        header, body = layout.panel("body_moments_" + group.finding.code, default_closed=True)
+        _line(header, context, group, can_accept)
         if body is None:
             continue
         column = body.column(align=True)
-        rows.message(
-            column, shown.of_sources(group.objects) if group.objects else shown, icon="BLANK1"
-        )
-        for remedy in own[1:]:
+        rows.message(column, _of_objects(group), icon="BLANK1")
+        for remedy in _remedies(context, group)[1:]:
             _remedy(column, group, remedy)
-    if acceptable > 1:
+    if can_accept and sum(map(_is_acceptable, warnings)) > 1:
         _accept(layout, "", "CHECKMARK", text="Accept All")
 
 
-def notes(layout: UILayout, idname: str, findings: Sequence[Finding]) -> None:
+def summary(
+    layout: UILayout, context: Context, groups: Sequence[Group], is_unit_asked: bool
+) -> None:
+    """Draw one row, always: the worst of errors and warnings with its first remedy, and the number
+    of the others.
+    """
+    ranks = tuple(rows.ICONS)
+    warnings = [group for group in groups if severity(group.finding) != Severity.NOTE]
+    worst = max(warnings, key=lambda group: ranks.index(severity(group.finding)), default=None)
+    if worst is not None:
+        _line(layout.row(align=True), context, worst, more=len(warnings) - 1)
+    elif is_unit_asked:
+        rows.state(layout, localized("Is a unit of this scene a millimeter?"), "QUESTION")
+    else:
+        rows.state(layout, "")
+
+
+def _line(
+    row: UILayout, context: Context, group: Group, can_accept: bool = True, more: int = 0
+) -> None:
+    """Draw the headline of a finding with its first remedy; more: the number of other findings."""
+    own = _remedies(context, group)
+    text = _headline(context, group) + (" (+{:d})".format(more) if more else "")
+    row.label(text=text, icon=rows.ICONS[severity(group.finding)], translate=False)
+    buttons = row.row(align=True)
+    buttons.alignment = "RIGHT"
+    if own:
+        _remedy(buttons, group, own[0], with_text=rows.fits(LINE_SHARE, text + _name(own[0])))
+    if can_accept and _is_acceptable(group):
+        _accept(buttons, group.finding.code, "CHECKMARK")
+
+
+def _is_acceptable(group: Group) -> bool:
+    return severity(group.finding) == Severity.WARNING
+
+
+def _of_objects(group: Group) -> Finding:
+    return group.finding.of_sources(group.objects) if group.objects else group.finding
+
+
+def notes(layout: UILayout, idname: str, groups: Sequence[Group]) -> None:
     """Draw a sub-panel, closed at first, of notes and accepted warnings.
 
     It is there without any, so that nothing moves when one comes.
     """
-    shown_notes = of_severity(findings, Severity.NOTE)
+    shown_notes = of_severity(map(_of_objects, groups), Severity.NOTE)
     header, body = layout.panel(idname, default_closed=True)
     rows.filled(header, "Notes ({:d})", len(shown_notes))
     for shown in shown_notes if body is not None else ():
@@ -146,30 +171,33 @@ def last_action(layout: UILayout, context: Context) -> None:
     header.operator("wm.body_moments_dismiss", text="", icon="X", emboss=False)
     column = box.column(align=True)
     for group in last.groups:
-        shown = group.finding.of_sources(group.objects) if group.objects else group.finding
-        rows.message(column, shown, icon="NONE", boxed=True)
+        rows.message(column, _of_objects(group), icon="NONE", boxed=True)
         for remedy in _remedies(context, group):
             _remedy(column, group, remedy)
 
 
-def unit_question(layout: UILayout, context: Context, obj: Object, shown: PlainBody) -> None:
-    """Ask, until it is answered for the scene, whether a unit is a millimeter, if the body is large
-    and heavy.
+def is_unit_questioned(context: Context, obj: Object, shown: PlainBody) -> bool:
+    """Return whether to ask if a unit is a millimeter: until it is answered, of large and heavy
+    bodies.
     """
-    scene = context.scene
-    length = max(obj.dimensions)
-    if (
-        scene.body_moments.units_answered
-        or scene.unit_settings.scale_length != 1.0
-        or length < MIN_QUESTIONED_LENGTH
-        or shown.mass < MIN_QUESTIONED_MASS
-    ):
-        return
+    return (
+        not context.scene.body_moments.units_answered
+        and context.scene.unit_settings.scale_length == 1.0
+        and max(obj.dimensions) >= MIN_QUESTIONED_LENGTH
+        and shown.mass >= MIN_QUESTIONED_MASS
+    )
+
+
+def unit_question(layout: UILayout, context: Context, obj: Object, shown: PlainBody) -> None:
+    """Ask whether a unit of the scene is a millimeter."""
     box = layout.box()
     units = rows.scene_units()._replace(mass="TONNES", digits=QUESTION_DIGITS)
-    texts = {"length": units.text("length", length), "mass": units.text("mass", shown.mass)}
+    texts = {
+        "length": units.text("length", max(obj.dimensions)),
+        "mass": units.text("mass", shown.mass),
+    }
     question = "{length} long and {mass}: is a unit of this scene a millimeter?"
     rows.remark(box, question, icon="QUESTION", boxed=True, **texts)
     column = box.column(align=True)
     rows.button(column, "scene.body_moments_set_millimeters", "DRIVER_DISTANCE")
-    column.prop(scene.body_moments, "units_answered", toggle=True, icon="X")
+    column.prop(context.scene.body_moments, "units_answered", toggle=True, icon="X")

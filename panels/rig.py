@@ -6,9 +6,10 @@ character.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from bpy.types import Context, Panel, PoseBone, UILayout
+from bpy.types import Context, Menu, Panel, PoseBone, UILayout
 
 from ..blender.scale import meters_per_unit
 from ..blender.session import character
@@ -20,6 +21,7 @@ from ..blender.write import properties
 from ..blender.write.reports import distance
 from ..blender.write.translations import localized
 from ..core.lazy import loaded_module
+from ..core.verdict import truncate_list
 from . import rows
 from .places import AmongProperties, in_both_places
 
@@ -45,13 +47,15 @@ class BonesPanel:
         button = layout.row()
         button.scale_y = 1.4
         button.operator("object.body_moments_measure_bones", icon="BONE_DATA")
-        if properties.stored(armature) is None:
-            return
+        is_measured = properties.stored(armature) is not None
         column = layout.column(align=True)
+        column.enabled = is_measured
         rows.button(column, "object.body_moments_physics_rig", "RIGID_BODY")
         rows.button(column, "object.body_moments_rig_center", "EMPTY_AXIS")
         rows.button(column, "object.body_moments_clear_bones", "TRASH")
-        rows.stale_row(layout, stale_reason(armature, context.scene))
+        if not is_measured:
+            return
+        rows.stale_state(layout, stale_reason(armature, context.scene))
         units = rows.scene_units()
         measured = [
             (bone, own.mass)
@@ -98,19 +102,24 @@ class WeightPanel:
         rows.setting(mass, settings, "shown_mass", text="Total Mass (kg)")
         rows.setting(column, settings, "ground")
         column.prop(settings, "show_axes")
-        if context.active_pose_bone is not None:
-            column.prop(context.active_pose_bone.body_moments, "is_contact")
+        bone = context.active_pose_bone
+        if bone is not None:
+            column.prop(bone.body_moments, "is_contact")
+        else:
+            column.label(text="Contact: no active bone", icon="CHECKBOX_DEHLT")
         posed = loaded_module(character, "weight")
         depsgraph = context.view_layer.depsgraph
         weight = None
         if posed is not None and depsgraph is not None:
             weight = posed.weight(armature, depsgraph)
-        rows.stale_row(layout, stale_reason(armature, context.scene))
-        if weight is None:
-            rows.remark(layout, "The bones have not been measured. Show the weight again.")
-        else:
-            _standing(layout, weight, meters_per_unit(context.scene))
-        _spans(layout, context)
+        rows.stale_state(layout, stale_reason(armature, context.scene))
+        _standing(layout, weight, meters_per_unit(context.scene))
+        spans = _spans(context)
+        row = layout.row()
+        row.enabled = bool(spans)
+        text = localized("Momentum from nothing: {:d}").format(len(spans))
+        icon = "ERROR" if spans else "BLANK1"
+        row.menu("VIEW3D_MT_body_moments_spans", text=text, icon=icon, translate=False)
 
 
 def standing(weight: Weight, unit: float) -> tuple[str, dict[str, str], str]:
@@ -124,62 +133,72 @@ def standing(weight: Weight, unit: float) -> tuple[str, dict[str, str], str]:
         return "In the air: {height} above the ground", lengths, "INFO"
     margin = {"margin": distance(abs(support.margin) * unit)}
     if not support.stands:
-        return "Falls: {margin} outside the support", margin, "CANCEL"
+        return "Falls: {margin} outside", margin, "CANCEL"
     if support.is_near_edge:
-        return "Near the edge: {margin} inside the support", margin, "ERROR"
-    return "Balanced: {margin} inside the support", margin, "CHECKMARK"
+        return "Near the edge: {margin} inside", margin, "ERROR"
+    return "Balanced: {margin} inside", margin, "CHECKMARK"
 
 
-def _standing(layout: UILayout, weight: Weight, unit: float) -> None:
-    """Draw how a character stands, its mass, and the contacts that carry it."""
-    text, lengths, icon = standing(weight, unit)
+def _standing(layout: UILayout, weight: Weight | None, unit: float) -> None:
+    """Draw how a character stands, its mass, and the contacts that carry it, in as many rows
+    however it stands.
+    """
+    text = localized("Not measured. Show the weight again.")
+    icon = "INFO"
+    mass = None
+    lengths: dict[str, float] = {}
+    names: dict[str, Sequence[str]] = {}
+    if weight is not None:
+        template, shown, icon = standing(weight, unit)
+        text = localized(template).format(**shown)
+        mass = weight.parts.mass
+        unmeasured = [name for name, own in zip(weight.parts.names, weight.parts.masses) if not own]
+        contacts = weight.contacts
+        names = {"Carries": contacts.names, "Lifted": contacts.lifted, "Not Measured": unmeasured}
+        if weight.support is not None:
+            lengths["Margin"] = weight.support.margin * unit
+            lengths["Height"] = weight.support.height * unit
     box = layout.box()
     box.alert = icon == "CANCEL"
-    rows.remark(box, text, icon=icon, boxed=True, **lengths)
-    shown = [rows.quantity_cell("Mass", "mass", weight.parts.mass)]
-    if weight.support is not None:
-        lengths = {"Margin": weight.support.margin * unit, "Height": weight.support.height * unit}
-        shown += [(name, distance(si), repr(float(si)), "m") for name, si in lengths.items()]
-    rows.table(layout.column(align=True), shown)
-    missing = [name for name, mass in zip(weight.parts.names, weight.parts.masses) if not mass]
-    if missing:
-        rows.remark(layout, "Not measured: {objects}", icon="ERROR", objects=missing)
+    box.label(text=text, icon=icon, translate=False)
     column = layout.column(align=True)
-    contacts = weight.contacts
-    for names, icon, word in (
-        (contacts.names, "CHECKMARK", "Carries"),
-        (contacts.lifted, "X", "Lifted"),
-    ):
-        for name in names[:LISTED]:
-            row = column.row(align=True)
-            row.label(text=name, icon=icon, translate=False)
-            rows.right(row, localized(word))
+    rows.quantities(column, [("Mass", "mass", mass)])
+    for name in ("Margin", "Height"):
+        value = lengths.get(name)
+        cell = ("–", "", "") if value is None else (distance(value), repr(float(value)), "m")
+        rows.table(column, [(name, *cell)])
+    for word in ("Carries", "Lifted", "Not Measured"):
+        listed = truncate_list(names.get(word, ()), translate=localized) or "–"
+        row = column.split(factor=rows.LABEL_SHARE)
+        row.label(text=word)
+        row.label(text=listed, translate=False)
 
 
-def _spans(layout: UILayout, context: Context) -> None:
-    """Draw the spans of frames in whose motion the momentum comes from nothing."""
+def _spans(context: Context) -> list[tuple[float, ...]]:
+    """Return the spans of frames in whose motion the momentum comes from nothing: first and last
+    frame, impulse, twist.
+    """
     name = context.object.name_full
-    spans = next(
-        (
-            list(obj[properties.BALANCE_SPANS])
-            for obj in context.scene.objects
-            if obj.type == "EMPTY"
-            and obj.get(properties.BALANCE_GROUP) == name
-            and properties.BALANCE_SPANS in obj
-        ),
-        [],
-    )
-    column = layout.column(align=True)
-    if spans:
-        rows.remark(column, "Momentum from nothing:", icon="ERROR")
-    for start in range(0, min(len(spans), 4 * LISTED), 4):
-        first, last, impulse, twist = spans[start : start + 4]
-        text = localized("Frames {:.0f}–{:.0f}: {:.3g} N·s, {:.3g} N·m·s").format(
-            first, last, impulse, twist
-        )
-        jump = column.operator("wm.context_set_int", text=text, translate=False)
-        jump.data_path = "scene.frame_current"
-        jump.value = round(first)
+    for obj in context.scene.objects:
+        if obj.type == "EMPTY" and obj.get(properties.BALANCE_GROUP) == name:
+            spans = list(obj.get(properties.BALANCE_SPANS, ()))
+            return [tuple(spans[at : at + 4]) for at in range(0, len(spans), 4)]
+    return []
+
+
+class VIEW3D_MT_body_moments_spans(Menu):
+    """Spans of frames in whose motion the momentum comes from nothing; a click goes there"""
+
+    bl_label = "Momentum from Nothing"
+
+    def draw(self, context: Context) -> None:
+        for first, last, impulse, twist in _spans(context)[:LISTED]:
+            text = localized("Frames {:.0f}–{:.0f}: {:.3g} N·s, {:.3g} N·m·s").format(
+                first, last, impulse, twist
+            )
+            jump = self.layout.operator("wm.context_set_int", text=text, translate=False)
+            jump.data_path = "scene.frame_current"
+            jump.value = round(first)
 
 
 class BONE_PT_body_moments(AmongProperties, Panel):
@@ -228,5 +247,6 @@ def _numbers(layout: UILayout, bone: PoseBone) -> None:
 CLASSES = (
     *in_both_places(WeightPanel, "weight", options=frozenset(), shown_for=stands_for_meshes),
     *in_both_places(BonesPanel, "bones"),
+    VIEW3D_MT_body_moments_spans,
     BONE_PT_body_moments,
 )

@@ -58,6 +58,7 @@ AXIS_LABELS = ("X", "Y", "Z")
 PRINCIPAL_LABELS = ("1", "2", "3")
 TENSOR_LABELS = tuple("I" + name for name in ENTRIES)
 VALUE_SHARE = 0.6  # share of a row that a setting takes beside its label
+WIDEST_COSINE = "−0.0000"  # rows of directions have one form, whatever their signs
 BUTTON_MARGIN = "m"  # a letter as wide as the space around a button's text
 Cell = tuple[str, str, str, str]  # label, text, copied value, its unit
 
@@ -110,23 +111,33 @@ def group(
     label: str,
     labels: Sequence[str],
     quantity: str,
-    si: Sequence[float],
+    si: Sequence[float] | None,
     size: float = 0.0,
 ) -> UILayout:
-    """Draw a heading, and a row for each value below it; return their column."""
+    """Draw a heading, and a row for each value below it, blank if it is unknown; return their
+    column.
+    """
     column = layout.column(align=True)
+    if si is None:
+        title(column.row(align=True), label)
+        table(column, [(name, "–", "", "") for name in labels])
+        return column
     heading(column, label, quantity, si)
     values(column, labels, quantity, si, size)
     return column
 
 
-def quantities(layout: UILayout, entries: Sequence[tuple[str, str, float]]) -> None:
-    """Draw a row for each (label, quantity, SI value), each in the unit that suits it."""
+def quantities(layout: UILayout, entries: Sequence[tuple[str, str, float | None]]) -> None:
+    """Draw a row for each (label, quantity, SI value or None), each in the unit that suits it."""
     table(layout, [quantity_cell(*entry) for entry in entries])
 
 
-def quantity_cell(label: str, quantity: str, si: float) -> Cell:
-    """Return the cells of a row for an SI value, in the unit that suits it."""
+def quantity_cell(label: str, quantity: str, si: float | None) -> Cell:
+    """Return the cells of a row for an SI value, in the unit that suits it, or for an unknown
+    one.
+    """
+    if si is None:
+        return label, "–", "", ""
     return label, scene_units().text(quantity, si), repr(float(si)), SI_UNITS[quantity]
 
 
@@ -144,11 +155,13 @@ def values(
     )
 
 
-def center(layout: UILayout, label: str, numbers: PlainBody) -> None:
+def center(layout: UILayout, label: str, numbers: PlainBody | None) -> None:
     """Draw the center of mass; a coordinate that is mere rounding, relative to the body's size, is
     shown as 0.
     """
-    group(layout, label, AXIS_LABELS, "length", numbers.center, max(numbers.gyration))
+    place = None if numbers is None else numbers.center
+    size = 0.0 if numbers is None else max(numbers.gyration)
+    group(layout, label, AXIS_LABELS, "length", place, size)
 
 
 def bounds(layout: UILayout, entries: Sequence[tuple[str, str, float, float]]) -> None:
@@ -191,18 +204,24 @@ def title(layout: UILayout, label: str) -> None:
     _title(layout, localized(label))
 
 
-def direction(layout: UILayout, label: str, vector: Sequence[float]) -> None:
-    """Draw a unit vector in one row, or in three rows if the panel is too narrow for one."""
-    cosines = [
-        "{:.4f}".format(component).replace("-0.0000", "0.0000").replace("-", "−")
-        for component in vector
-    ]
-    if not fits(1.0 - INDEX_LABEL_SHARE, *cosines):
+def direction(layout: UILayout, label: str, vector: Sequence[float] | None) -> None:
+    """Draw a unit vector, blank if it is unknown, in one row, or in three rows if the panel is too
+    narrow for one.
+    """
+    cosines = ["–"] * 3
+    exact = [""] * 3
+    if vector is not None:
+        cosines = [
+            "{:.4f}".format(component).replace("-0.0000", "0.0000").replace("-", "−")
+            for component in vector
+        ]
+        exact = [repr(float(component)) for component in vector]
+    if not fits(1.0 - INDEX_LABEL_SHARE, WIDEST_COSINE, *cosines[1:]):
         table(
             layout,
             [
-                ("{:s} {:s}".format(label, name).strip(), text, repr(float(component)), "")
-                for name, text, component in zip("xyz", cosines, vector)
+                ("{:s} {:s}".format(label, name).strip(), text, copied, "")
+                for name, text, copied in zip("xyz", cosines, exact)
             ],
         )
         return
@@ -212,7 +231,7 @@ def direction(layout: UILayout, label: str, vector: Sequence[float]) -> None:
     cells = split.grid_flow(row_major=True, columns=3, even_columns=True, align=True)
     for text in cosines:
         right(cells, text)
-    _copy(row, repr([float(component) for component in vector]), "")
+    _copy(row, "" if vector is None else repr(plain(vector)), "")
 
 
 def table(layout: UILayout, cells: Sequence[Cell]) -> None:
@@ -363,6 +382,11 @@ def state(layout: UILayout, text: str, icon: str = "") -> None:
     row = layout.row()
     row.alert = icon == "FILE_REFRESH"
     row.label(text=text, icon=icon or "BLANK1", translate=False)
+
+
+def stale_state(layout: UILayout, reason: str | None) -> None:
+    """Draw one row, always, with the reason why numbers are out of date, if any."""
+    state(layout, outdated(reason) if reason else "", "FILE_REFRESH" if reason else "")
 
 
 def stale_row(layout: UILayout, reason: str | None) -> None:

@@ -8,7 +8,7 @@ from math import degrees
 
 from bpy.types import Context, Object, UILayout
 
-from ..blender.read.visibility import SECTION_TYPES
+from ..blender.read.visibility import SECTION_TYPES, measurable
 from ..blender.session.selected import subject
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.session.tracking.stamps import of_section
@@ -32,6 +32,8 @@ class SectionPanel:
 
     def draw(self, context: Context) -> None:
         obj, layout = subject(context), self.layout
+        if not _may_have_section(obj):
+            return  # its sub-panel is for other shapes, too
         row = layout.row(align=True)
         rows.button(row, "object.body_moments_measure_section", "FACESEL", short="Measure")
         row.operator("object.body_moments_copy", text="", icon="COPYDOWN").what = "SECTION"
@@ -40,12 +42,16 @@ class SectionPanel:
             layout.label(text="Not Measured", icon="RADIOBUT_OFF")
             return
         _verdict(layout, stored, stale_reason(obj, context.scene, of_section))
-        remedies.lines(
-            layout, context, [Group(found) for found in stored.findings], can_accept=False
-        )
+        groups = [Group(found) for found in stored.findings]
+        remedies.lines(layout, context, groups, can_accept=False)
         _numbers(layout, stored.section)
         _more_numbers(layout, stored.section)
-        remedies.notes(layout, "body_moments_section_notes", stored.findings)
+        remedies.notes(layout, "body_moments_section_notes", groups)
+
+
+def _may_be_cut(obj: Object) -> bool:
+    """Return whether the sub-panel of levels, and of cut and fill, is for this object."""
+    return obj.type in SECTION_TYPES and (measurable(obj) or _may_have_section(obj))
 
 
 def _may_have_section(obj: Object) -> bool:
@@ -130,4 +136,4 @@ def _more_numbers(layout: UILayout, section) -> None:
         rows.error_bounds(body, sources, entries)
 
 
-CLASSES = in_both_places(SectionPanel, "section", shown_for=_may_have_section)
+CLASSES = in_both_places(SectionPanel, "section", shown_for=_may_be_cut)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import atan2, degrees
 from typing import TYPE_CHECKING
 
-from bpy.types import Context, Object, UILayout
+from bpy.types import Context, UILayout
 
 from ..blender.read.visibility import measurable
 from ..blender.scale import meters_per_unit
@@ -17,13 +17,14 @@ from ..blender.session import stored
 from ..blender.session.displayed import shown_objects
 from ..blender.session.selected import subject
 from ..blender.session.tracking import armatures
+from ..blender.write.translations import localized
 from ..core.lazy import loaded_module
 from ..core.verdict import Finding
 from . import rows
 from .places import in_both_places
 
 if TYPE_CHECKING:
-    from ..core.statics import Support
+    from ..core.statics import RestingPoses, Support
 
 MAX_POSES = 6  # limit of the list: round bodies have thousands
 
@@ -50,57 +51,53 @@ class StabilityPanel:
             edge = support.foot + support.margin * support.direction
             balance.target = "POINT"
             balance.point = (edge + support.polygon.mean(axis=0)) / 2.0
+        if obj is not None and obj.body_moments.kind == "PRINTED":
+            rows.button(column, "object.body_moments_make_it_stand", "MOD_THICKNESS")
         rows.button(
             column, "object.body_moments_balance_group", "CON_FOLLOWPATH", text="Follow Center..."
         )
-        if support is not None:
-            _support(layout, context, support)
-            _poses(layout, context, obj)
-        elif is_known:
-            rows.remark(layout, "The geometry has changed. Check again.", icon="FILE_REFRESH")
-        else:
-            rows.remark(layout, "Stability has not been computed.")
+        rest = rows.button(
+            column, "object.body_moments_rest_on_ground", "TRIA_DOWN_BAR", short="Rest"
+        )
+        rest.pose = 1
+        _support(layout, context, support, is_known)
+        _poses(layout, stored.stability.poses(obj, context.scene) if support is not None else None)
 
 
-def _support(layout: UILayout, context: Context, support: Support) -> None:
-    unit = meters_per_unit(context.scene)
+def _support(layout: UILayout, context: Context, support: Support | None, is_known: bool) -> None:
+    """Draw the standing state, margin and angles, in as many rows before they are known."""
+    cells = [(name, "–", "", "") for name in ("Margin", "Tipping Angle", "Toward, from X")]
     column = layout.column(align=True)
-    if support.stands:
-        column.label(text="Stands", icon="CHECKMARK")
+    if support is None:
+        text = "Changed since: check again" if is_known else "Not checked yet"
+        rows.state(column, localized(text), "FILE_REFRESH" if is_known else "INFO")
+    elif support.stands:
+        rows.state(column, localized("Stands"), "CHECKMARK")
     else:
-        column.label(text="Tips Over", icon="ERROR")
-        if len(support.polygon) < 3:
-            text = (
-                "It touches the ground along an edge or at a corner, on which nothing stands: "
-                "there is no area to balance over. Lay it on a face with Rest on Ground."
-            )
-            rows.remark(column, text)
-    margin = support.margin * unit
-    angle = degrees(support.tipping_angle)
-    toward = degrees(atan2(support.direction[1], support.direction[0]))
-    rows.table(
-        column,
-        [
+        is_on_area = len(support.polygon) > 2
+        text = "Tips Over" if is_on_area else "On an edge or corner: lay it down"
+        rows.state(column, localized(text), "ERROR")
+    if support is not None:
+        margin = support.margin * meters_per_unit(context.scene)
+        angle = degrees(support.tipping_angle)
+        toward = degrees(atan2(support.direction[1], support.direction[0]))
+        cells = [
             ("Margin", rows.scene_units().text("length", margin), repr(margin), "m"),
             ("Tipping Angle", _degrees(angle), repr(angle), "°"),
             ("Toward, from X", _degrees(toward), repr(toward), "°"),
-        ],
-    )
+        ]
+    rows.table(column, cells)
 
 
 def _degrees(angle: float) -> str:
     return "{:.2f}°".format(round(angle, 2) + 0.0).replace("-", "−")
 
 
-def _poses(layout: UILayout, context: Context, obj: Object) -> None:
-    poses = stored.stability.poses(obj, context.scene)
-    layout.label(text="Resting Poses")
-    if isinstance(poses, Finding):
-        rows.message(layout, poses)
-    if poses is None or isinstance(poses, Finding):
-        return
+def _poses(layout: UILayout, poses: RestingPoses | Finding | None) -> None:
+    """Draw the most probable poses, in as many rows before they are known."""
     narrow = rows.is_narrow()
     column = layout.column(align=True)
+    column.label(text="Resting Poses")
     heading = column.row()
     heading.label(text="Share" if narrow else "Probability")
     cell = heading.row()
@@ -108,20 +105,25 @@ def _poses(layout: UILayout, context: Context, obj: Object) -> None:
     cell.label(text="Tips at")
     if not narrow:
         cell.label(icon="BLANK1")
-    for place, (share, angle) in enumerate(zip(poses.shares[:MAX_POSES], poses.tipping_angles)):
+    known = () if poses is None or isinstance(poses, Finding) else poses.tipping_angles
+    for place in range(MAX_POSES):
         row = column.row(align=True)
+        row.enabled = place < len(known)
+        share = "–"
+        angle = ""
+        if place < len(known):
+            share = "{:.1f}%".format(100.0 * poses.shares[place])
+            angle = "{:.1f}°".format(degrees(known[place]))
         number = "" if narrow else "{:d}: ".format(place + 1)
-        row.label(text="{:s}{:.1f}%".format(number, 100.0 * share), translate=False)
-        rows.right(row, "{:.1f}°".format(degrees(angle)))
+        row.label(text=number + share, translate=False)
+        rows.right(row, angle)
         row.operator("object.body_moments_rest_on_ground", text="", icon="TRIA_DOWN_BAR").pose = (
             place + 1
         )
-    more = len(poses.tipping_angles) - MAX_POSES
-    if more > 0:
-        rows.filled(column, "{:d} more", more)
-    rows.button(
-        layout, "object.body_moments_rest_on_ground", "TRIA_DOWN_BAR", short="Rest"
-    ).pose = 1
+    more = len(known) - MAX_POSES
+    rows.state(column, localized("{:d} more").format(more) if more > 0 else "")
+    if isinstance(poses, Finding):
+        rows.message(layout, poses)
 
 
 CLASSES = in_both_places(

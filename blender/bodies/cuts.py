@@ -10,7 +10,7 @@ from bpy.types import Depsgraph, Object
 from ...core.cuts import CutFill, cut_fill, cut_fill_between
 from ...core.flat import fit_plane
 from ...core.mesh import Surface
-from ...core.numerics import Array
+from ...core.numerics import Array, Index
 from ...core.verdict import MeasureError
 from ..read.objects import read_object
 from ..read.visibility import measurable
@@ -42,7 +42,7 @@ def cut_fill_against(other: Object, surface: Surface, depsgraph: Depsgraph, unit
 
 
 def _against_plane(
-    points: Array, triangles: Array, normal: Array, place: Array, surface: Surface
+    points: Array, triangles: Index, normal: Array, place: Array, surface: Surface
 ) -> CutFill:
     """Return cut and fill against the plane through a place; its upper side counts as up."""
     normal = normal if normal[2] >= 0.0 else -normal

@@ -42,7 +42,7 @@ from .findings import LEVEL_SET_MEASURED
 from .mesh import mesh_body
 from .request import Request
 
-MEASURED_AS = frozenset({"solid", "shell", "wire"})  # shells and wires are refused
+MEASURED_AS = frozenset({"solid", "shell", "printed", "wire"})  # all but solids are refused
 
 
 def read(request: Request) -> VolumeReading | None:

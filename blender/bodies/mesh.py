@@ -19,6 +19,7 @@ from ...core.bodies import (
     drawn_names,
     find_walls,
     of_drawn,
+    print_body,
     singular_instances_message,
     sum_of_instances,
 )
@@ -41,7 +42,7 @@ from .findings import (
 from .request import Request
 from .union import unite
 
-MEASURED_AS = frozenset({"solid", "shell"})
+MEASURED_AS = frozenset({"solid", "shell", "printed"})
 
 # findings about the bodies before their union
 REPAIRS = {
@@ -62,9 +63,10 @@ def read(request: Request) -> Reading | None:
     density = request.density
     obj = request.obj
     if reading.has_patches:
-        if density is None:
+        if density is None and request.settings.kind != "printed":
             return None
-        reading.findings.append(finding(DISPLAY_MESH_NEEDED, purpose="a varying density"))
+        purpose = "walls and infill" if density is None else "a varying density"
+        reading.findings.append(finding(DISPLAY_MESH_NEEDED, purpose=purpose))
     elif (
         density is not None
         and request.settings.kind == "shell"
@@ -90,7 +92,7 @@ def body(reading: Reading, request: Request) -> Body:
         made = weigh(reading, made, request)
     if shell and settings.wall != "thin":
         return find_walls(reading, made, settings.wall).body(settings.thickness)
-    return made
+    return print_body(made, settings) if settings.kind == "printed" else made
 
 
 def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, threads: int) -> MeshBody:

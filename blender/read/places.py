@@ -7,14 +7,19 @@ Blender's own matrices are in single precision, and an object has one.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
-from bpy.types import Object
+from bpy.types import Object, PoseBone
 
 from ...core.bodies import float64_matrix
 from ...core.numerics import Array
 
+if TYPE_CHECKING:
+    from .assembly import Member
+
 _HALF_STEP = 2.0**-24  # relative rounding of a number in single precision
-_ROUNDINGS = 8.0  # of the product of two matrices, and of the numbers in them
+_ROUNDINGS = 8.0  # of the product of two matrices, and of the numbers in a rotation
 KEY = "body_file_places"  # a property of objects: the numbers of their matrices
 
 
@@ -35,28 +40,90 @@ def world_matrices(obj: Object) -> Array:
     return float64_matrix(obj.matrix_world)[None]
 
 
-def place_error(obj: Object) -> float:
-    """Return how far rounding to single precision may have moved an object, along the chain of its
-    parents, in Blender units: 0 if its file states the place.
+def place_error(obj: Object, reach: float | None = None) -> float:
+    """Return how far rounding to single precision may have moved a point of an object, in Blender
+    units: 0 if its file states the place.
+
+    The bound follows locations, rotations and scales along the chain of parents, bones among them.
+    reach: of the point from the origin, in the object's own coordinates; by default that of the
+    farthest corner of its box.
     """
-    if KEY in obj:
-        return 0.0
-    line = [obj]
-    while line[-1].parent is not None:
-        line.append(line[-1].parent)
+    return 0.0 if KEY in obj else _object_error(obj, _reach(obj) if reach is None else reach, ())
+
+
+def _reach(obj: Object) -> float:
+    return float(np.linalg.norm(np.array(obj.bound_box, np.float64), axis=1).max())
+
+
+def member_error(member: Member) -> tuple[float, float]:
+    """Return how far rounding may have moved the center of an assembly, at most as far as any of
+    its objects, and how far they are from the origin, in Blender units.
+    """
+    found = [(0.0, 0.0), *map(member_error, member.members)]
+    if isinstance(member.data, Object) and member.is_measured:
+        world = float64_matrix(member.data.matrix_world)
+        reach = _length(world) + _norm(world) * _reach(member.data)
+        found.append((place_error(member.data), reach))
+    error, reach = map(max, zip(*found))
+    if member.matrix is None:
+        return error, reach
+    place = np.array(member.matrix)
+    collection = member.data.instance_collection
+    offset = 0.0 if collection is None else collection.instance_offset.length
+    error = _norm(place) * error + place_error(member.data, reach + offset)
+    return error, _norm(place) * reach + _length(place)
+
+
+def _object_error(obj: Object, reach: float, followers: tuple[Object, ...]) -> float:
+    """Bound the move of points within `reach`; followers: objects whose places depend on this."""
+    basis = float64_matrix(obj.matrix_basis)
+    turns = sum(map(abs, (*obj.rotation_euler, *obj.delta_rotation_euler)))
+    if obj.rotation_mode == "AXIS_ANGLE":
+        turns += abs(obj.rotation_axis_angle[0])
+    moved = obj.location.length + obj.delta_location.length
+    stretched = _norm(basis) * reach
+    error = _HALF_STEP * ((_ROUNDINGS + turns) * stretched + moved)
+    if obj.parent is not None:
+        inverse = float64_matrix(obj.matrix_parent_inverse)
+        stretch = _norm(inverse)
+        radius = stretch * (stretched + _length(basis)) + _length(inverse)
+        above = float64_matrix(obj.parent.matrix_world)
+        error = _norm(above) * (stretch * error + _HALF_STEP * (1.0 + _ROUNDINGS) * radius)
+        error += _HALF_STEP * _ROUNDINGS * _length(above)
+        bone = obj.parent.pose and obj.parent.pose.bones.get(obj.parent_bone)
+        if obj.parent_type == "BONE" and bone:
+            # the bone's tail is the origin
+            radius, own = _bone_radius_and_error(bone, radius + bone.bone.length)
+            error += _norm(above) * own
+        elif obj.parent_type != "OBJECT":
+            radius = max(radius, _reach(obj.parent))
+        error += _object_error(obj.parent, radius, followers)
+    world = float64_matrix(obj.matrix_world)
+    for constraint in obj.constraints:
+        target = getattr(constraint, "target", None)
+        error += _HALF_STEP * _ROUNDINGS * (_norm(world) * reach + _length(world))
+        if target is not None and target not in followers:
+            error += _object_error(target, _norm(world) * reach, (*followers, obj))
+    return error
+
+
+def _bone_radius_and_error(bone: PoseBone, reach: float) -> tuple[float, float]:
+    """Return how far points within `reach` of a bone may be from its armature's origin, and how far
+    rounding may have moved them.
+    """
+    matrix = float64_matrix(bone.matrix)
+    radius = _norm(matrix) * reach + _length(matrix)
     error = 0.0
-    for level, one in enumerate(reversed(line)):
-        move = one.matrix_basis.translation.length
-        if one.parent is None:
-            error += _HALF_STEP * move
-            continue
-        inverse = float64_matrix(one.matrix_parent_inverse)
-        above = float64_matrix(one.parent.matrix_world)
-        move = _size(inverse[:3, :3]) * move + _size(inverse[:3, 3])
-        error += _HALF_STEP * _size(above[:3, :3]) * move * (1.0 + _ROUNDINGS * level)
-        error += _HALF_STEP * _ROUNDINGS * _size(above[:3, 3])
-    return error + (_HALF_STEP * obj.matrix_world.translation.length if obj.constraints else 0.0)
+    for one in (bone, *bone.parent_recursive):
+        size = radius + _length(float64_matrix(one.matrix)) + one.bone.head_local.length
+        error += _HALF_STEP * (2.0 * _ROUNDINGS + sum(map(abs, one.rotation_euler))) * size
+    return radius, error
 
 
-def _size(values: Array) -> float:
-    return float(np.sqrt(np.square(values).sum()))
+def _norm(matrix: Array) -> float:
+    """Return the largest factor by which a (4, 4) matrix stretches a vector."""
+    return float(np.linalg.norm(matrix[:3, :3], 2))
+
+
+def _length(matrix: Array) -> float:
+    return float(np.linalg.norm(matrix[:3, 3]))

@@ -21,4 +21,5 @@ __getattr__, __dir__, __all__ = lazy_names(
     remove_colliders="colliders",
     store_colliders="colliders",
     store_measured="stored.results",
+    tolerance_remedy="stored.collider_tolerance",
 )

@@ -22,7 +22,7 @@ from .stored.density import noted
 from .stored.results import store_measured
 
 WORDS = {
-    "kind": ("solid", "shell", "wire"),
+    "kind": ("solid", "shell", "printed", "wire"),
     "overlap": ("signed", "union"),
     "wall": ("thin", "inward", "outward", "centered"),
 }
@@ -59,9 +59,9 @@ def describe(
     store : bool
         Stores the results on the objects, as *Measure* does. Otherwise nothing in the file changes.
     **options
-        Override the objects' settings: kind ("solid", "shell", "wire"), density (kg/m³), mass (kg),
-        thickness (m), overlap ("signed", "union"), wall ("thin", "inward", "outward", "centered"),
-        unit_scale (meters per unit).
+        Override the objects' settings: kind ("solid", "shell", "printed", "wire"), density
+        (kg/m³), mass (kg), thickness (m), overlap ("signed", "union"), wall ("thin", "inward",
+        "outward", "centered"), unit_scale (meters per unit).
 
     Returns
     -------

@@ -315,6 +315,11 @@ def total(context: Context) -> Total:
     return memory.current_value(memory.totals, context.scene, key, lambda: _sum(context))
 
 
+def places(objects: Iterable[Object]) -> frozenset[tuple]:
+    """Return a key that changes if other objects are chosen or if one moves."""
+    return frozenset((obj.session_uid, *map(tuple, obj.matrix_world)) for obj in objects)
+
+
 def _members(obj: Object, objects: Iterable[Object]) -> list[Object]:
     """Return the members of an assembly or character: its descendants, and the `objects` that it
     deforms.
@@ -338,6 +343,9 @@ def _sum(context: Context) -> Total:
     worlds = [shown.world for shown in parts.values()]
     alone = next((world for world in worlds if world.mass > 0.0), None)
     stale = tuple(obj.name for obj, shown in parts.items() if shown.verdict == Verdict.OUT_OF_DATE)
+    of_places, overlaps = memory.overlaps.get(context.scene) or (None, ())
+    if stale or of_places != places(parts):
+        overlaps = ()
     return Total(
         len(parts),
         sum(world.volume for world in worlds),
@@ -349,6 +357,7 @@ def _sum(context: Context) -> Total:
         (
             *open_body_caveats((obj.name, properties.method(obj)) for obj in parts),
             *read.assembly.total_caveats(parts, context.view_layer),
+            *overlaps,
         ),
         Verdict.INCOMPLETE
         if missing and parts

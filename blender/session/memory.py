@@ -19,13 +19,15 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 from bpy.types import ID, Object, Scene
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from ...core.statics import Support
+    from ...core.verdict import Finding
     from .character.weight import Character, Weight
     from .displayed import Displayed, Listing, Total
     from .live.following import Followed
     from .stored.computed_moments import ComputedMoments
+    from .stored.cuts import KnownCutFill, Level
     from .stored.faults import Faults
     from .stored.floating import Afloat
     from .stored.outcome import ActionOutcome
@@ -139,12 +141,16 @@ moved: set[int] = _remembered(set())
 totals: SessionCache[tuple[tuple, Total]] = SessionCache()
 masses: SessionCache[tuple[tuple, dict[int, str]]] = SessionCache()
 listings: SessionCache[tuple[tuple, Listing]] = SessionCache()
+# scene → the last measured objects with their places (`displayed.places`), and their overlaps
+overlaps: SessionCache[tuple[frozenset, Sequence[Finding]]] = SessionCache()
 # scene → the selection, the objects whose settings are shown, and names of settings that differ
 chosen: SessionCache[tuple[tuple, tuple[list[Object], dict[str, bool]]]] = SessionCache()
 
 # ---------------------------------------------------------------- Results too large to store
 
 hulls: SessionCache[KnownHull] = SessionCache()
+levels: SessionCache[Level] = SessionCache(max_size=64)
+cut_fills: SessionCache[KnownCutFill] = SessionCache(max_size=64)
 afloat: SessionCache[Afloat] = SessionCache(max_size=64)
 faults: SessionCache[Faults] = SessionCache()
 moments: SessionCache[ComputedMoments] = SessionCache(max_size=16)

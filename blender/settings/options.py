@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 
-from bpy.types import Object, Scene
+from bpy.types import Object, PropertyGroup, Scene
 
-from ...core.measurement import RequestedResults, Settings
+from ...core.measurement import PrintSettings, RequestedResults, Settings
 from ...core.numerics import shortest_decimal
 from ..scale import meters_per_unit
 from .density import object_density
@@ -20,7 +20,8 @@ from .density import object_density
 class MeasureOptions(RequestedResults):
     """Overrides of the objects' own settings, as in `Settings`; None leaves the setting.
 
-    unit_scale: meters per Blender unit, else the scene's.
+    unit_scale: meters per Blender unit, else the scene's. printed: pairs of a field of
+    `PrintSettings` and its value.
     """
 
     kind: str | None = None
@@ -30,6 +31,7 @@ class MeasureOptions(RequestedResults):
     overlap: str | None = None
     wall: str | None = None
     unit_scale: float | None = None
+    printed: tuple[tuple[str, float], ...] = ()
 
     def meters_per_unit(self, scene: Scene) -> float:
         """Return the length of a Blender unit in meters: the given one, else the scene's."""
@@ -37,6 +39,20 @@ class MeasureOptions(RequestedResults):
 
 
 AS_SET = MeasureOptions()  # every object as its own settings say
+
+
+def print_settings(properties: PropertyGroup) -> PrintSettings:
+    """Return the print settings in the settings of an object."""
+    return PrintSettings(
+        walls=properties.print_walls,
+        line_width=shortest_decimal(properties.print_line_width) * 1e-3,
+        top=properties.print_top_layers,
+        bottom=properties.print_bottom_layers,
+        layer_height=shortest_decimal(properties.print_layer_height) * 1e-3,
+        infill=shortest_decimal(properties.print_infill),
+        price=shortest_decimal(properties.spool_price),
+        spool=shortest_decimal(properties.spool_mass),
+    )
 
 
 def object_settings(
@@ -68,5 +84,6 @@ def object_settings(
         overlap=options.overlap or properties.overlap.lower(),
         wall=options.wall or properties.wall.lower(),
         unit=unit,
+        printed=print_settings(properties)._replace(**dict(options.printed)),
         **{field.name: getattr(options, field.name) for field in fields(RequestedResults)},
     )

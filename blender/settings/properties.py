@@ -55,6 +55,16 @@ COPIED_PROPERTIES = (
         "value_density",
         "transfer_table",
     ),
+    *(
+        "print_walls",
+        "print_line_width",
+        "print_top_layers",
+        "print_bottom_layers",
+        "print_layer_height",
+        "print_infill",
+        "spool_price",
+        "spool_mass",
+    ),
     *("spline_order", *GIVEN_PROPERTIES),
 )
 
@@ -95,6 +105,52 @@ def _text(name: str, description: str, **special: Any) -> Any:
     return StringProperty(name=name, description=description, update=changed, **special)
 
 
+def _count(name: str, description: str, default: int, least: int) -> Any:
+    return IntProperty(
+        name=name, description=description, default=default, min=least, soft_max=20, update=changed
+    )
+
+
+def _millimeters(name: str, description: str, default: float) -> Any:
+    return FloatProperty(
+        name=name,
+        description=description,
+        default=default,
+        min=0.001,
+        soft_max=2.0,
+        step=1,
+        precision=3,
+        update=changed,
+    )
+
+
+# Fields of `PrintSettings`: their properties, and these per SI unit.
+PRINT_OPTIONS = {
+    "walls": ("print_walls", 1),
+    "line_width": ("print_line_width", 1e3),
+    "top": ("print_top_layers", 1),
+    "bottom": ("print_bottom_layers", 1),
+    "layer_height": ("print_layer_height", 1e3),
+    "infill": ("print_infill", 1),
+    "price": ("spool_price", 1),
+    "spool": ("spool_mass", 1),
+}
+PRINT_FIELDS = "print_walls", "print_top_layers", "print_bottom_layers", "print_infill"
+# By key: name, description and values of PRINT_FIELDS.
+PRESETS = {
+    "WALLS_2": ("2 Walls", "2 walls of 0.42 mm, 4 layers of 0.2 mm, 15 % infill", (2, 4, 4, 15)),
+    "WALLS_3": ("3 Walls", "3 walls of 0.42 mm, 5 layers of 0.2 mm, 20 % infill", (3, 5, 5, 20)),
+    "WALLS_4": ("4 Walls", "4 walls of 0.42 mm, 6 layers of 0.2 mm, 40 % infill", (4, 6, 6, 40)),
+    "VASE": ("Vase", "1 wall of 0.42 mm, 4 bottom layers of 0.2 mm, nothing else", (1, 0, 4, 0)),
+}
+
+
+def _set_preset(settings: PropertyGroup) -> None:
+    values = dict(zip(PRINT_FIELDS, PRESETS[settings.print_preset][2]))
+    for name, value in (values | {"print_line_width": 0.42, "print_layer_height": 0.2}).items():
+        setattr(settings, name, value)
+
+
 def _shown_density(settings: PropertyGroup) -> float:
     if isinstance(settings.id_data, Object):
         return object_density(settings, bpy.context.scene)
@@ -109,6 +165,13 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         "What the geometry of the object represents",
         ("SOLID", "Solid", "The surface bounds a volume filled with material"),
         ("SHELL", "Shell", "The surface is a sheet or wall of the given thickness"),
+        (
+            "PRINTED",
+            "Printed",
+            "The surface bounds a 3D print: walls, top and bottom layers around a core of infill, "
+            "printed upward along the world's z. Seams, supports, brims and the pattern's "
+            "directions are not modeled",
+        ),
         ("WIRE", "Wire", "The curve is a wire of the given mass per length"),
         translation_context=TRANSLATION_CONTEXT,
     )
@@ -207,6 +270,44 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         precision=6,
         unit="LENGTH",
         update=wall_changed,
+    )
+    print_preset: choice_property(
+        "Preset",
+        "Settings of a common print with a nozzle of 0.4 mm, which replace those below",
+        *((key, name, text) for key, (name, text, _) in PRESETS.items()),
+        update=lambda settings, _context: _set_preset(settings),
+        options={"SKIP_SAVE"},
+    )
+    print_walls: _count("Walls", "Number of walls (perimeters)", 2, 1)
+    print_line_width: _millimeters("Line Width", "Width of one wall in mm", 0.42)
+    print_top_layers: _count("Top Layers", "Number of full layers below faces that face up", 4, 0)
+    print_bottom_layers: _count(
+        "Bottom Layers", "Number of full layers above faces that face down", 4, 0
+    )
+    print_layer_height: _millimeters("Layer Height", "Height of one layer in mm", 0.2)
+    print_infill: FloatProperty(
+        name="Infill",
+        description="Share of the core that is filled",
+        default=15.0,
+        min=0.0,
+        max=100.0,
+        subtype="PERCENTAGE",
+        update=changed,
+    )
+    spool_price: FloatProperty(
+        name="Price of a Spool",
+        description="Price of a spool of filament, in any currency. At 0, no price is shown",
+        min=0.0,
+        precision=2,
+        update=changed,
+    )
+    spool_mass: FloatProperty(
+        name="Spool",
+        description="Filament on a spool, in kg",
+        default=1.0,
+        min=0.001,
+        precision=3,
+        update=changed,
     )
     overlap: _choice(
         "Overlaps",
@@ -369,6 +470,9 @@ def apply_options(settings: PropertyGroup, options, scene: Scene) -> None:
     if options.mass is not None:
         settings.mass_from = "MASS"
         settings.mass = options.mass
+    for name, value in options.printed:
+        key, scale = PRINT_OPTIONS[name]
+        setattr(settings, key, value * scale)
     if options.thickness is not None:
         settings.thickness = options.thickness / meters_per_unit(scene)
 

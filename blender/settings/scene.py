@@ -63,6 +63,11 @@ class BodyMomentsOverlaySettings(PropertyGroup):
         "stability was computed",
         default=True,
     )
+    show_level: BoolProperty(
+        name="Levels",
+        description="Draw the surfaces of liquids in vessels whose level was computed",
+        default=True,
+    )
     show_waterline: BoolProperty(
         name="Waterline",
         description="Draw the waterline of floating objects, and their centers of buoyancy (B) and "

@@ -57,6 +57,8 @@ DESCRIPTIONS = {
     "then the same four for what storing coordinates as float32 may have",
     "body_density_from": "Where the density came from",
     "body_materials": "The materials that the density came from, one a line",
+    "body_material_volume": "Volume of the material in a print, in m³",
+    "body_price": "Price of the material in a print",
     "body_method": "How the numbers came about",
     "body_warnings": "Warnings in English, one a line",
     "body_findings": "What was found and decided, as JSON: codes, values and the first elements",
@@ -142,6 +144,9 @@ def values_of(measurement: Measurement) -> dict[str, Any]:
     if measurement.density_from.code not in (DENSITY_FROM_VALUE, DENSITY_FROM_MASS):
         values["body_density_from"] = str(measurement.density_from)
         values["body_materials"] = "\n".join(measurement.materials) or None
+    if measurement.printed is not None:
+        values["body_material_volume"] = measurement.printed["material_volume"]
+        values["body_price"] = measurement.printed.get("price")
     values |= dict(zip(LENGTHS, row)) | _texts(
         measurement.method, measurement.findings, measurement.fingerprint
     )

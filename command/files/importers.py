@@ -8,7 +8,7 @@ Blender has none for .3mf and IGES; that of .obj leaves out ``surf``.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from ...blender.bodies.union import subtract
 from ...blender.scene.imports import show_bodies
+from ...blender.settings.properties import PRINT_OPTIONS
 from ...core.cad import FACES_NOT_READ, SurfaceFile, has_surfaces, read_surfaces
 from ...core.files import file_limits
 from ...core.mesh import Surface
@@ -101,8 +102,7 @@ def import_3mf(path: str) -> Opened:
             meshes[one.key] = _mesh(one)
         obj = bpy.data.objects.new(one.name, meshes[one.key])
         bpy.context.scene.collection.objects.link(obj)
-        if "density" in one.print_settings:
-            obj.body_moments.density = one.print_settings["density"]
+        _set_print(obj.body_moments, one.print_settings)
         if negative:
             notes[obj.name] = (finding(NEGATIVE_PARTS_CUT, names=negative),)
         if one.hidden:
@@ -119,6 +119,19 @@ def import_3mf(path: str) -> Opened:
             )
     bpy.context.view_layer.update()
     return Opened(tuple(errors), by_object=notes, hidden=hidden)
+
+
+def _set_print(settings: bpy.types.PropertyGroup, found: Mapping[str, float]) -> None:
+    """Set an object's settings to those of a slicer's project, if it has any."""
+    for name, value in found.items():
+        if name == "density":
+            settings.density = value
+        else:
+            key, scale = PRINT_OPTIONS[name]
+            number = value * scale
+            setattr(settings, key, round(number) if scale == 1 and name != "infill" else number)
+    if found:
+        settings.kind = "PRINTED"
 
 
 def _without_negative_parts(

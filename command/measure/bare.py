@@ -32,7 +32,7 @@ from ...core.bodies import (
 )
 from ...core.cad import has_surfaces, read_meshes
 from ...core.files import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
-from ...core.measurement import Measurement, Settings, record
+from ...core.measurement import Measurement, PrintSettings, Settings, record
 from ...core.robots import FORMATS as ROBOT_FORMATS
 from ...core.scans import LABEL_ABSENT, Label, read_label_table
 from ...core.scans import formats as scans
@@ -73,7 +73,10 @@ BYTES_OF_FILE = {
 }
 DEFAULT_DENSITY = 1000.0  # kg/m³
 DEFAULT_THICKNESS = 0.001  # m, as of an object
-_NOT_OF_STREAMS = ("wall", "polynomial", "density_from", "fourier", "below", "against", "float")
+_NOT_OF_STREAMS = (
+    *("wall", "print", "polynomial", "density_from", "fourier"),
+    *("below", "against", "float"),
+)
 
 
 class BareFile:
@@ -137,6 +140,7 @@ class BareFile:
             mass=options.mass,
             thickness=options.thickness or 0.0,
             wall=options.wall or "thin",
+            printed=PrintSettings()._replace(**dict(options.print or ())),
             order=options.order,
             surface=options.surface_moments,
             threads=self._threads,
@@ -182,8 +186,10 @@ class BareFile:
         shapeless = unused(requested)
         if is_scan:
             shapeless = [finding(SHAPE_OF_GRID)] * bool(requested)
+        floats = ["float"] if self.options.float else []
         more = dict.fromkeys([*requested, *["thumbnail"] * bool(self.options.thumbnails)])
-        self._add(contents, measurement, shapeless, more)
+        more |= dict.fromkeys(["floating"] * len(floats))
+        self._add(contents, measurement, [*shapeless, *unused(floats)], more)
 
     def _measure_labels(self, name: str, contents: Contents) -> None:
         """Measure the labels of a label map, each with a record of its own."""
@@ -230,7 +236,7 @@ class BareFile:
         given = [
             one for one in _NOT_OF_STREAMS if getattr(options, one) not in (None, "thin", "value")
         ]
-        given += boolean_and_wire(options)
+        given += [*boolean_and_wire(options), *["kind"] * (options.kind == "printed")]
         if given:
             raise QueryError(STREAM_OPTIONS, options=words(given))
         settings, findings = self._mesh_settings()

@@ -19,6 +19,7 @@ from bpy.types import Scene
 from ...blender.bodies.assembly.assembly import Assembly, measure_assembly
 from ...blender.bodies.rig import Rig, measure_rig
 from ...blender.read.assembly import Root, is_assembly, settings_of
+from ...blender.read.places import member_error, place_error
 from ...blender.session.stored import assembly as stored_assembly
 from ...blender.session.stored import results
 from ...blender.settings.options import MeasureOptions
@@ -29,8 +30,9 @@ from .entries import Contents
 
 @dataclass(frozen=True, eq=False)
 class Combined:
-    """Measurements of assemblies and rigs."""
+    """Measurements of assemblies and rigs; unit: meters per Blender unit."""
 
+    unit: float = 1.0
     assemblies: list[Assembly] = field(default_factory=list)
     rigs: list[Rig] = field(default_factory=list)
 
@@ -40,13 +42,29 @@ class Combined:
 
     def records(self, frame: str) -> dict[str, Any]:
         """Return a document's `assemblies` and `bones`; a list that would be empty is left out."""
-        assemblies = [record.record(assembly.measurement, frame) for assembly in self.assemblies]
-        bones = [
-            record.record(part.measurement, frame, more={"armature": rig.armature.name})
-            for rig in self.rigs
-            for part in rig.parts
-            if part.measurement is not None
+        assemblies = [
+            record.record(
+                replace(
+                    assembly.measurement,
+                    place_error=self.unit * member_error(assembly.root.member)[0],
+                ),
+                frame,
+            )
+            for assembly in self.assemblies
         ]
+        bones = []
+        for rig in self.rigs:
+            of_meshes = max(map(place_error, rig.objects), default=0.0)
+            moved = self.unit * (of_meshes + place_error(rig.armature))
+            bones += [
+                record.record(
+                    replace(part.measurement, place_error=moved),
+                    frame,
+                    more={"armature": rig.armature.name},
+                )
+                for part in rig.parts
+                if part.measurement is not None
+            ]
         found = {"assemblies": sorted(assemblies, key=lambda entry: entry["name"]), "bones": bones}
         return {name: entries for name, entries in found.items() if entries}
 
@@ -67,7 +85,7 @@ def measure_combined(options: MeasureOptions, contents: Contents, assets: bool) 
     that have a mass.
     """
     scene = bpy.context.scene
-    found = Combined()
+    found = Combined(options.meters_per_unit(scene))
     wanted = replace(options, order=None)
 
     def add_assembly(root: Root) -> None:

@@ -15,6 +15,7 @@ from ...core.cuts import (
     SURFACE_NEEDED,
     CutFill,
     below_record,
+    contents_record,
     cut_fill,
     cut_fill_record,
     fit_rim,
@@ -73,7 +74,11 @@ def _below(measurement: Measurement, body: Body, level: float) -> dict[str, Any]
         raise MeasureError(BOUNDARY_OPEN)
     if any(found.code == COMPONENTS_OVERLAP for found in measurement.findings):
         raise MeasureError(LEVEL_UNAVAILABLE, fault=SHARED_SPACE)
-    return below_record(join_surfaces([*body.surfaces(False)]), level)
+    entry = below_record(join_surfaces([*body.surfaces(False)]), level)
+    # The opening of a cup of one surface is not to be capped.
+    is_capped = body.method.procedure is Procedure.CAPPED
+    vessel = join_surfaces([*body.surfaces(is_capped)])
+    return entry | {"contents": contents_record(vessel, level)}
 
 
 def _cut_fill(

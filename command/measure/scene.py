@@ -95,6 +95,7 @@ def measure_options(options: Namespace, threads: int) -> MeasureOptions:
             for name in ("kind", "mass", "thickness", "overlap", "wall")
         },
         density=density_of(options),
+        printed=options.print or (),
         order=options.order,
         surface=options.surface_moments,
         threads=threads,

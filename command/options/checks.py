@@ -103,6 +103,7 @@ def body_findings(options: Namespace, measurement: Measurement) -> Iterator[Find
     """Yield a finding if there are options for other kinds of bodies only."""
     applies = {
         "thickness": measurement.kind == "shell",
+        "print": measurement.kind == "printed",
         "threshold": measurement.type in ("ARRAY", "VOLUME"),
         "label": measurement.type in ("ARRAY", "VOLUME"),
     }

@@ -71,7 +71,9 @@ def _add_settings(parser: Parser) -> None:
         "wire or bounds "
         "(left out, and listed in left_out)",
     )
-    parser.choice("--kind", ("solid", "shell", "wire"), "(each object's setting, or solid)")
+    parser.choice(
+        "--kind", ("solid", "shell", "printed", "wire"), "(each object's setting, or solid)"
+    )
     parser.flag(
         "--flat",
         "what is flat and has no volume (faces, 2D curves, text) is measured as a shape in its "
@@ -85,6 +87,14 @@ def _add_settings(parser: Parser) -> None:
     )
     parser.value(
         "--thickness", types.positive, "T", "of a shell, in meters (each object's setting)"
+    )
+    parser.value(
+        "--print",
+        types.print_settings,
+        "NAME=VALUE,...",
+        "with --kind printed: walls, line_width (m), top, bottom (layers), layer_height (m), "
+        "infill (percent), price (of a spool), spool (kg) (each object's setting, or "
+        "walls=2,line_width=0.00042,top=4,bottom=4,layer_height=0.0002,infill=15)",
     )
     add = parser.add_mutually_exclusive_group().add_argument
     add(

@@ -116,6 +116,24 @@ def triple(text: str) -> tuple[float, ...]:
     return values
 
 
+PRINT_COUNTS = "walls", "top", "bottom"
+PRINT_VALUES = "line_width", "layer_height", "infill", "price", "spool"
+
+
+def print_settings(text: str) -> tuple[tuple[str, float], ...]:
+    """Return the pairs of NAME=VALUE,…, settings of a print."""
+    pairs = []
+    for part in text.split(","):
+        name, _, value = part.partition("=")
+        known = name in PRINT_COUNTS or name in PRINT_VALUES
+        if not known or (name in PRINT_COUNTS and not value.isdecimal()):
+            names = ", ".join((*PRINT_COUNTS, *PRINT_VALUES))
+            message = "{!r} is not NAME=VALUE with one of {}; the first three are whole numbers"
+            raise ArgumentTypeError(message.format(part, names))
+        pairs.append((name, int(value) if name in PRINT_COUNTS else number(value)))
+    return tuple(pairs)
+
+
 def label(text: str) -> int | str:
     """Return the number of a label, or “all”."""
     try:
@@ -180,14 +198,16 @@ def source(text: str) -> str:
 
 def liquid(text: str) -> float:
     """Return the density of a liquid, kg/m³, from its name or as a number."""
-    if text in BY_NAME:
-        return BY_NAME[text].density
+    liquids = {
+        one.casefold(): BY_NAME[one] for one in BY_NAME if BY_NAME[one].category == "Liquids"
+    }
+    name = "oil, hydraulic" if text.casefold() == "oil" else text.casefold()
+    if name in liquids:
+        return liquids[name].density
     value = _float(text)
     if not (0.0 < value < math.inf):
-        names = [name for name, material in BY_NAME.items() if material.category == "Liquids"]
-        raise ArgumentTypeError(
-            "{!r} is neither a positive number nor one of {}".format(text, "; ".join(names))
-        )
+        names = "; ".join(material.name for material in liquids.values())
+        raise ArgumentTypeError(f"{text!r} is neither a positive number nor one of {names}")
     return value
 
 

@@ -62,6 +62,7 @@ from .grid import (
     threshold_grid_body,
 )
 from .mesh_body import MeshBody, sum_of_instances
+from .printed import print_body
 from .reading import Part, Reading, about_file, bare_reading, measure_reading
 from .wall import WallBody, find_walls
 
@@ -87,7 +88,7 @@ def body_of_mesh(reading: Reading, settings: Settings) -> MeshBody | WallBody:
     body = sum_of_instances(reading, settings.unit, is_shell, settings.threads)
     if is_shell and settings.wall != "thin":
         return find_walls(reading, body, settings.wall).body(settings.thickness)
-    return body
+    return print_body(body, settings) if settings.kind == "printed" else body
 
 
 class StreamHealth(MeshHealth):

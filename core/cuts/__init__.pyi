@@ -16,8 +16,11 @@ from .open_surfaces import cut_fill_between as cut_fill_between
 from .open_surfaces import fit_rim as fit_rim
 from .part_below import PartBelow as PartBelow
 from .part_below import below as below
+from .part_below import cut_outline as cut_outline
 from .part_below import measure_below as measure_below
+from .record import TABLE_ROWS as TABLE_ROWS
 from .record import below_record as below_record
+from .record import contents_record as contents_record
 from .record import cut_fill_record as cut_fill_record
 from .record import partly_compared as partly_compared
 

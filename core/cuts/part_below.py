@@ -257,6 +257,18 @@ def measure_below(
     )
 
 
+def cut_outline(
+    points: Array, triangles: NDArray[np.integer], normal: ArrayLike, offset: float
+) -> Array:
+    """Return (k, 2, 3) segments along which triangles cross the plane normal · x = offset."""
+    heights = points @ np.asarray(normal) - offset
+    start, stop = triangles, np.roll(triangles, -1, axis=1)
+    crossed = (heights > 0.0)[start] != (heights > 0.0)[stop]
+    start, stop = start[crossed], stop[crossed]
+    share = (heights[start] / (heights[start] - heights[stop]))[:, None]
+    return (points[start] + share * (points[stop] - points[start])).reshape(-1, 2, 3)
+
+
 def _below(
     points: Array,
     triangles: NDArray[np.integer],
@@ -321,7 +333,9 @@ def _sums_below(
     # The first level above each point, and the first that is not below it.
     above = np.searchsorted(levels, points[2], "right").astype(index)
     beyond = np.searchsorted(levels, points[2], "left").astype(index)
-    a, b, c = above.take(triangles.T)
+    # In this mode take checks no indices, which costs half of its time.
+    columns = np.ascontiguousarray(triangles.T)
+    a, b, c = above.take(columns, mode="clip")
     lowest = np.minimum(np.minimum(a, b), c)
     middle = np.maximum(np.minimum(a, b), np.minimum(np.maximum(a, b), c))
     table = np.zeros((21, k))
@@ -331,11 +345,11 @@ def _sums_below(
     whole = len(order)
     for start in range(0, whole, TRIANGLES_PER_BLOCK):
         rows = order[start : start + TRIANGLES_PER_BLOCK]
-        corners = points.take(triangles[rows].T, axis=1)
+        corners = points.take(columns[:, rows], axis=1, mode="clip")
         weight, sizes = _weights(corners)
         _add_sums(table, corners, weight, sizes, middle[rows])
     table = np.cumsum(table, axis=1)
-    stop = np.maximum(middle, beyond.take(triangles.T).max(axis=0))
+    stop = np.maximum(middle, beyond.take(columns, mode="clip").max(axis=0))
     crossed = np.flatnonzero(stop > lowest)
     counts = (stop[crossed] - lowest[crossed]).astype(np.intp)
     for part in batches(counts, TRIANGLES_PER_BLOCK):
@@ -343,7 +357,7 @@ def _sums_below(
         level = lowest[rows] + segment_ranges(counts[part])
         order = np.argsort(level, kind="stable")
         rows, level = rows[order], level[order]
-        corners = points.take(triangles[rows].T, axis=1)
+        corners = points.take(columns[:, rows], axis=1, mode="clip")
         weight, sizes = _weights(corners)
         z = corners[2]
         is_low = level < middle[rows]

@@ -13,10 +13,12 @@ from ..moments import Moments
 from ..verdict import MeasureError
 from ..verdict.finding import Finding, finding
 from .findings import COMPARED_IN_PART, LEVEL_UNAVAILABLE, PLANE_MISSES
+from .hollow import find_hollow
 from .open_surfaces import CutFill
 from .part_below import measure_below
 
 MAX_LEFT_OUT = 1e-9  # share of the area
+TABLE_ROWS = 33
 UP = (0.0, 0.0, 1.0)
 
 
@@ -39,6 +41,26 @@ def below_record(surface: Surface, level: float) -> dict[str, Any]:
             "face": face.rounding_error[0],
             "input": {"volume": part.input_error[0], "face": face.input_error[0]},
         },
+    }
+
+
+def contents_record(surface: Surface, level: float) -> dict[str, Any] | None:
+    """Return the entry `contents`: the liquid in a vessel up to a level; None if it has no hollow
+    there.
+    """
+    try:
+        hollow = find_hollow(surface.points.astype(np.float64), surface.all_triangles()[0])
+        liquid = hollow.contents(level)
+    except MeasureError:
+        return None
+    levels = np.linspace(hollow.bottom, hollow.spill, TABLE_ROWS)
+    return {
+        **_moments("volume", liquid.part.at(0)),
+        "surface": _moments("area", liquid.face.at(0)),
+        "bottom": hollow.bottom,
+        "spill": hollow.spill,
+        "capacity": hollow.capacity,
+        "table": {"levels": levels, "volumes": hollow.below(levels).volume},
     }
 
 

@@ -129,6 +129,7 @@ def measure_body(
         estimated=body.estimated,
         density_from=body.density_from or given,
         materials=body.materials,
+        printed=body.printed,
         **fields,
     )
 

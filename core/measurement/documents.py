@@ -257,9 +257,12 @@ def _columns(entry: dict[str, Any]) -> dict[str, Any]:
             f"principal_axis_{number + 1}_{axis}": entry["principal_axes"][i][number]
             for i, axis in enumerate("xyz")
         }
+    row |= _nested("label", entry.get("label", {})) | _nested("print", entry.get("print", {}))
     row |= _nested("display_mesh", entry.get("display_mesh", {}))
-    for name in ("below", "cut_fill"):
-        row |= _nested(name, entry.get(name) or {})
+    below = dict(entry.get("below") or {})
+    below["contents"] = dict(below.get("contents") or {})
+    below["contents"].pop("table", None)
+    row |= _nested("below", below) | _nested("cut_fill", entry.get("cut_fill") or {})
     floating = dict(entry.get("floating") or {})
     curve = floating.pop("gz", {})
     for name in ("matrix", "rests"):

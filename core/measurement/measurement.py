@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from ..inertia import MassProperties
 from ..mesh import Surface
@@ -36,7 +36,8 @@ class Body:
     ``density_from_…``. `density_key`: settings of a varying density, for the fingerprint;
     `materials`: full names of the materials read. `estimated`: true if the error bounds are
     estimates. `display_volume`: volume of the display mesh, m³, for a body that is measured without
-    it. `face_count`: number of measured triangles and quads.
+    it. `face_count`: number of measured triangles and quads. `printed`: the entry `print` of the
+    record of a printed body.
     """
 
     any_order: ClassVar[bool] = False  # true if `moments` gives any order
@@ -57,6 +58,7 @@ class Body:
     estimated: bool = False
     display_volume: float | None = None
     face_count: int = 0
+    printed: dict[str, Any] | None = None
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
         """Return the moments of the volume, and of the area if wanted, to an order; ReadError if
@@ -81,8 +83,8 @@ class Body:
 class Measurement:
     """One object in SI units and world axes.
 
-    kind: "solid", "shell" or "wire". method: the verdict and its source: polygons, B-spline patches
-    measured instead of
+    kind: "solid", "shell", "printed" or "wire". method: the verdict and its source: polygons,
+    B-spline patches measured instead of
         their display mesh, or a grid.
     density in kg/m³, thickness of a shell in m (0 for solids), volume in m³ (of a shell: area times
     thickness), area in m². volume_moments: to order 3, None for a thin shell; area_moments: to
@@ -99,6 +101,7 @@ class Measurement:
     density_from: the source of the density, with a code `density_from_…`. materials: names of the
     materials considered
         for it. place_error: how far the input's rounding may have moved the body as a whole, m.
+        printed: as in `Body`.
     """
 
     name: str
@@ -125,6 +128,7 @@ class Measurement:
     display_volume: float | None = None
     higher_mass: Moments | None = None
     place_error: float = 0.0
+    printed: dict[str, Any] | None = None
 
     def moments_of_mass(self, order: int) -> Moments | None:
         """Return the moments of the mass, kg, to an order; None if they are not known to that

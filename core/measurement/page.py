@@ -168,7 +168,7 @@ def _table_rows(document: dict[str, Any]) -> Iterator[str]:
         }
         values["bound"] = bound / abs(volume) if bound is not None and volume else None
         methods = entry.get("verdict", ""), entry["method"]
-        picture = _picture(entry) + _righting_plot(entry)
+        picture = _picture(entry) + _plots(entry)
         yield _row(picture, file, entry["name"], status, methods, values, _remarks(entry))
     for entry in document.get("flat", ()):
         yield _row(
@@ -180,36 +180,49 @@ def _table_rows(document: dict[str, Any]) -> Iterator[str]:
         )
 
 
-def _righting_plot(entry: dict[str, Any]) -> str:
-    """Return HTML of the righting arms over the angles of heel; empty without them."""
+def _plots(entry: dict[str, Any]) -> str:
+    """Return HTML of the righting arms over the angles of heel, and of the volumes over the levels
+    of a liquid; empty without them.
+    """
     curve = (entry.get("floating") or {}).get("gz") or {}
+    angles = [math.degrees(angle) for angle in curve.get("angles", ())]
+    table = ((entry.get("below") or {}).get("contents") or {}).get("table") or {}
+    return _plot("GZ", "m", "°", angles, curve.get("arms", ())) + _plot(
+        "Volume over level", "m³", " m", table.get("levels", ()), table.get("volumes", ())
+    )
+
+
+def _plot(
+    name: str, unit: str, across: str, places: Sequence[float], heights: Sequence[float]
+) -> str:
+    """Return HTML of a curve; across: the unit of the places along X."""
     points = [
-        (math.degrees(angle), arm)
-        for angle, arm in zip(curve.get("angles", ()), curve.get("arms", ()))
-        if isinstance(angle, float) and isinstance(arm, float)
+        (place, height)
+        for place, height in zip(places, heights)
+        if isinstance(place, float) and isinstance(height, float)
     ]
     if len(points) < 2:
         return ""
     first, last = points[0][0], points[-1][0]
-    low = min(0.0, *(arm for _, arm in points))
-    high = max(0.0, *(arm for _, arm in points))
+    low = min(0.0, *(height for _, height in points))
+    high = max(0.0, *(height for _, height in points))
 
-    def place(angle: float, arm: float) -> str:
-        across = 200.0 * (angle - first) / (last - first or 1.0)
-        return "{:.2f},{:.2f}".format(across, 100.0 * (high - arm) / (high - low or 1.0))
+    def corner(place: float, height: float) -> str:
+        x = 200.0 * (place - first) / (last - first or 1.0)
+        return "{:.2f},{:.2f}".format(x, 100.0 * (high - height) / (high - low or 1.0))
 
-    label = '<text x="{}" y="{}" font-size="12" fill="currentColor">{}</text>'
+    label = '<text x="{}" y="{}" font-size="12" fill="currentColor"{}>{}</text>'
     labels = (
-        label.format(0, -6, "GZ, {:.3g} to {:.3g} m".format(low, high)),
-        label.format(0, 116, "{:.4g}°".format(first)),
-        label.format(176, 116, "{:.4g}°".format(last)),
+        label.format(0, -6, "", "{}, {:.3g} to {:.3g} {}".format(name, low, high, unit)),
+        label.format(0, 116, "", "{:.4g}{}".format(first, across)),
+        label.format(200, 116, ' text-anchor="end"', "{:.4g}{}".format(last, across)),
     )
-    axis = '<path d="M{}L{}" stroke="#888"/>'.format(place(first, 0.0), place(last, 0.0))
+    axis = '<path d="M{}L{}" stroke="#888"/>'.format(corner(first, 0.0), corner(last, 0.0))
     line = '<path d="M{}" fill="none" stroke="#4860d6" stroke-width="2"/>'.format(
-        "L".join(place(*point) for point in points)
+        "L".join(corner(*point) for point in points)
     )
-    head = '<svg class="curve" viewBox="-10 -20 220 145" role="img" aria-label="GZ">'
-    return "".join([head, axis, line, *labels, "</svg>"])
+    head = '<svg class="curve" viewBox="-10 -20 220 145" role="img" aria-label="{}">'
+    return "".join([head.format(name), axis, line, *labels, "</svg>"])
 
 
 def _remarks(entry: dict[str, Any]) -> list[tuple[str, str]]:

@@ -79,6 +79,8 @@ def record(
             "length": measurement.length,
             "linear_density": properties.mass / measurement.length,
         }
+    if measurement.printed is not None:
+        entry["print"] = measurement.printed
     point = _point(about, measurement, properties, frame)
     if about is not None:
         entry["inertia_about"] = {"point": point, "inertia": properties.inertia_about(point)}

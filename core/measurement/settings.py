@@ -10,8 +10,11 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 from ..numerics import shortest_decimal
+from ..verdict.finding import ReadError
+from ..wall import PRINT_UNFIT
 
 VERSION = "v1"
 
@@ -30,14 +33,59 @@ class RequestedResults:
     threads: int = 1
 
 
+class PrintSettings(NamedTuple):
+    """How a body is printed: counts of walls and of top and bottom layers, with the width of a wall
+    and the height of a layer in m; infill in percent of the core; price of a spool of filament and
+    its weight in kg, 0 without a price.
+    """
+
+    walls: int = 2
+    line_width: float = 0.00042
+    top: int = 4
+    bottom: int = 4
+    layer_height: float = 0.0002
+    infill: float = 15.0
+    price: float = 0.0
+    spool: float = 1.0
+
+    @property
+    def wall(self) -> float:
+        """Width of all walls, m."""
+        return self.walls * self.line_width
+
+    @property
+    def top_height(self) -> float:
+        """Height of all top layers, m."""
+        return self.top * self.layer_height
+
+    @property
+    def bottom_height(self) -> float:
+        """Height of all bottom layers, m."""
+        return self.bottom * self.layer_height
+
+    def check(self) -> None:
+        """Raise ReadError if nothing can be printed with these settings."""
+        if not 0.0 <= self.infill <= 100.0:
+            raise ReadError(PRINT_UNFIT, fault="its infill is not from 0 to 100 %")
+        lengths = min(self.walls, self.top, self.bottom) >= 0 < self.walls
+        if not (lengths and self.line_width > 0.0 and self.layer_height > 0.0 < self.spool):
+            raise ReadError(PRINT_UNFIT, fault="a count, width, height or weight is not positive")
+
+    def record(self) -> dict[str, Any]:
+        """Return the entry `print` of a record, without the price of the spool."""
+        values = self._asdict()
+        del values["price"], values["spool"]
+        return values
+
+
 @dataclass(frozen=True)
 class Settings(RequestedResults):
     """Settings of one object's measurement, in SI units; at most one of density and mass is given.
 
-    kind: "solid", "shell" or "wire". density: kg/m³, of a wire kg/m; mass: kg. thickness: of a
-    shell, m. overlap: "signed" or "union". wall: of a shell, "thin", "inward", "outward" or
-    "centered". unit: meters per Blender unit. varying: text of the settings that decide a varying
-    density or a given center or inertia.
+    kind: "solid", "shell", "printed" or "wire". density: kg/m³, of a wire kg/m; mass: kg.
+    thickness: of a shell, m. overlap: "signed" or "union". wall: of a shell, "thin", "inward",
+    "outward" or "centered". unit: meters per Blender unit. varying: text of the settings that
+    decide a varying density or a given center or inertia. printed: of a print.
     """
 
     kind: str = "solid"
@@ -48,6 +96,7 @@ class Settings(RequestedResults):
     wall: str = "thin"
     unit: float = 1.0
     varying: str = ""
+    printed: PrintSettings = PrintSettings()
 
     @property
     def digest(self) -> str:
@@ -65,10 +114,11 @@ class Settings(RequestedResults):
             density,
             mass,
             float("{:.6g}".format(self.thickness)) if is_shell else None,
-            self.overlap.upper() if self.kind == "solid" else None,
+            self.overlap.upper() if self.kind in ("solid", "printed") else None,
             round(self.unit, 12),
             *([self.varying] if self.varying else []),
             *([self.wall.upper()] if is_shell and self.wall != "thin" else []),
+            *(map("{:.6g}".format, self.printed) if self.kind == "printed" else []),
         ]
         return digest(repr(used).encode())
 

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import inf, pi, radians
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,9 +25,12 @@ from ..verdict.finding import Finding, MeasureError, Severity, finding
 from .diagnosis import DENSITIES, DIFFERS, Diagnosis, Reference, diagnose, diagnose_density
 from .findings import (
     AUDIT_ANGLES,
+    AUDIT_COPIED,
     AUDIT_DENSITY,
     AUDIT_NOT_UNIFORM,
     AUDIT_OVERRIDDEN,
+    AUDIT_TWIN_INSTEAD,
+    AUDIT_TWINS,
     AUDIT_UNIFORM_INSTEAD,
     AUDIT_UP_AXIS,
     INERTIAL_CENTER_OUTSIDE,
@@ -44,6 +48,7 @@ from .read.meshes import read_mesh
 from .read.mjcf_meshes import CLOSED
 from .stated import Description, Place, StatedInertial, StatedLink, StatedShape, rotation_of_angles
 from .totals import Expectation, Totals, Tree, add_up, build_tree
+from .twins import TOLERANCE, disagreement, find_copies, find_pairs, images, mapped
 
 BALL = 2000  # points of a ball
 ROUND = 1.01  # Factor that encloses a round shape, of which only some points are known.
@@ -183,11 +188,16 @@ class Auditor:
         if description.total > 0.0 and is_known and sum(masses) > 0.0:
             factor = description.total / sum(masses)
         used = [_scaled(stated, link, factor) for stated, link in pairs]
-        audits = tuple(map(self._sure, map(self._link_alone, used)))
         tree = build_tree(description, self.joints)
+        alone = [self._link_alone(link) for link in used]
+        pairs = _twins(alone, build_tree(description, {}))
+        for first, second, maps in pairs:
+            _repair_by_twin(alone, first, second, maps)
+        audits = [self._sure(one) for one in alone]
+        _compare_twins(audits, pairs)
         totals = add_up(tree, [(one.link, one.has_impossible) for one in audits])
         about = [*tree.findings, *((one, Place()) for one in self.expected.check(totals.whole))]
-        return Audit(description, audits, tree, totals, tuple(Entry(*one) for one in about))
+        return Audit(description, tuple(audits), tree, totals, tuple(Entry(*one) for one in about))
 
     def _use_rules(self, link: StatedLink) -> StatedLink:
         """Return a link with the inertial that its format's program uses; the stated one if masses
@@ -340,6 +350,74 @@ class Auditor:
                     piece = replace(piece, mass=weight.fill(piece.moments))
             self._meshes[key] = piece if fit is None else piece.placed(fit.pose)
         return self._meshes[key]
+
+
+def _twins(audits: Sequence[LinkAudit], tree: Tree) -> list[tuple[int, int, list[Pose]]]:
+    """Return the indices of twins, and the maps of the first to the second."""
+    pairs, plane = find_pairs(audits, tree)
+    found = []
+    for pair in pairs:
+        first, second = (audits[index] for index in pair[:2])
+        maps = images(first, second, pair, tree, plane)
+        if maps is not None:
+            found.append((pair.first, pair.second, maps))
+    return found
+
+
+def _repair_by_twin(audits: list[LinkAudit], first: int, second: int, maps: list[Pose]) -> None:
+    """Give an impossible inertial that has no likelier repair that of its twin, if that is
+    possible.
+    """
+    for own, other, pose in ((first, second, maps[0].inverse()), (second, first, maps[0])):
+        audit, twin = audits[own], audits[other].link
+        is_guess = all(one.certainty in ("", "guess") for one in audit.entries)
+        is_right = not audits[other].has_impossible and not any(
+            one.change for one in audits[other].entries
+        )
+        if not (audit.has_impossible and is_right and is_guess):
+            continue
+        assert twin.inertial is not None
+        change = finding(AUDIT_TWIN_INSTEAD, twin=twin.name)
+        entries = [
+            replace(one, change=change, certainty="guess")
+            if one.compares and one.severity == Severity.ERROR
+            else one
+            for one in audit.entries
+        ]
+        # What is noted of the twin holds for the repair, too.
+        known = {one.finding.code for one in entries}
+        entries += [
+            replace(one, place=audit.link.inertial_place)
+            for one in audits[other].entries
+            if one.finding.code == AUDIT_NOT_UNIFORM and AUDIT_NOT_UNIFORM not in known
+        ]
+        is_in_file = audit.link.span is not None
+        repaired = mapped(twin.inertial, pose) if is_in_file else None
+        audits[own] = replace(audit, entries=tuple(entries), repaired=repaired)
+
+
+def _compare_twins(audits: list[LinkAudit], pairs: Sequence[tuple[int, int, list[Pose]]]) -> None:
+    """Add findings about twins that disagree, as stated or with their repairs, and about copies."""
+    for first, second, maps in pairs:
+        one, other = audits[first], audits[second]
+        states = [(one.repaired or one.link.inertial, other.repaired or other.link.inertial)]
+        if not one.has_impossible and not other.has_impossible:
+            states.insert(0, (one.link.inertial, other.link.inertial))
+        for left, right in states:
+            if left is None or right is None or not min(left.mass, right.mass) > LEAST_MASS:
+                continue
+            part, apart = disagreement(left, right, maps)
+            if apart > TOLERANCE:
+                names = {"first": one.link.name, "second": other.link.name}
+                values: dict[str, Any] = {"part": part, "apart": apart, **names}
+                entry = Entry(finding(AUDIT_TWINS, **values), one.link.inertial_place)
+                audits[first] = replace(one, entries=(*one.entries, entry))
+                break
+    for group in find_copies(audits):
+        names = [audits[index].link.name for index in group]
+        one = audits[group[0]]
+        entry = Entry(finding(AUDIT_COPIED, links=names), one.link.inertial_place, compares=True)
+        audits[group[0]] = replace(one, entries=(*one.entries, entry))
 
 
 def _weighed(shape: StatedShape, mass: Moments) -> Moments:

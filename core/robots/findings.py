@@ -217,6 +217,16 @@ AUDIT_OVERRIDDEN = warning(
     "{first:.6g}, {second:.6g} and {third:.6g} kg·m². State that one, or remove the cause.",
 )
 AUDIT_JOINT = warning("audit_joint", "Joint {joint} is left out: {cause:word}. Correct it.")
+AUDIT_TWINS = warning(
+    "audit_twins",
+    "{first} and {second} are twins, but their {part:word} differ by {apart:percent}. Correct one.",
+)
+AUDIT_TWIN_INSTEAD = warning(
+    "audit_twin_instead", "State the inertial of its twin {twin}, mirrored as the links are."
+)
+AUDIT_COPIED = warning(
+    "audit_copied", "One inertial stands at links of different geometry: {links}. State their own."
+)
 AUDIT_TOTAL = error(
     "audit_total", "The {part:word} of the whole model is {value}, not {expected} as expected."
 )

@@ -54,6 +54,7 @@ UNITS = {
     "nm": 1e-9,
     "km": 1e3,
     **dict.fromkeys(("um", "\u00b5m", "\u03bcm", "micron", "microns"), 1e-6),
+    **dict.fromkeys(("angstrom", "angstroms", "\u00e5"), 1e-10),
     **dict.fromkeys(("in", "inch", "inches"), 0.0254),
     **dict.fromkeys(("ft", "foot", "feet"), 0.3048),
 }
@@ -70,6 +71,8 @@ TIMES = {
     "ns",
     "hz",
 }
+# "" and the others stand for no unit
+KNOWN_WORDS = {*UNITS, *TIMES, "", "none", "unknown", "???", "pixel", "pixels", "voxel", "voxels"}
 # The samples along other axes are no places.
 SPACE_KINDS = {
     "domain",
@@ -319,7 +322,7 @@ def _units(fields: dict[str, str], field: str) -> tuple[Array | None, float | No
     words = [
         (quoted or word).strip() for quoted, word in _WORD.findall(fields.get(field, "").lower())
     ]
-    if field == "units" and TIMES.intersection(words[:3]):
+    if field == "units" and TIMES.intersection(words[:3]) or set(words[:3]) - KNOWN_WORDS:
         raise _field(fields, field, "units of length")
     units = [UNITS.get(word) for word in words[:3]]
     if len(units) < 3 or None in units:

@@ -4,8 +4,10 @@
 from typing import Any
 
 from .findings import NO_FACE_AREA as NO_FACE_AREA
+from .findings import PRINT_UNFIT as PRINT_UNFIT
 from .findings import WALL_MEASURED as WALL_MEASURED
 from .moments import wall_moments as wall_moments
+from .printed import core_surface as core_surface
 from .walls import OffsetSolid as OffsetSolid
 from .walls import first_positive_root as first_positive_root
 from .walls import offset_solid as offset_solid

@@ -22,3 +22,7 @@ WALL_MEASURED = note(
     "wall_measured",
     "The wall was measured with real thickness: {thickness:length}, {side:word}, mitered corners.",
 )
+PRINT_UNFIT = error(
+    "print_unfit",
+    "It cannot be printed like this: {fault:word}. See Kind: Printed in the panel Density.",
+)

@@ -16,8 +16,8 @@ from bpy.types import Context, Object, Operator
 from ...blender import bodies, session, write
 from ...blender.read.visibility import has_shape, measurable
 from ...blender.scene.changes import require_editable
-from ...blender.session import character, live
-from ...blender.session.displayed import shown_objects
+from ...blender.session import character, live, memory
+from ...blender.session.displayed import places, shown_objects
 from ...blender.session.tracking import armatures, staleness, stamps
 from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
 from ...blender.write import properties, reports
@@ -137,6 +137,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, selection.OnSelection, Operator
         ]
         measured = [obj for obj, _ in self._results if obj not in failed]
         shared = bodies.overlap_caveats(measured, context.evaluated_depsgraph_get())
+        memory.overlaps[context.scene] = places(measured), shared
         return self._report(len(measured), shared)
 
     def _report(self, count: int, notes: list[Finding]) -> set[str]:

@@ -108,6 +108,7 @@ class _Making(selection.OnSelectionInObjectMode, ModalSteps):
                 object=plan.obj.name,
                 outward=plan.record["outward"],
                 inward=plan.record["inward"],
+                remedy=session.tolerance_remedy(plan.record),
             )
             for plan in self._plans
             if session.is_beyond_tolerance(plan.record)

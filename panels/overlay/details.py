@@ -14,10 +14,11 @@ from numpy.typing import NDArray
 
 from ...blender.scale import meters_per_unit
 from ...blender.scene import fcurves
-from ...blender.session import character
+from ...blender.session import character, memory
 from ...blender.session.character.weight import Weight
-from ...blender.session.stored import balance_groups, faults, floating, stability
+from ...blender.session.stored import balance_groups, cuts, faults, floating, stability
 from ...blender.write import reports
+from ...core.cuts import cut_outline
 from ...core.numerics import Array
 from ...core.rig import ballistic_arc, find_flights
 from ...core.statics import Support
@@ -76,6 +77,10 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
     checked = [obj for obj in objects if stability.is_known(obj)] if settings.show_support else ()
     supports = [stability.support(obj, context.scene) for obj in checked]
     details += [support_detail(support) for support in supports if support is not None]
+    if settings.show_level and any(obj in memory.levels for obj in objects):
+        unit = meters_per_unit(context.scene)
+        levels = [cuts.level_of(obj, context.scene) for obj in objects]
+        details += [_surface(level, unit) for level in levels if level is not None]
     if settings.show_waterline:
         afloat = {id(body): obj for obj in objects if (body := floating.known(obj)) is not None}
         held = [floating.held(obj, context.scene) for obj in afloat.values()]
@@ -131,18 +136,21 @@ def _arcs(scene: Scene, path: balance_groups.Path) -> list[Detail]:
     return details
 
 
+def _surface(level: cuts.Level, unit: float) -> Detail:
+    """Return the surface of a liquid, and its outline on the vessel."""
+    hollow = level.hollow
+    outline = cut_outline(hollow.points, hollow.triangles, hollow.up, level.height) / unit
+    triangles = level.triangles / unit
+    return Detail(_tinted(outline, look.SUPPORT), _tinted(triangles, look.SUPPORT, FILL))
+
+
 def _waterline(held: floating.Held, unit: float) -> Detail:
     """Return the waterline on the body, and crosses at its centers of buoyancy and gravity and its
     metacenter, with a line through these.
     """
     state = held.state
     body = state.body
-    heights = body.points @ state.up - state.level
-    first, second = body.triangles, np.roll(body.triangles, -1, axis=1)
-    crossed = (heights > 0.0)[first] != (heights > 0.0)[second]
-    a, b = first[crossed], second[crossed]
-    share = (heights[a] / (heights[a] - heights[b]))[:, None]
-    line = (body.points[a] + share * (body.points[b] - body.points[a])).reshape(-1, 2, 3)
+    line = cut_outline(body.points, body.triangles, state.up, state.level)
     buoyancy, gravity = state.center_of_buoyancy, state.center_of_gravity
     metacenter = buoyancy + state.metacentric_radii[0] * state.up
     places = np.array([buoyancy, gravity, metacenter])

@@ -24,6 +24,7 @@ from bpy.types import (
     WindowManager,
 )
 
+from ...blender.session import memory
 from ...blender.session.live.following import is_live
 from ...blender.session.tracking import handlers
 from ...blender.session.tracking.armatures import stands_for_meshes
@@ -40,6 +41,7 @@ SWITCHES = {
     "show_support": "Support",
     "show_faults": "Faults",
     "show_path": "Paths",
+    "show_level": "Levels",
     "show_waterline": "Waterline",
 }
 SETTINGS = BodyMomentsOverlaySettings.__annotations__
@@ -118,7 +120,13 @@ def drawn_objects(context: Context, show_all: bool) -> list[Object]:
     return [
         obj
         for obj in chosen
-        if ("body_mass" in obj or is_live(obj) or stands_for_meshes(obj) or shows_weight(obj))
+        if (
+            "body_mass" in obj
+            or obj in memory.levels
+            or is_live(obj)
+            or stands_for_meshes(obj)
+            or shows_weight(obj)
+        )
         and obj.visible_in_viewport_get(space)
     ]
 

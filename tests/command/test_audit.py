@@ -413,7 +413,9 @@ def test_repaired_copy_has_no_new_finding(tmp_path):
     moments = ((1, 1, 9), (0.5, 2, 2.4), (1e3, 4e3, 5e3), (0, 0, 0), (-1, 2, 2), (1e-9, 1e-9, 1e-9))
     cases = itertools.product(centers, (1e-6, 5, 5e3, 5e6), moments)
     links = [
-        OFF.format(index, center, mass, *tensor)
+        OFF.format(
+            "abcdefghijklmnopqrstuvwxyz"[index % 26] * (1 + index // 26), center, mass, *tensor
+        )
         for index, (center, mass, tensor) in enumerate(cases)
     ]
     path = description(tmp_path / "r.urdf", *links)

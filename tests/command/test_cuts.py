@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 
 pytest.importorskip("bpy")
+import bmesh
 import bpy
 from body_moments.core.measurement.documents import to_csv
+from body_moments.core.measurement.page import to_html
 
 from tests.blender.batch_files import add_box, document
 from tests.blender.objects import add
@@ -44,6 +46,29 @@ def test_part_of_a_box_below_a_height():
     assert 0 < below["error_bound"]["volume"] < 1e-11
     (row,) = csv.DictReader(io.StringIO("".join(to_csv([found]))))
     assert float(row["below_volume"]) == below["volume"]
+
+
+def test_vessel_has_contents_and_a_table_in_the_report():
+    add_box("Cup", (0, 0, 0), (2, 2, 2))
+    cup = bpy.data.objects["Cup"]
+    edited = bmesh.new()
+    edited.from_mesh(cup.data)
+    edited.faces.ensure_lookup_table()
+    top = max(edited.faces, key=lambda face: face.calc_center_median().z)
+    bmesh.ops.inset_individual(edited, faces=[top], thickness=0.5, use_even_offset=True)
+    (bottom,) = bmesh.ops.extrude_discrete_faces(edited, faces=[top])["faces"]
+    bmesh.ops.translate(edited, verts=bottom.verts, vec=(0, 0, -1.5))
+    edited.to_mesh(cup.data)
+    found = document("--below", "0")
+    contents = found["objects"][0]["below"]["contents"]
+    assert contents["volume"] == pytest.approx(0.5)
+    assert contents["capacity"] == pytest.approx(1.5)
+    assert (contents["bottom"], contents["spill"]) == pytest.approx((-0.5, 1.0))
+    assert contents["surface"]["second_moments"][0][0] == pytest.approx(1 / 12)
+    assert contents["table"]["volumes"][16] == pytest.approx(0.75)
+    assert "Volume over level, 0 to 1.5 m³" in "".join(to_html([found]))
+    (row,) = csv.DictReader(io.StringIO("".join(to_csv([found]))))
+    assert float(row["below_contents_capacity"]) == contents["capacity"]
 
 
 def test_plane_beside_a_body_is_an_error():

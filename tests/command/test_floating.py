@@ -62,3 +62,20 @@ def test_mesh_file_floats_as_its_object(tmp_path):
     here = document(*WORDS, path)["objects"][0]["floating"]
     assert here["gm"] == pytest.approx(there["gm"], rel=1e-6)
     assert here["draught"] == pytest.approx(0.5, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "name, density", [("Sea Water", 1023.343), ("sea water", 1023.343), ("oil", 871.0)]
+)
+def test_liquid_is_named_in_any_case(name, density):
+    files.add_box()
+    found = document("--float", name, "--density", "500")["objects"][0]["floating"]
+    assert found["liquid_density"] == density
+
+
+def test_scan_does_not_float_and_says_so(tmp_path):
+    path = tmp_path / "scan.npy"
+    np.save(path, np.full((2, 2, 2), 500.0))
+    (entry,) = document("--float", "Water", path)["objects"]
+    assert entry["floating"] is None
+    assert "options_unused" in [found["code"] for found in entry["findings"]]

@@ -356,3 +356,31 @@ def test_negative_part_over_all_is_refused_by_name(tmp_path, write):
     assert found["status"] == "error" and not found["objects"]
     name = "block" if write is prusa else "Object 1"
     assert "“{}”: they cover all".format(name) in found["errors"][0]["reason"]
+
+
+def test_settings_of_slicer_project_become_those_of_the_print(tmp_path):
+    project = "\n".join(
+        "; {} = {}".format(*pair)
+        for pair in {
+            "fill_density": "20%",
+            "perimeters": 3,
+            "top_solid_layers": 5,
+            "bottom_solid_layers": 4,
+            "layer_height": 0.2,
+            "external_perimeter_extrusion_width": 0.4,
+            "perimeter_extrusion_width": 0.5,
+            "filament_density": "1.24,1.27",
+        }.items()
+    )
+    own = '<metadata type="volume" key="fill_density" value="40%"/>'
+    own += '<metadata type="volume" key="extruder" value="2"/>'
+    path = prusa(tmp_path / "a.3mf", INSIDE, "ModelPart", own, project)
+    block, inside = document(path)["objects"]
+    assert block["kind"] == inside["kind"] == "printed"
+    assert (block["print"]["infill"], inside["print"]["infill"]) == (40.0, 20.0)
+    core = (40 - 2.8) * (20 - 2.8) * (24 - 1.8) * 1e-9
+    assert close(block["mass"], 1270.0 * (19_200e-9 - 0.6 * core), 1e-6)
+    core = 7.2**2 * 8.2e-9
+    assert close(inside["mass"], 1240.0 * (1000e-9 - 0.8 * core), 1e-6)
+    solid = document(path, "--kind", "solid")["objects"][0]
+    assert close(solid["mass"], 1270.0 * 19_200e-9, 1e-6)

@@ -47,6 +47,11 @@ def test_box_floats_at_its_draught(scene, scale):
     assert found.to_world(found.state.center_of_buoyancy) / scale == pytest.approx(
         (4.0, 5.0, 2.75), abs=1e-5
     )
+    bpy.ops.ed.undo_push()
+    bpy.ops.ed.undo_push()
+    bpy.ops.ed.undo()
+    obj = bpy.data.objects["Body"]
+    assert held(obj).is_at_rest
     assert bpy.ops.object.body_moments_float() == {"CANCELLED"}  # already at rest
     assert tuple(obj.location) == pytest.approx((4.0, 5.0, 3.0), abs=1e-5)
 

@@ -139,6 +139,7 @@ def made(tmp_path_factory):
     (folder / "home/ros/src").mkdir(parents=True)
     for name, size in (
         ("part", 40.0),
+        ("boat", 2.0),
         ("parts/Bracket", 1.0),
         ("parts/Plate", 2.0),
         ("new/Rod", 3.0),

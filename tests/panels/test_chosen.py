@@ -187,3 +187,13 @@ def test_copy_left_in_place_is_a_warning_with_select():
     only(body, linked, copied, other)
     bpy.context.view_layer.update()
     assert "Copies at an equal place" not in " ".join(labels(shown()))
+
+
+def test_overlap_is_a_note_until_an_object_moves():
+    first, second = add(mesh_body(), "First"), add(mesh_body(), "Second", (0.5, 0.1, 0.2))
+    only(first, second)
+    bpy.ops.object.body_moments_measure()
+    assert "share" in " ".join(labels(shown())) and "Notes (2)" in labels(shown())
+    second.location.x = 9.0
+    bpy.context.view_layer.update()
+    assert "Notes (1)" in labels(shown())

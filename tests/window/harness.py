@@ -211,14 +211,14 @@ class Window:
         be.
         """
         place = self.buttons.get(operator)
-        if place is None or self._button_at(*place) != operator:
+        if place is None or self.button_at(*place) != operator:
             place = self._find_button(operator)
         return place
 
     def middle(self, operator: str) -> tuple[float, float]:
         """Return the middle of an operator's button in the sidebar, to two pixels."""
         x, y = self.place(operator)
-        inside = [down for down in range(-20, 21, 2) if self._button_at(x, y + down) == operator]
+        inside = [down for down in range(-20, 21, 2) if self.button_at(x, y + down) == operator]
         return x, y + (inside[0] + inside[-1]) / 2
 
     def choose(self, menu: str, operator: str) -> None:
@@ -232,7 +232,7 @@ class Window:
         self.move(x, y)
         self.ask(f"bpy.ops.wm.call_menu(name={menu!r})")
         for down in (*range(0, -55, -9), *range(9, height - 80, 9)):
-            if self._button_at(x, y - down) == operator:
+            if self.button_at(x, y - down) == operator:
                 self._xdotool("click", 1)
                 self.get("True")
                 return
@@ -254,7 +254,7 @@ class Window:
         ]
         return [*dict.fromkeys(filter(None, (self._command_at(*place) for place in places)))]
 
-    def _button_at(self, x: float, y: float) -> str | None:
+    def button_at(self, x: float, y: float) -> str | None:
         """The operator of the button there."""
         command = self._command_at(x, y)
         return command and command.removeprefix("bpy.ops.").partition("(")[0]
@@ -278,7 +278,7 @@ class Window:
             for down in range(30 if page == 0 else 8, height, 14):
                 for share in (0.25, 0.84, 0.9):
                     place = (x + column * share, y + height - down)
-                    found = self._button_at(*place)
+                    found = self.button_at(*place)
                     if found == operator:
                         self.buttons[operator] = place
                         return place

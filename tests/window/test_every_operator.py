@@ -243,6 +243,12 @@ CLICKED = {
         "bpy.ops.object.select_all(action='DESELECT')",
         "[obj.name for obj in bpy.context.selected_objects] == ['Part']",
     ),
+    "object.body_moments_make_it_stand": (
+        {"margin": 0.001},
+        f"{PART}.body_moments.kind = 'PRINTED'",
+        "bpy.context.window_manager.operators[-1].bl_idname == "
+        "'OBJECT_OT_body_moments_make_it_stand'",
+    ),
     "object.body_moments_sculpt_balance": (
         {},
         EDIT + "bpy.context.scene.cursor.location = (1.6, 2.0, 3.0)",

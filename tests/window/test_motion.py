@@ -51,7 +51,7 @@ def test_floaty_jump_is_listed_and_a_click_goes_there(jump):
     window.wait("any('body_balance_group' in obj for obj in bpy.data.objects)")
     window.picture("motion")
     assert window.get(f"len({EMPTY}['body_balance_spans'])") == 4
-    window.press("wm.context_set_int")
+    window.choose("VIEW3D_MT_body_moments_spans", "wm.context_set_int")
     window.wait("bpy.context.scene.frame_current > 8")
 
 

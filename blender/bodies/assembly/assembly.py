@@ -72,7 +72,7 @@ from ..stack import Measured
 from .given import given_moments
 
 NOTHING: Extent = (0.0, 0.0, 0.0)
-POWERS = {"solid": 3, "shell": 2, "wire": 1, "point": 0}
+POWERS = {"solid": 3, "printed": 3, "shell": 2, "wire": 1, "point": 0}
 Results = dict[Object, Measured | Finding]
 
 

@@ -59,8 +59,11 @@ NO_FLIGHT = (
 )
 SPIN_LOST = (
     "Nothing was keyed: the keys would change the angular momentum of “{name}” by {off:percent}, "
-    "most at frame {frame}. Set its Rotation Mode to Quaternion, smooth the keys near this frame, "
-    "or turn on Key Anyway."
+    "most at frame {frame}. {advice:word}"
+)
+SMOOTH_KEYS = "Smooth the keys near this frame, or turn on Key Anyway."
+TURN_BY_QUATERNION = (
+    "Set its Rotation Mode to Quaternion, smooth the keys near this frame, or turn on Key Anyway."
 )
 
 
@@ -295,7 +298,10 @@ class CharacterMotion(BalanceGroup):
                 self._check(np.array(self.centers) - targets, turns)
                 if self.is_lost and not anyway:
                     values = {"off": self.deviation, "frame": round(self.worst, 1)}
-                    raise Refused(SPIN_LOST, name=self.found.owner.name, **values)
+                    owner = self.found.owner
+                    is_quaternion = owner.rotation_mode == "QUATERNION"
+                    values["advice"] = SMOOTH_KEYS if is_quaternion else TURN_BY_QUATERNION
+                    raise Refused(SPIN_LOST, name=owner.name, **values)
             except BaseException:
                 restore()
                 raise

@@ -17,3 +17,12 @@ def is_beyond_tolerance(record: Mapping[str, Any]) -> bool:
     """
     limits = zip(("outward", "inward"), record.get("tolerance", ()))
     return any(limit and record[name] > limit * (1.0 + ROUNDING) for name, limit in limits)
+
+
+def tolerance_remedy(record: Mapping[str, Any]) -> str:
+    """Return the English advice on colliders beyond their tolerance."""
+    if record["shape"] == "hull" and record["outward"] > record["tolerance"][0]:
+        return "Choose Convex Pieces, or allow more distance."
+    if record["shape"] != "hull" and record["count"] >= record["limits"][0]:
+        return "Allow more pieces or vertices, or more distance."
+    return "Allow more vertices, or more distance."

@@ -29,6 +29,7 @@ from ....core.floating import (
 from ....core.numerics import Array, rotation_matrix
 from ....core.verdict import Finding, MeasureError
 from ...bodies.measure_body import measure_body
+from ...bodies.measure_object import measure_many
 from ...read.fingerprint import settings_hash
 from ...read.visibility import measurable
 from ...scale import meters_per_unit
@@ -37,10 +38,12 @@ from ...scene.changes import ancestors
 from ...scene.rigid_world import down
 from ...scene.transforms import TransformChannels, world
 from ...settings.floating import liquid_density
+from ...write import properties
 from .. import memory
 from ..live import following
 from ..tracking import handlers, staleness, stamps
 from ..tracking.stamps import Kind, Stamp
+from . import results
 
 PLACE_RTOL = 1e-5  # of float32 matrices
 GZ_KEY = "body_righting_arm"
@@ -50,12 +53,14 @@ GZ_KEY = "body_righting_arm"
 class Afloat:
     """A floating body.
 
-    members: its objects; places: (k, 4, 4) their matrices when it was read; roles: of the members.
+    uids: the session uids of its objects, which survive undo; name: of the first one. places:
+    (k, 4, 4) their matrices when it was read; roles: of the members.
     rest: where it settles from there, in m. curve: its righting arms. rests: all positions of rest.
     shown: the generation and the scene, and what is displayed for them.
     """
 
-    members: tuple[Object, ...]
+    uids: tuple[int, ...]
+    name: str
     places: Array
     roles: tuple
     rest: Flotation
@@ -128,9 +133,9 @@ def read(depsgraph: Depsgraph, members: Sequence[Object]) -> Afloat:
     def having(role: str) -> list[Object]:
         return [obj for obj in parts if obj.body_moments_tank.role == role]
 
-    properties = [parts[obj].mass_properties for obj in having("BODY")]
-    mass = float(sum(each.mass for each in properties))
-    center = sum((each.mass * each.center for each in properties), np.zeros(3)) / (mass or 1.0)
+    masses = [parts[obj].mass_properties for obj in having("BODY")]
+    mass = float(sum(each.mass for each in masses))
+    center = sum((each.mass * each.center for each in masses), np.zeros(3)) / (mass or 1.0)
     rest = settle(
         [parts[obj].body for obj in having("BODY")],
         mass,
@@ -144,17 +149,37 @@ def read(depsgraph: Depsgraph, members: Sequence[Object]) -> Afloat:
         [parts[obj].body for obj in having("FLOODED")],
     )
     places = np.array([float64_matrix(obj.matrix_world) for obj in members])
-    return Afloat(tuple(members), places, _roles(members), rest)
+    uids = tuple(obj.session_uid for obj in members)
+    return Afloat(uids, members[0].name, places, _roles(members), rest)
 
 
-def remember(afloat: Afloat, depsgraph: Depsgraph) -> None:
+def remember(afloat: Afloat, members: Iterable[Object], depsgraph: Depsgraph) -> None:
     """Keep a body for the panel and the overlay."""
-    for obj in afloat.members:
+    for obj in members:
         memory.afloat[obj] = afloat
         settings = settings_hash(obj, depsgraph.scene)
         stamp = stamps.carry(obj, Kind.FLOATING, memory.state.updates, settings=settings)
         staleness.mark_stamp(obj, stamp, depsgraph)
         handlers.count_change(obj)
+
+
+def _measure(context: Context, members: Iterable[Object]) -> None:
+    """Measure and store the members whose results are missing or out of date."""
+    wanted = [
+        obj
+        for obj in members
+        if measurable(obj)
+        and (not properties.is_stored(obj) or staleness.stale_reason(obj, context.scene))
+    ]
+    results.store_measured(
+        context,
+        [
+            (obj, outcome)
+            for together in measure_many(wanted, context.evaluated_depsgraph_get())
+            for obj, outcome in together
+            if not isinstance(outcome, Exception)
+        ],
+    )
 
 
 def float_body(
@@ -197,7 +222,8 @@ def float_body(
             channels.restore()
         context.view_layer.update()
         raise
-    remember(replace(afloat, rest=rest), context.evaluated_depsgraph_get())
+    _measure(context, members)
+    remember(replace(afloat, rest=rest), members, context.evaluated_depsgraph_get())
     return is_moved
 
 
@@ -211,7 +237,8 @@ def find_positions(context: Context, members: Sequence[Object]) -> Afloat:
     """Find all positions of rest of a body, and keep them."""
     afloat = read(context.evaluated_depsgraph_get(), members)
     afloat.rests = tuple(afloat.rest.body.find_rests())
-    remember(afloat, context.evaluated_depsgraph_get())
+    _measure(context, members)
+    remember(afloat, members, context.evaluated_depsgraph_get())
     return afloat
 
 
@@ -219,14 +246,15 @@ def heel(context: Context, members: Sequence[Object], angles: Array, free_trim: 
     """Compute the righting arms of a body from where it settles, and keep them."""
     afloat = read(context.evaluated_depsgraph_get(), members)
     afloat.curve = righting_curve(afloat.rest, angles, free_trim=free_trim)
-    remember(afloat, context.evaluated_depsgraph_get())
+    _measure(context, members)
+    remember(afloat, members, context.evaluated_depsgraph_get())
     return afloat
 
 
 def add_curve(context: Context, afloat: Afloat) -> Object:
     """Add an empty with an F-curve of the righting arms, a frame for each degree of heel."""
     assert afloat.curve is not None
-    empty = bpy.data.objects.new("GZ {:s}".format(afloat.members[0].name), None)
+    empty = bpy.data.objects.new("GZ {:s}".format(afloat.name), None)
     context.scene.collection.objects.link(empty)
     empty[GZ_KEY] = 0.0
     empty.id_properties_ui(GZ_KEY).update(description="Righting arm GZ, m; frames are degrees")
@@ -256,15 +284,16 @@ def held(obj: Object, scene: Scene) -> Held | Finding | None:
     afloat = memory.afloat.get(obj)
     if afloat is None:
         return None
-    try:
-        roles = _roles(afloat.members)
-    except ReferenceError:  # an object was removed
+    by_uid = {member.session_uid: member for member in scene.objects}
+    members = [by_uid[uid] for uid in afloat.uids if uid in by_uid]
+    if len(members) < len(afloat.uids):
         return None
+    roles = _roles(members)
     liquid = scene.body_moments_liquid.level, liquid_density(scene)
     key = (memory.state.generation, scene.session_uid, *liquid, roles)
     if afloat.shown is None or afloat.shown[0] != key:
         try:
-            value = _held(obj, afloat, scene)
+            value = _held(obj, afloat, members, scene)
         except MeasureError as refusal:
             value = refusal.finding
         afloat = memory.afloat[obj]
@@ -272,12 +301,12 @@ def held(obj: Object, scene: Scene) -> Held | Finding | None:
     return afloat.shown[1]
 
 
-def _held(obj: Object, afloat: Afloat, scene: Scene) -> Held | None:
-    present = np.array([float64_matrix(member.matrix_world) for member in afloat.members])
-    is_stale = _roles(afloat.members) != afloat.roles or any(
-        staleness.stale_reason(member, scene, stamp_of) for member in afloat.members
+def _held(obj: Object, afloat: Afloat, members: list[Object], scene: Scene) -> Held | None:
+    present = np.array([float64_matrix(member.matrix_world) for member in members])
+    is_stale = _roles(members) != afloat.roles or any(
+        staleness.stale_reason(member, scene, stamp_of) for member in members
     )
-    is_live = any(map(following.is_live, afloat.members))
+    is_live = any(map(following.is_live, members))
     turn = present[0] @ np.linalg.inv(afloat.places[0])
     carried = turn @ afloat.places
     is_stale |= bool((np.abs(carried - present) > PLACE_RTOL * np.abs(present).max()).any())
@@ -287,9 +316,9 @@ def _held(obj: Object, afloat: Afloat, scene: Scene) -> Held | None:
         if not is_live:
             return None
         depsgraph = bpy.context.view_layer.depsgraph
-        fresh = read(depsgraph, afloat.members)
-        remember(fresh, depsgraph)
-        return _held(obj, fresh, scene)
+        fresh = read(depsgraph, members)
+        remember(fresh, members, depsgraph)
+        return _held(obj, fresh, members, scene)
     unit = meters_per_unit(scene)
     turn[:3, 3] *= unit
     up = _up(scene)

@@ -165,16 +165,21 @@ def _digest_parts(
     )
 
 
+# Undo brings none of these back.
+IN_MEMORY = (Kind.MOMENTS, Kind.HULL, Kind.FLOATING, Kind.LEVEL, Kind.CUT_FILL)
 CHECKS = {
     Kind.RESULTS: (
         (Stale.SETTINGS, _has_settings),
         (Stale.GEOMETRY, _has_geometry),
         (Stale.TRANSFORM, _has_transform),
     ),
-    Kind.SECTION: (
-        (Stale.UNIT_SCALE, _has_unit),
-        (Stale.GEOMETRY, _has_geometry),
-        (Stale.TRANSFORM, _has_matrix),
+    **dict.fromkeys(
+        (Kind.SECTION, Kind.LEVEL, Kind.CUT_FILL),
+        (
+            (Stale.UNIT_SCALE, _has_unit),
+            (Stale.GEOMETRY, _has_geometry),
+            (Stale.TRANSFORM, _has_matrix),
+        ),
     ),
     Kind.SYMMETRY: (
         (Stale.GEOMETRY, _has_geometry),
@@ -321,9 +326,7 @@ def note_edits(obj: Object, shape: bytes | None = None) -> None:
     for text, kind in carried.items():
         if shape is not None and text in memory.shapes:
             set_edited(obj, text, shape != memory.shapes[text])
-        elif (
-            edit.number or text in memory.shapes or kind in (Kind.MOMENTS, Kind.HULL, Kind.FLOATING)
-        ):
+        elif edit.number or text in memory.shapes or kind in IN_MEMORY:
             # Redo brings back an edit whose note may have been taken back; undo brings back no data
             # in memory.
             set_edited(obj, text, True)

@@ -52,6 +52,8 @@ class Kind(Enum):
     COLLIDERS = "colliders"
     MOMENTS = "moments"  # in memory, as are the following
     HULL = "hull"
+    LEVEL = "level"
+    CUT_FILL = "cut and fill"
     FLOATING = "floating"
     SETTINGS = "settings"  # live numbers and failed measurements
 
@@ -59,7 +61,7 @@ class Kind(Enum):
 class Stamp(NamedTuple):
     """The inputs of stored data: digests, and the version of the fingerprint.
 
-    extra: the unit scale of a section, in meters.
+    extra: the unit scale of a section, a level, or cut and fill, in meters.
     """
 
     kind: Kind
@@ -81,7 +83,14 @@ class Stamp(NamedTuple):
         return ":".join(self[1:5])
 
 
-def carry(obj: Object, kind: Kind, number: int, transform: str = "", settings: str = "") -> Stamp:
+def carry(
+    obj: Object,
+    kind: Kind,
+    number: int,
+    transform: str = "",
+    settings: str = "",
+    extra: float | None = None,
+) -> Stamp:
     """Attach a stamp to an original object's data in memory, and return it.
 
     number: of the last update at their making.
@@ -92,6 +101,7 @@ def carry(obj: Object, kind: Kind, number: int, transform: str = "", settings: s
         "{:s} {:d}".format(kind.value, number),
         transform,
         settings,
+        extra,
     )
     memory.carried[obj] = {**(memory.carried.get(obj) or {}), kind: stamp}
     return stamp

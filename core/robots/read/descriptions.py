@@ -188,7 +188,8 @@ def read_description(path: Path, roots: Roots | None = None) -> Description:
         )
     if len(description.links) > MAX_LINKS:
         raise FileError(FILE_TOO_LARGE, limit=MAX_LINKS, content="links")
-    if not description.links:
+    # MuJoCo and Gazebo load models without bodies; a URDF needs a link
+    if not description.links and description.format not in ("mjcf", "sdf"):
         raise FileError(FILE_WITHOUT_OBJECTS, content="links")
     return description
 

@@ -155,6 +155,19 @@ def test_invalid_descriptions_are_refused(tmp_path):
     assert refusal(read_description, tmp_path) == "file_unreadable"
 
 
+@pytest.mark.parametrize(
+    "content",
+    [
+        "<mujoco/>",
+        "<mujoco><worldbody><geom size='1'/></worldbody></mujoco>",
+        "<mujoco><asset><mesh name='m' builtin='sphere' params='2'/></asset></mujoco>",
+        "<sdf version='1.9'><world name='w'/></sdf>",
+    ],
+)
+def test_model_without_bodies_has_no_links(tmp_path, content):
+    assert read_description(write(tmp_path / "a.xml", content)).links == ()
+
+
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="not on this system")
 def test_a_pipe_is_not_waited_for(tmp_path):
     os.mkfifo(tmp_path / "a.urdf")

@@ -1,0 +1,226 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Levels of liquids in vessels, and cut and fill of surfaces: computed on request, and remembered
+until the object, its place or the unit changes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import bmesh
+import bpy
+import numpy as np
+from bpy.types import Context, Mesh, Object, Scene
+from mathutils import Vector
+
+from ....core.cuts import (
+    LEVEL_UNAVAILABLE,
+    SHARED_SPACE,
+    TABLE_ROWS,
+    CutFill,
+    Hollow,
+    PartBelow,
+    cut_fill,
+    find_hollow,
+    fit_rim,
+    partly_compared,
+    spill_tilt,
+)
+from ....core.numerics import Array
+from ....core.solid import COMPONENTS_OVERLAP, measure_solid
+from ....core.verdict import Finding, MeasureError, Procedure, QueryError
+from ...bodies.cuts import cut_fill_against, world_surface
+from ...read.fingerprint import matrix_hash
+from ...scale import meters_per_unit
+from ...scene.rigid_world import down
+from .. import memory
+from ..findings import NO_SUCH_NAME
+from ..tracking import handlers, staleness, stamps
+from ..tracking.stamps import Kind, Stamp
+
+MAX_TILTED_TRIANGLES = 20_000  # of vessels whose spill tilt is computed
+
+
+@dataclass(eq=False)
+class Level:
+    """A liquid in a vessel, in meters and the world.
+
+    height: of its surface, against gravity. density: kg/m³. tilt: rad, None if not computed.
+    """
+
+    hollow: Hollow
+    height: float
+    liquid: PartBelow
+    density: float
+    tilt: float | None
+
+    @property
+    def volume(self) -> float:
+        return float(self.liquid.volume[0])
+
+    @cached_property
+    def surface_moments(self) -> tuple[float, float]:
+        """The least and the largest second moment of the free surface about its centroid, m⁴."""
+        central = self.liquid.face.at(0).about_center().second()
+        _, low, high = np.linalg.eigvalsh(central).tolist()
+        return low, high
+
+    @cached_property
+    def table(self) -> Array:
+        """(33, 2) heights over the bottom and volumes."""
+        heights = np.linspace(self.hollow.bottom, self.hollow.spill, TABLE_ROWS)
+        volumes = self.hollow.below(heights).volume
+        return np.stack([heights - self.hollow.bottom, volumes], axis=1)
+
+    @cached_property
+    def triangles(self) -> Array:
+        """(k, 3, 3) triangles of the surface."""
+        edited = self.cut()
+        places = [[vertex.co for vertex in face.verts] for face in edited.faces]
+        edited.free()
+        origin = self.liquid.face.center[0]
+        return np.array(places, np.float64).reshape(-1, 3, 3) + origin
+
+    def cut(self) -> bmesh.types.BMesh:
+        """Return the surface as triangles about its centroid, to be freed."""
+        origin = self.liquid.face.center[0]
+        edited = bmesh.new()
+        vertices = [edited.verts.new(point) for point in self.hollow.points - origin]
+        for triangle in self.hollow.triangles.tolist():
+            edited.faces.new([vertices[i] for i in triangle])
+        everything = [*edited.verts, *edited.edges, *edited.faces]
+        up = Vector(self.hollow.up)
+        found = bmesh.ops.bisect_plane(edited, geom=everything, plane_co=(0, 0, 0), plane_no=up)
+        edges = [item for item in found["geom_cut"] if isinstance(item, bmesh.types.BMEdge)]
+        kept = {vertex for edge in edges for vertex in edge.verts}
+        bmesh.ops.delete(edited, geom=[*edited.faces], context="FACES_ONLY")
+        edges = [edge for edge in edges if edge.is_valid]
+        bmesh.ops.triangle_fill(edited, use_beauty=True, edges=edges, normal=up)
+        lost = [vertex for vertex in edited.verts if vertex not in kept or not vertex.link_faces]
+        bmesh.ops.delete(edited, geom=lost, context="VERTS")
+        return edited
+
+
+@dataclass(frozen=True, eq=False)
+class KnownCutFill:
+    """Cut and fill of a surface, and findings about them."""
+
+    found: CutFill
+    findings: tuple[Finding, ...]
+
+
+def _vessel(obj: Object, context: Context) -> tuple[Array, Array, Array]:
+    """Return points (m, world) and triangles of a vessel, and the direction against gravity."""
+    depsgraph = context.evaluated_depsgraph_get()
+    unit = meters_per_unit(context.scene)
+    surface = world_surface(obj, depsgraph, unit)
+    solid = measure_solid(surface)
+    if any(found.code == COMPONENTS_OVERLAP for found in solid.findings):
+        raise MeasureError(LEVEL_UNAVAILABLE, fault=SHARED_SPACE)
+    # The hole of an open cup is not to be capped.
+    if solid.method in (Procedure.EXACT, Procedure.REORIENTED):
+        surface = solid.repaired_surface
+    points = surface.points.astype(np.float64)
+    return points, surface.all_triangles()[0], -down(context.scene)
+
+
+def fill_vessel(context: Context, obj: Object, by: str, amount: float, density: float) -> Level:
+    """Compute and remember the level of a liquid; MeasureError if the vessel does not hold it.
+
+    amount: height (m), volume (m³) or mass (kg), as `by` says: LEVEL, VOLUME, MASS.
+    """
+    points, triangles, up = _vessel(obj, context)
+    hollow = find_hollow(points, triangles, up)
+    height = amount
+    if by != "LEVEL":
+        height = hollow.level_of(amount / (density if by == "MASS" else 1.0))
+    liquid = hollow.contents(height)
+    tilt = None
+    if len(triangles) <= MAX_TILTED_TRIANGLES:
+        tilt = spill_tilt(points, triangles, float(liquid.volume[0]), up)[0]
+    level = Level(hollow, min(height, hollow.spill), liquid, density, tilt)
+    memory.levels[obj] = level
+    _remember(obj, Kind.LEVEL, context)
+    return level
+
+
+def measure_cut_fill(
+    context: Context, obj: Object, against: str, height: float, other: str
+) -> KnownCutFill:
+    """Compute and remember cut and fill against a height (m), the RIM or another OBJECT."""
+    depsgraph = context.evaluated_depsgraph_get()
+    unit = meters_per_unit(context.scene)
+    surface = world_surface(obj, depsgraph, unit)
+    if against == "OBJECT":
+        reference = context.scene.objects.get(other)
+        if reference is None:
+            raise QueryError(NO_SUCH_NAME, kind="object", name=other)
+        found = cut_fill_against(reference, surface, depsgraph, unit)
+    else:
+        points, triangles = surface.points.astype(np.float64), surface.all_triangles()[0]
+        up, offset = (0.0, 0.0, 1.0), height
+        if against == "RIM":
+            up, offset = fit_rim(points, triangles)
+        found = cut_fill(points, triangles, up, offset, surface.coordinate_error)
+    known = KnownCutFill(found, partly_compared(found))
+    memory.cut_fills[obj] = known
+    _remember(obj, Kind.CUT_FILL, context)
+    return known
+
+
+def _remember(obj: Object, kind: Kind, context: Context) -> None:
+    unit = meters_per_unit(context.scene)
+    stamp = stamps.carry(obj, kind, memory.state.updates, transform=matrix_hash(obj), extra=unit)
+    staleness.mark_stamp(obj, stamp, context.evaluated_depsgraph_get())
+    handlers.count_change(obj)
+
+
+def level_of(obj: Object, scene: Scene) -> Level | None:
+    """Return the remembered level; None if there is none or it is out of date."""
+    return memory.levels.get(obj) if not is_stale(obj, scene, Kind.LEVEL) else None
+
+
+def cut_fill_of(obj: Object, scene: Scene) -> KnownCutFill | None:
+    """Return the remembered cut and fill; None if there are none or they are out of date."""
+    return memory.cut_fills.get(obj) if not is_stale(obj, scene, Kind.CUT_FILL) else None
+
+
+def is_stale(obj: Object, scene: Scene, kind: Kind) -> bool:
+    """Return whether a remembered result no longer holds."""
+
+    def stamp_of(each: Object) -> Stamp | None:
+        return stamps.carried(each, kind)
+
+    return bool(staleness.stale_reason(obj, scene, stamp_of))
+
+
+def add_surface(context: Context, obj: Object, level: Level) -> Object:
+    """Add a mesh object of the liquid's surface, with its level in the object's name."""
+    unit = meters_per_unit(context.scene)
+    edited = level.cut()
+    bmesh.ops.scale(edited, vec=Vector((1, 1, 1)) / unit, verts=edited.verts)
+    return _add_mesh(context, obj.name + " Level", edited, level.liquid.face.center[0] / unit)
+
+
+def add_table(context: Context, obj: Object, level: Level) -> Object:
+    """Add a mesh curve of the level table: volumes along X, heights along Z, both 0 to 1 of the
+    full vessel.
+    """
+    edited = bmesh.new()
+    shares = level.table / level.table.max(axis=0)
+    vertices = [edited.verts.new((volume, 0.0, height)) for height, volume in shares.tolist()]
+    for start, stop in zip(vertices, vertices[1:]):
+        edited.edges.new((start, stop))
+    return _add_mesh(context, obj.name + " Level Table", edited, np.array(obj.location))
+
+
+def _add_mesh(context: Context, name: str, edited: bmesh.types.BMesh, place: Array) -> Object:
+    mesh: Mesh = bpy.data.meshes.new(name)
+    edited.to_mesh(mesh)
+    edited.free()
+    added = bpy.data.objects.new(name, mesh)
+    added.location = place
+    context.collection.objects.link(added)
+    return added

@@ -1,0 +1,52 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The infill with which a print stands: its mass and first moments grow evenly with the infill, so
+that each edge of the support polygon allows a range of it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..numerics import Array
+
+SAMPLES = 1001  # of the infill, for the largest margin
+
+
+def infill_range(
+    corners: Array, empty: Array, growth: Array, margin: float
+) -> tuple[float, float] | None:
+    """Return the least and the largest infill, from 0 to 1, with the center inside a polygon by a
+    margin; None if there is none.
+
+    corners: (k, 2), counterclockwise. empty, growth: (3,) mass and first moments without infill,
+    and their growth to full infill.
+    """
+    start, along = _edges(corners)
+    # mass · (n·(center - start) - margin) at infill 0, and its growth
+    at_zero, rate = (
+        along @ one[1:] - one[0] * (np.einsum("ki,ki->k", along, start) + margin)
+        for one in (empty, growth)
+    )
+    root = -at_zero / np.where(rate != 0.0, rate, 1.0)
+    low = max(0.0, *root[rate > 0.0], 0.0)
+    high = min(1.0, *root[rate < 0.0], 1.0)
+    return (low, high) if low <= high and (at_zero[rate == 0.0] >= 0.0).all() else None
+
+
+def largest_margin(corners: Array, empty: Array, growth: Array) -> tuple[float, float]:
+    """Return the largest margin that any infill gives, and that infill, as `infill_range`."""
+    start, along = _edges(corners)
+    infill = np.linspace(0.0, 1.0, SAMPLES)
+    moments = empty + infill[:, None] * growth
+    centers = moments[:, 1:] / moments[:, :1]
+    margins = (centers @ along.T - np.einsum("ki,ki->k", along, start)).min(axis=1)
+    best = int(margins.argmax())
+    return float(margins[best]), float(infill[best])
+
+
+def _edges(corners: Array) -> tuple[Array, Array]:
+    """Return the starts of a polygon's edges, and unit vectors across them that point inside."""
+    sides = np.roll(corners, -1, axis=0) - corners
+    across = np.column_stack([-sides[:, 1], sides[:, 0]])
+    return corners, across / np.linalg.norm(across, axis=1)[:, None]

@@ -1,0 +1,150 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The core of a printed body: the surface behind its walls, top and bottom layers.
+
+A face with the normal n moves inward by the larger of two distances: the width of the walls times
+the horizontal part of n, and the height of the top or bottom layers times its vertical part (z is
+the direction of the print). So walls keep their width in each layer, and layers their height.
+Vertices follow the planes of their faces, by least squares if there are more than three. Where two
+sides are nearer to each other than their walls are thick, they move to meet: the core is empty
+there. Planar cores, of all bodies with such vertices, have exact moments.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh import Surface, overlapping_box_pairs
+from ..numerics import Array, Index
+from ..verdict import ReadError
+from .directions import LEAST_SQUARES_RTOL, SAME_PLANE_RTOL, UNEVEN_RTOL, weld_equal
+from .findings import PRINT_UNFIT
+
+MAX_SAMPLED = 20_000  # triangles with several samples of their thickness; of others, the middle
+MAX_PAIRS = 50_000_000  # boxes of rays and triangles that meet
+PAIRS = 1 << 18  # rays and triangles at a time
+SAMPLES = np.array([[1, 1, 1], [4, 1, 1], [1, 4, 1], [1, 1, 4]]) / [[3.0], [6.0], [6.0], [6.0]]
+SAME_PLANE = 1e-6  # difference of the normals, and relative of the heights, of one plane
+
+
+def core_surface(surface: Surface, wall: float, top: float, bottom: float) -> Surface:
+    """Return the surface of the core; its signed volume is not positive if there is none.
+
+    surface: closed, with faces outward, its z upward in the print. wall: the width of the walls;
+    top, bottom: the heights of the layers below faces that face up, and above those that face
+    down. Raises MeasureError.
+    """
+    points, triangles = weld_equal(surface)
+    corners = points[triangles]
+    sides = corners[:, [1, 2, 0]] - corners
+    crossed = np.cross(sides[:, 0], sides[:, 1])
+    double = np.linalg.norm(crossed, axis=1)
+    flat = double > 1e-12 * np.linalg.norm(sides, axis=2).max(axis=1) ** 2
+    normals = crossed / np.where(flat, double, 1.0)[:, None]
+    layers = np.where(normals[:, 2] > 0.0, top, bottom) * np.abs(normals[:, 2])
+    moves = np.maximum(wall * np.hypot(normals[:, 0], normals[:, 1]), layers)
+    turned = np.stack([sides, -sides[:, [2, 0, 1]]])
+    angles = np.arctan2(double[:, None], np.einsum("mki,mki->mk", *turned))
+    weights = np.where(flat[:, None], angles, 0.0)
+    moves = np.where(flat, moves, 0.0)
+    moves[flat] = _meeting(corners[flat], normals[flat], moves[flat])
+    return Surface(_move(points, triangles, normals, weights, moves), triangles)
+
+
+def _move(
+    points: Array, triangles: NDArray[np.integer], normals: Array, weights: Array, moves: Array
+) -> Array:
+    """Return the points after the planes of their triangles have moved inward."""
+    count = len(points)
+    corner = triangles.ravel()
+    weight = weights.ravel()
+    normals = np.repeat(normals, 3, axis=0)
+    moves = np.repeat(moves, 3)
+
+    def total(values: NDArray) -> Array:
+        return np.bincount(corner, weight * values, count).astype(np.float64)
+
+    system = np.empty((count, 3, 3))
+    for i in range(3):
+        for j in range(3):
+            system[:, i, j] = total(normals[:, i] * normals[:, j])
+    right = np.stack([total(moves * column) for column in normals.T], axis=1)
+    values, axes = np.linalg.eigh(system)
+
+    def solved(least: float) -> tuple[Array, Array]:
+        known = values > least * values[:, 2:]
+        inverse = np.where(known, 1.0 / np.where(known, values, 1.0), 0.0)
+        steps = np.einsum("nij,nj,nkj,nk->ni", axes, inverse, axes, right)
+        off = total((np.einsum("ij,ij->i", normals, steps[corner]) - moves) ** 2)
+        return steps, np.sqrt(off)
+
+    steps, off = solved(SAME_PLANE_RTOL)
+    rough = off > UNEVEN_RTOL * np.sqrt(total(moves**2))
+    if rough.any():
+        steps[rough] = solved(LEAST_SQUARES_RTOL)[0][rough]
+    return points - steps
+
+
+def _meeting(corners: Array, normals: Array, moves: Array) -> Array:
+    """Return the moves of triangles, (m, 3, 3), smaller where sides would go through each other."""
+    samples = SAMPLES if len(corners) <= MAX_SAMPLED else SAMPLES[:1]
+    count = len(samples)
+    middle = corners.mean(axis=(0, 1))
+    size = float(np.ptp(corners, axis=(0, 1)).max())
+    heights = np.einsum("mi,mi->m", normals, corners[:, 0] - middle) / size
+    keys = np.rint(np.column_stack([normals, heights]) / SAME_PLANE)
+    plane = np.unique(keys, axis=0, return_inverse=True)[1].ravel()
+    starts = np.einsum("sk,mki->msi", samples, corners).reshape(-1, 3)
+    reach = 2.0 * float(moves.max())
+    if not reach > 0.0:
+        return moves
+    depth, hit = _depths(starts, -np.repeat(normals, count, axis=0), corners, reach)
+    own = np.repeat(plane, count)
+    sampled = np.repeat(moves, count)
+
+    def limited(limits: Array) -> Array:
+        """Return the moves, each at most the largest limit of the samples in its plane."""
+        largest = np.zeros(int(plane.max()) + 1)
+        np.maximum.at(largest, own, limits)
+        return np.minimum(moves, largest[plane])
+
+    both = np.maximum(sampled + moves[hit], np.finfo(float).tiny)
+    first = limited(np.where(depth < reach, np.minimum(depth, reach) * sampled / both, np.inf))
+    return limited(np.where(depth < reach, depth - first[hit], np.inf))
+
+
+def _depths(starts: Array, rays: Array, corners: Array, reach: float) -> tuple[Array, Index]:
+    """Return the distance from each start along its ray to the first triangle, and its index;
+    infinity and 0 if there is none within `reach`.
+    """
+    count = len(starts)
+    ends = starts + reach * rays
+    low = np.concatenate([np.minimum(starts, ends), corners.min(axis=1)])
+    high = np.concatenate([np.maximum(starts, ends), corners.max(axis=1)])
+    left, right, untested = overlapping_box_pairs(low, high, -1e-9 * reach, MAX_PAIRS)
+    if untested:
+        raise ReadError(PRINT_UNFIT, fault="its mesh is too fine for its walls. Decimate it")
+    left, right = np.minimum(left, right), np.maximum(left, right)
+    mixed = (left < count) & (right >= count)
+    left, right = left[mixed], right[mixed] - count
+    depth = np.full(count, np.inf)
+    hit = np.zeros(count, np.intp)
+    for first in range(0, len(left), PAIRS):
+        line, triangle = left[first : first + PAIRS], right[first : first + PAIRS]
+        a, b, c = corners[triangle].swapaxes(0, 1)
+        across = np.cross(rays[line], c - a)
+        volume = np.einsum("ri,ri->r", across, b - a)
+        inverse = 1.0 / np.where(volume != 0.0, volume, np.inf)
+        away = starts[line] - a
+        turned = np.cross(away, b - a)
+        u = np.einsum("ri,ri->r", away, across) * inverse
+        v = np.einsum("ri,ri->r", rays[line], turned) * inverse
+        distance = np.einsum("ri,ri->r", c - a, turned) * inverse
+        is_hit = np.minimum(np.minimum(u, v), 1.0 - u - v) >= -UNEVEN_RTOL
+        is_hit &= (volume != 0.0) & (distance > 1e-9 * reach) & (distance < depth[line])
+        line, triangle, distance = line[is_hit], triangle[is_hit], distance[is_hit]
+        order = np.argsort(-distance, kind="stable")  # the last of equal indices wins
+        depth[line[order]] = distance[order]
+        hit[line[order]] = triangle[order]
+    return depth, hit

@@ -1,0 +1,182 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Levels of liquids in vessels, and cut and fill of surfaces."""
+
+from bpy.props import EnumProperty, FloatProperty, StringProperty
+from bpy.types import Context, Event, Object, Operator
+
+from ..blender.read.visibility import measurable
+from ..blender.scale import meters_per_unit
+from ..blender.session import memory, stored
+from ..blender.session.selected import require_subject, subject
+from ..blender.write import reports
+from ..core.verdict import MeasureError
+from . import selection
+
+
+class OnSubject(selection.OnSelectionInObjectMode):
+    """Base of operators on the object that the panel is about, after a dialog."""
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        obj = subject(context)
+        return super().poll(context) and (
+            (obj is not None and measurable(obj)) or reports.unavailable(cls, "Select a mesh")
+        )
+
+    def invoke(self, context: Context, _event: Event) -> set[str]:
+        if context.window is None:
+            return self.execute(context)
+        return context.window_manager.invoke_props_dialog(self)
+
+
+class OBJECT_OT_body_moments_level(OnSubject, Operator):
+    """Compute the level of a liquid in the active object, or its contents up to a level."""
+
+    bl_idname = "object.body_moments_level"
+    bl_label = "Level"
+    bl_description = (
+        "Compute the level of a volume or mass of liquid in the active vessel, or its contents up "
+        "to a level. The vessel may have a cavity, be open upward, or be one surface with a rim"
+    )
+
+    by: EnumProperty(
+        name="Given",
+        description="Given quantity",
+        items=(
+            ("VOLUME", "Volume", "Volume of the liquid"),
+            ("MASS", "Mass", "Mass of the liquid"),
+            ("LEVEL", "Level", "Height of its surface, against gravity from the world origin"),
+        ),
+        default="VOLUME",
+    )
+    volume: FloatProperty(
+        name="Volume",
+        description="Volume of the liquid",
+        default=0.00025,
+        min=0.0,
+        precision=6,
+        unit="VOLUME",
+    )
+    mass: FloatProperty(
+        name="Mass", description="Mass of the liquid, in kg", default=0.25, min=0.0, precision=4
+    )
+    level: FloatProperty(
+        name="Level",
+        description="Height of its surface, against gravity from the world origin",
+        unit="LENGTH",
+        precision=4,
+    )
+    density: FloatProperty(
+        name="Liquid Density",
+        description="Density of the liquid, in kg/m³",
+        default=998.207,
+        min=0.001,
+        precision=3,
+    )
+
+    def draw(self, _context: Context) -> None:
+        layout = self.layout
+        layout.use_property_split = True
+        layout.prop(self, "by")
+        layout.prop(self, self.by.lower())
+        layout.prop(self, "density")
+
+    def execute(self, context: Context) -> set[str]:
+        obj = require_subject(context)
+        unit = meters_per_unit(context.scene)
+        amounts = {
+            "VOLUME": self.volume * unit**3,
+            "MASS": self.mass,
+            "LEVEL": self.level * unit,
+        }
+        try:
+            stored.cuts.fill_vessel(context, obj, self.by, amounts[self.by], self.density)
+        except MeasureError as error:
+            return selection.refuse(self, reports.failure(obj.name, error))
+        return selection.report(self, reports.phrase("Filled “{object}”", object=obj.name))
+
+
+class OBJECT_OT_body_moments_show_level(selection.OnSelectionInObjectMode, Operator):
+    """Add the surface of the liquid, or the table of its levels, as a mesh."""
+
+    bl_idname = "object.body_moments_show_level"
+    bl_label = "Show Level"
+    bl_description = "Add the liquid's surface, or the curve of volume and level, as a mesh object"
+
+    what: EnumProperty(
+        name="Mesh",
+        description="What is added",
+        items=(
+            ("SURFACE", "Surface", "The surface of the liquid"),
+            ("TABLE", "Table", "The share of the volume along X, and of the height along Z"),
+        ),
+    )
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        obj = subject(context)
+        return super().poll(context) and (
+            (obj is not None and obj in memory.levels)
+            or reports.unavailable(cls, "Compute a level first")
+        )
+
+    def execute(self, context: Context) -> set[str]:
+        obj = require_subject(context)
+        level = stored.cuts.level_of(obj, context.scene)
+        if level is None:
+            return selection.refuse(self, "“{object}” has changed. Press Level", object=obj.name)
+        add = stored.cuts.add_surface if self.what == "SURFACE" else stored.cuts.add_table
+        added: Object = add(context, obj, level)
+        return selection.report(self, reports.phrase("Added “{object}”", object=added.name))
+
+
+class OBJECT_OT_body_moments_cut_fill(OnSubject, Operator):
+    """Measure the volumes of the active surface above and below a plane or another surface."""
+
+    bl_idname = "object.body_moments_cut_fill"
+    bl_label = "Cut and Fill"
+    bl_description = (
+        "Measure the volumes of the active open surface above and below a height, the plane "
+        "through its rim, or another object's plane or surface"
+    )
+
+    against: EnumProperty(
+        name="Against",
+        description="What the surface is compared with",
+        items=(
+            ("HEIGHT", "Height", "A level plane"),
+            ("RIM", "Rim", "The plane fitted to the surface's longest open edge"),
+            ("OBJECT", "Object", "The plane of a flat object or an empty, else its surface"),
+        ),
+    )
+    height: FloatProperty(
+        name="Height", description="World Z of the plane", unit="LENGTH", precision=4
+    )
+    other: StringProperty(name="Object", description="Name of the object to compare with")
+
+    def draw(self, context: Context) -> None:
+        layout = self.layout
+        layout.use_property_split = True
+        layout.prop(self, "against")
+        if self.against == "HEIGHT":
+            layout.prop(self, "height")
+        elif self.against == "OBJECT":
+            layout.prop_search(self, "other", context.scene, "objects")
+
+    def execute(self, context: Context) -> set[str]:
+        obj = require_subject(context)
+        height = self.height * meters_per_unit(context.scene)
+        try:
+            known = stored.cuts.measure_cut_fill(context, obj, self.against, height, self.other)
+        except MeasureError as error:
+            return selection.refuse(self, reports.failure(obj.name, error))
+        text = reports.phrase("Compared “{object}”", object=obj.name)
+        return selection.report(self, text, *known.findings)
+
+
+CLASSES = (
+    OBJECT_OT_body_moments_level,
+    OBJECT_OT_body_moments_show_level,
+    OBJECT_OT_body_moments_cut_fill,
+)

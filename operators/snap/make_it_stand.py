@@ -1,0 +1,88 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Make It Stand: change the infill, and if need be the walls, of a print least."""
+
+from bpy.props import EnumProperty, FloatProperty
+from bpy.types import Context, Operator
+
+from ...blender import session
+from ...blender.scale import meters_per_unit
+from ...blender.session import stored
+from ...blender.session.selected import require_subject, subject
+from ...blender.write import reports
+from ...core.verdict import MeasureError
+from .. import selection
+
+
+class OBJECT_OT_body_moments_make_it_stand(Operator):
+    """Change infill and walls of a print as little as possible, so that it stands."""
+
+    bl_idname = "object.body_moments_make_it_stand"
+    bl_label = "Make It Stand"
+    bl_description = (
+        "Change the infill of a print as little as possible, and the walls if it does not suffice, "
+        "so that it stands, hangs level from the 3D cursor, or has its center on the plumb line "
+        "through it. The outside stays"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    target: EnumProperty(
+        name="Target",
+        description="Where to bring the center of mass",
+        items=(
+            ("BASE", "Base", "Over the base, farther from its edges than the margin"),
+            ("CURSOR", "3D Cursor", "Above or below the 3D cursor, within the margin"),
+        ),
+    )
+    margin: FloatProperty(
+        name="Margin",
+        description="Least distance from the edges of the base, or largest from the plumb line",
+        default=0.001,
+        min=0.0,
+        unit="LENGTH",
+        precision=4,
+    )
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        obj = subject(context)
+        if obj is None or obj.body_moments.kind != "PRINTED":
+            return reports.unavailable(cls, "Make an object of Kind: Printed active")
+        return True
+
+    def execute(self, context: Context) -> set[str]:
+        obj = require_subject(context)
+        settings = obj.body_moments
+        try:
+            session.check_stability(context, obj, [])
+            support = stored.stability.support(obj, context.scene)
+            over_cursor = self.target == "CURSOR"
+            point = context.scene.cursor.location[:] if over_cursor else None
+            found = session.print_balance.balance_print(
+                context, obj, None if support is None else support.polygon, self.margin, point
+            )
+        except MeasureError as error:
+            return selection.refuse(self, reports.failure(obj.name_full, error))
+        if found is None:
+            text = "It touches the ground along an edge or at a corner. Lay it on a face first."
+            return selection.refuse(self, reports.phrase(text))
+        values = {
+            "walls": found.walls,
+            "infill": round(found.infill, 2),
+            "margin": found.margin * meters_per_unit(context.scene),
+        }
+        if not found.suffices:
+            text = (
+                "Walls and infill cannot do it: the largest margin is {margin:length}, with "
+                "{walls} walls and {infill} % infill. Choose a smaller margin, or use Balance"
+            )
+            return selection.refuse(self, reports.phrase(text, **values))
+        settings.print_walls = found.walls
+        settings.print_infill = found.infill
+        session.remeasure(context, [obj])
+        session.check_stability(context, obj, [])
+        text = "Set to {walls} walls and {infill} % infill"
+        return reports.report(self, reports.phrase(text, **values))
+
+
+CLASSES = (OBJECT_OT_body_moments_make_it_stand,)

@@ -1,0 +1,125 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sub-panel of levels in vessels, and of cut and fill."""
+
+from __future__ import annotations
+
+from math import degrees, pi
+from typing import TYPE_CHECKING
+
+from bpy.types import Context, UILayout
+
+from ..blender.read.visibility import measurable
+from ..blender.session import memory, stored
+from ..blender.session.selected import subject
+from ..core.lazy import loaded_module
+from . import rows
+from .places import in_both_places
+
+if TYPE_CHECKING:
+    from ..blender.session.stored.cuts import KnownCutFill, Level
+
+TABLE_STEP = 4  # every fourth row of the level table is listed
+
+
+class CutsPanel:
+    """Levels of liquids in vessels, and volumes above and below a plane or another surface"""
+
+    bl_label = "Above and Below"
+
+    def draw(self, context: Context) -> None:
+        layout = self.layout
+        obj = subject(context)
+        column = layout.column(align=True)
+        rows.button(column, "object.body_moments_level", "MATFLUID")
+        rows.button(column, "object.body_moments_cut_fill", "MOD_BOOLEAN", short="Cut, Fill")
+        cuts = loaded_module(stored, "cuts")
+        if cuts is None:
+            return
+        for values, read, draw in (
+            (memory.levels, cuts.level_of, _level),
+            (memory.cut_fills, cuts.cut_fill_of, _cut_fill),
+        ):
+            if obj in values:
+                found = read(obj, context.scene)
+                if found is None:
+                    text = "The object has changed. Press the button again."
+                    rows.remark(layout, text, icon="FILE_REFRESH")
+                else:
+                    draw(layout, found)
+
+
+def _level(layout: UILayout, level: Level) -> None:
+    layout.label(text="Liquid", icon="MATFLUID")
+    column = layout.column(align=True)
+    area = float(level.liquid.face_area[0])
+    rows.quantities(
+        column,
+        [
+            ("Level", "length", level.height),
+            ("Over Bottom", "length", level.height - level.hollow.bottom),
+            ("Volume", "volume", level.volume),
+            ("Mass", "mass", level.volume * level.density),
+            ("Capacity", "volume", level.hollow.capacity),
+        ],
+    )
+    if level.tilt is not None and level.tilt < pi:
+        tilt = degrees(level.tilt)
+        rows.table(column, [("Spills at Tilt", "{:.2f}°".format(tilt), repr(tilt), "°")])
+    row = layout.row(align=True)
+    row.operator("object.body_moments_show_level", text="Show Level").what = "SURFACE"
+    row.operator("object.body_moments_show_level", text="", icon="CURVE_DATA").what = "TABLE"
+    body = rows.fold(layout, "body_moments_level_surface", "Free Surface")
+    if body is not None:
+        least, largest = level.surface_moments
+        column = body.column(align=True)
+        rows.quantities(
+            column,
+            [
+                ("Area", "area", area),
+                ("I1", "area_moment", least),
+                ("I2", "area_moment", largest),
+            ],
+        )
+        center = level.liquid.part.center[0].tolist()
+        rows.group(body, "Center of the Liquid", rows.AXIS_LABELS, "length", center, area**0.5)
+    body = rows.fold(layout, "body_moments_level_table", "Level Table")
+    if body is not None:
+        units = rows.scene_units()
+        cells = [
+            (units.text("length", height), units.text("volume", volume), repr(volume), "m³")
+            for height, volume in level.table[TABLE_STEP::TABLE_STEP].tolist()
+        ]
+        rows.table(body.column(align=True), cells)
+
+
+def _cut_fill(layout: UILayout, known: KnownCutFill) -> None:
+    found = known.found
+    layout.label(text="Cut and Fill", icon="MOD_BOOLEAN")
+    column = layout.column(align=True)
+    rows.quantities(
+        column,
+        [
+            ("Cut", "volume", found.cut.total),
+            ("Fill", "volume", found.fill.total),
+            ("Net", "volume", found.net),
+            ("Cut Area", "area", found.cut_area),
+            ("Fill Area", "area", found.fill_area),
+        ],
+    )
+    for shown in known.findings:
+        rows.message(layout, shown)
+    body = rows.fold(layout, "body_moments_cut_fill_centers", "Centers")
+    if body is not None:
+        for label, part, area in (
+            ("Cut", found.cut, found.cut_area),
+            ("Fill", found.fill, found.fill_area),
+        ):
+            if part.total > 0.0:
+                center = part.center.tolist()
+                rows.group(body, label, rows.AXIS_LABELS, "length", center, area**0.5)
+
+
+CLASSES = in_both_places(
+    CutsPanel, "cuts", parent="section", options=frozenset(), shown_for=measurable
+)

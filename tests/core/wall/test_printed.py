@@ -1,0 +1,188 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cores of prints against closed forms, and against counts of voxels eroded by the walls."""
+
+import numpy as np
+import pytest
+from body_moments.core.mesh import Surface
+from body_moments.core.polyhedron import polyhedron_moments
+from body_moments.core.wall import core_surface
+
+from tests.close import close
+
+WALL, LAYERS = 0.84, 0.8
+
+
+def prism(outline, height, middle=None):
+    """Return a prism over an outline, (n, 2) counterclockwise, of which `middle` sees all; by
+    default the mean of its corners.
+    """
+    outline = np.asarray(outline, np.float64)
+    count = len(outline)
+    middle = outline.mean(axis=0) if middle is None else middle
+    low = np.column_stack([np.vstack([outline, middle]), np.zeros(count + 1)])
+    points = np.vstack([low, low + [0.0, 0.0, height]])
+    faces = []
+    for i in range(count):
+        j = (i + 1) % count
+        faces += [(j, i, count), (i + count + 1, j + count + 1, 2 * count + 1)]
+        faces += [(i, j, j + count + 1), (i, j + count + 1, i + count + 1)]
+    return Surface.from_triangles(points, faces)
+
+
+def box(x, y, z):
+    return prism([(0, 0), (x, 0), (x, y), (0, y)], z)
+
+
+def core_volume(surface, *heights):
+    core = core_surface(surface, WALL, *(heights or (LAYERS, LAYERS)))
+    return polyhedron_moments(core, allow_open=True)[0].total
+
+
+def test_cube_core_has_exact_volume():
+    assert close(core_volume(box(20, 20, 20)), 18.32**2 * 18.4, 1e-13)
+    assert close(core_volume(box(20, 20, 20), 0.0, 0.6), 18.32**2 * 19.4, 1e-13)
+
+
+@pytest.mark.parametrize("count", [3, 5, 6, 48])
+def test_prism_core_keeps_wall_in_each_layer(count):
+    angles = 2.0 * np.pi * np.arange(count) / count
+    outline = 10.0 * np.column_stack([np.cos(angles), np.sin(angles)])
+    inner = 10.0 * np.cos(np.pi / count) - WALL
+    area = count * inner**2 * np.tan(np.pi / count)
+    assert close(core_volume(prism(outline, 12.0)), area * (12.0 - 2 * LAYERS), 1e-12)
+
+
+def test_slope_decides_between_walls_and_layers():
+    # A pyramid of half base 10 and height 10: sides of 45° move by max(.84, .8) / √2.
+    corners = [(-10, -10, 0), (10, -10, 0), (10, 10, 0), (-10, 10, 0), (0, 0, 10)]
+    faces = [(0, 2, 1), (0, 3, 2), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)]
+    height = 10.0 - WALL - LAYERS
+    found = core_volume(Surface.from_triangles(np.array(corners, float), faces))
+    assert close(found, (2.0 * height) ** 2 * height / 3.0, 1e-12)
+
+
+@pytest.mark.parametrize(("x", "y"), [(1.0, 1.0), (1.0, 20.0), (1.6, 0.2)])
+def test_thin_plates_and_rods_have_no_core(x, y):
+    assert abs(core_volume(box(x, y, 20.0))) < 1e-9
+
+
+FIN = [(0, 0), (20, 0), (20, 10), (10.5, 10), (10.5, 25), (9.5, 25), (9.5, 10), (0, 10)]
+
+
+def test_thin_fin_on_block_is_solid():
+    block = (20 - 2 * WALL) * (10 - 2 * WALL) * (20 - 2 * LAYERS)
+    assert close(core_volume(prism(FIN, 20.0, (10.0, 5.0))), block, 1e-12)
+
+
+def test_wall_of_tube_is_solid_where_thin():
+    angles = 2.0 * np.pi * np.arange(24) / 24
+    outline = np.column_stack([np.cos(angles), np.sin(angles)])
+    outer, inner = prism(10.0 * outline, 12.0), prism(9.0 * outline, 10.0)
+    points = np.vstack([outer.points, inner.points + [0.0, 0.0, 1.0]])
+    faces = np.vstack([outer.triangles, inner.triangles[:, ::-1] + len(outer.points)])
+    assert abs(core_volume(Surface.from_triangles(points, faces))) < 1e-9
+
+
+def eroded(grid, axis, reach):
+    """Return the voxels with all of those up to `reach` before and behind along an axis."""
+    if not reach:
+        return grid
+    sums = np.cumsum(
+        np.pad(grid, [(reach + 1, reach) if i == axis else (0, 0) for i in range(3)]),
+        axis=axis,
+        dtype=np.int32,
+    )
+    count = grid.shape[axis]
+    last = np.take(sums, np.arange(2 * reach + 1, 2 * reach + 1 + count), axis=axis)
+    return last - np.take(sums, np.arange(count), axis=axis) == 2 * reach + 1
+
+
+def voxel_core(inside, low, high):
+    """Return the volume of the voxels of STEP whose disc and vertical segment are inside."""
+    axes = [np.arange(a - STEP / 2, b + STEP, STEP) for a, b in zip(low, high)]
+    grid = inside(*np.meshgrid(*axes, indexing="ij"))
+    core = eroded(grid, 2, round(LAYERS / STEP))
+    reach = WALL / STEP + 0.5  # from a middle to the faces of voxels
+    for shift in range(-int(reach), int(reach) + 1):
+        half = int(np.sqrt(reach**2 - shift**2))
+        core &= np.roll(eroded(grid, 1, half), shift, 0)
+    return core.sum() * STEP**3
+
+
+STEP = 0.05
+TURN = 2 * np.pi * np.arange(64) / 64
+ROUND = np.column_stack([np.cos(TURN), np.sin(TURN)])
+FINNED = [(0, 0), (8, 0), (8, 4), (4.5, 4), (4.5, 7), (3.5, 7), (3.5, 4), (0, 4)]
+
+
+def in_polygon(outline, x, y):
+    inside = np.zeros(x.shape, bool)
+    for (a, b), (c, d) in zip(outline, np.roll(outline, -1, axis=0)):
+        if b != d:
+            inside ^= ((b > y) != (d > y)) & (x < (c - a) * (y - b) / (d - b) + a)
+    return inside
+
+
+def upright(outline, height, middle=None):
+    """Return a prism along z, and a test of points."""
+    outline = np.array(outline, float)
+
+    def inside(x, y, z):
+        flat = in_polygon(outline, x[:, :, 0], y[:, :, 0])
+        return flat[:, :, None] & (z > 0) & (z < height)
+
+    return prism(outline, height, middle), inside
+
+
+def lying(outline, length, middle=None):
+    """Return a prism along y, with its outline in x and z, and a test of points."""
+    surface, _ = upright(outline, length, middle)
+    outline = np.array(outline, float)
+    turned = surface.transform(np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]], float))
+
+    def inside(x, y, z):
+        flat = in_polygon(outline, x[:, 0], z[:, 0])
+        return flat[:, None, :] & (y > -length) & (y < 0)
+
+    return turned, inside
+
+
+def cone(sides, radius, height):
+    outline = radius * ROUND[:: 64 // sides]
+    points = np.vstack([np.column_stack([outline, np.zeros(sides)]), [0, 0, 0], [0, 0, height]])
+    faces = []
+    for i in range(sides):
+        j = (i + 1) % sides
+        faces += [(j, i, sides), (i, j, sides + 1)]
+
+    def inside(x, y, z):
+        share = np.maximum(1.0 - z / height, 1e-9)
+        return (z > 0) & (z < height) & in_polygon(outline, x / share, y / share)
+
+    return Surface.from_triangles(points, faces), inside
+
+
+SHAPES = {
+    "cube": upright([(0, 0), (6, 0), (6, 6), (0, 6)], 6.0),
+    "plate": upright([(0, 0), (9, 0), (9, 5), (0, 5)], 2.0),
+    "hexagon": upright([(3.5, 0), (1.75, 3), (-1.75, 3), (-3.5, 0), (-1.75, -3), (1.75, -3)], 5.0),
+    "triangle": upright([(0, 0), (8, 0), (2, 7)], 5.0),
+    "cylinder": upright(3.0 * ROUND, 6.0),
+    "angle": upright([(0, 0), (8, 0), (8, 3), (3, 3), (3, 8), (0, 8)], 5.0, (1.5, 1.5)),
+    "fin": upright(FINNED, 5.0, (4, 2)),
+    "wedge": lying([(0, 0), (8, 0), (8, 5)], 6.0),
+    "roof": lying([(0, 0), (8, 0), (8, 2), (4, 5), (0, 2)], 6.0),
+    "lying cylinder": lying(3.0 * ROUND, 6.0),
+    "cone": cone(64, 4.0, 7.0),
+    "pyramid": cone(4, 5.0, 5.0),
+}
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_core_agrees_with_count_of_voxels(name):
+    surface, inside = SHAPES[name]
+    low, high = surface.points.min(axis=0) - 0.1, surface.points.max(axis=0) + 0.1
+    core = core_surface(surface, WALL, LAYERS, LAYERS)
+    volume, area = polyhedron_moments(core, area_order=0, allow_open=True)
+    assert abs(volume.total - voxel_core(inside, low, high)) < 0.5 * STEP * area.total

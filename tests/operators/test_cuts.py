@@ -1,0 +1,121 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The buttons Level, Show Level, and Cut and Fill."""
+
+import re
+
+import bpy
+import numpy as np
+import pytest
+from body_moments.blender.session import memory, stored
+from body_moments.core.cuts import cut_outline
+from body_moments.core.verdict import sentence
+
+from tests.blender.objects import add
+
+pytestmark = pytest.mark.usefixtures("scene")
+LEVEL = bpy.ops.object.body_moments_level
+CUT_FILL = bpy.ops.object.body_moments_cut_fill
+
+
+def add_trough(scale=1.0):
+    """An open box of 2 x 1 x 1, of one surface."""
+    corners = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (2, 0), (2, 1), (0, 1))]
+    mesh = bpy.data.meshes.new("Trough")
+    sides = [(i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i) for i in range(4)]
+    mesh.from_pydata((np.array(corners) * scale).tolist(), [], [(3, 2, 1, 0), *sides])
+    return add(mesh, "Trough", location=(0, 0, 3))
+
+
+def level_of(obj):
+    return stored.cuts.level_of(obj, bpy.context.scene)
+
+
+def refusal():
+    """The sentence of the last action's refusal."""
+    (group,) = memory.state.outcome.groups
+    return "{}: {}".format(", ".join(group.objects), sentence(group.finding))
+
+
+@pytest.mark.parametrize("scale", [1.0, 0.01])
+def test_level_of_a_volume_a_mass_and_a_height(scale):
+    bpy.context.scene.unit_settings.scale_length = scale
+    trough = add_trough()
+    for arguments in (
+        {"by": "VOLUME", "volume": 0.5},
+        {"by": "MASS", "mass": 400.0 * scale**3, "density": 800.0},
+        {"by": "LEVEL", "level": 3.25},
+    ):
+        assert LEVEL(**arguments) == {"FINISHED"}
+        level = level_of(trough)
+        assert level.height == pytest.approx(3.25 * scale)
+        assert level.volume == pytest.approx(0.5 * scale**3)
+        assert level.hollow.capacity == pytest.approx(2 * scale**3)
+        assert level.surface_moments == pytest.approx(
+            (2 / 12 * scale**4, 8 / 12 * scale**4), rel=1e-6
+        )
+        # It leans along the diagonal of its corner first: the closed form of the flat side bounds.
+        assert 0 < level.tilt < np.arctan2(1.5, 1.0)
+    area = np.cross(*np.diff(level.triangles, axis=1).swapaxes(0, 1)).sum(axis=0) / 2
+    assert np.abs(area) == pytest.approx(np.array([0, 0, 2.0]) * scale**2)
+    hollow = level.hollow
+    outline = cut_outline(hollow.points, hollow.triangles, hollow.up, level.height)
+    assert np.linalg.norm(np.diff(outline, axis=1), axis=2).sum() == pytest.approx(6 * scale)
+    assert np.allclose(outline[..., 2], 3.25 * scale)
+
+
+def test_show_level_adds_meshes_and_nothing_else_moves():
+    trough = add_trough()
+    LEVEL(by="VOLUME", volume=0.5)
+    before = trough.matrix_world.copy()
+    assert bpy.ops.object.body_moments_show_level() == {"FINISHED"}
+    surface = bpy.data.objects["Trough Level"]
+    bpy.context.view_layer.update()
+    corners = np.array([surface.matrix_world @ vertex.co for vertex in surface.data.vertices])
+    assert np.allclose(np.unique(corners[:, 2]), 3.25)
+    assert sum(face.area for face in surface.data.polygons) == pytest.approx(2.0)
+    assert bpy.ops.object.body_moments_show_level(what="TABLE") == {"FINISHED"}
+    table = bpy.data.objects["Trough Level Table"]
+    assert len(table.data.edges) == stored.cuts.TABLE_ROWS - 1
+    assert trough.matrix_world == before
+
+
+def test_changed_vessel_forgets_its_level():
+    trough = add_trough()
+    LEVEL(by="VOLUME", volume=0.5)
+    trough.location.z += 1
+    bpy.context.view_layer.update()
+    assert level_of(trough) is None
+    with pytest.raises(RuntimeError, match="has changed"):
+        bpy.ops.object.body_moments_show_level()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"by": "VOLUME", "volume": 5.0}, "Trough: It holds at most 2 m³, up to 4 m"),
+        ({"by": "LEVEL", "level": 2.0}, "below the bottom"),
+        ({"by": "LEVEL", "level": 4.5}, "at most"),
+    ],
+)
+def test_liquid_that_does_not_fit_is_refused(arguments, message):
+    trough = add_trough()
+    assert LEVEL(**arguments) == {"CANCELLED"}
+    assert re.search(message, refusal())
+    assert trough not in memory.levels
+
+
+def test_cut_and_fill_of_a_slope():
+    mesh = bpy.data.meshes.new("Slope")
+    mesh.from_pydata([(0, 0, 0), (1, 0, 2), (1, 1, 2), (0, 1, 0)], [], [(0, 1, 2, 3)])
+    slope = add(mesh, "Slope")
+    assert CUT_FILL(against="HEIGHT", height=1.0) == {"FINISHED"}
+    found = stored.cuts.cut_fill_of(slope, bpy.context.scene).found
+    assert (found.cut.total, found.fill.total) == pytest.approx((0.25, 0.25))
+    assert CUT_FILL(against="RIM") == {"FINISHED"}
+    assert memory.cut_fills[slope].found.net == pytest.approx(0.0, abs=1e-12)
+    assert CUT_FILL(against="OBJECT", other="Nothing") == {"CANCELLED"}
+    assert "“Nothing”" in refusal()
+    bpy.ops.mesh.primitive_cube_add()
+    assert CUT_FILL(against="HEIGHT") == {"CANCELLED"}
+    assert "Cube: No cut and fill: the surface is closed" in refusal()
