@@ -186,8 +186,10 @@ class BareFile:
         shapeless = unused(requested)
         if is_scan:
             shapeless = [finding(SHAPE_OF_GRID)] * bool(requested)
+        floats = ["float"] if self.options.float else []
         more = dict.fromkeys([*requested, *["thumbnail"] * bool(self.options.thumbnails)])
-        self._add(contents, measurement, shapeless, more)
+        more |= dict.fromkeys(["floating"] * len(floats))
+        self._add(contents, measurement, [*shapeless, *unused(floats)], more)
 
     def _measure_labels(self, name: str, contents: Contents) -> None:
         """Measure the labels of a label map, each with a record of its own."""

@@ -154,7 +154,7 @@ def record_of_flat(
     """
     depsgraph = bpy.context.evaluated_depsgraph_get()
     order = options.order
-    posed = unused(["pose"] if options.pose else [])
+    posed = unused(name for name in ("pose", "float") if getattr(options, name))
     more: dict[str, Any] = {"pose": None} if options.pose else {}
     invariants = []
     try:

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Faces of an IGES file, Initial Graphics Exchange Specification 5.3: B-spline surfaces (128) and
-trimmed planes.
+"""Faces of an IGES file, Initial Graphics Exchange Specification 5.3: B-spline surfaces (128),
+swept ones (118, 120, 122), cylinders, cones, spheres and tori (192 to 198), and trimmed planes.
 
 They stand alone, in trimmed surfaces (144), in solids (186) of shells (514) of faces (510), or in
 subfigures (308, 408). Planes may be trimmed, other surfaces only along their own boundary.
@@ -11,7 +11,9 @@ refused by name; curves, points and annotation bound nothing and are left out.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TypeAlias, TypeVar
 
@@ -19,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..files import FILE_TOO_LARGE
-from ..numerics import Array
+from ..numerics import Array, lengths
 from ..nurbs import Curve, Face, FlatFace, Patch, patches_size
 from ..verdict.finding import FileError, finding
 from .findings import (
@@ -39,6 +41,7 @@ from .iges_entities import (
     numbers,
     padded,
 )
+from .iges_sweeps import TURN, join_pieces, revolve, rule, spanned_quadric
 from .surfaces import (
     MAX_SURFACES,
     Refusals,
@@ -69,9 +72,6 @@ RECURSION = "references to itself, or nested too deeply"
 REFUSED = {
     108: "Plane",
     114: "Parametric Spline Surface",
-    118: "Ruled Surface",
-    120: "Surface of Revolution",
-    122: "Tabulated Cylinder",
     140: "Offset Surface",
     143: "Bounded Surface",
     150: "Block",
@@ -95,6 +95,20 @@ REFUSED = {
     416: "External Reference",
     430: "Solid Instance",
 }
+RULED = 118
+REVOLVED = 120
+EXTRUDED = 122
+SWEPT = {
+    RULED: "Ruled Surface",
+    REVOLVED: "Surface of Revolution",
+    EXTRUDED: "Tabulated Cylinder",
+}
+CYLINDER = 192
+CONE = 194
+BALL = 196
+TORUS = 198
+ANALYTIC = (CYLINDER, CONE, BALL, TORUS)
+POINT = 116
 PARTS = {FACE: "Face", SHELL: "Shell"}  # A solid or a file has them.
 NAMES = (
     {
@@ -104,6 +118,7 @@ NAMES = (
         SOLID: "Manifold Solid B-Rep",
     }
     | PARTS
+    | SWEPT
     | REFUSED
 )
 # Index of the parameter that points to the surface or solid which an entity refers to.
@@ -126,6 +141,7 @@ class IgesReader:
         self._name = path.stem
         self._placed = 0
         self._rounding = 0.0
+        self._turning = 0.0  # Largest effect of the decimals of directions, relative to the size.
         self._curves = CurveReader(self._text, self._matrix)
 
     def read(self) -> SurfaceFile:
@@ -151,6 +167,10 @@ class IgesReader:
             for code, n in ((SURFACES_HIDDEN, hidden), (CURVES_LEFT_OUT, others))
             if n
         ]
+        self._rounding = max(self._rounding, self._curves.rounding)
+        if self._turning and patches:
+            reach = max(float(np.abs(face.points).max()) for face in patches)
+            self._rounding += 2.0 * self._turning * reach
         return self._refusals.file(
             [SurfaceBody(self._name, tuple(patches), self._rounding)], self._text.unit, notes
         )
@@ -216,7 +236,7 @@ class IgesReader:
                 return self._instance(entry, above, path)
             if entry.type in (SOLID, SHELL):
                 return self._shells(entry, above)
-            if entry.type == SURFACE:
+            if entry.type == SURFACE or entry.type in SWEPT:
                 return self._within(entry, above @ self._matrix(entry), [], True)
             return (self._trimmed if entry.type == TRIMMED else self._face)(
                 entry, above @ self._matrix(entry)
@@ -272,7 +292,10 @@ class IgesReader:
         if known is None:
             raise SurfaceRefusedError(SURFACE_DAMAGED, fault=RECURSION)
         for one in reversed(chain):
-            rows = numbers(self._text.fields(one)[:12])
+            fields = self._text.fields(one)[:12]
+            self._rounding = max(self._rounding, decimal_rounding(fields[3::4]))
+            self._note_turning([word for k, word in enumerate(fields) if k % 4 < 3])
+            rows = numbers(fields)
             matrix = np.eye(4)
             matrix[:3] = rows.reshape(3, 4)
             known = known @ matrix
@@ -355,6 +378,14 @@ class IgesReader:
         if base.type in (PLANE, PLANE_SURFACE):
             loops = [boundary.curves for boundary in boundaries] if has_outer else []
             faces: list[Face] = [first_region([loops], self._plane_normal(base, matrix))]
+        elif base.type in SWEPT or base.type in ANALYTIC and boundaries:
+            surface = self._swept(base, matrix, boundaries)
+            # Parameters of other surfaces than splines are those of no exact form.
+            in_space = [replace(one, parameters=None) if one.curves else one for one in boundaries]
+            domain = surface.spaces[0].domain, surface.spaces[1].domain
+            patches = bezier_surface(surface, (None, None), self._for_blender)
+            rounding = self._rounding
+            faces = trimmed_faces(surface, domain, patches, in_space, has_outer, rounding)
         elif base.type != SURFACE:
             raise SurfaceRefusedError(
                 SURFACE_UNSUPPORTED, base=NAMES.get(base.type, str(base.type))
@@ -375,6 +406,85 @@ class IgesReader:
         if self._for_blender and any(isinstance(face, FlatFace) for face in faces):
             raise SurfaceRefusedError(SURFACE_TRIMMED)
         return faces
+
+    def _swept(self, base: Entry, matrix: NDArray, boundaries: Sequence[Boundary]) -> Patch:
+        """Return a surface of revolution, a tabulated cylinder or a ruled surface, or the part of
+        an analytic surface within boundaries.
+        """
+        fields = self._text.fields(base)
+        if base.type in ANALYTIC:
+            return self._spanned(base, fields, matrix, boundaries)
+        first = integers(fields, 1)[0]
+        if base.type == REVOLVED:
+            begin, end = self._curve(first).evaluate([0.0, 1.0])
+            start, stop = numbers(fields[2:4]).tolist()
+            profile = self._curve(integers(fields, 2)[1])
+            unsure = decimal_rounding(fields[2:4])
+            if abs(stop - start - TURN) <= 4.0 * unsure:
+                stop = start + TURN
+            else:
+                arms = np.cross(profile.points - begin, end - begin) / np.linalg.norm(end - begin)
+                self._rounding = max(self._rounding, unsure * float(lengths(arms).max()))
+            patch = revolve(profile, begin, end - begin, start, stop)
+        elif base.type == EXTRUDED:
+            profile = self._curve(first)
+            self._rounding = max(self._rounding, decimal_rounding(fields[1:4]))
+            shift = numbers(fields[1:4]) - profile.evaluate(profile.space.domain[:1])[0]
+            patch = rule(profile, replace(profile, points=profile.points + shift))
+        else:
+            _, second, is_backward = integers(fields, 3)
+            other = self._curve(second)
+            patch = rule(self._curve(first), other.reverse() if is_backward else other)
+        return patch.transform(matrix)
+
+    def _note_turning(self, fields: list[str]) -> None:
+        """Note the decimals of directions."""
+        self._turning = max(self._turning, decimal_rounding(fields))
+
+    def _curve(self, pointer: int) -> Curve:
+        """Return a curve that sweeps a surface, in one piece."""
+        pieces = self._curves.read(pointer, np.eye(4))
+        if not pieces:
+            raise ValueError("a curve of another kind")
+        return join_pieces(pieces)
+
+    def _spanned(
+        self, base: Entry, fields: list[str], matrix: NDArray, boundaries: Sequence[Boundary]
+    ) -> Patch:
+        """Return the part of a cylinder, cone, sphere or torus that boundaries in space span."""
+        radii = 1 if base.type in (CYLINDER, BALL) else 2
+        if base.type == BALL:
+            location, axis, toward = integers([fields[0], *padded(fields[2:], 2)], 3)
+            values = numbers(fields[1:2])
+        else:
+            location, axis = integers(fields, 2)
+            values = numbers(fields[2 : 2 + radii])
+            (toward,) = integers(padded(fields[2 + radii :], 1), 1)
+        if not (axis and toward) or any(one.curves is None for one in boundaries):
+            raise SurfaceRefusedError(SURFACE_UNSUPPORTED, base=NAMES[base.type])
+        frame = np.eye(4)
+        place = self._text.fields(self._entry(location, POINT))[:3]
+        frame[:3, 3] = numbers(place)
+        directions = [self._text.fields(self._entry(one, DIRECTION))[:3] for one in (axis, toward)]
+        self._note_turning([*directions[0], *directions[1]])
+        sizes = fields[2 : 2 + radii] if base.type != BALL else fields[1:2]
+        if base.type == CONE:
+            unsure = math.radians(decimal_rounding([sizes.pop()]))
+            self._turning = max(self._turning, 2.0 * unsure)
+        self._rounding = max(self._rounding, decimal_rounding([*place, *sizes]))
+        up, side = map(numbers, directions)
+        frame[:3, 2] = up / np.linalg.norm(up)
+        side = side - (side @ frame[:3, 2]) * frame[:3, 2]
+        frame[:3, 0] = side / np.linalg.norm(side)
+        frame[:3, 1] = np.cross(frame[:3, 2], frame[:3, 0])
+        curves = [curve for one in boundaries for curve in one.curves or ()]
+        radius, last = float(values[0]), float(values[-1])
+        if base.type == BALL:
+            radius, minor, slope = 0.0, last, 0.0
+        else:
+            minor = last if base.type == TORUS else 0.0
+            slope = math.tan(math.radians(last)) if base.type == CONE else 0.0
+        return spanned_quadric(matrix @ frame, curves, radius, minor, slope)
 
     def _note_rounding(self, fields: list[str], surface: Patch, matrix: NDArray) -> float:
         """Note and return the uncertainty of a surface's points by the decimals of its points and

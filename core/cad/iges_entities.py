@@ -287,6 +287,7 @@ class CurveReader:
     def __init__(self, text: IgesText, matrix_of: Callable[[Entry], Array]) -> None:
         self._text, self._matrix_of = text, matrix_of
         self._entries: Mapping[int, Entry] = text.entries
+        self.rounding = 0.0  # Largest effect of the decimals of points of curves in space.
 
     def read(
         self,
@@ -324,6 +325,11 @@ class CurveReader:
                 pieces += part
             return pieces
         made = _MAKERS[entry.type](fields) if entry.type in _MAKERS else None
+        if matrix is not None:
+            # The numbers of a spline behind its knots and weights, or the whole of a simple curve.
+            first = 6 + 2 * len(fields[6:]) // 5 if entry.type == SPLINE else 0
+            moved = float(np.linalg.norm(matrix[:3, :3], 2)) * decimal_rounding(fields[first:])
+            self.rounding = max(self.rounding, moved)
         return (
             made if made is None or matrix is None else [curve.transform(matrix) for curve in made]
         )

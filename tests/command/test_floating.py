@@ -71,3 +71,11 @@ def test_liquid_is_named_in_any_case(name, density):
     files.add_box()
     found = document("--float", name, "--density", "500")["objects"][0]["floating"]
     assert found["liquid_density"] == density
+
+
+def test_scan_does_not_float_and_says_so(tmp_path):
+    path = tmp_path / "scan.npy"
+    np.save(path, np.full((2, 2, 2), 500.0))
+    (entry,) = document("--float", "Water", path)["objects"]
+    assert entry["floating"] is None
+    assert "options_unused" in [found["code"] for found in entry["findings"]]

@@ -32,16 +32,26 @@ def test_an_iges_body_in_its_own_unit(tmp_path, end):
 def test_refused_entity_is_an_error_beside_other_records(tmp_path):
     file = IgesFile()
     file.surface(unrolled(sphere()))
-    file.add(120, [1, 3, 0.0, 1.0], label="VASE")
+    file.add(114, [1, 3, 0.0, 1.0], label="VASE")
     found = document(file.write(tmp_path / "a.igs"), "--density", "1")
     assert [entry["name"] for entry in found["objects"]] == ["a"]
     (error,) = found["errors"]
-    assert "VASE" in error["reason"] and "Surface of Revolution (120)" in error["reason"]
+    assert "VASE" in error["reason"] and "Parametric Spline Surface (114)" in error["reason"]
     assert [
         found["values"]["count"]
         for found in found["objects"][0]["findings"]
         if found["code"] == "faces_not_read"
     ] == [1]
+
+
+def test_refused_faces_of_a_body_are_the_only_error(tmp_path):
+    file = IgesFile()
+    line = file.add(110, [1.0, 0.0, 0.0, 1.0, 0.0, 2.0])
+    file.add(122, [line, 2.0, 0.0, 0.0])
+    file.add(114, [1, 3, 0.0, 1.0], label="VASE")
+    found = document(file.write(tmp_path / "a.igs"), "--density", "1")
+    (error,) = found["errors"]
+    assert not found["objects"] and "VASE" in error["reason"]
 
 
 CUBE = "o Cube\n" + "".join(

@@ -304,7 +304,7 @@ def test_other_surface_types_are_refused_and_curves_left_out(tmp_path):
     file = IgesFile()
     file.surface(unrolled(sphere()))
     file.surface(unrolled(torus()), status="01000000")
-    file.add(120, [1, 3, 0.0, 6.28], label="VASE")
+    file.add(114, [1, 3, 0.0, 6.28], label="VASE")
     file.add(186, [1, 1, 0])
     file.add(514, [1, 1, 1], status="00010000")
     file.add(110, [0.0] * 6)
@@ -327,7 +327,7 @@ def test_other_surface_types_are_refused_and_curves_left_out(tmp_path):
     }
     names = [(found.code, found.values["kind"], found.values["names"][0]) for found in read.refused]
     assert names == [
-        ("surface_unsupported", "Surface of Revolution (120)", "VASE"),
+        ("surface_unsupported", "Parametric Spline Surface (114)", "VASE"),
         ("surface_damaged", "Manifold Solid B-Rep (186)", "D7"),
         ("surface_beyond_limit", "Rational B-Spline Surface (128)", "HIGH"),
         ("surface_damaged", "Rational B-Spline Surface (128)", "SHORT"),

@@ -25,10 +25,21 @@ EXACT = {
 }
 EXACT |= {"sphere": BALL, "torus": RING, "sphere_solid": BALL, "drilled_solid": EXACT["drilled"]}
 EXACT["apex_solid"] = 1000.0 * np.pi
+SWEPT = {
+    "cylinder": 500.0 * np.pi,
+    "cone": 520.0 / 3.0 * np.pi,
+    "apex": 120.0 * np.pi,
+    "sphere": 500.0 / 3.0 * np.pi,
+    "torus": 180.0 * np.pi**2,
+    "tube": 3600.0 * np.pi,
+    "wedge": 325.0,
+    "drilled": 8000.0 - 320.0 * np.pi,
+    "fillet": 5880.0 + 30.0 * np.pi,
+}
 
 
 def kernel_file(name, tmp_path):
-    path = tmp_path / (name + ".igs")
+    path = tmp_path / (Path(name).name + ".igs")
     path.write_bytes(gzip.decompress((FOLDER / (name + ".igs.gz")).read_bytes()))
     return path
 
@@ -49,3 +60,21 @@ def test_body_of_a_kernel_has_its_mass_properties(tmp_path, name):
     if name in EXACT:
         bound = body.volume.rounding_error[0] + body.volume.input_error[0]
         assert abs(body.volume.total - EXACT[name]) <= bound <= 1e-7 * volume
+
+
+@pytest.mark.parametrize("mode", ["faces", "solid"])
+@pytest.mark.parametrize("name", SWEPT)
+def test_swept_part_of_a_default_writer_is_within_bound(tmp_path, name, mode):
+    path = kernel_file("swept/{}_{}".format(name, mode), tmp_path)
+    read = read_surfaces(path, for_blender=False)
+    assert read.refused == () and len(read.bodies) == 1
+    body = measure_patches(read.bodies[0].patches, stored=read.bodies[0].rounding)
+    assert body.method == "exact" and body.findings == ()
+    bound = body.volume.rounding_error[0] + body.volume.input_error[0]
+    assert abs(body.volume.total - SWEPT[name]) <= bound <= 1e-8 * SWEPT[name]
+
+
+@pytest.mark.parametrize("mode", ["faces", "solid"])
+def test_walls_around_a_cross_hole_are_refused_by_name(tmp_path, mode):
+    read = read_surfaces(kernel_file("swept/cross_" + mode, tmp_path), for_blender=False)
+    assert [one.code for one in read.refused] == ["surface_trimmed"] and read.unread == 4

@@ -1,0 +1,61 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Write the parts of the folder `swept` with OpenCascade's default writer (`pip install
+cadquery-ocp==8.0.1.1.0`): NAME_faces.igs with trimmed surfaces (144), NAME_solid.igs a manifold
+solid (186).
+"""
+
+import gzip
+from pathlib import Path
+
+from OCP import BRepPrimAPI, gp
+from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut
+from OCP.BRepFilletAPI import BRepFilletAPI_MakeFillet
+from OCP.IGESControl import IGESControl_Controller, IGESControl_Writer
+from OCP.TopAbs import TopAbs_EDGE
+from OCP.TopExp import TopExp_Explorer
+from OCP.TopoDS import TopoDS
+
+FOLDER = Path(__file__).parent / "swept"
+
+
+def made(kind, *sizes):
+    return getattr(BRepPrimAPI, "BRepPrimAPI_Make" + kind)(*sizes).Shape()
+
+
+def rod(radius, height, place, along):
+    axis = gp.gp_Ax2(gp.gp_Pnt(*place), gp.gp_Dir(*along))
+    return made("Cylinder", axis, radius, height)
+
+
+def cut(shape, tool):
+    return BRepAlgoAPI_Cut(shape, tool).Shape()
+
+
+box = made("Box", 10.0, 20.0, 30.0)
+fillet = BRepFilletAPI_MakeFillet(box)
+fillet.Add(2.0, TopoDS.Edge(TopExp_Explorer(box, TopAbs_EDGE).Current()))
+tube = cut(made("Cylinder", 10.0, 48.0), made("Cylinder", 5.0, 48.0))
+parts = {
+    "cylinder": made("Cylinder", 5.0, 20.0),
+    "cone": made("Cone", 6.0, 2.0, 10.0),
+    "apex": made("Cone", 6.0, 0.0, 10.0),
+    "sphere": made("Sphere", 5.0),
+    "torus": made("Torus", 10.0, 3.0),
+    "tube": tube,
+    "wedge": made("Cylinder", 5.0, 20.0, 1.3),
+    "drilled": cut(made("Box", 20.0, 20.0, 20.0), rod(4.0, 40.0, (10, 10, -5), (0, 0, 1))),
+    "fillet": fillet.Shape(),
+    "cross": cut(tube, rod(3.0, 60.0, (-30, 0, 24), (1, 0, 0))),
+}
+FOLDER.mkdir(exist_ok=True)
+IGESControl_Controller.Init_s()
+for name, part in parts.items():
+    for mode, kind in enumerate(("faces", "solid")):
+        writer = IGESControl_Writer("MM", mode)
+        writer.AddShape(part)
+        writer.ComputeModel()
+        path = FOLDER / "{}_{}.igs".format(name, kind)
+        writer.Write(str(path))
+        path.with_name(path.name + ".gz").write_bytes(gzip.compress(path.read_bytes(), 9, mtime=0))
+        path.unlink()
