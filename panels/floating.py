@@ -52,11 +52,11 @@ class FloatingPanel:
             if tank.role == "TANK":
                 column.prop(tank, "fill")
         floating = loaded_module(stored, "floating")
-        afloat = None if floating is None or obj is None else floating.known(obj)
+        afloat = None if floating is None or obj is None else floating.known_body(obj)
         if afloat is None:
             rows.remark(layout, "Press Float to see where it rests.")
             return
-        held = floating.held(obj, context.scene)
+        held = floating.held_body(obj, context.scene)
         if isinstance(held, Finding):
             rows.message(layout, held)
         elif held is None:

@@ -82,7 +82,8 @@ def _object_error(obj: Object, reach: float, followers: tuple[Object, ...]) -> f
         turns += abs(obj.rotation_axis_angle[0])
     moved = obj.location.length + obj.delta_location.length
     stretched = _norm(basis) * reach
-    error = _HALF_STEP * ((_ROUNDINGS + turns) * stretched + moved)
+    is_turned = not np.array_equal(basis[:3, :3], np.eye(3))
+    error = _HALF_STEP * (is_turned * (_ROUNDINGS + turns) * stretched + moved)
     if obj.parent is not None:
         inverse = float64_matrix(obj.matrix_parent_inverse)
         stretch = _norm(inverse)

@@ -220,7 +220,7 @@ class FloatingBody:
     @cached_property
     def capacity(self) -> float:
         """The volume that it displaces under water."""
-        return Vessel(self.points, self.triangles, 0.0).whole[0]
+        return self.hull.whole[0]
 
     @cached_property
     def size(self) -> float:

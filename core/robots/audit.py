@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from ..inertia import combine
 from ..mesh import Surface
 from ..moments import Moments
+from ..moments.moments import SECOND_MOMENT_INDEX
 from ..numerics import Array
 from ..solid import measure_solid
 from ..verdict import Procedure, internal_error, sentence, severity
@@ -47,7 +48,7 @@ from .read.descriptions import Roots
 from .read.meshes import read_mesh
 from .read.mjcf_meshes import CLOSED
 from .stated import Description, Place, StatedInertial, StatedLink, StatedShape, rotation_of_angles
-from .totals import Expectation, Totals, Tree, add_up, build_tree
+from .totals import Body, Expectation, Totals, Tree, add_up, build_tree
 from .twins import TOLERANCE, disagreement, find_copies, find_pairs, images, mapped
 
 BALL = 2000  # points of a ball
@@ -535,6 +536,11 @@ def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete:
         entries = [*(Entry(one, place, (), guess, certainty, True) for one in left), *entries]
         if unusual:
             entries.append(Entry(finding(AUDIT_DENSITY, density=density), place, compares=True))
+    # Also an uneven filling needs matter of this density.
+    least = stated.mass / max(one.volume for one in references)
+    is_told = any(one.change or one.finding.code == AUDIT_DENSITY for one in entries)
+    if least > DENSITIES[1] and not wrong and not is_told:
+        entries.append(Entry(finding(AUDIT_DENSITY, density=least), place, compares=True))
     apart = min(one.compare(stated) for one in references)
     return LinkAudit(
         link, tuple(entries), repaired, stated.mass / reference.volume, geometry, apart, bool(wrong)
@@ -605,14 +611,15 @@ def _reference(pieces: Sequence[tuple[StatedShape, _Piece]]) -> Reference | None
     """
     if not pieces:
         return None
-    placed = []
+    whole = Body()
     for stated, piece in pieces:
         if piece.moments is None:
             return None
-        placed.append((piece.moments.transform(stated.shape.pose.matrix), 1.0))
-    try:
-        whole = combine(placed)
-    except MeasureError:
+        own = piece.moments.transform(stated.shape.pose.matrix).about_center()
+        second = own.raw[SECOND_MOMENT_INDEX]
+        inertia = np.trace(second) * np.eye(3) - second
+        whole = whole.joined(Body(float(own.raw[0]), own.about, inertia))
+    if whole.center is None or whole.inertia is None:
         return None
     origins = tuple(stated.shape.pose.position for stated, _ in pieces)
     return Reference(whole.mass, whole.center, whole.inertia / whole.mass, origins)

@@ -80,7 +80,6 @@ SAME = 1e-6  # Relative difference below which two changes lead to one inertial.
 CENTER = "center of mass"
 PRODUCTS = "products of inertia"
 CENTER_AXES = "axes of the center of mass"
-CENTERS = (CENTER, CENTER_AXES)
 LENGTHS = "lengths of the inertial, the inertia twice,"
 GRAMS = "mass by 0.001 and the inertia, in g·mm² or g·cm²,"
 PER_MASS = "inertia, which is that of mass 1 in other units, by the mass and"
@@ -256,8 +255,8 @@ def _center_changes(stated: StatedInertial, references: Sequence[Reference]) -> 
     for reference in references:
         if reference.compare_centers(stated) <= DIFFERS:
             continue
-        for code, values, repaired in _changes(stated, reference):
-            if values.get("part") in CENTERS and reference.compare_centers(repaired) < AGREES:
+        for code, values, repaired in _centers(stated, reference):
+            if reference.compare_centers(repaired) < AGREES:
                 yield Diagnosis(_finding(code, values, "the centers"), repaired)
                 break
 
@@ -322,16 +321,23 @@ def _changes(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
     """Yield each change that may correct an inertial, with the corrected inertial; likelier changes
     come first.
     """
-    yield from _units(stated, reference)
-    yield from _points(stated, reference)
-    yield from _frames(stated)
-    yield from _signs(stated)
-    yield from _orders(stated)
-    yield from _moments(stated, reference)
-    yield from _transposed(stated)
+    # Changes that keep a wrong center cannot make it agree.
+    keeps = reference.compare_centers(stated) <= AGREES
+    yield from _units(stated, reference, keeps)
+    if not keeps:
+        yield from _centers(stated, reference)
+    if keeps:
+        yield from _points(stated, reference)
+        yield from _frames(stated)
+    yield from _signs(stated, keeps)
+    yield from _orders(stated, keeps)
+    if keeps:
+        yield from _moments(stated, reference)
+        yield from _transposed(stated)
 
 
-def _units(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
+def _units(stated: StatedInertial, reference: Reference, keeps: bool) -> Iterator[Change]:
+    """Yield changes of units. keeps: True if changes that keep the center may help."""
     inertia = stated.inertia
     center = stated.center
     mass = stated.mass
@@ -348,19 +354,11 @@ def _units(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
             for unit in (1e-9, 1e-7):
                 tensor = stated.along_link(_times(inertia, unit), mass=float(_times(mass, factor)))
                 yield AUDIT_UNIT, {"part": GRAMS, "factor": unit}, tensor
-    for factor in INERTIA_UNITS:
+    for factor in INERTIA_UNITS if keeps else ():
         yield (
             AUDIT_UNIT,
             {"part": "inertia", "factor": factor},
             stated.along_link(_times(inertia, factor)),
-        )
-    # Any center becomes that of geometry at the origin, if it is only made small enough.
-    is_away = np.linalg.norm(reference.center) > DIFFERS * np.sqrt(np.trace(reference.inertia) / 2)
-    for factor in LENGTH_UNITS if is_away else ():
-        yield (
-            AUDIT_UNIT,
-            {"part": CENTER, "factor": factor},
-            replace(stated, center=_times(center, factor)),
         )
     for factor in LENGTH_UNITS:
         whole = stated.along_link(
@@ -374,7 +372,7 @@ def _units(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
             {"part": part, "factor": factor},
             stated.along_link(inertia * factor),
         )
-    for factor in (INCH**2, 1e-4, 1e-6):
+    for factor in (INCH**2, 1e-4, 1e-6) if keeps else ():
         tensor = stated.along_link(_times(inertia, factor) * mass)
         yield AUDIT_UNIT, {"part": PER_MASS, "factor": factor}, tensor
 
@@ -439,20 +437,35 @@ def _frames(stated: StatedInertial) -> Iterator[Change]:
     yield AUDIT_FRAME_NOT_MEANT, {}, replace(stated, rotation=np.eye(3))
 
 
-def _signs(stated: StatedInertial) -> Iterator[Change]:
+def _centers(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
+    """Yield changes of the center of mass alone."""
+    # Any center becomes that of geometry at the origin, if it is only made small enough.
+    is_away = np.linalg.norm(reference.center) > DIFFERS * np.sqrt(np.trace(reference.inertia) / 2)
+    for factor in LENGTH_UNITS if is_away else ():
+        moved = replace(stated, center=_times(stated.center, factor))
+        yield AUDIT_UNIT, {"part": CENTER, "factor": factor}, moved
+    *some, all_of_them = [*product((1.0, -1.0), repeat=3)][1:]
+    for signs in (*some, all_of_them):
+        names = [axis for axis, sign in zip("xyz", signs) if sign == -1.0]
+        moved = replace(stated, center=stated.center * signs)
+        yield AUDIT_SIGN, {"part": CENTER, "axes": names}, moved
+    for order in AXES:
+        axes = "".join("xyz"[axis] for axis in order)
+        moved = replace(stated, center=stated.center[order])
+        yield AUDIT_ORDER, {"part": CENTER_AXES, "order": axes}, moved
+
+
+def _signs(stated: StatedInertial, keeps: bool) -> Iterator[Change]:
     rows = np.array([0, 0, 1])
     columns = np.array([1, 2, 2])
     _, *some, all_of_them = product((1.0, -1.0), repeat=3)
-    for signs in (all_of_them, *some):
+    for signs in (all_of_them, *some) if keeps else ():
         for along_link in (True, False):
             tensor = (stated.inertia if along_link else stated.tensor).copy()
             tensor[rows, columns] = tensor[columns, rows] = tensor[rows, columns] * signs
             changed = stated.along_link(tensor) if along_link else replace(stated, tensor=tensor)
             names = [name for name, sign in zip(PRODUCT_NAMES, signs) if sign == -1.0]
             yield AUDIT_SIGN, {"part": PRODUCTS, "axes": names}, changed
-    for signs in (*some, all_of_them):
-        names = [axis for axis, sign in zip("xyz", signs) if sign == -1.0]
-        yield AUDIT_SIGN, {"part": CENTER, "axes": names}, _mapped(stated, np.diag(signs))[1]
     for axis in range(3):
         yield (
             AUDIT_MIRRORED,
@@ -476,17 +489,17 @@ def _mapped(
     )
 
 
-def _orders(stated: StatedInertial) -> Iterator[Change]:
+def _orders(stated: StatedInertial, keeps: bool) -> Iterator[Change]:
     """Yield changes that reorder the axes of the tensor, the center or both, or turn them by 90
     degrees; and six entries in another program's sequence.
     """
-    yield from _sequences(stated)
+    if keeps:
+        yield from _sequences(stated)
     for order in AXES:
         axes = {"order": "".join("xyz"[axis] for axis in order)}
-        _, center, both = _mapped(stated, np.eye(3)[order])
-        for values, tensor in _reordered(stated.inertia, order, ""):
+        _, _, both = _mapped(stated, np.eye(3)[order])
+        for values, tensor in _reordered(stated.inertia, order, "") if keeps else ():
             yield AUDIT_ORDER, values, stated.along_link(tensor)
-        yield AUDIT_ORDER, {"part": CENTER_AXES, **axes}, center
         yield AUDIT_ORDER, {"part": "axes of the inertial", **axes}, both
     # A quarter turn, such as y up instead of z up.
     for axis, way in product(range(3), (1.0, -1.0)):
@@ -496,7 +509,7 @@ def _orders(stated: StatedInertial) -> Iterator[Change]:
         )
         yield AUDIT_TURNED, {"part": "inertial", "axis": "xyz"[axis]}, both
         yield AUDIT_TURNED, {"part": "inertia", "axis": "xyz"[axis]}, tensor
-    if (stated.rotation != np.eye(3)).any():
+    if keeps and (stated.rotation != np.eye(3)).any():
         for order in AXES:
             for values, tensor in _reordered(stated.tensor, order, " in its own frame"):
                 yield AUDIT_ORDER, values, replace(stated, tensor=tensor)

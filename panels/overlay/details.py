@@ -82,8 +82,10 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
         levels = [cuts.level_of(obj, context.scene) for obj in objects]
         details += [_surface(level, unit) for level in levels if level is not None]
     if settings.show_waterline:
-        afloat = {id(body): obj for obj in objects if (body := floating.known(obj)) is not None}
-        held = [floating.held(obj, context.scene) for obj in afloat.values()]
+        afloat = {
+            id(body): obj for obj in objects if (body := floating.known_body(obj)) is not None
+        }
+        held = [floating.held_body(obj, context.scene) for obj in afloat.values()]
         unit = meters_per_unit(context.scene)
         details += [_waterline(body, unit) for body in held if isinstance(body, floating.Held)]
     return details

@@ -29,7 +29,7 @@ def held(obj):
     from body_moments.blender.session.stored import floating
 
     bpy.context.view_layer.update()
-    return floating.held(obj, bpy.context.scene)
+    return floating.held_body(obj, bpy.context.scene)
 
 
 @pytest.mark.parametrize("scale", [1.0, 0.01])

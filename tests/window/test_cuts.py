@@ -58,16 +58,26 @@ if 'DEFAULT_CLOSED' in panel.bl_options:
     bpy.utils.unregister_class(inner)
     bpy.utils.register_class(inner)
 """
-FIELD = -77, -29  # pixels from the button to the field of the dialog
 CUTS = f"import sys\ncuts = sys.modules['{PACKAGE}.blender.session.stored.cuts']\n"
+
+
+def field(window, x, y):
+    """Return the place of the dialog's number near the pointer, which Ctrl C over it copies."""
+    manager = "bpy.context.window_manager"
+    for up in range(-120, 240, 8):
+        window.move(x - 60, y + up, "key", "ctrl+c")
+        copied = window.ask(f"result = {manager}.clipboard\n{manager}.clipboard = '-'")
+        if "250" in copied or "0.00025" in copied:
+            return x - 60, y + up
+    raise LookupError(window.output())
 
 
 def test_level_of_a_volume_takes_three_clicks(window):
     window.ask(CUP + SHOW)
     window.open_tab("Moments")
     x, y = window.place("object.body_moments_level")
-    window.click(x, y)
-    window.click(x + FIELD[0], y + FIELD[1])
+    window.press("object.body_moments_level")
+    window.click(*field(window, x, y))
     window.type("ctrl+a", "1", "5", "0", "Return")  # cm³
     window.key("Return")
     window.wait(f"'{PACKAGE}.blender.session.stored.cuts' in __import__('sys').modules")
@@ -81,6 +91,12 @@ def test_level_of_a_volume_takes_three_clicks(window):
 
 def test_pit_below_its_rim(window):
     window.ask(PIT + SHOW)
+    window.press("object.body_moments_cut_fill")
+    window.redraw()
+    window.picture("cut-fill-dialog")
+    window.key("Return")
+    memory = f"__import__('sys').modules['{PACKAGE}.blender.session.memory']"
+    window.wait(f"bpy.data.objects['Pit'] in {memory}.cut_fills")
     window.ask("bpy.ops.object.body_moments_cut_fill(against='RIM')")
     window.point_at_view()
     window.picture("cut-fill-pit")

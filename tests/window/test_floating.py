@@ -13,7 +13,7 @@ from tests.window.harness import OPEN_STABILITY, PACKAGE
 HULL = "bpy.data.objects['Cube']"
 SESSION = f"__import__('sys').modules['{PACKAGE}.blender.session.stored.floating']"
 HELD = (
-    f"found = {SESSION}.held({HULL}, bpy.context.scene)\n"
+    f"found = {SESSION}.held_body({HULL}, bpy.context.scene)\n"
     "result = found and [found.is_at_rest, found.state.draught, found.heel]"
 )
 EMPTY = "for obj in list(bpy.data.objects):\n    bpy.data.objects.remove(obj)\n"
@@ -58,7 +58,7 @@ def test_waterline_follows_a_heeled_hull(window):
 
 def test_button_lists_righting_arms(window):
     window.press("object.body_moments_righting_arms")
-    window.wait(f"{SESSION}.known({HULL}).curve is not None")
+    window.wait(f"{SESSION}.known_body({HULL}).curve is not None")
     window.point_at_view()
     window.picture("floating-arms")
 
@@ -69,7 +69,7 @@ def test_live_waterline_follows_an_edit(window):
         f"mesh = {HULL}.data\nfor vertex in mesh.vertices:\n    vertex.co.z *= 2.0\n"
         "mesh.update()"
     )
-    window.wait(f"{SESSION}.held({HULL}, bpy.context.scene) is not None")
+    window.wait(f"{SESSION}.held_body({HULL}, bpy.context.scene) is not None")
     _, draught, _ = window.ask(HELD)
     assert draught == pytest.approx(0.8 * 2.0 * 500.0 / 1023.343, rel=1e-5)
 
@@ -111,7 +111,7 @@ def test_open_boat_floats_and_shows_its_range(window):
     window.wait("bpy.data.objects['Boat'].location.z < 0.5")
     window.press("object.body_moments_righting_arms")
     held = HELD.replace("'Cube'", "'Boat'")
-    window.wait(f"{SESSION}.known(bpy.data.objects['Boat']).curve is not None")
+    window.wait(f"{SESSION}.known_body(bpy.data.objects['Boat']).curve is not None")
     at_rest, draught, heel = window.ask(held)
     assert at_rest and abs(heel) < 1e-3 and 0.1 < draught < 0.5
     window.ask("bpy.data.objects['Boat'].rotation_euler.x = 0.3")

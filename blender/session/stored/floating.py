@@ -272,12 +272,12 @@ def stamp_of(obj: Object) -> Stamp | None:
     return stamps.carried(obj, Kind.FLOATING)
 
 
-def known(obj: Object) -> Afloat | None:
+def known_body(obj: Object) -> Afloat | None:
     """Return the floating body of an object, if it was read."""
     return memory.afloat.get(obj)
 
 
-def held(obj: Object, scene: Scene) -> Held | Finding | None:
+def held_body(obj: Object, scene: Scene) -> Held | Finding | None:
     """Return an object's floating body as it stands now, the reason if it does not float, or None
     if it was not read or is out of date.
     """

@@ -16,7 +16,6 @@ from body_moments.core.mesh.surface import Surface
 from body_moments.core.numerics.rotations import quaternion
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.robots.diagnosis import (
-    CENTERS,
     IMPERIAL_INERTIAS,
     INCH,
     LENGTHS,
@@ -32,6 +31,7 @@ from tests.close import close
 from tests.core import bodies
 
 MASS, DENSITY = 2.3, 1234.5
+CENTERS = ("center of mass", "axes of the center of mass")
 CENTER, ORIGIN, ANGLES = (
     np.array([0.21, -0.34, 0.55]),
     np.array([-0.1, 0.45, 0.3]),
