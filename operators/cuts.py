@@ -29,6 +29,9 @@ class OnSubject(selection.OnSelectionInObjectMode):
             return self.execute(context)
         return context.window_manager.invoke_props_dialog(self)
 
+    def execute(self, context: Context) -> set[str]:
+        raise NotImplementedError
+
 
 class OBJECT_OT_body_moments_level(OnSubject, Operator):
     """Compute the level of a liquid in the active object, or its contents up to a level."""

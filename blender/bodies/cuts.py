@@ -6,11 +6,12 @@ from __future__ import annotations
 
 import numpy as np
 from bpy.types import Depsgraph, Object
+from numpy.typing import NDArray
 
 from ...core.cuts import CutFill, cut_fill, cut_fill_between
 from ...core.flat import fit_plane
 from ...core.mesh import Surface
-from ...core.numerics import Array, Index
+from ...core.numerics import Array
 from ...core.verdict import MeasureError
 from ..read.objects import read_object
 from ..read.visibility import measurable
@@ -42,7 +43,7 @@ def cut_fill_against(other: Object, surface: Surface, depsgraph: Depsgraph, unit
 
 
 def _against_plane(
-    points: Array, triangles: Index, normal: Array, place: Array, surface: Surface
+    points: Array, triangles: NDArray[np.integer], normal: Array, place: Array, surface: Surface
 ) -> CutFill:
     """Return cut and fill against the plane through a place; its upper side counts as up."""
     normal = normal if normal[2] >= 0.0 else -normal

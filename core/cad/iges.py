@@ -358,7 +358,7 @@ class IgesReader:
                 in_space.append(self._edge(edges, index, bool(forward), matrix))
             if uses or not is_vertex:
                 by_parameters += [self._curves.read(way, None) for way in ways] or [None]
-        return Boundary(_joined(in_space), _joined(by_parameters))
+        return Boundary(_join_curves(in_space), _joined(by_parameters))
 
     def _edge(self, pointer: int, index: int, forward: bool, matrix: NDArray) -> list[Curve] | None:
         """Return an edge of a list, in the direction of its use."""
@@ -512,7 +512,7 @@ class IgesReader:
         )
 
 
-def _joined(parts: Sequence[list[Curve] | None]) -> list[Curve] | None:
+def _join_curves(parts: Sequence[list[Curve] | None]) -> list[Curve] | None:
     """Return the curves of all parts in turn, None if one is unknown."""
     known = [part for part in parts if part is not None]
     return [curve for part in known for curve in part] if len(known) == len(parts) else None

@@ -618,7 +618,7 @@ def _reference(pieces: Sequence[tuple[StatedShape, _Piece]]) -> Reference | None
         own = piece.moments.transform(stated.shape.pose.matrix).about_center()
         second = own.raw[SECOND_MOMENT_INDEX]
         inertia = np.trace(second) * np.eye(3) - second
-        whole = whole.joined(Body(float(own.raw[0]), own.about, inertia))
+        whole = whole.add(Body(float(own.raw[0]), own.about, inertia))
     if whole.center is None or whole.inertia is None:
         return None
     origins = tuple(stated.shape.pose.position for stated, _ in pieces)

@@ -33,7 +33,7 @@ class Body(NamedTuple):
     center: Array | None = None
     inertia: Array | None = None
 
-    def joined(self, other: Body) -> Body:
+    def add(self, other: Body) -> Body:
         """Return the total of both bodies."""
         if not self.mass or not other.mass:
             return self if self.mass else other
@@ -239,14 +239,14 @@ def add_up(tree: Tree, used: Sequence[tuple[StatedLink, bool]]) -> Totals:
             groups["left_out"].append(link.name)
         else:
             body = _placed(inertial, tree.poses[link.name])
-            sums[link.name] = sums[link.name].joined(body)
+            sums[link.name] = sums[link.name].add(body)
     whole = Body()
     for name in reversed(sums):  # Parents come first in it.
         joint = tree.above.get(name)
         if joint and joint.parent:
-            sums[joint.parent] = sums[joint.parent].joined(sums[name])
+            sums[joint.parent] = sums[joint.parent].add(sums[name])
         else:
-            whole = whole.joined(sums[name])
+            whole = whole.add(sums[name])
     impossible = [link.name for link, is_impossible in used if is_impossible]
     return Totals(whole, sums, impossible=impossible, **groups)
 

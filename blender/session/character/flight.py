@@ -297,11 +297,15 @@ class CharacterMotion(BalanceGroup):
                     pass
                 self._check(np.array(self.centers) - targets, turns)
                 if self.is_lost and not anyway:
-                    values = {"off": self.deviation, "frame": round(self.worst, 1)}
                     owner = self.found.owner
                     is_quaternion = owner.rotation_mode == "QUATERNION"
-                    values["advice"] = SMOOTH_KEYS if is_quaternion else TURN_BY_QUATERNION
-                    raise Refused(SPIN_LOST, name=owner.name, **values)
+                    raise Refused(
+                        SPIN_LOST,
+                        name=owner.name,
+                        off=self.deviation,
+                        frame=round(self.worst, 1),
+                        advice=SMOOTH_KEYS if is_quaternion else TURN_BY_QUATERNION,
+                    )
             except BaseException:
                 restore()
                 raise

@@ -14,6 +14,7 @@ import bpy
 import numpy as np
 from bpy.types import Context, Mesh, Object, Scene
 from mathutils import Vector
+from numpy.typing import NDArray
 
 from ....core.cuts import (
     LEVEL_UNAVAILABLE,
@@ -111,7 +112,7 @@ class KnownCutFill:
     findings: tuple[Finding, ...]
 
 
-def _vessel(obj: Object, context: Context) -> tuple[Array, Array, Array]:
+def _vessel(obj: Object, context: Context) -> tuple[Array, NDArray[np.integer], Array]:
     """Return points (m, world) and triangles of a vessel, and the direction against gravity."""
     depsgraph = context.evaluated_depsgraph_get()
     unit = meters_per_unit(context.scene)
