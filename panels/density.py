@@ -131,7 +131,7 @@ def _print_settings(column: UILayout, settings: PropertyGroup) -> None:
         ("print_line_width", "Line Width (mm)"),
         ("print_top_layers", "Top Layers"),
         ("print_bottom_layers", "Bottom Layers"),
-        ("print_layer_height", "Layer Height (mm)"),
+        ("print_layer_height", "Layer (mm)"),
         ("print_infill", "Infill"),
         ("spool_price", "Price of a Spool"),
     ):

@@ -36,6 +36,10 @@ WORDS = {
     "inertial_center_outside": "center outside of the geometry",
     "inertial_spread_outside": "mass spread beyond the geometry",
     "inertial_missing": "no inertial",
+    "inertial_too_dense": "denser than any matter",
+    "audit_twins": "twins that differ",
+    "audit_copied": "one inertial at different meshes",
+    "audit_joint": "joint outside of the tree",
     "description_number": "content that cannot be used",
     "audit_unit": "wrong unit",
     "audit_density": "odd density",
@@ -63,8 +67,8 @@ about their inertial when audited again. The geometry's numbers assume that the 
 link hold all of its mass. [Audit](robots.md#audit) says what the findings mean. The page was made
 by `python3 tests/project.py robots`.
 
-| package | robot | file | links | errors | warnings | what was found (links) |
-|---|---|---|---|---|---|---|
+| package | robot | file | links | mass, kg | errors | warnings | what was found (links) |
+|---|---|---|---|---|---|---|---|
 """
 
 
@@ -111,7 +115,7 @@ def repairs_of(before: list[dict], after: list[dict]) -> Counter:
 def row_of(package: str, document: dict) -> tuple[str, Counter]:
     """Return a robot's row of the table, and its counts by severity."""
     codes, levels = Counter(), Counter(links=len(document["links"]))
-    for link in document["links"]:
+    for link in [{"findings": document["findings"]}, *document["links"]]:
         told = [found for found in link["findings"] if found["severity"] != "note"]
         levels.update(found["severity"] for found in told)
         codes.update(
@@ -126,6 +130,7 @@ def row_of(package: str, document: dict) -> tuple[str, Counter]:
         document["robot"],
         Path(document["file"]).name,
         levels["links"],
+        "{:.4g}".format(document["total"]["mass"]),
     ]
     return "| {} |\n".format(
         " | ".join(map(str, [*cells, levels["error"], levels["warning"], words or "–"]))

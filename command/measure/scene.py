@@ -34,6 +34,7 @@ from ...blender.settings.options import MeasureOptions
 from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...blender.write.properties import store
 from ...core.bodies import DENSITY_DEFAULTED
+from ...core.cad import FACES_NOT_READ
 from ...core.cuts import CutFill
 from ...core.files import FILE_UNREADABLE
 from ...core.measurement import Measurement, record
@@ -248,6 +249,10 @@ class Scene:
                 wanted = replace(wanted, kind="shell")
                 measurement, more, of_shape = measure_shape(obj, self.options, wanted)
                 of_shape = (*of_shape, finding(MEASURED_AS_SHELL))
+            elif refusal.finding.code in NO_BODY and any(
+                one.code == FACES_NOT_READ for one in findings
+            ):
+                return  # The file's errors name the faces that are missing.
             elif order is None:
                 raise
             else:

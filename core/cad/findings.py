@@ -19,11 +19,9 @@ SURFACE_TRIMMED = warning(
 )
 SURFACE_UNSUPPORTED = warning(
     "surface_unsupported",
-    "Not imported, because Blender's surfaces cannot be “{base}”: {kind} {names}. Convert it to a "
-    "B-spline "
+    "Not imported, because “{base}” cannot be read: {kind} {names}. Convert it to a B-spline "
     "surface, or export a mesh.",
-    "Not imported, because Blender's surfaces cannot be “{base}”: {count} of the kind {kind}: "
-    "{names}. Convert "
+    "Not imported, because “{base}” cannot be read: {count} of the kind {kind}: {names}. Convert "
     "them to B-spline surfaces, or export a mesh.",
 )
 SURFACE_BEYOND_LIMIT = warning(

@@ -536,6 +536,11 @@ def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete:
         entries = [*(Entry(one, place, (), guess, certainty, True) for one in left), *entries]
         if unusual:
             entries.append(Entry(finding(AUDIT_DENSITY, density=density), place, compares=True))
+    # Also an uneven filling needs matter of this density.
+    least = stated.mass / max(one.volume for one in references)
+    is_told = any(one.change or one.finding.code == AUDIT_DENSITY for one in entries)
+    if least > DENSITIES[1] and not wrong and not is_told:
+        entries.append(Entry(finding(AUDIT_DENSITY, density=least), place, compares=True))
     apart = min(one.compare(stated) for one in references)
     return LinkAudit(
         link, tuple(entries), repaired, stated.mass / reference.volume, geometry, apart, bool(wrong)

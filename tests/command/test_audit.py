@@ -11,6 +11,7 @@ import zipfile
 from pathlib import Path
 
 import fastjsonschema
+import numpy as np
 import pytest
 
 pytest.importorskip("bpy")
@@ -428,3 +429,12 @@ def test_repaired_copy_has_no_new_finding(tmp_path):
             for link in (old, new)
         ]
         assert codes[1] <= codes[0], old["name"]
+
+
+@pytest.mark.parametrize("mass, is_odd", [(29_000, False), (32_000, True)])
+def test_uneven_filling_needs_a_usual_density(mass, is_odd, tmp_path):
+    spread = np.array([0.9, 0.2, 0.05]) * mass  # wider than an even filling, and in the hull
+    moments = spread.sum() - spread
+    path = description(tmp_path / "r.urdf", OFF.format("a", "0 0 0", mass, *moments))
+    codes = [one["code"] for one in json.loads(answer(path)[0])["links"][0]["findings"]]
+    assert ("audit_density" in codes) == is_odd and "audit_not_uniform" in codes

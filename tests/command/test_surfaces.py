@@ -44,6 +44,16 @@ def test_refused_entity_is_an_error_beside_other_records(tmp_path):
     ] == [1]
 
 
+def test_refused_faces_of_a_body_are_the_only_error(tmp_path):
+    file = IgesFile()
+    line = file.add(110, [1.0, 0.0, 0.0, 1.0, 0.0, 2.0])
+    file.add(122, [line, 2.0, 0.0, 0.0])
+    file.add(114, [1, 3, 0.0, 1.0], label="VASE")
+    found = document(file.write(tmp_path / "a.igs"), "--density", "1")
+    (error,) = found["errors"]
+    assert not found["objects"] and "VASE" in error["reason"]
+
+
 CUBE = "o Cube\n" + "".join(
     "v {} {} {}\n".format(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)
 )

@@ -137,12 +137,35 @@ next(area for area in window.screen.areas if area.type == "PROPERTIES").type = "
 path = __import__("tempfile").mkdtemp() + "/wheel.npz"
 bpy.ops.object.body_moments_fourier("EXEC_DEFAULT", filepath=path, count=64)
 """
+# A block with a plate that hangs far over, in millimeters.
+HOOK = """
+scene.unit_settings.scale_length, scene.unit_settings.length_unit = 0.001, "MILLIMETERS"
+area.spaces.active.clip_end = 10000
+outline = [(0, 0), (10, 0), (10, 26), (34, 26), (34, 28), (0, 28)]
+points = [(x, y, z) for y in (0, 20) for x, z in outline]
+sides = [(6 + i, 6 + (i + 1) % 6, (i + 1) % 6, i) for i in range(6)]
+mesh = bpy.data.meshes.new("Hook")
+mesh.from_pydata(points, [], [(0, 1, 2, 3, 4, 5), (11, 10, 9, 8, 7, 6), *sides])
+obj = bpy.data.objects.new("Hook", mesh)
+scene.collection.objects.link(obj)
+bpy.context.view_layer.objects.active = obj
+obj.select_set(True)
+settings = obj.body_moments
+settings.kind, settings.density, settings.print_infill = "PRINTED", 1240.0, 5.0
+"""
 # picture: the scene, the panels that are open, and the operator of the button that is pressed
 PAGES = {
     "assembly": (PARTS, ("Assembly",), "object.body_moments_measure_assembly"),
     "walls": (
         "bpy.ops.mesh.primitive_cube_add(size=1)\nsettings = bpy.context.object.body_moments\n"
         "settings.kind, settings.wall, settings.thickness = 'SHELL', 'INWARD', 0.05\n",
+        ("Density",),
+        "object.body_moments_measure",
+    ),
+    "prints": (
+        "scene.unit_settings.scale_length = 0.001\narea.spaces.active.clip_end = 10000\n"
+        "bpy.ops.mesh.primitive_cube_add(size=20)\nsettings = bpy.context.object.body_moments\n"
+        "settings.kind, settings.density, settings.spool_price = 'PRINTED', 1240.0, 22.0\n",
         ("Density",),
         "object.body_moments_measure",
     ),
@@ -217,6 +240,18 @@ def test_printed_part_is_weighed_and_stands(window, run_blender, tmp_path):
     window.press("object.body_moments_stability")
     take_picture(window, "printed-stands")
     assert window.get("bpy.context.object['body_method']") == "exact"
+
+
+def test_print_is_made_to_stand_by_its_infill(window):
+    begin(window, HOOK, "Stability")
+    window.press("object.body_moments_measure")
+    window.wait("'body_mass' in bpy.context.object")
+    window.press("object.body_moments_make_it_stand")
+    window.wait("bpy.context.object.body_moments.print_infill > 5.0")
+    take_picture(window, "print-stands")
+    window.point_at_view()
+    window.key("ctrl+z")
+    window.wait("bpy.context.object.body_moments.print_infill == 5.0")
 
 
 def test_scan_is_weighed_from_its_voxels(window, tmp_path):

@@ -153,3 +153,31 @@ def test_zero_normals_and_numbers_without_end_are_refused():
     for normal, offset in (([0, 0, 0], 0.0), ([0, 0, np.nan], 0.0), ([0, 0, 1], np.inf)):
         with pytest.raises(ValueError, match=r"normals|finite"):
             measure_below(*body, [normal], [offset])
+
+
+def paraboloid(n, m):
+    """A polygonal paraboloid z = x² + y² below 1, as slices of n-gons, and the area of the unit
+    polygon.
+    """
+    angle = np.arange(n) * (2 * np.pi / n)
+    ring = np.stack([np.cos(angle), np.sin(angle), np.zeros(n)], axis=1)
+    radii = np.sqrt(np.linspace(0, 1, m + 1))
+    points = np.concatenate([r * ring + [0, 0, r * r] for r in radii] + [[[0, 0, 1.0]]])
+    i, j = np.arange(n), (np.arange(n) + 1) % n
+    quads = [np.stack([i, j, n + j, n + i], axis=1) + k * n for k in range(m)]
+    lid = np.stack([m * n + i, m * n + j, np.full(n, len(points) - 1)], axis=1)
+    return points, np.concatenate([split(np.concatenate(quads)), lid]), n / 2 * np.sin(angle[1])
+
+
+@pytest.mark.parametrize("place", [0.0, 1e6])
+def test_paraboloid_below_its_rings_is_its_frustums(place):
+    points, triangles, unit = paraboloid(40, 8)
+    levels = np.linspace(0, 1, 9)[1:]
+    shifted = points + [place, -place, place]
+    below = measure_below(shifted, triangles, np.tile([0, 0, 1.0], (8, 1)), levels + place)
+    squares = np.linspace(0, 1, 9)
+    frustums = unit / 24 * (squares[1:] + squares[:-1] + np.sqrt(squares[1:] * squares[:-1]))
+    accuracy = 1e-12 + 1e-15 * place
+    assert np.abs(below.volume - np.cumsum(frustums)).max() < accuracy
+    assert np.abs(below.face_area - unit * levels).max() < 20 * accuracy
+    assert (np.abs(below.part.rounding_error[:, 0]) < 1e2 * accuracy).all()

@@ -12,6 +12,7 @@ from body_moments.blender.read.mesh import mesh_surface
 from body_moments.blender.scene.colliders import read_colliders
 from body_moments.blender.session.colliders import collider_record
 from body_moments.blender.session.stored import outcome
+from body_moments.blender.session.stored.collider_tolerance import tolerance_remedy
 from body_moments.blender.session.tracking.staleness import stale_reason
 from body_moments.blender.session.tracking.stamps import Stale, of_colliders
 from body_moments.blender.settings.given import COLLIDER, COLLIDERS
@@ -324,9 +325,26 @@ def test_rod_of_extreme_length_gets_colliders(shape):
 def test_tolerance_that_is_not_kept_is_a_warning(capfd):
     bpy.ops.mesh.primitive_uv_sphere_add()
     make(shape="HULL", vertices=8, inward=0.001, outward=0.5)
-    assert "the tolerance is not kept" in capfd.readouterr().out
+    told = capfd.readouterr().out
+    assert "the tolerance is not kept" in told and "Allow more vertices" in told
     make(shape="HULL", vertices=8, inward=0.9, outward=0.9)
     assert "tolerance" not in capfd.readouterr().out
+
+
+@pytest.mark.parametrize(
+    "shape, count, outward, remedy",
+    [
+        ("hull", 1, 2.0, "Convex Pieces"),
+        ("hull", 1, 0.5, "vertices"),
+        ("pieces", 16, 2.0, "more pieces"),
+        ("pieces", 3, 2.0, "vertices"),  # more pieces were allowed already
+    ],
+)
+def test_remedy_of_tolerance_names_what_helps(shape, count, outward, remedy):
+    record = {"shape": shape, "count": count, "outward": outward, "inward": 2.0}
+    record |= {"tolerance": (1.0, 1.0), "limits": (16, 64)}
+    told = tolerance_remedy(record)
+    assert remedy in told and ("pieces" in told) == (remedy == "more pieces")
 
 
 def test_record_of_turned_body_keeps_its_colliders():
