@@ -189,7 +189,8 @@ def _check_repair(options: argparse.Namespace, parser: Parser) -> None:
         )
     if len({*options.names.values()}) < len(options.names):
         parser.error(
-            "--repair: two files have one name. Audit them one at a time, or choose other folders"
+            "--repair {}: two files have one name. Audit them one at a time, or choose other "
+            "folders".format(options.repair)
         )
 
 

@@ -188,13 +188,11 @@ GIVEN_INERTIA_IMPOSSIBLE = error(
     "or exceed the "
     "sum of the other two. Check signs and units.",
 )
-GIVEN_CENTER_OUTSIDE = warning(
-    "given_center_outside", "The given center of mass is outside the object. Check Center of Mass."
+CENTER_OUTSIDE = "The given center of mass is outside the object. Check Center of Mass"
+CENTER_MISSING = (
+    "The given mass is at the world origin, for no member has a mass. Turn on Given Center"
 )
-GIVEN_CENTER_MISSING = warning(
-    "given_center_missing",
-    "The given mass is at the world origin, for no member has a mass. Turn on Given Center.",
-)
+GIVEN_CENTER = warning("given_center", "{fault:word}.")
 ASSEMBLY_MASS_GIVEN = note(
     "assembly_mass_given", "The mass of the assembly is given: {mass:.7g} kg."
 )

@@ -10,9 +10,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...core.bodies import DRAWN_AS_POLYGONS, NO_GEOMETRY, attribute_to_source
+from ...core.bodies import DRAWN_AS_POLYGONS, attribute_to_source
 from ...core.numerics import shortest_decimal
 from ...core.verdict.finding import Finding, finding
+from ...core.verdict.findings import NO_FACES
 from .curves import is_round
 from .findings import (
     DISPLAY_MESH_FOR_MODIFIERS,
@@ -87,7 +88,7 @@ def why_empty(obj, gathered: InstanceCollector, depsgraph) -> Finding:
             NOT_SHOWN,
             cause="the object hides its own geometry. Turn on Show Instancer in Object Properties",
         )
-    return finding(NO_GEOMETRY)
+    return finding(NO_FACES)
 
 
 def reading_findings(obj, gathered: InstanceCollector, depsgraph) -> Iterator[Finding]:

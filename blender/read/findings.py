@@ -168,26 +168,19 @@ TEMPORARY_FOLDER_FULL = error(
     "temporary_folder_full",
     "Voxels cannot be written to the temporary folder. Free some disk space.",
 )
-FLAT_OF_TYPE = error(
-    "flat_of_type",
-    "Only meshes, 2D curves and texts can be flat shapes. Convert the object to a mesh.",
+WRONG_TYPE = "Only meshes, 2D curves and texts can be flat shapes. Convert the object to a mesh"
+EXTRUDED = (
+    "The curve is 3D, extruded, beveled or offset. Set it to 2D, and Extrude, Bevel Depth and "
+    "Offset to 0, or use Object > Convert > Mesh"
 )
-SECTION_MODIFIED_FILL = note(
-    "section_modified_fill", "Blender's fill with its modifiers was measured."
-)
+FLAT_UNSUITABLE = error("flat_unsuitable", "{fault:word}.")
+FILL_MODIFIED = "Blender's fill with its modifiers was measured"
+NOT_FILLED = "The curve is not filled; its outlines were measured as if filled"
+SECTION_FILL = note("section_fill", "{treatment:word}.")
 SECTION_SPLINES_OPEN = warning(
     "section_splines_open",
     "{count} open spline encloses nothing and was left out. Use Toggle Cyclic.",
     "{count} open splines enclose nothing and were left out. Use Toggle Cyclic.",
-)
-SECTION_NOT_FILLED = note(
-    "section_not_filled", "The curve is not filled; its outlines were measured as if filled."
-)
-SECTION_EXTRUDED = error(
-    "section_extruded",
-    "The curve is 3D, extruded, beveled or offset. Set it to 2D, and Extrude, Bevel Depth and "
-    "Offset to 0, or use "
-    "Object > Convert > Mesh.",
 )
 SCALE_ZERO_AXIS = error(
     "scale_zero_axis", "A scale is zero along an axis: its own, a delta or a parent's. Set it."

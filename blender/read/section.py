@@ -25,14 +25,16 @@ from ...core.nurbs import Curve
 from ...core.verdict.finding import Finding, ReadError, finding
 from .curves import read_curves, text_curves
 from .findings import (
-    FLAT_OF_TYPE,
+    EXTRUDED,
+    FILL_MODIFIED,
+    FLAT_UNSUITABLE,
     MODIFIERS_LEFT_OUT,
+    NOT_FILLED,
     RENDER_DIFFERS,
     RENDER_LEVELS_DIFFER,
-    SECTION_EXTRUDED,
-    SECTION_MODIFIED_FILL,
-    SECTION_NOT_FILLED,
+    SECTION_FILL,
     SECTION_SPLINES_OPEN,
+    WRONG_TYPE,
 )
 from .mesh import from_edit_mesh, mesh_surface, read_array
 from .objects import locate, read_object, require_finite
@@ -75,7 +77,7 @@ def read_section(
     """
     obj = obj.original
     if obj.type not in SECTION_TYPES:
-        raise ReadError(FLAT_OF_TYPE, subject=obj.name)
+        raise ReadError(FLAT_UNSUITABLE, fault=WRONG_TYPE, subject=obj.name)
     if selected and obj.type == "MESH" and obj.data.is_editmode:
         return _selected_faces(obj, depsgraph)
     if obj.type in {"CURVE", "FONT"} and not any(
@@ -85,7 +87,7 @@ def read_section(
     reading = read_object(obj, depsgraph, edges=False)
     findings = list(reading.findings)
     if obj.type in {"CURVE", "FONT"}:
-        findings.append(finding(SECTION_MODIFIED_FILL))
+        findings.append(finding(SECTION_FILL, treatment=FILL_MODIFIED))
     surface = reading.join()
     triangles, faces = surface.all_triangles()
     return _section("All Faces", surface, triangles, faces, reading, findings=findings)
@@ -216,7 +218,7 @@ def _outline_findings(obj, open_splines: int) -> Iterator[Finding]:
     if open_splines:
         yield finding(SECTION_SPLINES_OPEN, count=open_splines)
     if obj.data.fill_mode == "NONE":
-        yield finding(SECTION_NOT_FILLED)
+        yield finding(SECTION_FILL, treatment=NOT_FILLED)
     if obj.type != "FONT" and all(spline.type == "POLY" for spline in obj.data.splines):
         return
     yield finding(DRAWN_AS_POLYGONS)
@@ -234,7 +236,7 @@ def _require_flat_outlines(obj) -> None:
     is_spatial = obj.type == "CURVE" and curve.dimensions != "2D"
     has_bevel = curve.bevel_depth or (curve.bevel_mode == "OBJECT" and curve.bevel_object)
     if is_spatial or curve.extrude or curve.offset or has_bevel:
-        raise ReadError(SECTION_EXTRUDED, subject=obj.name)
+        raise ReadError(FLAT_UNSUITABLE, fault=EXTRUDED, subject=obj.name)
 
 
 def _spline_outlines(obj, resolution: int | None) -> tuple[NDArray[np.float32], list[Index], int]:

@@ -19,7 +19,6 @@ from .findings import GRID_EMPTY as GRID_EMPTY
 from .findings import GRID_TOO_LARGE as GRID_TOO_LARGE
 from .findings import MASS_OVERFLOW as MASS_OVERFLOW
 from .findings import NEEDS_POLYGONS as NEEDS_POLYGONS
-from .findings import NO_GEOMETRY as NO_GEOMETRY
 from .findings import SAMPLES_POSITIONED as SAMPLES_POSITIONED
 from .findings import SHAPE_OF_GRID as SHAPE_OF_GRID
 from .findings import SHAPE_OF_OPEN_SURFACE as SHAPE_OF_OPEN_SURFACE

@@ -40,6 +40,7 @@ from ..streams import (
 )
 from ..verdict import SELF_INTERSECTION, MeshHealth, Method, Procedure
 from ..verdict.finding import Finding, ReadError, finding
+from ..verdict.findings import NO_FACES
 from .findings import (
     GIVEN_DENSITY_IGNORED,
     GRID_AS_SHELL,
@@ -47,7 +48,6 @@ from .findings import (
     GRID_EMPTY,
     GRID_TOO_LARGE,
     MESH_STREAMED,
-    NO_GEOMETRY,
     SAMPLES_POSITIONED,
     STREAMED_OPEN,
 )
@@ -75,7 +75,7 @@ def read_mesh(mesh: FileMesh, upright: Array) -> Reading:
     FileError if a coordinate is too large, ReadError if there are no faces.
     """
     if not len(mesh.sides):
-        raise ReadError(NO_GEOMETRY)
+        raise ReadError(NO_FACES)
     with np.errstate(over="ignore"):
         box_of_blocks([mesh.points.astype(np.float32)], "vertex")
     part = Part(mesh.surface(), upright[None])

@@ -119,9 +119,6 @@ GRID_TOO_LARGE = error(
     "grid_too_large",
     "The grid “{grid}” spans too many voxels, {samples:size}. Crop it, or use a coarser one.",
 )
-NO_GEOMETRY = error(
-    "no_geometry", "No surface. Add faces, or check whether a modifier removes them."
-)
 DENSITY_DEFAULTED = warning(
     "density_defaulted", "No density is set: {density} was used. Set Density or a material."
 )

@@ -17,8 +17,8 @@ from ..nurbs import Curve, Patch
 from .iges_entities import MAX_ARC
 
 TURN = 2.0 * math.pi
-SAMPLES = 65  # points of a boundary curve that show which part of a surface it spans
-MIN_GAP = 0.25  # radians; more than any step between samples of a circle, in rational form too
+SAMPLES = 257  # points of a boundary curve that show which part of a surface it spans
+MIN_GAP = 0.1  # radians; more than any step between samples of a circle, in rational form too
 
 
 def revolve(curve: Curve, begin: NDArray, axis: NDArray, start: float, end: float) -> Patch:
@@ -30,7 +30,7 @@ def revolve(curve: Curve, begin: NDArray, axis: NDArray, start: float, end: floa
         raise ValueError("angles of no surface")
     steps = math.ceil((end - start) / MAX_ARC - 1e-9)
     half = (end - start) / steps / 2.0
-    angles = start + half * np.arange(2 * steps + 1)
+    angles = np.linspace(start, end, 2 * steps + 1)
     ring = np.where(np.arange(2 * steps + 1) % 2, math.cos(half), 1.0)
     arms = curve.points - begin
     heights = np.outer(arms @ axis, axis)

@@ -4,13 +4,13 @@
 
 from ..verdict import error, note, warning
 
-POLYNOMIAL_EMPTY = error(
-    "polynomial_empty", "The polynomial is empty. Type one, such as 1000 + 20*z."
+POLYNOMIAL_EMPTY = "is empty. Type one, such as 1000 + 20*z"
+POLYNOMIAL_TOO_LONG = "is longer than 4096 characters or nested too deeply. Shorten it"
+POLYNOMIAL_BEYOND_NUMBERS = (
+    "has values outside the range of numbers at the object. Use smaller coefficients, or move "
+    "the object nearer to the origin"
 )
-POLYNOMIAL_TOO_LONG = error(
-    "polynomial_too_long",
-    "The polynomial is longer than {limit} characters or nested too deeply. Shorten it.",
-)
+POLYNOMIAL_UNUSABLE = error("polynomial_unusable", "The polynomial {fault:word}.")
 POLYNOMIAL_SYNTAX = error(
     "polynomial_syntax",
     "The polynomial cannot be read at “{part}”. Write products with *, as in 20*z.",
@@ -24,12 +24,6 @@ POLYNOMIAL_NOT_ALLOWED = error(
 POLYNOMIAL_PART = error("polynomial_part", "“{part}” {fault:word}.")
 POLYNOMIAL_DEGREE = error(
     "polynomial_degree", "The degree of “{part}” must be a whole number from 0 to {limit}."
-)
-POLYNOMIAL_BEYOND_NUMBERS = error(
-    "polynomial_beyond_numbers",
-    "The polynomial has values outside the range of numbers at the object. Use smaller "
-    "coefficients, or move the "
-    "object nearer to the origin.",
 )
 GRID_TRANSFORM_SINGULAR = error(
     "grid_transform_singular", "The transform of the grid is singular or not finite. Set its scale."

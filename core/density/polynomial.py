@@ -36,6 +36,7 @@ from .findings import (
     POLYNOMIAL_PART,
     POLYNOMIAL_SYNTAX,
     POLYNOMIAL_TOO_LONG,
+    POLYNOMIAL_UNUSABLE,
 )
 
 MAX_DEGREE = 17  # mass moments to order 3 then need those of the body to order 20
@@ -83,7 +84,7 @@ class Polynomial:
         try:
             return {powers: float(value) for powers, value in self.terms.items()}
         except OverflowError as error:
-            raise MeasureError(POLYNOMIAL_BEYOND_NUMBERS) from error
+            raise MeasureError(POLYNOMIAL_UNUSABLE, fault=POLYNOMIAL_BEYOND_NUMBERS) from error
 
     def translate(self, point: ArrayLike) -> Polynomial:
         """Return the polynomial q with q(u) = p(point + u), exactly."""
@@ -147,9 +148,9 @@ def parse_polynomial(text: str) -> Polynomial:
     """
     text = text.strip()
     if not text:
-        raise MeasureError(POLYNOMIAL_EMPTY)
+        raise MeasureError(POLYNOMIAL_UNUSABLE, fault=POLYNOMIAL_EMPTY)
     if len(text) > MAX_LENGTH:
-        raise MeasureError(POLYNOMIAL_TOO_LONG, limit=MAX_LENGTH)
+        raise MeasureError(POLYNOMIAL_UNUSABLE, fault=POLYNOMIAL_TOO_LONG)
     try:
         tree = ast.parse(text, mode="eval").body
     except (SyntaxError, ValueError) as error:
@@ -160,7 +161,7 @@ def parse_polynomial(text: str) -> Polynomial:
         )
         raise MeasureError(POLYNOMIAL_SYNTAX, part=text[start:][:20] or text[:20]) from error
     except (RecursionError, MemoryError) as error:
-        raise MeasureError(POLYNOMIAL_TOO_LONG, limit=MAX_LENGTH) from error
+        raise MeasureError(POLYNOMIAL_UNUSABLE, fault=POLYNOMIAL_TOO_LONG) from error
     try:
         if isinstance(tree, (ast.Tuple, ast.List)):
             values = [_constant(_terms(item, text), item, text) for item in tree.elts]
@@ -171,7 +172,7 @@ def parse_polynomial(text: str) -> Polynomial:
             return Polynomial.from_list(values)
         return Polynomial(_terms(tree, text))
     except RecursionError as error:
-        raise MeasureError(POLYNOMIAL_TOO_LONG, limit=MAX_LENGTH) from error
+        raise MeasureError(POLYNOMIAL_UNUSABLE, fault=POLYNOMIAL_TOO_LONG) from error
 
 
 def _terms(node: ast.expr, text: str) -> dict[Exponents, Fraction]:

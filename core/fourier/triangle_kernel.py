@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from ..mesh import Surface
 from ..numerics import Array, Index, check_type, compensated_normals, indices_in_range, spread_bits
 from ..verdict import MAX_COORDINATE, MeasureError, check_size
-from ..verdict.findings import NO_FACES, OBJECT_TOO_LARGE
+from ..verdict.findings import NO_FACES, OBJECT_SIZE, TOO_LARGE
 from .wave_vectors import GridWaves, ListWaves
 
 TRIANGLES_PER_BLOCK = 128  # triangles
@@ -72,7 +72,7 @@ class SortedTriangles:
         self.center = center
         reach = hypot(*np.maximum(high - center, center - low).tolist())
         if not reach < MAX_COORDINATE:
-            raise MeasureError(OBJECT_TOO_LARGE)
+            raise MeasureError(OBJECT_SIZE, fault=TOO_LARGE)
         check_size(reach)
         exponent = int(np.ceil(np.log2(reach))) if reach > 0.0 else 0
         self.scale = float(np.ldexp(1.0, exponent))

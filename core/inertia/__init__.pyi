@@ -4,7 +4,7 @@
 from typing import Any
 
 from .findings import AXES_FREE as AXES_FREE
-from .findings import AXES_FREE_BY_SHAPE as AXES_FREE_BY_SHAPE
+from .findings import DIRECTIONS_OF_SHAPE as DIRECTIONS_OF_SHAPE
 from .findings import MOMENTS_OVERFLOW as MOMENTS_OVERFLOW
 from .findings import NEGATIVE_INERTIA as NEGATIVE_INERTIA
 from .findings import NO_CERTAIN_VOLUME as NO_CERTAIN_VOLUME

@@ -24,13 +24,10 @@ NEGATIVE_INERTIA = error(
 )
 AXES_FREE = note(
     "axes_free",
-    "Principal moments {axes} are equal; the directions nearest to the object's axes are used.",
+    "Principal moments {axes} are equal; the {choice:word} nearest to the object's axes are used.",
 )
-AXES_FREE_BY_SHAPE = note(
-    "axes_free_by_shape",
-    "Principal moments {axes} are equal; the shape's own directions nearest to the object's axes "
-    "are used.",
-)
+ANY_DIRECTIONS = "directions"
+DIRECTIONS_OF_SHAPE = "shape's own directions"
 AXES_AMBIGUOUS = note(
     "axes_ambiguous",
     "The moments are the same after half a turn; the directions nearest to the object's axes are "

@@ -23,9 +23,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..moments import Moments, affine_matrices
 from ..numerics import Array, PerBody, check_type, float_array, quaternion, rotation_array
-from ..verdict import OBJECT_TOO_SMALL
+from ..verdict import OBJECT_SIZE, TOO_SMALL
 from ..verdict.finding import MeasureError, finding
 from .findings import (
+    ANY_DIRECTIONS,
     AXES_AMBIGUOUS,
     AXES_FREE,
     NEGATIVE_INERTIA,
@@ -44,7 +45,11 @@ SIGN_BITS = np.array([1, 2, 4, 8])  # a bit for each of the HALF_TURN_SIGNS, set
 
 # The findings of directions chosen by the preferred axes, by symmetry.
 CHOICES = {
-    name: finding(AXES_FREE, axes=[axis + 1 for axis in axes]) if axes else finding(AXES_AMBIGUOUS)
+    name: (
+        finding(AXES_FREE, axes=[axis + 1 for axis in axes], choice=ANY_DIRECTIONS)
+        if axes
+        else finding(AXES_AMBIGUOUS)
+    )
     for name, axes in EQUAL_AXES.items()
 }
 
@@ -173,7 +178,9 @@ def frames_of_body(
     if not fixed.is_body[0]:
         second = moments.truncate(2).about_center().raw[4:]
         is_lost = np.abs(second).max() < np.finfo(float).tiny  # in the smallest of numbers
-        raise MeasureError(OBJECT_TOO_SMALL if is_lost else NEGATIVE_INERTIA)
+        if is_lost:
+            raise MeasureError(OBJECT_SIZE, fault=TOO_SMALL)
+        raise MeasureError(NEGATIVE_INERTIA)
     return fixed
 
 

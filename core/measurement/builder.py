@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..inertia import (
-    AXES_FREE,
+    CHOICES,
     MOMENTS_OVERFLOW,
     NO_CERTAIN_VOLUME,
     MassProperties,
@@ -311,7 +311,7 @@ def find_properties(mass: Moments, preferred_axes: NDArray) -> MassProperties:
             np.asarray(preferred_axes, np.float64),
             NO_AXES_FIXED,
             False,
-            finding(AXES_FREE, axes=[1, 2, 3]),
+            CHOICES["isotropic"],
         ),
         rounding_error=(bounds | {"inertia": float(central.rounding_error[4:].sum())}),
         input_error={"mass": 0.0, "center": 0.0, "inertia": float(central.input_error[4:].sum())},

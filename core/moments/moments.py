@@ -28,7 +28,7 @@ from ..numerics import (
     rotation_array,
     shape_error,
 )
-from ..verdict import OBJECT_TOO_SMALL, MeasureError
+from ..verdict import OBJECT_SIZE, TOO_SMALL, MeasureError
 from .affine_maps import (
     SIMILARITY_RTOL,
     absolute_moments,
@@ -422,7 +422,7 @@ def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, N
     det = np.abs(sum([plus - minus for plus, minus in terms], exact))
     vanished = det < TINY
     if vanished.any() and not are_singular(linear.transpose(2, 0, 1)[vanished]).all():
-        raise MeasureError(OBJECT_TOO_SMALL)
+        raise MeasureError(OBJECT_SIZE, fault=TOO_SMALL)
     permanent = sum([np.abs(plus) + np.abs(minus) for plus, minus in terms], exact)
     if measure == Measure.VOLUME:
         return det, 8 * U * permanent, exact

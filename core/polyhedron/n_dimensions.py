@@ -28,7 +28,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..inertia import MOMENTS_OVERFLOW
 from ..moments import PAIRWISE_SUM_ROUNDINGS, U, check_exponents, factorial_ratios
 from ..numerics import Array, Index, check_filled, check_order, float_array, index_array
-from ..verdict import OBJECT_TOO_SMALL, MeasureError
+from ..verdict import OBJECT_SIZE, TOO_SMALL, MeasureError
 from .findings import BOUNDARY_OPEN
 
 NUMBERS_PER_BLOCK = 1 << 20  # numbers in the table of a block
@@ -184,7 +184,7 @@ def _measure(
     measure = dimension if enclosed else dimension - 1
     extent = float((high / 2.0 - low / 2.0).max())
     if extent > 0.0 and int(np.frexp(extent)[1]) * measure < np.finfo(np.float64).minexp:
-        raise MeasureError(OBJECT_TOO_SMALL)
+        raise MeasureError(OBJECT_SIZE, fault=TOO_SMALL)
     if signs is not None:
         signs = float_array("signs", signs, len(simplices))
     if not (allow_open or closes(points, simplices, signs)):

@@ -142,9 +142,6 @@ DESCRIPTION_NUMBER = warning(
     "Line {line}: <{element}> has “{text}”, which the audit cannot use. Correct it; nothing is "
     "compared.",
 )
-MESH_ON_NETWORK = warning(
-    "mesh_on_network", "A file is on a network, and was not loaded: {name}. Download it."
-)
 MESH_MISSING = warning(
     "mesh_missing",
     "A file is missing: {name}. If it is in another package, name the folder of the package with "
@@ -152,9 +149,8 @@ MESH_MISSING = warning(
 )
 MESH_OUTSIDE = warning(
     "mesh_outside",
-    "A file is outside of the folders that may be read: {name}. Name its folder with "
-    "--package-path, or allow all "
-    "with --allow-outside.",
+    "A file is on a network, or outside of the folders that may be read: {name}. Download it, name "
+    "its folder with --package-path, or allow all with --allow-outside.",
 )
 MESH_UNREADABLE = warning("mesh_unreadable", "A mesh cannot be read: {name}. {cause}")
 INERTIAL_MISSING = warning(

@@ -14,8 +14,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..inertia import (
-    AXES_FREE_BY_SHAPE,
+    AXES_FREE,
     CHOICES,
+    DIRECTIONS_OF_SHAPE,
     EQUAL_AXES,
     NOISE_LEVEL,
     SYMMETRIES,
@@ -59,7 +60,7 @@ def unique_frame(moments: Moments, preferred_axes: ArrayLike | None = None) -> P
     ... )
     >>> frame = unique_frame(polyhedron_moments(surface, 6)[0])
     >>> frame.symmetry, frame.undetermined_axes, frame.finding.code
-    ('oblate', (), 'axes_free_by_shape')
+    ('oblate', (), 'axes_free')
     """
     check_type("moments", moments, Moments)
     preferred_axes = (
@@ -75,7 +76,11 @@ def unique_frame(moments: Moments, preferred_axes: ArrayLike | None = None) -> P
     if alike.revolution_axes or symmetry == "asymmetric":
         choice = CHOICES[symmetry]
     elif len(alike.frames) > 1:
-        choice = finding(AXES_FREE_BY_SHAPE, axes=[axis + 1 for axis in EQUAL_AXES[symmetry]])
+        choice = finding(
+            AXES_FREE,
+            axes=[axis + 1 for axis in EQUAL_AXES[symmetry]],
+            choice=DIRECTIONS_OF_SHAPE,
+        )
     is_unique = len(alike.frames) == 1 and not alike.revolution_axes
     return PrincipalFrame(
         fixed.moments[0],

@@ -25,7 +25,7 @@ from ..numerics import (
 )
 from ..polyhedron import polyhedron_moments, third_order
 from ..verdict import MAX_COORDINATE, MeasureError, MeshHealth, check_size, welding_tolerance
-from ..verdict.findings import NO_FACES, OBJECT_TOO_LARGE
+from ..verdict.findings import NO_FACES, OBJECT_SIZE, TOO_LARGE
 from .findings import INVALID_FACES, NON_FINITE_VERTICES
 from .repaired_mesh import RepairedMesh
 
@@ -105,7 +105,7 @@ def check_surface(surface: Surface) -> CheckedSurface:
                 NON_FINITE_VERTICES, elements=elements, count=len(misplaced), total=total
             )
     if not max(size, float(np.abs([low, high]).max())) < MAX_COORDINATE:
-        raise MeasureError(OBJECT_TOO_LARGE)
+        raise MeasureError(OBJECT_SIZE, fault=TOO_LARGE)
     check_size(*(high - low).tolist())
     error = float(np.linalg.norm(surface.coordinate_error))
     return CheckedSurface(surface, vertices, size, error, tolerance=welding_tolerance(size, error))

@@ -21,9 +21,10 @@ from .finding import unique as unique
 from .finding import warning as warning
 from .findings import FLIPPED_FACES as FLIPPED_FACES
 from .findings import LINKED_OBJECT as LINKED_OBJECT
-from .findings import OBJECT_TOO_LARGE as OBJECT_TOO_LARGE
-from .findings import OBJECT_TOO_SMALL as OBJECT_TOO_SMALL
+from .findings import OBJECT_SIZE as OBJECT_SIZE
 from .findings import SELF_INTERSECTION as SELF_INTERSECTION
+from .findings import TOO_LARGE as TOO_LARGE
+from .findings import TOO_SMALL as TOO_SMALL
 from .health import DefectiveElements as DefectiveElements
 from .health import Intersection as Intersection
 from .health import MeshHealth as MeshHealth

@@ -4,9 +4,10 @@
 
 from .finding import error, note, repair, warning
 
-NO_FACES = error("no_faces", "No faces. Add faces, or select another object.")
-OBJECT_TOO_LARGE = error("object_too_large", "Too large to be measured. Scale the object down.")
-OBJECT_TOO_SMALL = error("object_too_small", "Too small to be measured. Scale the object up.")
+NO_FACES = error("no_faces", "No surface. Add faces, or check whether a modifier removes them.")
+TOO_LARGE = "Too large to be measured. Scale the object down"
+TOO_SMALL = "Too small to be measured. Scale the object up"
+OBJECT_SIZE = error("object_size", "{fault:word}.")
 FLIPPED_FACES = repair(
     "flipped_faces",
     "Flipped face measured as reversed: {elements}. Use Mesh > Normals > Recalculate Outside.",

@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import hypot
 
 from .finding import MeasureError
-from .findings import OBJECT_TOO_SMALL
+from .findings import OBJECT_SIZE, TOO_SMALL
 
 # The sixth power of the first and the fifth of the second are still numbers.
 MAX_COORDINATE, MIN_SIZE = 1e50, 1e-60
@@ -30,7 +30,7 @@ def check_size(*sides: float) -> None:
     no numbers.
     """
     if 0.0 < hypot(*sides) < MIN_SIZE:
-        raise MeasureError(OBJECT_TOO_SMALL)
+        raise MeasureError(OBJECT_SIZE, fault=TOO_SMALL)
 
 
 def welding_tolerance(size: float, error: float) -> float:

@@ -13,7 +13,7 @@ import bpy
 from body_moments.core.shape.library import read_library
 from body_moments.operators import batch
 
-from tests.blender.batch_files import add_box, codes, document, sentence
+from tests.blender.batch_files import add_box, codes, document
 from tests.blender.objects import add, mesh_body, strip_mesh
 from tests.close import close
 from tests.command.running import ask
@@ -102,7 +102,7 @@ def test_overflowing_pose_is_refused_and_the_mass_is_not():
     for words in (["--pose"], ["--pose", "--order", "4"]):
         refused = document(*words)
         assert refused["objects"] == [] and [error["reason"] for error in refused["errors"]] == [
-            sentence("object_too_large")
+            "Too large to be measured. Scale the object down."
         ]
     (entry,) = document()["objects"]
     assert close(entry["mass"], 6000.0 * float(np.float32(1e35)) ** 3, 1e-6)

@@ -233,7 +233,7 @@ CASES = {  # scene, operator, options, code of the refusal (None: a text)
         {"target": "OBJECT"},
         "child_not_held",
     ),
-    "inertial of an empty mesh": (no_faces, "object.copy", {"what": "urdf"}, "no_geometry"),
+    "inertial of an empty mesh": (no_faces, "object.copy", {"what": "urdf"}, "no_faces"),
     "urdf of no collections": (
         empty_assembly,
         "export_scene.urdf",
@@ -243,7 +243,7 @@ CASES = {  # scene, operator, options, code of the refusal (None: a text)
     "usd of names alike": (alike, "export_scene.usd", {"filepath": NOWHERE}, "robot_names_alike"),
     "fourier without a file": (body, "object.fourier", {}, None),
     "fourier nowhere": (body, "object.fourier", {"filepath": NOWHERE}, "file_not_written"),
-    "fourier of nothing": (no_faces, "object.fourier", {"filepath": "a.npz"}, "no_geometry"),
+    "fourier of nothing": (no_faces, "object.fourier", {"filepath": "a.npz"}, "no_faces"),
     "moments about nothing": (
         computed_about_nothing,
         "object.copy",

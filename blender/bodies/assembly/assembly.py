@@ -56,7 +56,8 @@ from ...settings.options import AS_SET, MeasureOptions
 from ..findings import (
     ASSEMBLY_MASS_GIVEN,
     ASSEMBLY_WITHOUT_MEMBERS,
-    GIVEN_CENTER_MISSING,
+    CENTER_MISSING,
+    GIVEN_CENTER,
     INSTANCE_STRETCHES_SHEETS,
     MEMBERS_COUNTED_BEFORE,
     MEMBERS_DENSITY_UNSET,
@@ -331,7 +332,7 @@ def _with_given_mass(whole: MemberBody, unit: float) -> MemberBody:
     except MeasureError as error:
         return replace(whole, masses={}, refusal=error.finding)
     if whole.mass is None and given.center is None and isinstance(data, bpy.types.Collection):
-        findings.append(finding(GIVEN_CENTER_MISSING))
+        findings.append(finding(GIVEN_CENTER, fault=CENTER_MISSING))
     findings.insert(0, finding(ASSEMBLY_MASS_GIVEN, mass=mass))
     return replace(whole, masses={0: moments}, findings=tuple(findings))
 

@@ -25,7 +25,7 @@ from ....core.verdict.finding import Finding, ReadError, finding
 from ...read.fingerprint import matrix_hash
 from ...read.objects import locate
 from ...settings.given import GivenPart, is_point_mass
-from ..findings import GIVEN, GIVEN_CENTER_OUTSIDE, GIVEN_INERTIA_IMPOSSIBLE, INERTIA
+from ..findings import CENTER_OUTSIDE, GIVEN, GIVEN_CENTER, GIVEN_INERTIA_IMPOSSIBLE, INERTIA
 from ..request import Request
 
 COUNT = monomial_count(KNOWN_ORDER)
@@ -99,7 +99,7 @@ def with_given(body: Body, reading: Reading, request: Request) -> Body:
         request.settings.mass, given, reading.rotation, location, geometry
     )
     if given.center is not None and _is_outside(mass.about, reading, request.settings.unit):
-        findings.append(finding(GIVEN_CENTER_OUTSIDE))
+        findings.append(finding(GIVEN_CENTER, fault=CENTER_OUTSIDE))
     key = body.density_key + GivenPart.from_settings(request.obj.body_moments, 1.0).key
     return replace(body, mass=mass, density_key=key, findings=(*body.findings, *findings))
 

@@ -19,7 +19,6 @@ import numpy as np
 
 from ....core.bodies import (
     DRAWN_AS_POLYGONS,
-    NO_GEOMETRY,
     SHAPE_OF_OPEN_SURFACE,
     Reading,
     extend_input_error,
@@ -48,7 +47,8 @@ from ....core.nurbs import Curve, length_moments, planar_region, plane_moments
 from ....core.solid import UNCHECKED
 from ....core.verdict import NEGLIGIBLE, MeshHealth, Method, Procedure, Source
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
-from ...read.findings import FLAT_OF_TYPE, RENDER_DIFFERS, SECTION_EXTRUDED, SECTION_NOT_FILLED
+from ....core.verdict.findings import NO_FACES
+from ...read.findings import FLAT_UNSUITABLE, NOT_FILLED, RENDER_DIFFERS, SECTION_FILL
 from ...read.objects import read_lines
 from ...read.section import SectionReading, read_outline_curves, read_section
 from ...read.visibility import shows_flat_region
@@ -67,8 +67,8 @@ from ..wire import DEGREE, curves_in_world
 FILL_AREA_RTOL = 1e-4  # if Blender's fill and the outlines differ by more, the fill is wrong
 # Codes of refusals: that an object is no body; and that it is not flat either, so that the first
 # refusal is shown.
-NO_BODY = {NO_VOLUME, NO_CERTAIN_VOLUME, NO_GEOMETRY, SHAPE_OF_OPEN_SURFACE}
-NOT_FLAT = {SECTION_NOT_FLAT, SECTION_EXTRUDED, FLAT_OF_TYPE}
+NO_BODY = {NO_VOLUME, NO_CERTAIN_VOLUME, NO_FACES, SHAPE_OF_OPEN_SURFACE}
+NOT_FLAT = {SECTION_NOT_FLAT, FLAT_UNSUITABLE}
 NORMAL = np.array([0.0, 0.0, 1.0])  # in the plane's own axes
 MeasuredSection = tuple[Section, str, tuple[Finding, ...]]
 MEASURED_AS = frozenset({"shell"})
@@ -314,7 +314,7 @@ def read(request: Request) -> RegionReading | None:
     reading = read_lines(obj, request.depsgraph)
     is_filled = obj.data.dimensions == "2D" and obj.data.fill_mode != "NONE"
     if not is_filled:
-        reading.findings.append(finding(SECTION_NOT_FILLED))
+        reading.findings.append(finding(SECTION_FILL, treatment=NOT_FILLED))
     try:
         curves, stored = curves_in_world(reading.curves, reading.matrix, request.settings.unit)
         boundary, normal = planar_region(curves, stored)

@@ -58,7 +58,7 @@ from ....core.shape.axial_harmonics import (
     turn_by_harmonics,
 )
 from ....core.shape.signatures import Signature, signature, signatures
-from ....core.verdict import OBJECT_TOO_LARGE, Procedure, Source
+from ....core.verdict import OBJECT_SIZE, TOO_LARGE, Procedure, Source
 from ....core.verdict.finding import Finding, ReadError, finding
 from ...settings.options import MeasureOptions
 from ..measure_body import THREADS, MeasuredBody, measure_body
@@ -131,7 +131,7 @@ class Shape:
             volume, area = self.body.moments(MAX_ORDER, self._sheets)
         found = volume if area is None else area
         if not np.isfinite([found.raw, found.rounding_error]).all():
-            raise ReadError(OBJECT_TOO_LARGE)
+            raise ReadError(OBJECT_SIZE, fault=TOO_LARGE)
         known = self.body.area if self._sheets else self.body.volume
         return with_input_error(found, known).about_center()
 

@@ -36,7 +36,6 @@ from ..findings import (
     INCLUDE_TWICE,
     INCLUDE_UNREADABLE,
     MESH_MISSING,
-    MESH_ON_NETWORK,
     MESH_OUTSIDE,
     USD_NOT_TEXT,
     XACRO_NOT_EXPANDED,
@@ -102,7 +101,7 @@ class Roots:
         match = _SCHEME.fullmatch(name)
         scheme, rest = (match[1].lower(), match[2]) if match else ("", name)
         if scheme not in ("", "package", "model", "file"):
-            raise FileError(MESH_ON_NETWORK, name=name)
+            raise FileError(MESH_OUTSIDE, name=name)
         is_outside = False
         for path in self._candidates(scheme, rest):
             try:

@@ -213,7 +213,7 @@ def test_an_empty_without_instances_is_refused():
 def test_objects_without_faces_are_refused_with_their_content():
     wire = link("Wire", mesh("Wire", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1), (1, 2)]))
     assert refused(wire, "only_without_surface")
-    assert refused(link("Nothing", mesh("Nothing", [], [])), "no_geometry")
+    assert refused(link("Nothing", mesh("Nothing", [], [])), "no_faces")
     bpy.ops.curve.primitive_bezier_circle_add()
     circle = bpy.context.object
     assert refused(circle, "nothing_to_measure")
@@ -233,12 +233,12 @@ def test_objects_without_faces_are_refused_with_their_content():
     assert refused(wire, "only_without_surface")
     hidden = link("Hidden", mesh("Nothing", [], []))
     hidden.show_instancer_for_viewport = False  # of which it is none
-    assert refused(hidden, "no_geometry")
+    assert refused(hidden, "no_faces")
     cloud = link("Cloud", bpy.data.pointclouds.new("Cloud"))
     strands = link("Strands", bpy.data.hair_curves.new("Strands"))
     volume = link("Volume", bpy.data.volumes.new("Volume"))
     for obj in (cloud, strands, volume):
-        assert refused(obj, "only_without_surface" if obj == volume else "no_geometry")
+        assert refused(obj, "only_without_surface" if obj == volume else "no_faces")
         assert measurable(obj) == (obj == volume)  # as a grid of densities
 
 

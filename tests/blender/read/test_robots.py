@@ -209,7 +209,7 @@ def test_meshes_are_found_within_the_folders_that_are_allowed(tmp_path, monkeypa
     ):
         assert roots.find(name) == mesh.resolve(), name
     assert refusal(roots.find, "package://../../secret.stl") == "mesh_outside"
-    assert refusal(roots.find, "https://example.com/a.stl") == "mesh_on_network"
+    assert refusal(roots.find, "https://example.com/a.stl") == "mesh_outside"
     assert refusal(roots.find, "package://arm_description/meshes/b.stl") == "mesh_missing"
     write(package / "package.xml", "<package><name> arm </name></package>")
     assert Roots.for_file(file).find("package://arm/meshes/a.stl") == mesh.resolve()

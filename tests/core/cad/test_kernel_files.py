@@ -33,6 +33,7 @@ SWEPT = {
     "torus": 180.0 * np.pi**2,
     "tube": 3600.0 * np.pi,
     "wedge": 325.0,
+    "nearly_round": 1525.0,
     "drilled": 8000.0 - 320.0 * np.pi,
     "fillet": 5880.0 + 30.0 * np.pi,
 }

@@ -67,7 +67,7 @@ def test_the_frame_turns_with_the_body(name):
 
 
 @pytest.mark.parametrize("place", [4, 7, 9])
-@pytest.mark.parametrize("size, code", [(1e-300, "negative_inertia"), (1e-310, "object_too_small")])
+@pytest.mark.parametrize("size, code", [(1e-300, "negative_inertia"), (1e-310, "object_size")])
 def test_underflowing_second_moments_are_refused_as_too_small(place, size, code):
     """The rule holds for any axes and any third moments."""
     raw = np.zeros(20)

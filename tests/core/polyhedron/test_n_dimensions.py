@@ -197,7 +197,7 @@ def test_open_boundaries_are_refused_unless_allowed(n):
 @pytest.mark.parametrize(("n", "size"), [(2, 1e-160), (3, 1e-108), (3, 1e-200), (6, 1e-60)])
 def test_vanishing_bodies_are_refused(n, size):
     points, facets, signs = unit_simplex(n)
-    with refused("object_too_small"):
+    with refused("object_size"):
         enclosed_moments(points * size, facets, 0, signs=signs)
     assert enclosed_moments(points * size ** (1 / 3), facets, 0, signs=signs).raw[0] > 0.0
 

@@ -72,9 +72,9 @@ def test_combined_verdict_is_the_worst_of_the_solids():
 def test_numbers_lists_causes_and_sources_are_filled_in():
     text = sentence(finding("flipped_faces", np.arange(3, 15), count=12))
     assert "3, 4, 5, 6, 7, 8, 9, 10, and 4 more" in text
-    assert sentence(finding("no_faces").of_sources(["A", "B"])).startswith("“A”, “B”: No faces.")
+    assert sentence(finding("no_faces").of_sources(["A", "B"])).startswith("“A”, “B”: No surface.")
     cause = finding("no_faces").as_record()
-    assert "No faces." in sentence(finding("hidden_object_measured", cause=cause))
+    assert "No surface." in sentence(finding("hidden_object_measured", cause=cause))
     assert "12.5%" in sentence(finding("patch_holes_capped", flat=1, curved=0, share=0.125))
 
 

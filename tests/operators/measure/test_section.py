@@ -173,13 +173,13 @@ def test_outlines_that_cross_or_coincide_are_refused(outlines, code):
 def test_extruded_or_offset_outline_is_refused(data, setting):
     obj = add(data())
     setattr(obj.data, setting, 0.1)
-    assert refused(obj, "section_extruded")
+    assert refused(obj, "flat_unsuitable")
     setattr(obj.data, setting, 0.0)
     obj.data.bevel_object = add(curve_of(square(0, 0, 1)), "Profile")
     obj.data.bevel_mode = "ROUND"
     assert section_of(obj)[0].area > 0.0
     obj.data.bevel_mode = "OBJECT"
-    assert refused(obj, "section_extruded")
+    assert refused(obj, "flat_unsuitable")
 
 
 def test_open_splines_are_left_out_or_refused():
@@ -190,7 +190,7 @@ def test_open_splines_are_left_out_or_refused():
     assert section.area == 4 and said(findings) == {"section_splines_open": {"count": 1}}
     space = curve_of(square(0, 0, 1))
     space.dimensions = "3D"
-    assert refused(add(space), "section_extruded")
+    assert refused(add(space), "flat_unsuitable")
     assert refused(add(text_of("")), "no_section_area")
 
 

@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.scene import empties
-from body_moments.core.inertia.findings import AXES_FREE_BY_SHAPE
+from body_moments.core.inertia.findings import DIRECTIONS_OF_SHAPE
 
 from tests.blender.boxes import box_mesh
 from tests.blender.objects import add, measured, mesh_body, only, place
@@ -91,7 +91,7 @@ def test_axes_of_a_cube_are_its_sides(operator, options, reported):
     cosines = np.abs(sides.T @ axes)
     assert np.abs(cosines - np.round(cosines)).max() < 1e-5
     if "cursor" not in name:  # these search by higher moments, the cursor takes the stored axes
-        free = replace(free, code=AXES_FREE_BY_SHAPE)
+        free = replace(free, values={**free.values, "choice": DIRECTIONS_OF_SHAPE})
     assert reported.codes == [free.code]
     assert reported[0] == (free.of_sources(["Cube"]) if "empty" in name else free)
     if "cursor" in name:

@@ -44,6 +44,7 @@ parts = {
     "torus": made("Torus", 10.0, 3.0),
     "tube": tube,
     "wedge": made("Cylinder", 5.0, 20.0, 1.3),
+    "nearly_round": made("Cylinder", 5.0, 20.0, 6.1),
     "drilled": cut(made("Box", 20.0, 20.0, 20.0), rod(4.0, 40.0, (10, 10, -5), (0, 0, 1))),
     "fillet": fillet.Shape(),
     "cross": cut(tube, rod(3.0, 60.0, (-30, 0, 24), (1, 0, 0))),
