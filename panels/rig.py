@@ -96,6 +96,12 @@ class WeightPanel:
         rows.button(column, "pose.body_moments_keep_spin", "FORCE_VORTEX")
         rows.button(column, "pose.body_moments_bake_curves", "FCURVE")
         rows.button(column, "pose.body_moments_trace", "CON_FOLLOWPATH")
+        spans = _spans(context)
+        row = column.row()
+        row.enabled = bool(spans)
+        text = localized("Momentum from nothing: {:d}").format(len(spans))
+        icon = "ERROR" if spans else "BLANK1"
+        row.menu("VIEW3D_MT_body_moments_spans", text=text, icon=icon, translate=False)
         column = layout.column()
         mass = column.column()
         mass.active = settings.mass > 0.0
@@ -114,12 +120,6 @@ class WeightPanel:
             weight = posed.weight(armature, depsgraph)
         rows.stale_state(layout, stale_reason(armature, context.scene))
         _standing(layout, weight, meters_per_unit(context.scene))
-        spans = _spans(context)
-        row = layout.row()
-        row.enabled = bool(spans)
-        text = localized("Momentum from nothing: {:d}").format(len(spans))
-        icon = "ERROR" if spans else "BLANK1"
-        row.menu("VIEW3D_MT_body_moments_spans", text=text, icon=icon, translate=False)
 
 
 def standing(weight: Weight, unit: float) -> tuple[str, dict[str, str], str]:

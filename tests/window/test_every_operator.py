@@ -146,6 +146,10 @@ def test_the_other_answer_to_the_question_is_kept(window):
     window.ask(NESTED)
     window.press("object.body_moments_measure")
     x, y = window.place("scene.body_moments_set_millimeters")
+    window.move(x, y, *["click", 5] * 20)  # to the end, as the switch is below
+    window.get("True")
+    window.buttons.clear()
+    x, y = window.middle("scene.body_moments_set_millimeters")
     window.click(x, y - 20)  # the switch below
     window.wait("bpy.context.scene.body_moments.units_answered")
     assert window.get("bpy.context.scene.unit_settings.scale_length") == 1.0

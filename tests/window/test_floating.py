@@ -56,7 +56,9 @@ def test_waterline_follows_a_heeled_hull(window):
     window.picture("floating-heeled")
 
 
-def test_button_lists_righting_arms(window):
+def test_buttons_list_positions_and_righting_arms(window):
+    window.press("object.body_moments_float_positions")
+    window.wait(f"{SESSION}.known_body({HULL}).rests != ()")
     window.press("object.body_moments_righting_arms")
     window.wait(f"{SESSION}.known_body({HULL}).curve is not None")
     window.point_at_view()
