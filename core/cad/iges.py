@@ -358,7 +358,7 @@ class IgesReader:
                 in_space.append(self._edge(edges, index, bool(forward), matrix))
             if uses or not is_vertex:
                 by_parameters += [self._curves.read(way, None) for way in ways] or [None]
-        return Boundary(_join_curves(in_space), _joined(by_parameters))
+        return Boundary(_join_curves(in_space), _join_curves(by_parameters))
 
     def _edge(self, pointer: int, index: int, forward: bool, matrix: NDArray) -> list[Curve] | None:
         """Return an edge of a list, in the direction of its use."""
