@@ -105,10 +105,39 @@ def test_liquid_that_does_not_fit_is_refused(arguments, message):
     assert trough not in memory.levels
 
 
-def test_cut_and_fill_of_a_slope():
+@pytest.mark.parametrize("data", ["EMPTY", "PLANE"])
+@pytest.mark.parametrize(
+    ("rotation", "scale"),
+    [((0, 0, 0), (0, 1, 1)), ((np.pi / 2, 0, 0), (1, 1, 1)), ((0.3, np.pi / 2, 0), (1, 1, 0))],
+)
+def test_plane_upright_or_of_no_scale_is_refused(data, rotation, scale):
+    mesh = bpy.data.meshes.new("Plane")
+    mesh.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
+    add(mesh if data == "PLANE" else None, "Other", (0, 0, 1), rotation, scale)
+    slope = add_slope()
+    assert CUT_FILL(against="OBJECT", other="Other") == {"CANCELLED"}
+    assert "Slope: No cut and fill: " in refusal()
+    assert slope not in memory.cut_fills
+    assert data == "PLANE" or "its plane stands upright" in refusal()
+
+
+def test_empty_of_any_scale_is_its_plane():
+    add(None, "Empty", (7, 7, 1), scale=(1e-9, 1e6, 0))
+    slope = add_slope()
+    assert CUT_FILL(against="OBJECT", other="Empty") == {"FINISHED"}
+    found = memory.cut_fills[slope].found
+    assert (found.cut.total, found.fill.total) == pytest.approx((0.25, 0.25))
+
+
+def add_slope():
+    """A slope of z = 2 x over the unit square."""
     mesh = bpy.data.meshes.new("Slope")
     mesh.from_pydata([(0, 0, 0), (1, 0, 2), (1, 1, 2), (0, 1, 0)], [], [(0, 1, 2, 3)])
-    slope = add(mesh, "Slope")
+    return add(mesh, "Slope")
+
+
+def test_cut_and_fill_of_a_slope():
+    slope = add_slope()
     assert CUT_FILL(against="HEIGHT", height=1.0) == {"FINISHED"}
     found = stored.cuts.cut_fill_of(slope, bpy.context.scene).found
     assert (found.cut.total, found.fill.total) == pytest.approx((0.25, 0.25))
