@@ -4,6 +4,7 @@
 
 import re
 
+import bmesh
 import bpy
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from body_moments.blender.session import memory, stored
 from body_moments.core.cuts import cut_outline
 from body_moments.core.verdict import sentence
 
+from tests.blender.batch_files import document
 from tests.blender.objects import add
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -52,7 +54,7 @@ def test_level_of_a_volume_a_mass_and_a_height(scale):
         assert level.volume == pytest.approx(0.5 * scale**3)
         assert level.hollow.capacity == pytest.approx(2 * scale**3)
         assert level.surface_moments == pytest.approx(
-            (2 / 12 * scale**4, 8 / 12 * scale**4), rel=1e-6
+            (2 * scale**2, 2 / 12 * scale**4, 8 / 12 * scale**4), rel=1e-6
         )
         # It leans along the diagonal of its corner first: the closed form of the flat side bounds.
         assert 0 < level.tilt < np.arctan2(1.5, 1.0)
@@ -62,6 +64,40 @@ def test_level_of_a_volume_a_mass_and_a_height(scale):
     outline = cut_outline(hollow.points, hollow.triangles, hollow.up, level.height)
     assert np.linalg.norm(np.diff(outline, axis=1), axis=2).sum() == pytest.approx(6 * scale)
     assert np.allclose(outline[..., 2], 3.25 * scale)
+
+
+def test_trough_full_to_its_rim_has_a_surface():
+    add_trough()
+    assert LEVEL(by="LEVEL", level=4.0) == {"FINISHED"}
+    assert bpy.ops.object.body_moments_show_level() == {"FINISHED"}
+    surface = bpy.data.objects["Trough Level"]
+    bpy.context.view_layer.update()
+    assert sum(face.area for face in surface.data.polygons) == pytest.approx(2.0, rel=1e-5)
+    corners = np.array([surface.matrix_world @ vertex.co for vertex in surface.data.vertices])
+    assert np.allclose(corners[:, 2], 4.0, atol=1e-6)
+
+
+def test_full_round_cavity_has_no_free_surface():
+    """A cube of edge 2 with an octahedron of corners at 0.5 cut out of it."""
+    bpy.ops.mesh.primitive_cube_add()
+    cube = bpy.context.object
+    edited = bmesh.new()
+    edited.from_mesh(cube.data)
+    ends = [[edited.verts.new(0.5 * sign * np.eye(3)[i]) for sign in (1, -1)] for i in range(3)]
+    for i, j, k in np.ndindex(2, 2, 2):
+        corners = [ends[0][i], ends[1][j], ends[2][k]]
+        edited.faces.new(corners[:: 1 if (i + j + k) % 2 else -1])
+    edited.to_mesh(cube.data)
+    assert LEVEL(by="LEVEL", level=0.8) == {"FINISHED"}
+    level = level_of(cube)
+    assert level.volume == pytest.approx(4 / 3 * 0.5**3)
+    assert level.surface_moments == (0.0, 0.0, 0.0) and level.triangles.shape == (0, 3, 3)
+    with pytest.raises(RuntimeError, match="full to its top"):
+        bpy.ops.object.body_moments_show_level()
+    assert LEVEL(by="LEVEL", level=0.0) == {"FINISHED"}
+    assert level_of(cube).surface_moments == pytest.approx((0.5, 1 / 48, 1 / 48))
+    contents = document("--below", "0.8")["objects"][0]["below"]["contents"]
+    assert contents["surface"] is None and contents["volume"] == pytest.approx(1 / 6)
 
 
 def test_show_level_adds_meshes_and_nothing_else_moves():
