@@ -95,10 +95,17 @@ def balance_print(
         total = 0.0 if mass is None else mass.total
         return np.array([total, *(first @ axes / settings.unit)])
 
+    def stated(best: PrintBalance) -> PrintBalance:
+        """Return the result, its margin from a plumb line as the distance that it has."""
+        if best.suffices or point is None:
+            return best
+        mass = placed(infill=best.infill, walls=best.walls, pocket=best.pocket)
+        return best._replace(margin=float(np.hypot(*mass[1:] / mass[0])))
+
     now = settings.printed
     if change == "BALLAST":
         if settings.mass is not None:
-            placed(pocket=Pocket(0.0, 0.0, 0.0, 0.0, 0.0))  # refused
+            placed(pocket=Pocket((0.0, 0.0, 0.0), 0.0, 0.0))  # refused
         mass = placed(pocket=None)
         density = obj.body_moments.pocket_density
         excess = density - now.infill / 100.0 * (settings.density or 0.0)
@@ -114,8 +121,8 @@ def balance_print(
             axes,
         )
         local = np.linalg.solve(to_body, [*center, 1.0])[:3]
-        pocket = Pocket(*local, radius, density) if radius else None
-        return PrintBalance(now.walls, now.infill, reached, reached >= margin, pocket)
+        pocket = Pocket(tuple(local.tolist()), radius, density) if radius else None
+        return stated(PrintBalance(now.walls, now.infill, reached, reached >= margin, pocket))
     best = None
     nearest = sorted(range(1, MAX_WALLS + 1), key=lambda count: abs(count - now.walls))
     for walls in nearest if change == "WALLS" else [now.walls]:
@@ -132,8 +139,8 @@ def balance_print(
             return PrintBalance(walls, _shorten(infill, low, high), margin, True)
         reached, share = largest_margin(flat, empty, full - empty)
         if best is None or reached > best.margin:
-            best = PrintBalance(walls, 100.0 * share, reached, False)
-    return best
+            best = PrintBalance(walls, 100.0 * share, reached, False, now.pocket)
+    return best and stated(best)
 
 
 def _place_pocket(

@@ -44,8 +44,8 @@ AS_SET = MeasureOptions()  # every object as its own settings say
 def print_settings(properties: PropertyGroup) -> PrintSettings:
     """Return the print settings in the settings of an object."""
     radius, density = properties.pocket_radius, properties.pocket_density
-    center = map(shortest_decimal, properties.pocket_center)
-    pocket = Pocket(*center, shortest_decimal(radius) * 1e-3, shortest_decimal(density))
+    center = tuple(map(shortest_decimal, properties.pocket_center))
+    pocket = Pocket(center, shortest_decimal(radius) * 1e-3, shortest_decimal(density))
     return PrintSettings(
         walls=properties.print_walls,
         line_width=shortest_decimal(properties.print_line_width) * 1e-3,

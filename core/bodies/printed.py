@@ -26,9 +26,7 @@ LEAST_CORE = 1e-9  # of the volume
 POCKET_RTOL = 1e-5  # of its radius
 
 
-def print_surfaces(
-    body: MeshBody, printed: PrintSettings
-) -> tuple[list[Surface], list[Surface]]:
+def print_surfaces(body: MeshBody, printed: PrintSettings) -> tuple[list[Surface], list[Surface]]:
     """Return the surfaces of the cores of a body, and of its outside. Raises MeasureError."""
     cores, outsides = [], []
     for solid, matrices in body.solids:
@@ -70,7 +68,7 @@ def print_body(body: MeshBody, settings: Settings, place: Array | None = None) -
             fault = "beside a pocket it needs a density, not a mass. Set Density"
             raise ReadError(PRINT_UNFIT, fault=fault)
         place = np.eye(4) if place is None else place
-        center = place[:3, :3] @ pocket[:3] + place[:3, 3]
+        center = place[:3, :3] @ pocket.center + place[:3, 3]
         room = PocketRoom(cores, outsides, printed.line_width)
         if pocket.radius > float(room.radii(center[None])[0]) * (1.0 + POCKET_RTOL):
             fault = "its pocket reaches out of the core. Make it smaller, or remove it"

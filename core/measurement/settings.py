@@ -38,9 +38,7 @@ class Pocket(NamedTuple):
     Blender units; radius, m; density, kg/m³.
     """
 
-    x: float
-    y: float
-    z: float
+    center: tuple[float, ...]
     radius: float
     density: float
 
@@ -122,7 +120,9 @@ class Settings(RequestedResults):
         density, mass = [
             None if value is None else shortest_decimal(value) for value in (density, self.mass)
         ]
-        printed = [*self.printed[:-1], *(self.printed.pocket or ())]
+        printed = list(self.printed[:-1])
+        if (pocket := self.printed.pocket) is not None:
+            printed += [*pocket.center, pocket.radius, pocket.density]
         used = [
             self.kind.upper(),
             density,

@@ -45,9 +45,7 @@ def largest_margin(corners: Array, empty: Array, growth: Array) -> tuple[float, 
     return float(margins[best]), float(infill[best])
 
 
-def least_ballast(
-    corners: Array, mass: Array, places: Array, margin: float, sign: float
-) -> Array:
+def least_ballast(corners: Array, mass: Array, places: Array, margin: float, sign: float) -> Array:
     """Return the (k,) least masses that bring the center inside a polygon by a margin if they are
     added (sign 1) or taken away (-1) at places (k, 2), infinity if none does; as `infill_range`.
     """

@@ -92,17 +92,17 @@ class OBJECT_OT_body_moments_make_it_stand(Operator):
         is_ballast = self.change == "BALLAST"
         if not found.suffices:
             text = (
-                "A pocket cannot do it: the largest margin is {margin:length}, with a radius of "
-                "{radius:length}. Choose a smaller margin, another infill or denser ballast"
+                "A pocket cannot do it: the margin is at best {margin:length}, with a radius of "
+                "{radius:length}. Choose another margin, infill or denser ballast"
                 if is_ballast
-                else "Walls and infill cannot do it: the largest margin is {margin:length}, with "
-                "{walls} walls and {infill} % infill. Choose a smaller margin, or use Balance"
+                else "Walls and infill cannot do it: the margin is at best {margin:length}, with "
+                "{walls} walls and {infill} % infill. Choose another margin, or use Balance"
             )
             return selection.refuse(self, reports.phrase(text, **values))
         if is_ballast:
             settings.pocket_radius = 1e3 * values["radius"]
             if found.pocket:
-                settings.pocket_center = found.pocket[:3]
+                settings.pocket_center = found.pocket.center
         else:
             settings.print_walls = found.walls
             settings.print_infill = found.infill
