@@ -55,14 +55,15 @@ def balance_print(
     margin: float,
     point: tuple[float, ...] | None = None,
     change: str = "WALLS",
+    ballast: float = 0.0,
 ) -> PrintBalance | None:
     """Return the nearest walls and infill, or the least pocket, with the center inside a polygon by
     a margin, else those with the largest margin; None if the polygon is none.
 
     corners: (k, 3) of the base in the world, counterclockwise from above; None if unknown. margin:
     in Blender units. point: the center has to be above or below it within the margin, in place of
-    the base. change: "INFILL", "WALLS" (they stay if the infill alone suffices), or "BALLAST".
-    Raises MeasureError.
+    the base. change: "INFILL", "WALLS" (they stay if the infill alone suffices), or "BALLAST", with
+    its density in kg/m³. Raises MeasureError.
     """
     axes = ground_axes(down(context.scene))[:, :2]
     if point is not None:
@@ -107,8 +108,7 @@ def balance_print(
         if settings.mass is not None:
             placed(pocket=Pocket((0.0, 0.0, 0.0), 0.0, 0.0))  # refused
         mass = placed(pocket=None)
-        density = obj.body_moments.pocket_density
-        excess = density - now.infill / 100.0 * (settings.density or 0.0)
+        excess = ballast - now.infill / 100.0 * (settings.density or 0.0)
         room = PocketRoom(*print_surfaces(made, now), now.line_width)
         center, radius, reached = _place_pocket(
             room,
@@ -121,7 +121,7 @@ def balance_print(
             axes,
         )
         local = np.linalg.solve(to_body, [*center, 1.0])[:3]
-        pocket = Pocket(tuple(local.tolist()), radius, density) if radius else None
+        pocket = Pocket(tuple(local.tolist()), radius, ballast) if radius else None
         return stated(PrintBalance(now.walls, now.infill, reached, reached >= margin, pocket))
     best = None
     nearest = sorted(range(1, MAX_WALLS + 1), key=lambda count: abs(count - now.walls))

@@ -44,6 +44,13 @@ class OBJECT_OT_body_moments_make_it_stand(Operator):
         ),
         default="WALLS",
     )
+    ballast: FloatProperty(
+        name="Ballast",
+        description="Density of what fills the pocket, in kg/m³",
+        default=7820.0,
+        min=0.0,
+        soft_max=25000.0,
+    )
     margin: FloatProperty(
         name="Margin",
         description=(
@@ -76,7 +83,7 @@ class OBJECT_OT_body_moments_make_it_stand(Operator):
             point = context.scene.cursor.location[:] if over_cursor else None
             corners = None if support is None else support.polygon
             found = session.print_balance.balance_print(
-                context, obj, corners, self.margin, point, self.change
+                context, obj, corners, self.margin, point, self.change, self.ballast
             )
         except MeasureError as error:
             return selection.refuse(self, reports.failure(obj.name_full, error))
@@ -103,6 +110,7 @@ class OBJECT_OT_body_moments_make_it_stand(Operator):
             settings.pocket_radius = 1e3 * values["radius"]
             if found.pocket:
                 settings.pocket_center = found.pocket.center
+                settings.pocket_density = self.ballast
         else:
             settings.print_walls = found.walls
             settings.print_infill = found.infill

@@ -154,8 +154,9 @@ def test_unreachable_pocket_is_stated_and_changes_nothing(beam, scene):
 
 def test_pocket_gives_margin_of_base_and_is_taken_out_unneeded(scene):
     obj = leaning(scene)
-    options = {"margin": 0.2, "change": "BALLAST"}
+    options = {"margin": 0.2, "change": "BALLAST", "ballast": 11350.0}
     assert bpy.ops.object.body_moments_make_it_stand(**options) == {"FINISHED"}
+    assert close(obj.body_moments.pocket_density, 11350.0, 0.0)
     assert obj.body_moments.pocket_radius > 0.0 and obj.body_moments.print_infill == 5.0
     assert abs(margin_of(obj) - 0.2) < 1e-4
     obj.body_moments.print_infill = 60.0
