@@ -91,8 +91,8 @@ def righting_curve(
     ...     density=1000.0,
     ... )
     >>> curve = righting_curve(log.settle([0.0, 0.0, 1.0]), np.radians([0.0, 45.0, 100.0]))
-    >>> np.degrees(curve.capsize[1]).round(6)
-    np.float64(90.0)
+    >>> float(np.degrees(curve.capsize[1]).round(6))
+    90.0
     """
     angles = np.unique(float_array("angles", angles, "k", finite=True))
     check_filled("angles", angles)

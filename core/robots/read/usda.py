@@ -397,7 +397,7 @@ def _link(
             return None
 
     inertial, overridden = attempt(prim, _inertials, to_link @ matrix, scales) or (None, None)
-    rules = None if inertial else attempt(prim, _rules, to_link @ matrix, scales)
+    rules = None if inertial or findings else attempt(prim, _rules, to_link @ matrix, scales)
     density = rules and attempt(prim, Prim.number, "physics:density", 0.0)
     shapes = []
     for part, place in _parts(prim, matrix):

@@ -414,7 +414,7 @@ def test_sdf(tmp_path, seed):
     assert description.name == "m" and description.format == "sdf"
     names = ["m::a", "n::b", "s::c", "t::d", "u::e", "u::f"]
     assert [found.name for found in description.links] == names
-    assert [found.moves for found in description.links] == [False, True, False, False, False, False]
+    assert [found.moves for found in description.links] == [False, True, False, False, True, True]
     assert [found.inertial is None for found in description.links] == [False, *[True] * 5]
     check(description.links[0], ((1.0, (0, 0, 0), np.eye(3)), expected))
     assert description.source[slice(*description.links[0].span)] == b"<inertial/>"
@@ -447,7 +447,7 @@ def test_mjcf_frames_place_and_scale_what_is_in_them(tmp_path):
         found.shapes[0].shape.size, (0.2, 0.8, 1.8), 1e-15
     ) and found.inertial.center.tolist() == [0, 0, 1.5]
     # no frame: it has no scale
-    found = link(own + '<body name="d" pos="1" scale="2">{}</body>'.format(own + geom))
+    found = link(own + '<body name="d" pos="1 0 0" scale="2">{}</body>'.format(own + geom))
     assert found.inertial.mass == 2 and found.span is not None and not found.findings
     for wrong in (
         "<frame scale='0'>{}</frame>",

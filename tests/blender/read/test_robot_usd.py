@@ -172,7 +172,7 @@ def Xform "world" ( doc = "a }} b" )
         "world/only",
     ]
     assert [one.inertial is None for one in description.links] == [False, True, True]
-    assert not link.moves and not link.findings
+    assert link.moves and not link.findings
     assert near(link.inertial.mass, mass * kilograms, 1e-14)
     assert near(link.inertial.center, scale * center * meters, 1e-12)
     assert near(link.inertial.inertia, tensor * meters**2 * kilograms, 1e-12)

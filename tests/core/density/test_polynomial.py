@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from body_moments.core.density.findings import POLYNOMIAL_BEYOND_NUMBERS, POLYNOMIAL_TOO_LONG
 from body_moments.core.density.polynomial import MAX_DEGREE, Polynomial, parse_polynomial
 from body_moments.core.verdict.finding import MeasureError
 from hypothesis import given, settings
@@ -46,7 +47,7 @@ def test_a_text_may_have_4096_characters_between_spaces():
     assert parse_polynomial("  " + longest + "\n").coefficients().tolist() == [3.0]
     with pytest.raises(MeasureError) as refusal:
         parse_polynomial(longest.replace("+", "+ "))
-    assert refusal.value.finding.code == "polynomial_unusable"
+    assert refusal.value.finding.values["fault"] == POLYNOMIAL_TOO_LONG
 
 
 @pytest.mark.parametrize(
@@ -173,7 +174,7 @@ def test_negative_polynomial_is_never_proven_positive():
 
 
 def test_values_beyond_the_range_of_numbers_are_refused():
-    with refused("polynomial_unusable"):
+    with refused("polynomial_unusable", fault=POLYNOMIAL_BEYOND_NUMBERS):
         parse_polynomial("z**17").lower_bound((0, 0, 1e30), (0, 0, 2e30))
 
 

@@ -96,6 +96,13 @@ def test_rests_are_minima_in_every_direction(share):
     assert [rest.energy for rest in rests] == sorted(rest.energy for rest in rests)
 
 
+def test_log_that_floats_tilted_rests_in_eight_positions():
+    rests = log(6.0, 1.0, 1.0, 0.25).find_rests()
+    ups = [rest.up[1:] for rest in rests]
+    assert np.sort(np.abs(ups)) == pytest.approx(np.sqrt([[0.2, 0.8]] * 8), abs=1e-9)
+    assert len({(abs(y) > abs(z), y > 0.0, z > 0.0) for y, z in ups}) == 8
+
+
 def test_cube_of_half_density_rests_on_corners():
     rests = log(1.0, 1.0, 1.0, 0.5).find_rests()
     assert len(rests) == 8

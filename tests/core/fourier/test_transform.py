@@ -14,6 +14,7 @@ from body_moments.core.fourier.wave_vectors import FrequencyGrid
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.polyhedron import integration
 from body_moments.core.verdict.finding import MeasureError
+from body_moments.core.verdict.findings import TOO_LARGE, TOO_SMALL
 
 from tests.close import close
 from tests.core import bodies, exact
@@ -359,7 +360,7 @@ def test_quads_with_invalid_indices_are_refused():
 def test_unrepresentable_transform_is_refused():
     points, triangles = bodies.box()
     for scale in (1e-200, 1e-120, 1e60, 1e200):
-        with refused("object_size"):
+        with refused("object_size", fault=TOO_SMALL if scale < 1.0 else TOO_LARGE):
             solid_transform(Surface.from_triangles(points * scale, triangles), np.zeros((1, 3)))
     with refused("wave_vectors_range"):
         solid_transform(Surface.from_triangles(points, triangles), np.full((1, 3), 1.7e308))

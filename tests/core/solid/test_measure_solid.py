@@ -11,6 +11,7 @@ import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.solid.measure import measure_solid
 from body_moments.core.verdict.finding import Finding, MeasureError
+from body_moments.core.verdict.findings import TOO_LARGE, TOO_SMALL
 
 from tests.close import close
 from tests.core.bodies import (
@@ -728,7 +729,7 @@ def test_unmeasurable_mesh_is_refused_with_a_remedy():
     with refused("non_finite_vertices"):
         verdict((points, CUBE[1]))
     for points in (CORNERS * 1e60, (2.0 * CORNERS - 1.0) * 1e308):
-        with refused("object_size"):
+        with refused("object_size", fault=TOO_LARGE):
             verdict((points, CUBE[1]))
 
 
@@ -863,8 +864,8 @@ def test_a_body_of_any_size_is_as_possible_as_another(exponent):
 
 
 def test_vanishing_and_overflowing_moments_are_refused_alike():
-    for scale, code in ((1e-61, "object_size"), (1e51, "object_size")):
-        with refused(code):
+    for scale, fault in ((1e-61, TOO_SMALL), (1e51, TOO_LARGE)):
+        with refused("object_size", fault=fault):
             verdict((CUBE[0] * scale, CUBE[1]))
 
 
