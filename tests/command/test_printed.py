@@ -107,3 +107,17 @@ def test_pocket_of_print_is_in_the_record(tmp_path):
     assert close(entry["print"]["pocket_center"], [1e-3, 2e-3, -3e-3], 1e-6)
     assert close(entry["print"]["price"], 25.0 * filament, 1e-6)
     assert close(entry["mass"], filament + 7820.0 * ball, 1e-6)
+
+
+def test_tilted_print_is_out_of_date_but_not_a_moved_one():
+    from body_moments.blender.session.tracking import staleness
+
+    obj = add(box_mesh(20, 20, 20), "cube")
+    obj.body_moments.kind = "PRINTED"
+    bpy.ops.object.body_moments_measure()
+    obj.location, obj.rotation_euler.z = (3.0, 4.0, 5.0), 0.7
+    bpy.context.view_layer.update()
+    assert staleness.stale_reason(obj, bpy.context.scene) is None
+    obj.rotation_euler.x = 0.5
+    bpy.context.view_layer.update()
+    assert staleness.stale_reason(obj, bpy.context.scene)
