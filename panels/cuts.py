@@ -81,7 +81,14 @@ def _level(layout: UILayout, level: Level) -> None:
             ],
         )
         center = level.liquid.part.center[0].tolist()
-        rows.group(body, "Center of the Liquid", rows.AXIS_LABELS, "length", center, level.volume ** (1 / 3))
+        rows.group(
+            body,
+            "Center of the Liquid",
+            rows.AXIS_LABELS,
+            "length",
+            center,
+            level.volume ** (1 / 3),
+        )
     body = rows.fold(layout, "body_moments_level_table", "Level Table")
     if body is not None:
         units = rows.scene_units()
