@@ -15,9 +15,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..bodies import MeshBody, WallBody
-from ..cuts import find_hollow
+from ..cuts import Hollow, find_hollow
 from ..measurement import Body
-from ..mesh import Bvh, Surface, intersecting_pairs, sort_components, uncancelled_sides
+from ..mesh import (
+    Bvh,
+    Surface,
+    first_at_equal_position,
+    intersecting_pairs,
+    sort_components,
+    uncancelled_sides,
+)
 from ..numerics import Array, Index, Mask
 from ..solid import (
     COMPONENTS_OVERLAP,
@@ -38,11 +45,14 @@ MAX_HOLLOWS = 8
 
 @dataclass(frozen=True, eq=False)
 class Hull:
-    """A closed surface, (n, 3) points and (m, 3) triangles, and the (k, 3) points of its rims."""
+    """A closed surface, (n, 3) points and (m, 3) triangles, the (k, 3) points of its rims, and the
+    (m,) part of each triangle.
+    """
 
     points: Array
     triangles: NDArray[np.integer]
     openings: Array
+    part: Index
 
 
 def outer_surface(body: Body) -> Iterator[tuple[SolidIntegrals, Array]]:
@@ -89,7 +99,8 @@ def find_hull(bodies: Iterable[Body]) -> Hull:
     faces = np.concatenate(triangles)
     owner = np.concatenate(part)
     kept = _outer_parts(joined, faces, owner, np.concatenate(caps), number)
-    return Hull(joined, faces[kept[owner]], np.concatenate(rims))
+    is_kept = kept[owner]
+    return Hull(joined, faces[is_kept], np.concatenate(rims), owner[is_kept])
 
 
 def _outer_parts(
@@ -116,13 +127,15 @@ def _outer_parts(
         pierced, unfinished = intersecting_pairs(tree, small, large, tolerance)
         if (pierced | unfinished).any():
             raise MeasureError(FLOAT_UNAVAILABLE, fault=SHARED_SPACE)
-        kept[small] = False
+        has_cap = np.zeros(number, bool)
+        has_cap[part[is_cap]] = True
+        kept[np.where(has_cap[small] & ~has_cap[large], large, small)] = False
     return kept
 
 
 def fill_hollows(hull: Hull, up: Array) -> Hull:
     """Return the hull with the hollows that are open upward filled up to lids on their rims."""
-    points, triangles, openings = hull.points, hull.triangles, hull.openings
+    points, triangles, openings, part = hull.points, hull.triangles, hull.openings, hull.part
     for _ in range(MAX_HOLLOWS):
         try:
             hollow = find_hollow(points, triangles, up)
@@ -139,8 +152,33 @@ def fill_hollows(hull: Hull, up: Array) -> Hull:
         rim = hollow.points[start]
         count = len(hollow.points)
         lid = np.stack([stop, start, np.full(len(start), count)], axis=1)
-        added = np.concatenate([hollow.triangles, lid])
-        triangles = np.concatenate([triangles, added + len(points)])
+        added = np.concatenate([hollow.triangles, lid]) + len(points)
+        # What lies in the filled hollow displaces nothing more.
+        is_wall = np.isin(part, part[_same_triangles(points, triangles, hollow)])
         points = np.concatenate([points, hollow.points, rim.mean(axis=0)[None]])
+        number = int(part.max()) + 1
+        if not is_wall.all():
+            kept = _outer_parts(
+                points,
+                np.concatenate([triangles[~is_wall], added]),
+                np.concatenate([part[~is_wall], np.full(len(added), number)]),
+                np.arange(-np.count_nonzero(~is_wall), len(added)) >= len(hollow.triangles),
+                number + 1,
+            )
+            if not kept[number]:
+                raise MeasureError(FLOAT_UNAVAILABLE, fault=SHARED_SPACE)
+            is_kept = is_wall | kept[part]
+            triangles, part = triangles[is_kept], part[is_kept]
+        triangles = np.concatenate([triangles, added])
+        part = np.concatenate([part, np.full(len(added), number)])
         openings = np.concatenate([openings, rim])
-    return hull if triangles is hull.triangles else Hull(points, triangles, openings)
+    return hull if triangles is hull.triangles else Hull(points, triangles, openings, part)
+
+
+def _same_triangles(points: Array, triangles: NDArray[np.integer], hollow: Hollow) -> Mask:
+    """Return an (m,) mask of the triangles at the places of a hollow's walls."""
+    place = first_at_equal_position(np.concatenate([points, hollow.points]))
+    walls = np.sort(place[hollow.triangles + len(points)], axis=1)
+    every = np.concatenate([walls, np.sort(place[triangles], axis=1)])
+    same = np.unique(every, axis=0, return_inverse=True)[1].reshape(-1)
+    return np.isin(same[len(walls) :], same[: len(walls)])

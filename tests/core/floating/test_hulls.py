@@ -115,6 +115,32 @@ def test_hollow_of_thick_hull_stays_dry():
     assert not rest.findings
 
 
+ENGINE = (-0.5, -0.5, 0.15), (0.5, 0.5, 0.65)
+CRATE = (-1.5, -0.7, 0.1), (1.5, 0.7, 3.0)  # stands on the floor, and is larger than the hollow
+
+
+@pytest.mark.parametrize("joined", [False, True])
+@pytest.mark.parametrize("inside", [ENGINE, ((-1.0, 0.2, 0.1), (1.0, 0.5, 1.7)), CRATE])
+def test_parts_in_hollow_of_thick_hull_displace_nothing(inside, joined):
+    bodies = [body(bowl(0.1), box(*inside))] if joined else [body(bowl(0.1)), body(box(*inside))]
+    rest = settle(bodies, 2000.0, np.array([0.0, 0.0, 0.4]), 1000.0, UP)
+    assert rest.draught == pytest.approx(0.25, rel=1e-12)
+    assert rest.plane.area == pytest.approx(8.0, rel=1e-12)
+
+
+def test_large_cargo_through_open_top_displaces_nothing():
+    cargo = body(box((-1.9, -0.9, 0.1), (1.9, 0.9, 2.0)))
+    found = displaced(body(box(*HULL, without=[LID])), cargo)
+    assert found.capacity == pytest.approx(8.0, rel=1e-12)
+
+
+def test_rests_leave_out_those_in_which_liquid_runs_in():
+    boat = settle([body(bowl(0.1))], 2000.0, np.array([0.0, 0.0, 0.4]), 1000.0, UP).body
+    (rest,) = boat.find_rests()
+    assert rest.up == pytest.approx(UP, abs=1e-9)
+    assert rest.draught == pytest.approx(0.25, rel=1e-9)
+
+
 def test_flooded_hollow_is_reported_or_refused():
     bodies = [body(bowl(0.45))]
     capsized = settle(bodies, 4000.0, np.array([0.0, 0.0, 2.0]), 1000.0, [0.0, 0.1, 1.0])
