@@ -8,7 +8,7 @@ hollows that are open upward keep the liquid out as long as their rims are above
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -35,7 +35,7 @@ from ..solid import (
 )
 from ..verdict import MeasureError, Procedure, welding_tolerance
 from ..wall import split_thickness
-from .findings import FLOAT_UNAVAILABLE, NO_BODY, OPEN_HULL, SHARED_SPACE
+from .findings import FLOAT_UNAVAILABLE, FLOODED_OUTSIDE, NO_BODY, OPEN_HULL, SHARED_SPACE
 
 NOT_UNITED = {COMPONENTS_OVERLAP, SELF_INTERSECTING}
 
@@ -111,11 +111,7 @@ def _outer_parts(
     """
     parts = sort_components(points, triangles, part, number)
     is_solid = parts.volume > 0.0
-    low, high = points.min(axis=0), points.max(axis=0)
-    reach = float(np.maximum(np.abs(low), np.abs(high)).max())
-    tolerance = welding_tolerance(
-        float(np.linalg.norm(high - low)), float(np.spacing(np.float32(reach)))
-    )
+    tolerance = _tolerance(points)
     relations = classify_pairs(points, parts, is_solid, tolerance)
     kept = is_solid.copy()
     kept[relations.contained_in[:, 0]] = False
@@ -131,6 +127,39 @@ def _outer_parts(
         has_cap[part[is_cap]] = True
         kept[np.where(has_cap[small] & ~has_cap[large], large, small)] = False
     return kept
+
+
+def _tolerance(points: Array) -> float:
+    low, high = points.min(axis=0), points.max(axis=0)
+    reach = float(np.maximum(np.abs(low), np.abs(high)).max())
+    return welding_tolerance(
+        float(np.linalg.norm(high - low)), float(np.spacing(np.float32(reach)))
+    )
+
+
+def are_inside(hull: Hull, spaces: Sequence[Hull], tanks: Sequence[Hull]) -> Mask:
+    """Return a mask of the flooded spaces that lie in a hull; MeasureError if one reaches through
+    its surface, or overlaps another one or a tank.
+    """
+    every = [hull, *spaces, *tanks]
+    points = np.concatenate([each.points for each in every])
+    corners = np.cumsum([0, *[len(each.points) for each in every]])
+    first = np.cumsum([0, *[int(each.part.max()) + 1 for each in every]])
+    triangles = np.concatenate([each.triangles + at for each, at in zip(every, corners)])
+    part = np.concatenate([each.part + at for each, at in zip(every, first)])
+    parts = sort_components(points, triangles, part, int(first[-1]))
+    is_solid = parts.volume > 0.0
+    relations = classify_pairs(points, parts, is_solid, _tolerance(points))
+    owner = np.repeat(np.arange(len(every)), np.diff(first))
+    is_flooded = (owner > 0) & (owner <= len(spaces))
+    inner, outer = relations.contained_in.T
+    in_hull = owner[outer] == 0
+    twice = (is_flooded[inner] | is_flooded[outer]) & ~in_hull
+    if is_flooded[relations.intersecting].any() or twice.any():
+        raise MeasureError(FLOAT_UNAVAILABLE, fault=FLOODED_OUTSIDE)
+    is_outside = is_flooded & is_solid
+    is_outside[inner[in_hull]] = False
+    return np.bincount(owner, is_outside, len(every))[1 : len(spaces) + 1] == 0
 
 
 def fill_hollows(hull: Hull, up: Array) -> Hull:

@@ -128,6 +128,41 @@ def test_parts_in_hollow_of_thick_hull_displace_nothing(inside, joined):
     assert rest.plane.area == pytest.approx(8.0, rel=1e-12)
 
 
+SPACE = (-0.5, -0.5, 0.1), (0.5, 0.5, 0.6)
+
+
+def flooded(*spaces, tanks=()):
+    return settle(
+        *([body(bowl(0.1))], 2000.0, np.array([0.0, 0.0, 0.4]), 1000.0, UP),
+        [(body(box(*tank)), 0.5, 800.0) for tank in tanks],
+        [body(box(*space)) for space in spaces],
+    )
+
+
+def test_flooded_space_in_hollow_displaces_nothing():
+    apart = (1.0, -0.5, 0.1), (1.5, 0.5, 0.6)
+    assert flooded(SPACE).draught == pytest.approx((2.0 - 0.1) / (8.0 - 1.0), rel=1e-9)
+    two = flooded(SPACE, apart)
+    assert two.plane.area * two.up[2] == pytest.approx(8.0 - 1.0 - 0.5, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    "spaces",
+    [
+        [((-0.5, -0.5, 0.5), (0.5, 0.5, 1.5))],  # through the open top
+        [((-1.0, 20.0, 0.1), (1.0, 21.0, 0.9))],
+        [((-3.0, -2.0, -1.0), (3.0, 2.0, 2.0))],
+        [SPACE, ((0.0, 0.0, 0.2), (1.0, 0.8, 0.4))],
+        [SPACE, ((-0.2, -0.2, 0.2), (0.2, 0.2, 0.4))],
+    ],
+)
+@pytest.mark.parametrize("last_is_tank", [False, True])
+def test_flooded_space_outside_or_twice_is_refused(spaces, last_is_tank):
+    tanks = spaces[1:] if last_is_tank else []
+    with pytest.raises(MeasureError, match="flooded space"):
+        flooded(*spaces[: len(spaces) - len(tanks)], tanks=tanks)
+
+
 def test_large_cargo_through_open_top_displaces_nothing():
     cargo = body(box((-1.9, -0.9, 0.1), (1.9, 0.9, 2.0)))
     found = displaced(body(box(*HULL, without=[LID])), cargo)
