@@ -77,6 +77,24 @@ def test_trough_full_to_its_rim_has_a_surface():
     assert np.allclose(corners[:, 2], 4.0, atol=1e-6)
 
 
+@pytest.mark.parametrize("extra", [[(0, 1, 8)], [(0, 8, 4)], [(0, 1, 5), (0, 5, 1)]])
+def test_faces_without_area_or_thrice_leave_the_level(extra):
+    mesh = add_trough().data
+    corners = [[*vertex.co] for vertex in mesh.vertices] + [[0.0, 0.0, 0.0]]
+    faces = [[*face.vertices] for face in mesh.polygons if len(face.vertices) == 4][:1]
+    faces += [(i, (i + 1) % 4, 4 + (i + 1) % 4) for i in range(4)]
+    faces += [(i, 4 + (i + 1) % 4, 4 + i) for i in range(4)]
+    mesh.clear_geometry()
+    mesh.from_pydata(corners, [], [*faces, *extra])
+    assert len(mesh.polygons) == 9 + len(extra)
+    assert LEVEL(by="LEVEL", level=3.25) == {"FINISHED"}
+    level = level_of(bpy.context.object)
+    assert level.surface_moments == pytest.approx((2, 2 / 12, 8 / 12), rel=1e-6)
+    area = np.cross(*np.diff(level.triangles, axis=1).swapaxes(0, 1)).sum(axis=0) / 2
+    assert np.abs(area) == pytest.approx(np.array([0, 0, 2.0]))
+    assert bpy.ops.object.body_moments_show_level() == {"FINISHED"}
+
+
 def test_full_round_cavity_has_no_free_surface():
     """A cube of edge 2 with an octahedron of corners at 0.5 cut out of it."""
     bpy.ops.mesh.primitive_cube_add()

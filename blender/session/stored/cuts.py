@@ -98,7 +98,8 @@ class Level:
         lowered = max(self.height - max(hollow.spill - step, hollow.bottom), 0.0) * hollow.up
         edited = bmesh.new()
         vertices = [edited.verts.new(point) for point in hollow.points - origin + lowered]
-        for triangle in hollow.triangles.tolist():
+        # A mesh may have a face twice.
+        for triangle in np.unique(np.sort(hollow.triangles, axis=1), axis=0).tolist():
             edited.faces.new([vertices[i] for i in triangle])
         everything = [*edited.verts, *edited.edges, *edited.faces]
         up = Vector(hollow.up)
