@@ -190,6 +190,34 @@ def add_slope():
     return add(mesh, "Slope")
 
 
+def add_mug():
+    """A cup of 1 x 1 x 1 with walls of 0.1, and a box for a handle through one of them."""
+    outer = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    inner = [(0.1 + 0.8 * x, 0.1 + 0.8 * y, z or 0.1) for x, y, z in outer]
+    sides = [(i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i) for i in range(4)]
+    faces = [(3, 2, 1, 0), *sides, (8, 9, 10, 11)]
+    faces += [tuple(8 + i for i in side[::-1]) for side in sides]
+    faces += [(4 + i, 4 + (i + 1) % 4, 12 + (i + 1) % 4, 12 + i) for i in range(4)]
+    handle = [(0.4 + 0.2 * x, 0.95 + 0.5 * y, 0.4 + 0.2 * z) for x, y, z in outer]
+    faces += [tuple(16 + i for i in face) for face in [(3, 2, 1, 0), (4, 5, 6, 7), *sides]]
+    mesh = bpy.data.meshes.new("Mug")
+    mesh.from_pydata([*outer, *inner, *handle], [], faces)
+    return add(mesh, "Mug")
+
+
+def test_mug_with_a_handle_holds_liquid_as_a_union():
+    mug = add_mug()
+    assert LEVEL(by="LEVEL", level=0.5) == {"CANCELLED"}
+    assert "Mug: No level: its components overlap. Set Overlaps to Count as Union" in refusal()
+    mug.body_moments.overlap = "UNION"
+    assert LEVEL(by="LEVEL", level=0.5) == {"FINISHED"}
+    level = level_of(mug)
+    assert level.volume == pytest.approx(0.64 * 0.4, rel=1e-6)
+    assert level.hollow.capacity == pytest.approx(0.64 * 0.9, rel=1e-6)
+    contents = document("--below", "0.5")["objects"][0]["below"]["contents"]
+    assert contents["volume"] == pytest.approx(0.64 * 0.4, rel=1e-6)
+
+
 def test_cut_and_fill_of_a_slope():
     slope = add_slope()
     assert CUT_FILL(against="HEIGHT", height=1.0) == {"FINISHED"}
