@@ -35,7 +35,7 @@ def property_line(name, value):
     return 'P: "{}", "", "", "A",{}\n'.format(name, numbers)
 
 
-def write(path, models, axes=AXES, unit=1.0, more=""):
+def write(path, models, axes=AXES, unit=1.0, more="", more_links=""):
     """Write a text file. models: (name, kind, properties, number of the parent or 0), from number
     2; a mesh shows the box.
     """
@@ -56,7 +56,7 @@ def write(path, models, axes=AXES, unit=1.0, more=""):
         text += "Version: 232\nProperties70: {\n" + lines + "}\n}\n"
         links += 'C: "OO",{},{}\n'.format(number, parent)
         links += 'C: "OO",1,{}\n'.format(number) if kind == "Mesh" else ""
-    return files.write_text(path, text + more + "}\nConnections: {\n" + links + "}\n")
+    return files.write_text(path, text + more + "}\nConnections: {\n" + links + more_links + "}\n")
 
 
 def by_name(found):
@@ -200,3 +200,16 @@ def test_binary_fbx_of_blender_agrees_with_its_nodes(tmp_path):
     for name, body in bodies.items():
         assert "places_unchecked" not in codes(body)
         assert close(body["volume"], volumes[name], 1e-4)
+
+
+@pytest.mark.parametrize("weight", [0.5, 9.75, 20.0, -15.0, 1000.0])
+def test_fbx_weight_of_any_size_moves_the_target(tmp_path, weight):
+    shape = 'Geometry: 90, "Geometry::s", "Shape" {\nVersion: 100\nIndexes: *4 {\na: 4,5,6,7\n}\n'
+    shape += "Vertices: *12 {\na: " + ",".join(["100,0,0"] * 4) + "\n}\n}\n"
+    shape += 'Deformer: 91, "Deformer::b", "BlendShape" {\nVersion: 100\n}\n'
+    shape += 'Deformer: 92, "SubDeformer::s", "BlendShapeChannel" {\nVersion: 100\n'
+    shape += "FullWeights: *1 {\na: 100\n}\nProperties70: {\n"
+    shape += property_line("DeformPercent", 100 * weight) + "}\n}\n"
+    links = "".join('C: "OO",{},{}\n'.format(*pair) for pair in ((91, 1), (92, 91), (90, 92)))
+    path = write(tmp_path / "t.fbx", [("part", "Mesh", {}, 0)], more=shape, more_links=links)
+    assert close(measured(path)["volume"], 6.0 * abs(1.0 + weight), 1e-5)
