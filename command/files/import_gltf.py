@@ -23,7 +23,7 @@ from ...core.files import FILE_UNREADABLE, MALFORMED, GltfFile, map_file, node_m
 from ...core.numerics import Array
 from ...core.verdict.finding import FileError, Finding, finding
 from ..findings import FILE_HIDES, PLACES_UNCHECKED
-from .placing import measure_at, place_objects
+from .placing import MOST_WEIGHT, measure_at, place_objects
 from .references import Opened
 
 ADD_ON = "io_scene_gltf2"  # It comes with Blender, and may be switched off.
@@ -33,7 +33,6 @@ _NO_DECODER = (
     "this Blender lacks the library that decodes {} compression. Measure it with another "
     "Blender 5 (blender -b, not the Python module bpy), or export it without compression"
 )
-_MOST_WEIGHT = 10.0  # Blender's limit of the value of a shape key
 _SAME_WEIGHT = 1e-6  # larger than the rounding of float32
 _PARTS = "translation", "rotation", "scale", "weights"
 
@@ -244,12 +243,12 @@ def _set_weight(shapes: bpy.types.Key, block: bpy.types.ShapeKey, weight: float)
     if abs(block.value - weight) <= _SAME_WEIGHT * max(1.0, abs(weight)):
         return
     shapes.animation_data_clear()
-    growth = 2.0 ** max(0, math.ceil(math.log2(max(abs(weight), 1.0) / _MOST_WEIGHT)))
+    growth = 2.0 ** max(0, math.ceil(math.log2(max(abs(weight), 1.0) / MOST_WEIGHT)))
     if growth > 1.0:
         rest, offset = (np.empty(3 * len(one.data), np.float32) for one in (block, block))
         block.relative_key.data.foreach_get("co", rest)
         block.data.foreach_get("co", offset)
         block.data.foreach_set("co", rest + np.float32(growth) * (offset - rest))
-    block.slider_min = -_MOST_WEIGHT
-    block.slider_max = _MOST_WEIGHT
+    block.slider_min = -MOST_WEIGHT
+    block.slider_max = MOST_WEIGHT
     block.value = weight / growth
