@@ -46,6 +46,14 @@ def test_sums_far_from_first_voxel_stay_exact():
     assert np.abs(central).max() < 1e-8
 
 
+@pytest.mark.parametrize("axis", range(3))
+def test_sums_of_long_thin_maps_stay_exact(axis):
+    count = 200_000
+    sums = sum_labels(np.ones(np.where(np.arange(3) == axis, count, 1), np.uint8))[1]
+    cubes = monomials(3).tolist().index([3 * (axis == i) for i in range(3)])
+    assert sums[0] == count and sums[cubes] == (count * (count - 1) // 2) ** 2
+
+
 @pytest.mark.parametrize("samples", [[0.0, 0.5], [np.nan, 1.0], [np.inf, 1.0], range(10_001)])
 def test_samples_that_are_no_labels_are_refused(samples):
     with pytest.raises(MeasureError, match="no labels"):
