@@ -4,6 +4,7 @@
 
 import numpy as np
 import pytest
+from body_moments.core.bodies.pocket import ball_moments
 from body_moments.core.mesh import Surface
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.verdict import MeasureError
@@ -202,3 +203,16 @@ def test_core_agrees_with_count_of_voxels(name):
     core = core_surface(surface, WALL, LAYERS, LAYERS)
     volume, area = polyhedron_moments(core, area_order=0, allow_open=True)
     assert abs(volume.total - voxel_core(inside, low, high)) < 0.5 * STEP * area.total
+
+
+def test_ball_has_moments_of_its_quadrature():
+    nodes, weights = np.polynomial.legendre.leggauss(12)
+    radius, around = (nodes + 1.0) * 1.5, np.pi * np.arange(24) / 12.0
+    r, z, turn = np.meshgrid(radius, nodes, around, indexing="ij")
+    across = np.sqrt(1.0 - z**2)
+    points = np.stack([across * np.cos(turn), across * np.sin(turn), z]) * r
+    weight = r**2 * (1.5 * weights)[:, None, None] * weights[:, None] * np.pi / 12.0
+    found = ball_moments(np.zeros(3), 3.0, 6)
+    for exponents, moment in zip(found, found.raw):
+        powers = np.prod([x**n for x, n in zip(points, exponents)], axis=0)
+        assert abs(moment - (weight * powers).sum()) < 1e-9 * 3.0 ** (3 + sum(exponents))
