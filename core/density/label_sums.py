@@ -43,12 +43,14 @@ class _Numbering:
         """Return the numbers of a block's labels, or raise ReadError if it has no labels."""
         if block.dtype.kind == "f":
             whole = np.rint(block)
-            if not ((whole == block) & (np.abs(whole) < LARGEST)).all():
+            if not (whole == block).all():
                 raise ReadError(LABELS_UNFIT, cause="a sample is no whole number")
+            if not (np.abs(whole) < LARGEST).all():
+                raise ReadError(LABELS_UNFIT, cause="a label is too large")
             block = whole.astype(np.int64)
         low, high = int(block.min()), int(block.max())
         if high >= LARGEST:
-            raise ReadError(LABELS_UNFIT, cause="a sample is no whole number")
+            raise ReadError(LABELS_UNFIT, cause="a label is too large")
         if high - low >= TABLE:
             labels, inverse = np.unique(block, return_inverse=True)
             return self._numbers(labels.tolist())[inverse.reshape(block.shape)]
