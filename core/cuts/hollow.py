@@ -156,6 +156,8 @@ def find_hollow(points: ArrayLike, triangles: ArrayLike, up: ArrayLike = (0.0, 0
     rank = np.empty(len(order), np.intp)
     rank[order] = np.arange(len(order))
     triangles = rank[triangles.reshape(-1, 3)]
+    # A side without a length bounds nothing.
+    triangles = triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
     _, start, stop = uncancelled_sides(triangles, np.zeros(len(triangles), np.intp))
     rim = np.union1d(start, stop)
     best = _largest(points, heights, triangles, up, rim)

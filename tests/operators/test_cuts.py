@@ -11,6 +11,7 @@ import pytest
 from body_moments.blender.session import memory, stored
 from body_moments.core.cuts import cut_outline
 from body_moments.core.verdict import sentence
+from mathutils import Vector
 
 from tests.blender.batch_files import document
 from tests.blender.objects import add
@@ -77,6 +78,24 @@ def test_trough_full_to_its_rim_has_a_surface():
     assert np.allclose(corners[:, 2], 4.0, atol=1e-6)
 
 
+@pytest.mark.parametrize("extra", [[(0, 1, 8)], [(0, 8, 4)], [(0, 1, 5), (0, 5, 1)]])
+def test_faces_without_area_or_thrice_leave_the_level(extra):
+    mesh = add_trough().data
+    corners = [[*vertex.co] for vertex in mesh.vertices] + [[0.0, 0.0, 0.0]]
+    faces = [[*face.vertices] for face in mesh.polygons if len(face.vertices) == 4][:1]
+    faces += [(i, (i + 1) % 4, 4 + (i + 1) % 4) for i in range(4)]
+    faces += [(i, 4 + (i + 1) % 4, 4 + i) for i in range(4)]
+    mesh.clear_geometry()
+    mesh.from_pydata(corners, [], [*faces, *extra])
+    assert len(mesh.polygons) == 9 + len(extra)
+    assert LEVEL(by="LEVEL", level=3.25) == {"FINISHED"}
+    level = level_of(bpy.context.object)
+    assert level.surface_moments == pytest.approx((2, 2 / 12, 8 / 12), rel=1e-6)
+    area = np.cross(*np.diff(level.triangles, axis=1).swapaxes(0, 1)).sum(axis=0) / 2
+    assert np.abs(area) == pytest.approx(np.array([0, 0, 2.0]))
+    assert bpy.ops.object.body_moments_show_level() == {"FINISHED"}
+
+
 def test_full_round_cavity_has_no_free_surface():
     """A cube of edge 2 with an octahedron of corners at 0.5 cut out of it."""
     bpy.ops.mesh.primitive_cube_add()
@@ -101,7 +120,10 @@ def test_full_round_cavity_has_no_free_surface():
 
 
 def test_show_level_adds_meshes_and_nothing_else_moves():
+    parent = add(None, "Parent", (4, 5, 0))
     trough = add_trough()
+    trough.parent = parent
+    bpy.context.view_layer.update()
     LEVEL(by="VOLUME", volume=0.5)
     before = trough.matrix_world.copy()
     assert bpy.ops.object.body_moments_show_level() == {"FINISHED"}
@@ -112,6 +134,7 @@ def test_show_level_adds_meshes_and_nothing_else_moves():
     assert sum(face.area for face in surface.data.polygons) == pytest.approx(2.0)
     assert bpy.ops.object.body_moments_show_level(what="TABLE") == {"FINISHED"}
     table = bpy.data.objects["Trough Level Table"]
+    assert table.location == trough.matrix_world.translation == Vector((4, 5, 3))
     assert len(table.data.edges) == stored.cuts.TABLE_ROWS - 1
     assert trough.matrix_world == before
 
@@ -170,6 +193,34 @@ def add_slope():
     mesh = bpy.data.meshes.new("Slope")
     mesh.from_pydata([(0, 0, 0), (1, 0, 2), (1, 1, 2), (0, 1, 0)], [], [(0, 1, 2, 3)])
     return add(mesh, "Slope")
+
+
+def add_mug():
+    """A cup of 1 x 1 x 1 with walls of 0.1, and a box for a handle through one of them."""
+    outer = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    inner = [(0.1 + 0.8 * x, 0.1 + 0.8 * y, z or 0.1) for x, y, z in outer]
+    sides = [(i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i) for i in range(4)]
+    faces = [(3, 2, 1, 0), *sides, (8, 9, 10, 11)]
+    faces += [tuple(8 + i for i in side[::-1]) for side in sides]
+    faces += [(4 + i, 4 + (i + 1) % 4, 12 + (i + 1) % 4, 12 + i) for i in range(4)]
+    handle = [(0.4 + 0.2 * x, 0.95 + 0.5 * y, 0.4 + 0.2 * z) for x, y, z in outer]
+    faces += [tuple(16 + i for i in face) for face in [(3, 2, 1, 0), (4, 5, 6, 7), *sides]]
+    mesh = bpy.data.meshes.new("Mug")
+    mesh.from_pydata([*outer, *inner, *handle], [], faces)
+    return add(mesh, "Mug")
+
+
+def test_mug_with_a_handle_holds_liquid_as_a_union():
+    mug = add_mug()
+    assert LEVEL(by="LEVEL", level=0.5) == {"CANCELLED"}
+    assert "Mug: No level: its components overlap. Set Overlaps to Count as Union" in refusal()
+    mug.body_moments.overlap = "UNION"
+    assert LEVEL(by="LEVEL", level=0.5) == {"FINISHED"}
+    level = level_of(mug)
+    assert level.volume == pytest.approx(0.64 * 0.4, rel=1e-6)
+    assert level.hollow.capacity == pytest.approx(0.64 * 0.9, rel=1e-6)
+    contents = document("--below", "0.5")["objects"][0]["below"]["contents"]
+    assert contents["volume"] == pytest.approx(0.64 * 0.4, rel=1e-6)
 
 
 def test_cut_and_fill_of_a_slope():

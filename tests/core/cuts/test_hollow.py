@@ -87,6 +87,17 @@ def test_free_surface_ends_where_a_cavity_is_full():
     assert abs(hollow.free_surface(hollow.contents(1.5), 1.5).total - CIRCLE / 4) < 1e-12
 
 
+def test_triangle_with_a_corner_twice_changes_nothing():
+    points, triangles = CUP
+    inner = 4 * SIDES
+    points = np.concatenate([points, points[[inner]]])
+    whole = find_hollow(*CUP)
+    extra = [[inner, inner + 1, inner + 1], [inner, inner - SIDES, len(points) - 1]]
+    found = find_hollow(points, np.concatenate([triangles, extra]))
+    assert found.capacity == whole.capacity
+    np.testing.assert_array_equal(found.triangles, whole.triangles)
+
+
 def test_level_without_volume_is_below_the_bottom():
     with pytest.raises(MeasureError, match="below the bottom"):
         find_hollow(*lathed((0, 0), (1, 1))).contents(1e-300)
