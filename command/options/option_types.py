@@ -205,9 +205,11 @@ def liquid(text: str) -> float:
     if name in liquids:
         return liquids[name].density
     value = _float(text)
-    if not (0.0 < value < math.inf):
+    if not (1e-3 <= value <= 1e6):
         names = "; ".join(material.name for material in liquids.values())
-        raise ArgumentTypeError(f"{text!r} is neither a positive number nor one of {names}")
+        raise ArgumentTypeError(
+            f"{text!r} is neither a density from 1e-3 to 1e6 nor one of {names}"
+        )
     return value
 
 

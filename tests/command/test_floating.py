@@ -2,11 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """--float and --gz, their columns and their plot."""
 
+from argparse import ArgumentTypeError
+
 import numpy as np
 import pytest
 
 pytest.importorskip("bpy")
 import bpy
+from body_moments.command.options.option_types import liquid
 from body_moments.core.measurement import FORMATS, to_html
 
 from tests.blender import batch_files as files
@@ -79,3 +82,9 @@ def test_scan_does_not_float_and_says_so(tmp_path):
     (entry,) = document("--float", "Water", path)["objects"]
     assert entry["floating"] is None
     assert "options_unused" in [found["code"] for found in entry["findings"]]
+
+
+@pytest.mark.parametrize("text", ["1e300", "0.0009", "0", "-1", "nan", "inf"])
+def test_liquid_of_absurd_density_is_refused(text):
+    with pytest.raises(ArgumentTypeError, match="1e-3 to 1e6"):
+        liquid(text)
