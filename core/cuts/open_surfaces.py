@@ -240,6 +240,8 @@ def cut_fill_between(
         upright = area <= UPRIGHT * size
         if (upright & (area < -UPRIGHT * size)).any():
             raise MeasureError(CUT_FILL_UNAVAILABLE, fault=OVERHANGS)
+        if upright.all():
+            raise MeasureError(CUT_FILL_UNAVAILABLE, fault=APART)
         surfaces.append(corners[~upright])
     sums: list[list[Moments]] = [[], []]
     areas = np.zeros(2)
