@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..inertia import combine
-from ..mesh import Surface
+from ..mesh import Surface, hull_volumes
 from ..moments import Moments
 from ..moments.moments import SECOND_MOMENT_INDEX
 from ..numerics import Array
@@ -536,8 +536,11 @@ def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete:
         entries = [*(Entry(one, place, (), guess, certainty, True) for one in left), *entries]
         if unusual:
             entries.append(Entry(finding(AUDIT_DENSITY, density=density), place, compares=True))
-    # Also an uneven filling needs matter of this density.
+    # The mass may lie anywhere in the hull: a motor in a cover.
     least = stated.mass / max(one.volume for one in references)
+    if least > DENSITIES[1] and hull is not None:
+        room = float(hull_volumes(hull.points, np.zeros(1, np.intp), 0.0)[0])
+        least = min(least, stated.mass / room) if room > 0.0 else least
     is_told = any(one.change or one.finding.code == AUDIT_DENSITY for one in entries)
     if least > DENSITIES[1] and not wrong and not is_told:
         entries.append(Entry(finding(AUDIT_DENSITY, density=least), place, compares=True))
