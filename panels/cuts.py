@@ -52,7 +52,6 @@ class CutsPanel:
 def _level(layout: UILayout, level: Level) -> None:
     layout.label(text="Liquid", icon="MATFLUID")
     column = layout.column(align=True)
-    area = float(level.liquid.face_area[0])
     rows.quantities(
         column,
         [
@@ -71,7 +70,7 @@ def _level(layout: UILayout, level: Level) -> None:
     row.operator("object.body_moments_show_level", text="", icon="CURVE_DATA").what = "TABLE"
     body = rows.fold(layout, "body_moments_level_surface", "Free Surface")
     if body is not None:
-        least, largest = level.surface_moments
+        area, least, largest = level.surface_moments
         column = body.column(align=True)
         rows.quantities(
             column,
@@ -82,7 +81,14 @@ def _level(layout: UILayout, level: Level) -> None:
             ],
         )
         center = level.liquid.part.center[0].tolist()
-        rows.group(body, "Center of the Liquid", rows.AXIS_LABELS, "length", center, area**0.5)
+        rows.group(
+            body,
+            "Center of the Liquid",
+            rows.AXIS_LABELS,
+            "length",
+            center,
+            level.volume ** (1 / 3),
+        )
     body = rows.fold(layout, "body_moments_level_table", "Level Table")
     if body is not None:
         units = rows.scene_units()

@@ -136,6 +136,10 @@ def _print_settings(column: UILayout, settings: PropertyGroup) -> None:
         ("spool_price", "Price of a Spool"),
     ):
         rows.setting(column, settings, name, text=text)
+    if common(settings, "pocket_radius"):
+        rows.setting(column, settings, "pocket_radius", text="Pocket (mm)")
+        rows.setting(column, settings, "pocket_density", text="Ballast (kg/m³)")
+        rows.setting(column, settings, "pocket_center", text="Center")
     if common(settings, "spool_price"):
         rows.setting(column, settings, "spool_mass", text="Spool (kg)")
     objects = owners(bpy.context)

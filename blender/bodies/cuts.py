@@ -8,7 +8,14 @@ import numpy as np
 from bpy.types import Depsgraph, Object
 from numpy.typing import NDArray
 
-from ...core.cuts import CutFill, cut_fill, cut_fill_between
+from ...core.cuts import (
+    CUT_FILL_UNAVAILABLE,
+    MIN_RIM_SPREAD,
+    PLANE_UPRIGHT,
+    CutFill,
+    cut_fill,
+    cut_fill_between,
+)
 from ...core.flat import fit_plane
 from ...core.mesh import Surface
 from ...core.numerics import Array
@@ -46,5 +53,8 @@ def _against_plane(
     points: Array, triangles: NDArray[np.integer], normal: Array, place: Array, surface: Surface
 ) -> CutFill:
     """Return cut and fill against the plane through a place; its upper side counts as up."""
+    size = float(np.linalg.norm(normal))
+    if not size > 0.0 or abs(normal[2]) < MIN_RIM_SPREAD * size:
+        raise MeasureError(CUT_FILL_UNAVAILABLE, fault=PLANE_UPRIGHT)
     normal = normal if normal[2] >= 0.0 else -normal
     return cut_fill(points, triangles, normal, float(normal @ place), surface.coordinate_error)

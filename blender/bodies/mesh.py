@@ -22,6 +22,7 @@ from ...core.bodies import (
     print_body,
     singular_instances_message,
     sum_of_instances,
+    to_si,
 )
 from ...core.measurement import Body
 from ...core.mesh import ConvexHull, convex_hull
@@ -92,7 +93,9 @@ def body(reading: Reading, request: Request) -> Body:
         made = weigh(reading, made, request)
     if shell and settings.wall != "thin":
         return find_walls(reading, made, settings.wall).body(settings.thickness)
-    return print_body(made, settings) if settings.kind == "printed" else made
+    if settings.kind != "printed":
+        return made
+    return print_body(made, settings, to_si([reading.matrix], settings.unit)[0])
 
 
 def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, threads: int) -> MeshBody:

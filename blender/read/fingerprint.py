@@ -43,14 +43,15 @@ def matrix_bytes(matrix: Matrix) -> bytes:
 
 
 def transform_key(obj: bpy.types.Object) -> str:
-    """Return a key of the transform for `has_transform`: scale and mirroring, or all if sheared or
-    not movable.
+    """Return a key of the transform for `has_transform`: scale and mirroring, and the direction of
+    a print; or all if sheared or not movable.
     """
     scale = _scale(obj) if _moves_along(obj) else None
     if scale is None:
         return matrix_hash(obj)
     sign, lengths = scale
-    return sign + struct.pack("<3f", *lengths).hex()
+    up = _print_direction(obj, lengths)
+    return sign + struct.pack("<{}f".format(3 + len(up)), *lengths, *up).hex()
 
 
 def has_transform(obj: bpy.types.Object, key: str) -> bool:
@@ -62,11 +63,24 @@ def has_transform(obj: bpy.types.Object, key: str) -> bool:
     scale = _scale(obj) if _moves_along(obj) else None
     if scale is None or key[0] != scale[0]:
         return False
+    lengths = scale[1]
+    up = _print_direction(obj, lengths)
     try:
-        before = struct.unpack("<3f", bytes.fromhex(key[1:]))
+        before = struct.unpack("<{}f".format(3 + len(up)), bytes.fromhex(key[1:]))
     except (ValueError, struct.error):
         return False
-    return all([abs(now - then) <= SAME_SCALE_RTOL * then for now, then in zip(scale[1], before)])
+    is_scaled = any(
+        abs(now - then) > SAME_SCALE_RTOL * then for now, then in zip(lengths, before[:3])
+    )
+    is_turned = any(abs(now - then) > SAME_SCALE_RTOL for now, then in zip(up, before[3:]))
+    return not is_scaled and not is_turned
+
+
+def _print_direction(obj: bpy.types.Object, lengths: list[float]) -> list[float]:
+    """Return the world's z in the object's axes if it is measured as a print, else nothing."""
+    if obj.body_moments.kind != "PRINTED":
+        return []
+    return [entry / length for entry, length in zip(obj.matrix_world[2], lengths)]
 
 
 def _scale(obj: bpy.types.Object) -> tuple[str, list[float]] | None:

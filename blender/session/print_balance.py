@@ -1,37 +1,51 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Make It Stand: the least change of a print's infill and walls that brings its center of mass over
-its base, or onto the plumb line of a point.
+"""Make It Stand: the least change of a print's infill and walls, or the least pocket of ballast,
+that brings its center of mass over its base, or onto the plumb line of a point.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
-from typing import NamedTuple
+from operator import itemgetter
+from typing import Any, NamedTuple
 
 import numpy as np
 from bpy.types import Context, Object
 
-from ...core.bodies import print_body
+from ...core.bodies import PocketRoom, print_body, print_surfaces, to_si
+from ...core.measurement import Pocket
 from ...core.numerics import Array, shortest_decimal
-from ...core.statics import ground_axes, infill_range, largest_margin
+from ...core.statics import (
+    ballast_margins,
+    ground_axes,
+    infill_range,
+    largest_margin,
+    least_ballast,
+)
 from ...core.verdict import MeasureError
 from ..bodies import mesh
 from ..bodies.request import Request
 from ..scene.rigid_world import down
 
 MAX_WALLS = 12
+COARSE, FINE = 21, 7  # places of a pocket along each axis, at first and around the best of them
+ZOOMS = 14
+FILLED = 0.999  # of the room, by the largest pocket
+SHARES = np.linspace(0.0, 1.0, 33)  # of the largest pocket, for the largest margin
 
 
 class PrintBalance(NamedTuple):
     """Walls and infill in percent; the margin that they give, in Blender units; whether that is as
-    large as it has to be.
+    large as it has to be; the pocket.
     """
 
     walls: int
     infill: float
     margin: float
     suffices: bool
+    pocket: Pocket | None = None
 
 
 def balance_print(
@@ -40,13 +54,16 @@ def balance_print(
     corners: Array | None,
     margin: float,
     point: tuple[float, ...] | None = None,
+    change: str = "WALLS",
+    ballast: float = 0.0,
 ) -> PrintBalance | None:
-    """Return the nearest walls and infill with the center inside a polygon by a margin, else those
-    with the largest margin; None if the polygon is none.
+    """Return the nearest walls and infill, or the least pocket, with the center inside a polygon by
+    a margin, else those with the largest margin; None if the polygon is none.
 
     corners: (k, 3) of the base in the world, counterclockwise from above; None if unknown. margin:
     in Blender units. point: the center has to be above or below it within the margin, in place of
-    the base. The walls stay if the infill alone suffices. Raises MeasureError.
+    the base. change: "INFILL", "WALLS" (they stay if the infill alone suffices), or "BALLAST", with
+    its density in kg/m³. Raises MeasureError.
     """
     axes = ground_axes(down(context.scene))[:, :2]
     if point is not None:
@@ -56,7 +73,10 @@ def balance_print(
     if corners is None or len(corners) < 3:
         return None
     request = Request.resolve(obj, context.evaluated_depsgraph_get())
-    settings = replace(request.settings, kind="printed", mass=None, density=1.0)
+    settings = replace(request.settings, kind="printed")
+    if change != "BALLAST" and settings.printed.pocket is None:
+        settings = replace(settings, mass=None, density=1.0)
+    to_body = to_si([request.surfaces.matrix], settings.unit)[0]
     made = mesh.mesh_body(
         request.surfaces,
         settings.unit,
@@ -68,19 +88,46 @@ def balance_print(
     flat = (corners - middle) @ axes
     about = middle * settings.unit
 
-    def placed(infill: float, walls: int) -> Array:
+    def placed(**values: Any) -> Array:
         """Return the mass and its first moments along the ground, in Blender units."""
-        printed = settings.printed._replace(infill=infill, walls=walls)
-        mass = print_body(made, replace(settings, printed=printed)).mass
+        printed = settings.printed._replace(**values)
+        mass = print_body(made, replace(settings, printed=printed), to_body).mass
         first = mass.about_point(about).raw[1:4] if mass is not None else np.zeros(3)
         total = 0.0 if mass is None else mass.total
         return np.array([total, *(first @ axes / settings.unit)])
 
+    def stated(best: PrintBalance) -> PrintBalance:
+        """Return the result, its margin from a plumb line as the distance that it has."""
+        if best.suffices or point is None:
+            return best
+        mass = placed(infill=best.infill, walls=best.walls, pocket=best.pocket)
+        return best._replace(margin=float(np.hypot(*mass[1:] / mass[0])))
+
     now = settings.printed
+    if change == "BALLAST":
+        if settings.mass is not None:
+            placed(pocket=Pocket((0.0, 0.0, 0.0), 0.0, 0.0))  # refused
+        mass = placed(pocket=None)
+        excess = ballast - now.infill / 100.0 * (settings.density or 0.0)
+        room = PocketRoom(*print_surfaces(made, now), now.line_width)
+        center, radius, reached = _place_pocket(
+            room,
+            lambda places: (places / settings.unit - middle) @ axes,
+            flat,
+            mass,
+            margin,
+            excess,
+            None if point is None else about,
+            axes,
+        )
+        local = np.linalg.solve(to_body, [*center, 1.0])[:3]
+        pocket = Pocket(tuple(local.tolist()), radius, ballast) if radius else None
+        return stated(PrintBalance(now.walls, now.infill, reached, reached >= margin, pocket))
     best = None
-    for walls in sorted(range(1, MAX_WALLS + 1), key=lambda count: abs(count - now.walls)):
+    nearest = sorted(range(1, MAX_WALLS + 1), key=lambda count: abs(count - now.walls))
+    for walls in nearest if change == "WALLS" else [now.walls]:
         try:
-            empty, full = placed(0.0, walls), placed(100.0, walls)
+            empty, full = (placed(infill=infill, walls=walls) for infill in (0.0, 100.0))
         except MeasureError:
             if walls == now.walls:
                 raise
@@ -92,8 +139,59 @@ def balance_print(
             return PrintBalance(walls, _shorten(infill, low, high), margin, True)
         reached, share = largest_margin(flat, empty, full - empty)
         if best is None or reached > best.margin:
-            best = PrintBalance(walls, 100.0 * share, reached, False)
-    return best
+            best = PrintBalance(walls, 100.0 * share, reached, False, now.pocket)
+    return best and stated(best)
+
+
+def _place_pocket(
+    room: PocketRoom,
+    to_flat: Callable[[Array], Array],
+    corners: Array,
+    mass: Array,
+    margin: float,
+    excess: float,
+    point: Array | None,
+    axes: Array,
+) -> tuple[Array, float, float]:
+    """Return center and radius, m, of the least pocket that gives the margin, and the margin; else
+    those of the pocket with the largest margin.
+
+    mass: with its first moments. excess: density of the ballast over that of the infill. point:
+    the pocket is on the plane of its plumb line and the center of mass.
+    """
+    frame = np.column_stack([axes, np.cross(axes[:, 0], axes[:, 1])])
+    if point is not None:
+        along = mass[1:] / max(float(np.hypot(*mass[1:])), np.finfo(float).tiny)
+        frame[:, :2] = axes @ np.column_stack([along, [-along[1], along[0]]])
+    box = np.array(np.meshgrid(*zip(room.low, room.high))).reshape(3, -1).T @ frame
+    low, high = box.min(axis=0), box.max(axis=0)
+    if point is not None:
+        low[1] = high[1] = point @ frame[:, 1]
+    best, half = (low + high) / 2.0, (high - low) / 2.0
+    per_radius = abs(excess) * 4.0 / 3.0 * np.pi
+    sign = 1.0 if excess >= 0.0 else -1.0
+    found = best, 0.0, -np.inf
+    for zoom in range(ZOOMS):
+        ticks = np.linspace(-1.0, 1.0, FINE if zoom else COARSE)
+        steps = [ticks * size if size > 0.0 else np.zeros(1) for size in half]
+        grid = best + np.array(np.meshgrid(*steps)).reshape(3, -1).T
+        places = grid @ frame.T
+        flat = to_flat(places)
+        largest = FILLED * room.radii(places)
+        least = np.cbrt(least_ballast(corners, mass, flat, margin, sign) / (per_radius or 1.0))
+        fits = (least <= largest) & (per_radius > 0.0)
+        if fits.any():
+            at = int(np.where(fits, least, np.inf).argmin())
+            found = places[at], float(least[at]), margin
+        else:
+            added = sign * per_radius * SHARES[:, None] * largest**3
+            margins = np.array([ballast_margins(corners, mass, flat, one) for one in added])
+            share, at = np.unravel_index(margins.argmax(), margins.shape)
+            radius = float(np.cbrt(SHARES[share]) * largest[at])
+            found = max(found, (places[at], radius, float(margins[share, at])), key=itemgetter(2))
+        best = grid[at]
+        half = half * (0.5 if zoom else 2.5 / COARSE)
+    return found
 
 
 def _shorten(infill: float, low: float, high: float) -> float:

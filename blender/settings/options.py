@@ -10,7 +10,7 @@ from dataclasses import dataclass, fields
 
 from bpy.types import Object, PropertyGroup, Scene
 
-from ...core.measurement import PrintSettings, RequestedResults, Settings
+from ...core.measurement import Pocket, PrintSettings, RequestedResults, Settings
 from ...core.numerics import shortest_decimal
 from ..scale import meters_per_unit
 from .density import object_density
@@ -43,6 +43,9 @@ AS_SET = MeasureOptions()  # every object as its own settings say
 
 def print_settings(properties: PropertyGroup) -> PrintSettings:
     """Return the print settings in the settings of an object."""
+    radius, density = properties.pocket_radius, properties.pocket_density
+    center = tuple(map(shortest_decimal, properties.pocket_center))
+    pocket = Pocket(center, shortest_decimal(radius) * 1e-3, shortest_decimal(density))
     return PrintSettings(
         walls=properties.print_walls,
         line_width=shortest_decimal(properties.print_line_width) * 1e-3,
@@ -52,6 +55,7 @@ def print_settings(properties: PropertyGroup) -> PrintSettings:
         infill=shortest_decimal(properties.print_infill),
         price=shortest_decimal(properties.spool_price),
         spool=shortest_decimal(properties.spool_mass),
+        pocket=pocket if radius else None,
     )
 
 

@@ -11,7 +11,13 @@ from functools import partial
 from typing import Any
 
 import bpy
-from bpy.props import FloatProperty, IntProperty, PointerProperty, StringProperty
+from bpy.props import (
+    FloatProperty,
+    FloatVectorProperty,
+    IntProperty,
+    PointerProperty,
+    StringProperty,
+)
 from bpy.types import Context, Material, Object, PropertyGroup, Scene
 
 from ...core.density import BY_NAME, CT_DENSITIES, DENSITY_UNITS, density_unit
@@ -62,6 +68,9 @@ COPIED_PROPERTIES = (
         "print_bottom_layers",
         "print_layer_height",
         "print_infill",
+        "pocket_center",
+        "pocket_radius",
+        "pocket_density",
         "spool_price",
         "spool_mass",
     ),
@@ -292,6 +301,28 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         min=0.0,
         max=100.0,
         subtype="PERCENTAGE",
+        update=changed,
+    )
+    pocket_center: FloatVectorProperty(
+        name="Center",
+        description="Center of the pocket of ballast, in the object's coordinates",
+        subtype="XYZ",
+        precision=4,
+        update=changed,
+    )
+    pocket_radius: FloatProperty(
+        name="Pocket",
+        description="Radius of the pocket of ballast in mm; 0 for none",
+        min=0.0,
+        precision=3,
+        update=changed,
+    )
+    pocket_density: FloatProperty(
+        name="Ballast",
+        description="Density of what fills the pocket, in kg/m³",
+        default=7820.0,
+        min=0.0,
+        soft_max=25000.0,
         update=changed,
     )
     spool_price: FloatProperty(

@@ -18,7 +18,7 @@ from ...core.numerics import Array
 from ...core.verdict.finding import Finding, finding
 from ..findings import FILE_HIDES, PLACES_UNCHECKED
 from .fbx_models import FbxModel, fbx_models, fbx_to_scene
-from .placing import is_at, measure_at, place_objects
+from .placing import MOST_WEIGHT, is_at, measure_at, place_objects
 from .references import Opened
 
 # What the importer adds to the name of a model: for a mesh that others share, or a name is taken.
@@ -36,6 +36,10 @@ def import_fbx(path: str, frame: float | None) -> Opened:
     unseen = {obj.name for obj in bpy.context.scene.objects if obj.hide_viewport}
     for name in unseen:  # Blender would not evaluate them.
         bpy.data.objects[name].hide_viewport = False
+    moving = [shapes for shapes in bpy.data.shape_keys if shapes.animation_data is not None]
+    for block in (block for shapes in moving for block in shapes.key_blocks):
+        block.slider_min = -MOST_WEIGHT  # The importer's 0 to 1 would clamp animated weights.
+        block.slider_max = MOST_WEIGHT
     notes = measure_at(frame)
     findings: dict[str, tuple[Finding, ...]] = {}
     coarse: set[str] = set()
@@ -48,6 +52,9 @@ def import_fbx(path: str, frame: float | None) -> Opened:
         levels = {level for model in models for level in model.coarse_levels()}
         coarse = {obj.name for obj, model in pairs if model in levels}
         doubts = _correct(groups, fbx_to_scene(root), any(model.is_apart for model in models))
+        for obj in (obj for obj, _ in pairs if obj.data.shape_keys in moving):
+            if any(abs(one.value) >= MOST_WEIGHT for one in obj.data.shape_keys.key_blocks):
+                doubts[obj.name] = "the weight of a shape key exceeds ±10"
         findings = {
             name: (finding(PLACES_UNCHECKED, cause=cause),) for name, cause in doubts.items()
         }

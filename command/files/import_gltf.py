@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """glTF files as objects of the open scene, corrected by the file's nodes.
 
-Blender's importer ignores KHR_node_visibility, drops the shear of a matrix, and clamps the weights
-of morph targets. Its hook tells the object of each node.
+Blender's importer ignores KHR_node_visibility and MSFT_lod, drops the shear of a matrix, and
+clamps the weights of morph targets. Its hook tells the object of each node.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ from bpy.types import Object
 from ...core.cad import UPRIGHT
 from ...core.files import FILE_UNREADABLE, MALFORMED, GltfFile, map_file, node_matrix
 from ...core.numerics import Array
-from ...core.verdict.finding import FileError, finding
+from ...core.verdict.finding import FileError, Finding, finding
 from ..findings import FILE_HIDES, PLACES_UNCHECKED
-from .placing import measure_at, place_objects
+from .placing import MOST_WEIGHT, measure_at, place_objects
 from .references import Opened
 
 ADD_ON = "io_scene_gltf2"  # It comes with Blender, and may be switched off.
@@ -33,7 +33,6 @@ _NO_DECODER = (
     "this Blender lacks the library that decodes {} compression. Measure it with another "
     "Blender 5 (blender -b, not the Python module bpy), or export it without compression"
 )
-_MOST_WEIGHT = 10.0  # Blender's limit of the value of a shape key
 _SAME_WEIGHT = 1e-6  # larger than the rounding of float32
 _PARTS = "translation", "rotation", "scale", "weights"
 
@@ -56,7 +55,7 @@ def import_gltf(path: str, frame: float | None) -> Opened:
     that the file states at the frame, by default its first. Raise FileError, RuntimeError, and
     AttributeError without an importer.
     """
-    hidden: list[str] = []
+    hidden: dict[str, Finding] = {}
     shown: dict[str, _Shown] = {}
 
     class Nodes:
@@ -65,10 +64,13 @@ def import_gltf(path: str, frame: float | None) -> Opened:
         def gather_import_node_after_hook(
             self, vnode: Any, _node: Any, obj: Object, gltf: Any
         ) -> None:
-            if any(_is_invisible(gltf.data.nodes[number]) for number in _line_of(vnode, gltf)):
-                hidden.append(obj.name)
             if obj.type == "MESH":
                 shown[obj.name] = _node_of(vnode, gltf)
+            line = _line_of(vnode, gltf)
+            if any(_is_invisible(gltf.data.nodes[number]) for number in line):
+                hidden[obj.name] = finding(FILE_HIDES, cause="it is invisible")
+            elif not _coarse_levels(gltf.data.nodes).isdisjoint(line):
+                hidden[obj.name] = finding(FILE_HIDES, cause="it is a coarser level of detail")
 
     # The importer looks for extensions in add-ons of the preferences, of which it is one itself.
     is_known = ADD_ON in bpy.context.preferences.addons
@@ -92,8 +94,7 @@ def import_gltf(path: str, frame: float | None) -> Opened:
         _correct(_Pose(GltfFile(map_file(path), path), _seconds() if notes else 0.0), shown)
     except MALFORMED:  # Such as compressed animations.
         notes = (*notes, finding(PLACES_UNCHECKED, cause="its nodes or animations are unreadable"))
-    invisible = finding(FILE_HIDES, cause="it is invisible")
-    return Opened(notes=notes, hidden=dict.fromkeys(hidden, invisible))
+    return Opened(notes=notes, hidden=hidden)
 
 
 def _seconds() -> float:
@@ -115,6 +116,12 @@ def _line_of(vnode: Any, gltf: Any) -> list[int]:
 def _is_invisible(node: Any) -> bool:
     extension = (node.extensions or {}).get("KHR_node_visibility", {})
     return isinstance(extension, dict) and extension.get("visible", True) is False
+
+
+def _coarse_levels(nodes: list[Any]) -> set[int]:
+    """Return the numbers of the nodes that others name as their coarser levels of detail."""
+    named = [(node.extensions or {}).get("MSFT_lod", {}) for node in nodes]
+    return {number for one in named if isinstance(one, dict) for number in one.get("ids", ())}
 
 
 def _node_of(vnode: Any, gltf: Any) -> _Shown:
@@ -236,12 +243,12 @@ def _set_weight(shapes: bpy.types.Key, block: bpy.types.ShapeKey, weight: float)
     if abs(block.value - weight) <= _SAME_WEIGHT * max(1.0, abs(weight)):
         return
     shapes.animation_data_clear()
-    growth = 2.0 ** max(0, math.ceil(math.log2(max(abs(weight), 1.0) / _MOST_WEIGHT)))
+    growth = 2.0 ** max(0, math.ceil(math.log2(max(abs(weight), 1.0) / MOST_WEIGHT)))
     if growth > 1.0:
         rest, offset = (np.empty(3 * len(one.data), np.float32) for one in (block, block))
         block.relative_key.data.foreach_get("co", rest)
         block.data.foreach_get("co", offset)
         block.data.foreach_set("co", rest + np.float32(growth) * (offset - rest))
-    block.slider_min = -_MOST_WEIGHT
-    block.slider_max = _MOST_WEIGHT
+    block.slider_min = -MOST_WEIGHT
+    block.slider_max = MOST_WEIGHT
     block.value = weight / growth

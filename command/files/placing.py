@@ -18,6 +18,7 @@ from ...core.verdict.finding import Finding, finding
 from ..findings import FRAME_MEASURED
 
 ANCHOR = "Imported Places"  # an empty at the world's origin
+MOST_WEIGHT = 10.0  # Blender's limit of the value of a shape key
 _AGREEMENT = 1e-5  # of an axis, and of a location: larger than the rounding along chains of parents
 
 

@@ -1,26 +1,49 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Printed bodies: walls, top and bottom layers of full density around a core of infill."""
+"""Printed bodies: walls, top and bottom layers of full density around a core of infill, in which a
+ball of ballast may be.
+"""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-from ..measurement import DENSITY_FROM, WALL_UNSUPPORTED, Settings
+import numpy as np
+
+from ..measurement import DENSITY_FROM, WALL_UNSUPPORTED, PrintSettings, Settings
+from ..mesh import Surface
 from ..moments import KNOWN_ORDER, Measure
 from ..moments.moments import sum_moments
+from ..numerics import Array
 from ..polyhedron import polyhedron_moments
 from ..verdict import Procedure
 from ..verdict.finding import ReadError, finding
 from ..wall import PRINT_UNFIT, core_surface
 from .mesh_body import MeshBody
+from .pocket import PocketRoom, ball_moments
 
 LEAST_CORE = 1e-9  # of the volume
+POCKET_RTOL = 1e-5  # of its radius
 
 
-def print_body(body: MeshBody, settings: Settings) -> MeshBody:
-    """Return the body as it is printed upward along z, with mass moments of its two densities.
+def print_surfaces(body: MeshBody, printed: PrintSettings) -> tuple[list[Surface], list[Surface]]:
+    """Return the surfaces of the cores of a body, and of its outside. Raises MeasureError."""
+    cores, outsides = [], []
+    for solid, matrices in body.solids:
+        if solid.method == Procedure.OPEN:
+            raise ReadError(PRINT_UNFIT, fault="its surface is open. Close it")
+        for matrix in matrices:
+            surface = solid.repaired_surface.transform(matrix[:3, :3], matrix[:3, 3])
+            thicknesses = printed.wall, printed.top_height, printed.bottom_height
+            cores.append(core_surface(surface, *thicknesses))
+            outsides.append(surface)
+    return cores, outsides
 
+
+def print_body(body: MeshBody, settings: Settings, place: Array | None = None) -> MeshBody:
+    """Return the body as it is printed upward along z, with mass moments of its densities.
+
+    place: (4, 4) map from the object's coordinates to the body's; by default they are the same.
     Raises MeasureError if the settings cannot be printed, or leave no core.
     """
     printed = settings.printed
@@ -28,26 +51,43 @@ def print_body(body: MeshBody, settings: Settings) -> MeshBody:
     if body.mass is not None:
         raise ReadError(WALL_UNSUPPORTED, quantity="A varying density")
     order = max(KNOWN_ORDER, settings.order or 0)
-    cores = []
-    for solid, matrices in body.solids:
-        if solid.method == Procedure.OPEN:
-            raise ReadError(PRINT_UNFIT, fault="its surface is open. Close it")
-        for matrix in matrices:
-            surface = solid.repaired_surface.transform(matrix[:3, :3], matrix[:3, 3])
-            thicknesses = printed.wall, printed.top_height, printed.bottom_height
-            core = core_surface(surface, *thicknesses)
-            cores.append(polyhedron_moments(core, order, exact=True, allow_open=True)[0])
-    core = sum_moments(cores)
+    cores, outsides = print_surfaces(body, printed)
+    core = sum_moments(
+        [polyhedron_moments(core, order, exact=True, allow_open=True)[0] for core in cores]
+    )
     volume = body.third_order() if order == KNOWN_ORDER else body.moments(order, False)[0]
     if not core.total > LEAST_CORE * volume.total:
         raise ReadError(
             PRINT_UNFIT, fault="its walls and layers are thicker than the part. Use Kind: Solid"
         )
     filled = volume + core * (printed.infill / 100.0 - 1.0)
+    record = printed.record()
+    ballast = None
+    if (pocket := printed.pocket) is not None:
+        if settings.mass is not None:
+            fault = "beside a pocket it needs a density, not a mass. Set Density"
+            raise ReadError(PRINT_UNFIT, fault=fault)
+        place = np.eye(4) if place is None else place
+        center = place[:3, :3] @ pocket.center + place[:3, 3]
+        room = PocketRoom(cores, outsides, printed.line_width)
+        if pocket.radius > float(room.radii(center[None])[0]) * (1.0 + POCKET_RTOL):
+            fault = "its pocket reaches out of the core. Make it smaller, or remove it"
+            raise ReadError(PRINT_UNFIT, fault=fault)
+        ball = ball_moments(center, pocket.radius, order)
+        filled = filled + ball * (-printed.infill / 100.0)
+        ballast = replace(ball, measure=Measure.MASS) * pocket.density
+        record |= {
+            "pocket_center": center.tolist(),
+            "pocket_radius": pocket.radius,
+            "pocket_density": pocket.density,
+            "pocket_mass": ballast.total,
+        }
     mass = replace(filled, measure=Measure.MASS) * (settings.density or 1.0)
-    record = printed.record() | {"core_volume": core.total, "material_volume": filled.total}
+    record |= {"core_volume": core.total, "material_volume": filled.total}
+    kilograms = settings.mass or mass.total
+    if ballast is not None:
+        mass = mass + ballast
     if printed.price > 0.0:
-        kilograms = settings.mass or mass.total
         record["price"] = kilograms / printed.spool * printed.price
     return replace(
         body,

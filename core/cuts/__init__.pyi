@@ -5,11 +5,13 @@ from typing import Any
 
 from .findings import CUT_FILL_UNAVAILABLE as CUT_FILL_UNAVAILABLE
 from .findings import LEVEL_UNAVAILABLE as LEVEL_UNAVAILABLE
+from .findings import PLANE_UPRIGHT as PLANE_UPRIGHT
 from .findings import SHARED_SPACE as SHARED_SPACE
 from .findings import SURFACE_NEEDED as SURFACE_NEEDED
 from .hollow import Hollow as Hollow
 from .hollow import find_hollow as find_hollow
 from .hollow import spill_tilt as spill_tilt
+from .open_surfaces import MIN_RIM_SPREAD as MIN_RIM_SPREAD
 from .open_surfaces import CutFill as CutFill
 from .open_surfaces import cut_fill as cut_fill
 from .open_surfaces import cut_fill_between as cut_fill_between

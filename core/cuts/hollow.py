@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..mesh import first_at_equal_position, uncancelled_sides
-from ..moments import U
+from ..moments import Moments, U
 from ..moments.moments import TINY
 from ..numerics import Array, Index, connected_components, float_array, index_array, lengths
 from ..verdict import MeasureError
@@ -77,7 +77,16 @@ class Hollow:
             raise MeasureError(LEVEL_UNAVAILABLE, fault=LIQUID_ABSENT)
         if level > self.spill + 4.0 * U * abs(self.spill) and not self.sealed:
             self._overflow()
-        return self.below([level])
+        found = self.below([level])
+        if not found.volume[0] > 0.0:
+            raise MeasureError(LEVEL_UNAVAILABLE, fault=LIQUID_ABSENT)
+        return found
+
+    def free_surface(self, liquid: PartBelow, level: float) -> Moments | None:
+        """Return the surface of the liquid up to a level; None if it fills a cavity."""
+        face = liquid.face.at(0)
+        is_full = self.sealed and level >= self.spill
+        return None if is_full or face.total <= face.rounding_error[0] else face
 
     def level_of(self, volume: float) -> float:
         """Return the level of a volume of liquid; MeasureError if it runs over."""
@@ -147,6 +156,8 @@ def find_hollow(points: ArrayLike, triangles: ArrayLike, up: ArrayLike = (0.0, 0
     rank = np.empty(len(order), np.intp)
     rank[order] = np.arange(len(order))
     triangles = rank[triangles.reshape(-1, 3)]
+    # A side without a length bounds nothing.
+    triangles = triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
     _, start, stop = uncancelled_sides(triangles, np.zeros(len(triangles), np.intp))
     rim = np.union1d(start, stop)
     best = _largest(points, heights, triangles, up, rim)

@@ -44,6 +44,7 @@ from .plain_text import visible as visible
 from .record import described as described
 from .record import flat_record as flat_record
 from .settings import VERSION as VERSION
+from .settings import Pocket as Pocket
 from .settings import PrintSettings as PrintSettings
 from .settings import RequestedResults as RequestedResults
 from .settings import Settings as Settings

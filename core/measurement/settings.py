@@ -33,10 +33,20 @@ class RequestedResults:
     threads: int = 1
 
 
+class Pocket(NamedTuple):
+    """A ball in a print that is filled with ballast: its center in the object's coordinates, in
+    Blender units; radius, m; density, kg/m³.
+    """
+
+    center: tuple[float, ...]
+    radius: float
+    density: float
+
+
 class PrintSettings(NamedTuple):
     """How a body is printed: counts of walls and of top and bottom layers, with the width of a wall
     and the height of a layer in m; infill in percent of the core; price of a spool of filament and
-    its weight in kg, 0 without a price.
+    its weight in kg, 0 without a price; a pocket of ballast.
     """
 
     walls: int = 2
@@ -47,6 +57,7 @@ class PrintSettings(NamedTuple):
     infill: float = 15.0
     price: float = 0.0
     spool: float = 1.0
+    pocket: Pocket | None = None
 
     @property
     def wall(self) -> float:
@@ -72,9 +83,9 @@ class PrintSettings(NamedTuple):
             raise ReadError(PRINT_UNFIT, fault="a count, width, height or weight is not positive")
 
     def record(self) -> dict[str, Any]:
-        """Return the entry `print` of a record, without the price of the spool."""
+        """Return the entry `print` of a record, without the price of the spool and the pocket."""
         values = self._asdict()
-        del values["price"], values["spool"]
+        del values["price"], values["spool"], values["pocket"]
         return values
 
 
@@ -109,6 +120,9 @@ class Settings(RequestedResults):
         density, mass = [
             None if value is None else shortest_decimal(value) for value in (density, self.mass)
         ]
+        printed = list(self.printed[:-1])
+        if (pocket := self.printed.pocket) is not None:
+            printed += [*pocket.center, pocket.radius, pocket.density]
         used = [
             self.kind.upper(),
             density,
@@ -118,7 +132,7 @@ class Settings(RequestedResults):
             round(self.unit, 12),
             *([self.varying] if self.varying else []),
             *([self.wall.upper()] if is_shell and self.wall != "thin" else []),
-            *(map("{:.6g}".format, self.printed) if self.kind == "printed" else []),
+            *(map("{:.6g}".format, printed) if self.kind == "printed" else []),
         ]
         return digest(repr(used).encode())
 

@@ -9,8 +9,10 @@ from .findings import BALANCE_SHORT as BALANCE_SHORT
 from .findings import NO_STABLE_POSE as NO_STABLE_POSE
 from .gradient import area_gradient as area_gradient
 from .gradient import volume_gradient as volume_gradient
+from .infill import ballast_margins as ballast_margins
 from .infill import infill_range as infill_range
 from .infill import largest_margin as largest_margin
+from .infill import least_ballast as least_ballast
 from .mixes import Mixes as Mixes
 from .mixes import fit_mixes as fit_mixes
 from .mixes import sample_count as sample_count

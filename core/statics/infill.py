@@ -45,6 +45,28 @@ def largest_margin(corners: Array, empty: Array, growth: Array) -> tuple[float, 
     return float(margins[best]), float(infill[best])
 
 
+def least_ballast(corners: Array, mass: Array, places: Array, margin: float, sign: float) -> Array:
+    """Return the (k,) least masses that bring the center inside a polygon by a margin if they are
+    added (sign 1) or taken away (-1) at places (k, 2), infinity if none does; as `infill_range`.
+    """
+    start, along = _edges(corners)
+    heights = np.einsum("ki,ki->k", along, start) + margin
+    now = along @ mass[1:] - mass[0] * heights
+    rate = sign * (places @ along.T - heights)
+    root = -now / np.where(rate != 0.0, rate, 1.0)
+    low = np.where(rate > 0.0, root, 0.0).max(axis=1, initial=0.0)
+    high = np.where(rate < 0.0, root, np.inf).min(axis=1)
+    allowed = (low <= high) & ((rate != 0.0) | (now >= 0.0)).all(axis=1)
+    return np.where(allowed, low, np.inf)
+
+
+def ballast_margins(corners: Array, mass: Array, places: Array, added: Array) -> Array:
+    """Return the (k,) margins that masses (k,), below zero if taken away, give at places (k, 2)."""
+    start, along = _edges(corners)
+    centers = (mass[1:] + added[:, None] * places) / (mass[0] + added)[:, None]
+    return (centers @ along.T - np.einsum("ki,ki->k", along, start)).min(axis=1)
+
+
 def _edges(corners: Array) -> tuple[Array, Array]:
     """Return the starts of a polygon's edges, and unit vectors across them that point inside."""
     sides = np.roll(corners, -1, axis=0) - corners

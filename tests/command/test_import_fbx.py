@@ -35,7 +35,7 @@ def property_line(name, value):
     return 'P: "{}", "", "", "A",{}\n'.format(name, numbers)
 
 
-def write(path, models, axes=AXES, unit=1.0, more=""):
+def write(path, models, axes=AXES, unit=1.0, more="", more_links=""):
     """Write a text file. models: (name, kind, properties, number of the parent or 0), from number
     2; a mesh shows the box.
     """
@@ -56,7 +56,7 @@ def write(path, models, axes=AXES, unit=1.0, more=""):
         text += "Version: 232\nProperties70: {\n" + lines + "}\n}\n"
         links += 'C: "OO",{},{}\n'.format(number, parent)
         links += 'C: "OO",1,{}\n'.format(number) if kind == "Mesh" else ""
-    return files.write_text(path, text + more + "}\nConnections: {\n" + links + "}\n")
+    return files.write_text(path, text + more + "}\nConnections: {\n" + links + more_links + "}\n")
 
 
 def by_name(found):
@@ -200,3 +200,31 @@ def test_binary_fbx_of_blender_agrees_with_its_nodes(tmp_path):
     for name, body in bodies.items():
         assert "places_unchecked" not in codes(body)
         assert close(body["volume"], volumes[name], 1e-4)
+
+
+@pytest.mark.parametrize("moves", [False, True])
+@pytest.mark.parametrize("weight", [0.5, 9.75, 20.0, -15.0, 1000.0])
+def test_fbx_weight_is_the_files_or_doubtful(tmp_path, weight, moves):
+    shape = 'Geometry: 90, "Geometry::s", "Shape" {\nVersion: 100\nIndexes: *4 {\na: 4,5,6,7\n}\n'
+    shape += "Vertices: *12 {\na: " + ",".join(["100,0,0"] * 4) + "\n}\n}\n"
+    shape += 'Deformer: 91, "Deformer::b", "BlendShape" {\nVersion: 100\n}\n'
+    shape += 'Deformer: 92, "SubDeformer::s", "BlendShapeChannel" {\nVersion: 100\n'
+    shape += "FullWeights: *1 {\na: 100\n}\nProperties70: {\n"
+    shape += property_line("DeformPercent", 100 * weight) + "}\n}\n"
+    links = "".join('C: "OO",{},{}\n'.format(*pair) for pair in ((91, 1), (92, 91), (90, 92)))
+    if moves:
+        shape += 'AnimationStack: 93, "AnimStack::a", "" {\n}\n'
+        shape += 'AnimationLayer: 94, "AnimLayer::l", "" {\n}\n'
+        shape += 'AnimationCurveNode: 95, "AnimCurveNode::DeformPercent", "" {\nProperties70: {\n'
+        shape += property_line("d|DeformPercent", 0.0) + "}\n}\n"
+        shape += 'AnimationCurve: 96, "AnimCurve::", "" {\nKeyTime: *2 {\na: 0,46186158000\n}\n'
+        shape += "KeyValueFloat: *2 {{\na: {},0\n}}\n".format(100 * weight)
+        shape += "KeyAttrFlags: *1 {\na: 260\n}\nKeyAttrDataFloat: *4 {\na: 0,0,0,0\n}\n"
+        shape += "KeyAttrRefCount: *1 {\na: 2\n}\n}\n"
+        links += 'C: "OO",94,93\nC: "OO",95,94\nC: "OP",95,92, "DeformPercent"\n'
+        links += 'C: "OP",96,95, "d|DeformPercent"\n'
+    path = write(tmp_path / "t.fbx", [("part", "Mesh", {}, 0)], more=shape, more_links=links)
+    body = measured(path)
+    is_doubtful = moves and abs(weight) > 10.0
+    assert is_doubtful == ("places_unchecked" in codes(body))
+    assert is_doubtful or close(body["volume"], 6.0 * abs(1.0 + weight), 1e-5)

@@ -118,6 +118,16 @@ def test_gltf_instances_stand_where_the_file_states(tmp_path):
     assert np.allclose(found, sorted(stated), atol=1e-5)
 
 
+@pytest.mark.parametrize("levels", [[1, 3], [3, 1]])
+def test_gltf_levels_of_detail_count_once(tmp_path, levels):
+    nodes = [{"mesh": 0, "extensions": {"MSFT_lod": {"ids": levels}}}, {"mesh": 0}, {"mesh": 0}]
+    nodes.append({"mesh": 0, "children": [4]})
+    nodes.append({"mesh": 0})
+    used = {"extensionsUsed": ["MSFT_lod"]}.items()
+    bodies = measure(tmp_path, nodes, more=used)
+    assert [body["volume"] for body in bodies] == [6.0, 6.0]
+
+
 @pytest.mark.parametrize("weight", [0.5, 9.75, 20.0, -15.0, 1000.0])
 def test_gltf_weight_of_any_size_moves_the_target(tmp_path, weight):
     nodes = [{"mesh": 0}, {"mesh": 0, "weights": [-weight], "translation": [5000.0, 0, 0]}]

@@ -91,3 +91,33 @@ def test_row_of_print_has_its_values(cube, tmp_path):
 
     (row,) = csv.DictReader(io.StringIO("".join(to_csv([document(*cube)]))))
     assert row["print_infill"] == "15.0" and close(float(row["print_core_volume"]), CORE, 1e-6)
+
+
+def test_pocket_of_print_is_in_the_record(tmp_path):
+    obj = add(box_mesh(20, 20, 20), "cube")
+    bpy.context.scene.unit_settings.scale_length = 1e-3
+    settings = obj.body_moments
+    settings.kind, settings.density, settings.pocket_radius = "PRINTED", 1240.0, 5.0
+    settings.pocket_center, settings.spool_price = (1.0, 2.0, -3.0), 25.0
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "cube.blend"))
+    (entry,) = document(tmp_path / "cube.blend", "--order", "4")["objects"]
+    ball = 4.0 / 3.0 * np.pi * 5e-3**3
+    filament = 1240.0 * (8e-6 - 0.85 * CORE - 0.15 * ball)
+    assert close(entry["print"]["pocket_mass"], 7820.0 * ball, 1e-6)
+    assert close(entry["print"]["pocket_center"], [1e-3, 2e-3, -3e-3], 1e-6)
+    assert close(entry["print"]["price"], 25.0 * filament, 1e-6)
+    assert close(entry["mass"], filament + 7820.0 * ball, 1e-6)
+
+
+def test_tilted_print_is_out_of_date_but_not_a_moved_one():
+    from body_moments.blender.session.tracking import staleness
+
+    obj = add(box_mesh(20, 20, 20), "cube")
+    obj.body_moments.kind = "PRINTED"
+    bpy.ops.object.body_moments_measure()
+    obj.location, obj.rotation_euler.z = (3.0, 4.0, 5.0), 0.7
+    bpy.context.view_layer.update()
+    assert staleness.stale_reason(obj, bpy.context.scene) is None
+    obj.rotation_euler.x = 0.5
+    bpy.context.view_layer.update()
+    assert staleness.stale_reason(obj, bpy.context.scene)

@@ -3,6 +3,7 @@
 """3MF files: units, components and transforms, and what a hostile one may not do."""
 
 import contextlib
+import json
 import zipfile
 
 import numpy as np
@@ -312,18 +313,20 @@ def prusa(path, other, kind, settings="", project=""):
     return package(path, text, [*more, ("Metadata/Slic3r_PE.config", project)])
 
 
-def bambu(path, other, subtype):
+def bambu(path, other, subtype, settings="", project="{}"):
     places = "".join(
         '<component p:path="/3D/parts.model" objectid="{}"/>'.format(number) for number in (1, 2)
     )
     parts = '<object id="1">{}</object><object id="2" type="other">{}</object>'
-    config = '<part id="1" subtype="normal_part"/><part id="2" subtype="{}"/>'.format(subtype)
+    config = '<part id="1" subtype="normal_part">{}</part><part id="2" subtype="{}"/>'
+    config = config.format(settings, subtype)
     more = [
         ("3D/parts.model", model(parts.format(mesh(*BLOCK), mesh(*other)), "")),
         (
             "Metadata/model_settings.config",
             '<config><object id="3">{}</object></config>'.format(config),
         ),
+        ("Metadata/project_settings.config", project),
     ]
     whole = '<object id="3"><components>{}</components></object>'.format(places)
     return package(path, model(whole, '<item objectid="3"/>'), more)
@@ -384,3 +387,42 @@ def test_settings_of_slicer_project_become_those_of_the_print(tmp_path):
     assert close(inside["mass"], 1240.0 * (1000e-9 - 0.8 * core), 1e-6)
     solid = document(path, "--kind", "solid")["objects"][0]
     assert close(solid["mass"], 1270.0 * 19_200e-9, 1e-6)
+
+
+BAMBU_SETTINGS = {
+    "sparse_infill_density": "20%",
+    "wall_loops": "3",
+    "top_shell_layers": "5",
+    "bottom_shell_layers": "4",
+    "layer_height": "0.2",
+    "filament_density": ["1.24", "1.27"],
+}
+
+
+@pytest.mark.parametrize(
+    ("widths", "wall"),
+    [  # Orca leaves a width of 0 to the nozzle, and may give it in percent of the nozzle
+        ({"outer_wall_line_width": "0.4", "inner_wall_line_width": "0.5"}, 1.4),
+        ({"outer_wall_line_width": "0", "inner_wall_line_width": "105%"}, 1.35),
+    ],
+    ids=["bambu", "orca"],
+)
+@pytest.mark.parametrize(
+    ("own", "infill", "density", "walls"),
+    [
+        ({}, 20.0, 1240.0, 3),
+        ({"sparse_infill_density": "40%", "extruder": "2"}, 40.0, 1270.0, 3),
+        ({"wall_loops": "1"}, 20.0, 1240.0, 1),
+    ],
+)
+def test_settings_of_bambu_and_orca_are_read(tmp_path, widths, wall, own, infill, density, walls):
+    metadata = "".join('<metadata key="{}" value="{}"/>'.format(*pair) for pair in own.items())
+    project = json.dumps(BAMBU_SETTINGS | widths)
+    path = bambu(tmp_path / "a.3mf", INSIDE, "modifier_part", metadata, project)
+    (block,) = document(path)["objects"]
+    if walls == 1:
+        wall = {1.4: 0.4, 1.35: 0.45}[wall]
+    assert block["kind"] == "printed"
+    assert (block["print"]["infill"], block["print"]["walls"]) == (infill, walls)
+    core = (40 - 2 * wall) * (20 - 2 * wall) * (24 - 1.8) * 1e-9
+    assert close(block["mass"], density * (19_200e-9 - (1.0 - infill / 100.0) * core), 1e-6)

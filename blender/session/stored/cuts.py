@@ -29,13 +29,18 @@ from ....core.cuts import (
     partly_compared,
     spill_tilt,
 )
+from ....core.mesh import join_surfaces
 from ....core.numerics import Array
 from ....core.solid import COMPONENTS_OVERLAP, measure_solid
 from ....core.verdict import Finding, MeasureError, Procedure, QueryError
 from ...bodies.cuts import cut_fill_against, world_surface
+from ...bodies.measure_body import THREADS
+from ...bodies.mesh import mesh_body
 from ...read.fingerprint import matrix_hash
+from ...read.objects import read_object
 from ...scale import meters_per_unit
 from ...scene.rigid_world import down
+from ...settings.options import object_settings
 from .. import memory
 from ..findings import NO_SUCH_NAME
 from ..tracking import handlers, staleness, stamps
@@ -62,11 +67,15 @@ class Level:
         return float(self.liquid.volume[0])
 
     @cached_property
-    def surface_moments(self) -> tuple[float, float]:
-        """The least and the largest second moment of the free surface about its centroid, m⁴."""
-        central = self.liquid.face.at(0).about_center().second()
-        _, low, high = np.linalg.eigvalsh(central).tolist()
-        return low, high
+    def surface_moments(self) -> tuple[float, float, float]:
+        """The area of the free surface, and its least and largest second moment about its centroid,
+        m⁴; zeros if there is none.
+        """
+        surface = self.hollow.free_surface(self.liquid, self.height)
+        if surface is None:
+            return 0.0, 0.0, 0.0
+        _, low, high = np.linalg.eigvalsh(surface.about_center().second()).tolist()
+        return surface.total, low, high
 
     @cached_property
     def table(self) -> Array:
@@ -78,6 +87,8 @@ class Level:
     @cached_property
     def triangles(self) -> Array:
         """(k, 3, 3) triangles of the surface."""
+        if not self.surface_moments[0]:
+            return np.empty((0, 3, 3))
         edited = self.cut()
         places = [[vertex.co for vertex in face.verts] for face in edited.faces]
         edited.free()
@@ -86,13 +97,17 @@ class Level:
 
     def cut(self) -> bmesh.types.BMesh:
         """Return the surface as triangles about its centroid, to be freed."""
-        origin = self.liquid.face.center[0]
+        hollow, origin = self.hollow, self.liquid.face.center[0]
+        # A plane through the rim's edges alone cuts no face.
+        step = 1e-6 * float(np.ptp(hollow.points, axis=0).max())
+        lowered = max(self.height - max(hollow.spill - step, hollow.bottom), 0.0) * hollow.up
         edited = bmesh.new()
-        vertices = [edited.verts.new(point) for point in self.hollow.points - origin]
-        for triangle in self.hollow.triangles.tolist():
+        vertices = [edited.verts.new(point) for point in hollow.points - origin + lowered]
+        # A mesh may have a face twice.
+        for triangle in np.unique(np.sort(hollow.triangles, axis=1), axis=0).tolist():
             edited.faces.new([vertices[i] for i in triangle])
         everything = [*edited.verts, *edited.edges, *edited.faces]
-        up = Vector(self.hollow.up)
+        up = Vector(hollow.up)
         found = bmesh.ops.bisect_plane(edited, geom=everything, plane_co=(0, 0, 0), plane_no=up)
         edges = [item for item in found["geom_cut"] if isinstance(item, bmesh.types.BMEdge)]
         kept = {vertex for edge in edges for vertex in edge.verts}
@@ -119,9 +134,13 @@ def _vessel(obj: Object, context: Context) -> tuple[Array, NDArray[np.integer], 
     surface = world_surface(obj, depsgraph, unit)
     solid = measure_solid(surface)
     if any(found.code == COMPONENTS_OVERLAP for found in solid.findings):
-        raise MeasureError(LEVEL_UNAVAILABLE, fault=SHARED_SPACE)
+        if object_settings(obj, context.scene).overlap != "union":
+            raise MeasureError(LEVEL_UNAVAILABLE, fault=SHARED_SPACE)
+        reading = read_object(obj, depsgraph, edges=False)
+        body = mesh_body(reading, unit, shell=False, union=True, threads=THREADS)
+        surface = join_surfaces([*body.surfaces(False)])
     # The hole of an open cup is not to be capped.
-    if solid.method in (Procedure.EXACT, Procedure.REORIENTED):
+    elif solid.method in (Procedure.EXACT, Procedure.REORIENTED):
         surface = solid.repaired_surface
     points = surface.points.astype(np.float64)
     return points, surface.all_triangles()[0], -down(context.scene)
@@ -214,7 +233,8 @@ def add_table(context: Context, obj: Object, level: Level) -> Object:
     vertices = [edited.verts.new((volume, 0.0, height)) for height, volume in shares.tolist()]
     for start, stop in zip(vertices, vertices[1:]):
         edited.edges.new((start, stop))
-    return _add_mesh(context, obj.name + " Level Table", edited, np.array(obj.location))
+    place = np.array(obj.matrix_world.translation)
+    return _add_mesh(context, obj.name + " Level Table", edited, place)
 
 
 def _add_mesh(context: Context, name: str, edited: bmesh.types.BMesh, place: Array) -> Object:

@@ -38,6 +38,7 @@ CUP = lathed((0, 0), (1.2, 0), (1.2, 3), (1, 3), (1, 0.5), (0, 0.5))
 FLASK = lathed((0, 0), (2.2, 0), (0.7, 3), (0.5, 3), (2, 0.3), (0, 0.3))
 SHEET = lathed((0, 0), (1, 0), (1.5, 2))
 TANK = joined(box((0, 0, 0), (4, 4, 4)), inverted(box((1, 1, 1), (3, 2, 3))))
+BICONE = inverted(lathed((0, 0), (1, 1), (0, 2)))
 VESSELS = [
     (CUP, 0.5, 3, CIRCLE * 2.5),
     (FLASK, 0.3, 3, cone_volume(2, 0.5, 2.7)),
@@ -75,6 +76,31 @@ def test_free_surface_of_a_cup_is_its_polygon():
     central = liquid.face.about_point(liquid.face.center)
     second = CIRCLE / 12 * (2 + np.cos(2 * np.pi / SIDES))
     np.testing.assert_allclose(central.second()[0], np.diag([second, second, 0]), atol=1e-14)
+
+
+def test_free_surface_ends_where_a_cavity_is_full():
+    for vessel, top in ((TANK, 3.0), (joined(box((-9, -9, -9), (9, 9, 9)), BICONE), 2.0)):
+        hollow = find_hollow(*vessel)
+        for level in (top, top + 1.0):
+            assert hollow.free_surface(hollow.contents(level), level) is None
+        assert hollow.free_surface(hollow.contents(1.5), 1.5).total > 0.5
+    assert abs(hollow.free_surface(hollow.contents(1.5), 1.5).total - CIRCLE / 4) < 1e-12
+
+
+def test_triangle_with_a_corner_twice_changes_nothing():
+    points, triangles = CUP
+    inner = 4 * SIDES
+    points = np.concatenate([points, points[[inner]]])
+    whole = find_hollow(*CUP)
+    extra = [[inner, inner + 1, inner + 1], [inner, inner - SIDES, len(points) - 1]]
+    found = find_hollow(points, np.concatenate([triangles, extra]))
+    assert found.capacity == whole.capacity
+    np.testing.assert_array_equal(found.triangles, whole.triangles)
+
+
+def test_level_without_volume_is_below_the_bottom():
+    with pytest.raises(MeasureError, match="below the bottom"):
+        find_hollow(*lathed((0, 0), (1, 1))).contents(1e-300)
 
 
 def test_level_beside_a_pillar_and_under_a_hook():

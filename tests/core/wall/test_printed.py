@@ -4,8 +4,10 @@
 
 import numpy as np
 import pytest
+from body_moments.core.bodies.pocket import ball_moments
 from body_moments.core.mesh import Surface
 from body_moments.core.polyhedron import polyhedron_moments
+from body_moments.core.verdict import MeasureError
 from body_moments.core.wall import core_surface
 
 from tests.close import close
@@ -73,6 +75,21 @@ FIN = [(0, 0), (20, 0), (20, 10), (10.5, 10), (10.5, 25), (9.5, 25), (9.5, 10), 
 def test_thin_fin_on_block_is_solid():
     block = (20 - 2 * WALL) * (10 - 2 * WALL) * (20 - 2 * LAYERS)
     assert close(core_volume(prism(FIN, 20.0, (10.0, 5.0))), block, 1e-12)
+
+
+STAIR = [(0, 0), (40, 0), (40, -10), (50, -10), (50, 0.5), (10, 0.5), (10, 10), (0, 10)]
+
+
+def test_web_between_planes_of_blocks_is_refused():
+    # The web lies between the bottom plane of the left block and the top plane of the right one.
+    points = np.array([(x, y, z) for z in (0.0, 30.0) for x, y in STAIR], float)
+    caps = [(0, 6, 7), (0, 5, 6), (0, 1, 5), (1, 4, 5), (1, 2, 4), (2, 3, 4)]
+    faces = [(a, c, b) for a, b, c in caps] + [(a + 8, b + 8, c + 8) for a, b, c in caps]
+    for i in range(8):
+        j = (i + 1) % 8
+        faces += [(i, j, j + 8), (i, j + 8, i + 8)]
+    with pytest.raises(MeasureError, match="between planes of thick"):
+        core_volume(Surface.from_triangles(points, faces))
 
 
 def test_wall_of_tube_is_solid_where_thin():
@@ -186,3 +203,16 @@ def test_core_agrees_with_count_of_voxels(name):
     core = core_surface(surface, WALL, LAYERS, LAYERS)
     volume, area = polyhedron_moments(core, area_order=0, allow_open=True)
     assert abs(volume.total - voxel_core(inside, low, high)) < 0.5 * STEP * area.total
+
+
+def test_ball_has_moments_of_its_quadrature():
+    nodes, weights = np.polynomial.legendre.leggauss(12)
+    radius, around = (nodes + 1.0) * 1.5, np.pi * np.arange(24) / 12.0
+    r, z, turn = np.meshgrid(radius, nodes, around, indexing="ij")
+    across = np.sqrt(1.0 - z**2)
+    points = np.stack([across * np.cos(turn), across * np.sin(turn), z]) * r
+    weight = r**2 * (1.5 * weights)[:, None, None] * weights[:, None] * np.pi / 12.0
+    found = ball_moments(np.zeros(3), 3.0, 6)
+    for exponents, moment in zip(found, found.raw):
+        powers = np.prod([x**n for x, n in zip(points, exponents)], axis=0)
+        assert abs(moment - (weight * powers).sum()) < 1e-9 * 3.0 ** (3 + sum(exponents))
