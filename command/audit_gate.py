@@ -48,11 +48,11 @@ def apply(document: dict[str, Any], options: Namespace) -> dict[str, Any]:
                 continue
             if is_light:
                 found = found | {"severity": str(Severity.NOTE)}
-            known = options.known or ()
-            # An expectation is that of this run.
-            if known and found["code"] != AUDIT_TOTAL:
-                if _key(found, link, options.baseline) in known:
-                    found = found | {"known": True}
+            is_known = (
+                options.known is not None and _key(found, link, options.baseline) in options.known
+            )
+            if is_known and found["code"] != AUDIT_TOTAL:
+                found = found | {"known": True}
             findings.append(found)
         links.append(link | {"findings": findings})
     whole, *links = links
@@ -82,7 +82,7 @@ def read_baseline(path: Path) -> set[Key]:
 
 
 def write_baseline(path: Path, documents: Sequence[dict[str, Any]]) -> None:
-    """Write all findings but notes, with files relative to the baseline's folder.
+    """Write all findings but notes and expectations, with files relative to the baseline's folder.
 
     Raises OSError.
     """

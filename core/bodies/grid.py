@@ -45,6 +45,9 @@ from .mesh_body import MAX_MASS_MOMENT
 MAX_SAMPLES = 1 << 29  # in the box that holds the grid
 PREVIEW_CELLS = 1 << 18  # in a grid that follows a slider
 TRILINEAR = 2
+LARGEST_WHOLE = 1 << 53  # float64 holds all whole numbers below
+FLOAT32_U = 2.0**-23  # relative error of a header's slope and intercept, in float32
+MAX_ROUNDING = 0.01  # of a label, beyond which it is a fraction
 
 
 @dataclass(frozen=True, eq=False)
@@ -278,7 +281,10 @@ def threshold_grid_body(
 def label_value(label: int, slope: float = 1.0, intercept: float = 0.0) -> int:
     """Return the whole number that a stored label stands for, or raise ReadError."""
     value = label * slope + intercept
-    if value != round(value):
+    if not abs(value) < LARGEST_WHOLE:
+        raise ReadError(LABELS_UNFIT, cause="a label is too large")
+    rounding = FLOAT32_U * max(abs(label * slope), abs(intercept))
+    if abs(value - round(value)) > min(rounding, MAX_ROUNDING):
         raise ReadError(LABELS_UNFIT, cause="a sample is no whole number")
     return round(value)
 

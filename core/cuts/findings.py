@@ -10,6 +10,7 @@ PLANE_MISSES = "the plane misses it. Choose a plane through it"
 CLOSED_SURFACE = "the surface is closed. Delete its bottom, or use Level"
 NO_RIM = "the surface has no rim. Choose a height or an object"
 RIM_UPRIGHT = "its rim stands upright or is too short for a plane. Choose a height or an object"
+PLANE_FAR = "the plane is too far away for a volume. Choose a height nearer to it"
 PLANE_UPRIGHT = "its plane stands upright or its scale is zero. Turn it, or choose a height"
 OVERHANGS = (
     "faces overhang, so that there are several heights at one place. Remove them, or compare with "

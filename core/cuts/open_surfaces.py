@@ -40,7 +40,7 @@ from ..numerics import (
     segment_ranges,
     sums_by_index,
 )
-from ..verdict import MeasureError
+from ..verdict import MAX_COORDINATE, MeasureError
 from .findings import (
     APART,
     CLOSED_SURFACE,
@@ -48,6 +48,7 @@ from .findings import (
     NO_FACES_TO_CUT,
     NO_RIM,
     OVERHANGS,
+    PLANE_FAR,
     RIM_UPRIGHT,
 )
 from .part_below import measure_below
@@ -117,7 +118,7 @@ def cut_fill(
     Raises
     ------
     MeasureError
-        If the surface is closed, or has no faces.
+        If the surface is closed or has no faces, or the plane is too far away.
 
     Examples
     --------
@@ -129,6 +130,8 @@ def cut_fill(
     """
     points, triangles, up = _open_surface(points, triangles, normal)
     offset = offset / float(np.linalg.norm(np.asarray(normal, np.float64)))
+    if not abs(offset) < MAX_COORDINATE:
+        raise MeasureError(CUT_FILL_UNAVAILABLE, fault=PLANE_FAR)
     both = measure_below(
         points, triangles, [-up, up], [-offset, offset], displacement, is_open=True
     )

@@ -53,11 +53,11 @@ def contents_record(surface: Surface, level: float) -> dict[str, Any] | None:
         liquid = hollow.contents(level)
     except MeasureError:
         return None
-    surface = hollow.free_surface(liquid, level)
+    free = hollow.free_surface(liquid, level)
     levels = np.linspace(hollow.bottom, hollow.spill, TABLE_ROWS)
     return {
         **_moments("volume", liquid.part.at(0)),
-        "surface": None if surface is None else _moments("area", surface),
+        "surface": None if free is None else _moments("area", free),
         "bottom": hollow.bottom,
         "spill": hollow.spill,
         "capacity": hollow.capacity,

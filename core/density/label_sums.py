@@ -21,7 +21,7 @@ from ..verdict import ReadError
 from .findings import LABELS_UNFIT
 from .spline_grid import Blocks
 
-ROW = 1 << 12  # voxels along the last axis of a block
+ROW = 1 << 12  # voxels along each axis of a block
 BLOCK = 1 << 18  # voxels of a block, at most, and bins of its sums
 TABLE = 1 << 20  # span of label numbers that are looked up in a table
 MAX_LABELS = 10_000
@@ -43,12 +43,14 @@ class _Numbering:
         """Return the numbers of a block's labels, or raise ReadError if it has no labels."""
         if block.dtype.kind == "f":
             whole = np.rint(block)
-            if not ((whole == block) & (np.abs(whole) < LARGEST)).all():
+            if not (whole == block).all():
                 raise ReadError(LABELS_UNFIT, cause="a sample is no whole number")
+            if not (np.abs(whole) < LARGEST).all():
+                raise ReadError(LABELS_UNFIT, cause="a label is too large")
             block = whole.astype(np.int64)
         low, high = int(block.min()), int(block.max())
         if high >= LARGEST:
-            raise ReadError(LABELS_UNFIT, cause="a sample is no whole number")
+            raise ReadError(LABELS_UNFIT, cause="a label is too large")
         if high - low >= TABLE:
             labels, inverse = np.unique(block, return_inverse=True)
             return self._numbers(labels.tolist())[inverse.reshape(block.shape)]
@@ -143,17 +145,15 @@ def label_moments(sums: NDArray) -> Moments:
 
 
 def _blocks(samples: NDArray | Blocks) -> Iterator[tuple[tuple[int, int, int], NDArray]]:
-    """Yield the offsets and the values of blocks of at most BLOCK voxels in rows of at most
-    ROW.
-    """
+    """Yield the offsets and the values of blocks of at most BLOCK voxels, ROW along each axis."""
     if callable(samples):
         for offset, array in samples():
             for own, block in _blocks(array):
                 yield tuple(np.add(offset, own).tolist()), block
         return
     depth = min(samples.shape[2], ROW)
-    columns = min(max(1, BLOCK // max(depth, 1)), samples.shape[1])
-    planes = max(1, BLOCK // max(depth * columns, 1))
+    columns = min(max(1, BLOCK // max(depth, 1)), samples.shape[1], ROW)
+    planes = min(max(1, BLOCK // max(depth * columns, 1)), ROW)
     for i, j, k in np.ndindex(
         -(-samples.shape[0] // planes),
         -(-samples.shape[1] // max(columns, 1)),

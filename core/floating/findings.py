@@ -6,6 +6,10 @@ from ..verdict import error, warning
 
 OPEN_HULL = "its surface does not close. Close the holes, or set Kind to Solid"
 SHARED_SPACE = "parts overlap, so that they would displace water twice. Unite them, or move them"
+FLOODED_OUTSIDE = (
+    "a flooded space reaches out of the hull or overlaps another. Keep it inside, or make its Part "
+    "Body"
+)
 NO_BODY = "it has no volume that displaces the liquid. Use a mesh"
 NO_MASS = "it has no mass. Set a Density or a Mass"
 NO_GRAVITY = "the scene has no gravity. Turn on Gravity in the scene's properties"

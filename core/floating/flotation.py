@@ -278,7 +278,8 @@ class FloatingBody:
         return rest
 
     def find_rests(self) -> list[Flotation]:
-        """Return the positions of rest found from 26 starts, the lowest energy first.
+        """Return the positions of rest found from 26 starts, the lowest energy first, without those
+        in which liquid runs in.
 
         Raises
         ------
@@ -293,9 +294,10 @@ class FloatingBody:
                 continue
             if not any(rest.is_near(other, SAME_ATTITUDE) for other in found):
                 found.append(rest)
-        if not found:
+        dry = [rest for rest in found if rest.depth_of_openings <= 0.0]
+        if not dry:
             raise MeasureError(FLOAT_UNAVAILABLE, fault=NO_REST)
-        return sorted(found, key=lambda rest: rest.energy)
+        return sorted(dry, key=lambda rest: rest.energy)
 
     def _descend(self, state: Flotation, known: Sequence[Flotation] = ()) -> Flotation:
         """Return the minimum of the energy downhill, or the known one that comes near."""

@@ -8,16 +8,23 @@ hollows that are open upward keep the liquid out as long as their rims are above
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..bodies import MeshBody, WallBody
-from ..cuts import find_hollow
+from ..cuts import Hollow, find_hollow
 from ..measurement import Body
-from ..mesh import Bvh, Surface, intersecting_pairs, sort_components, uncancelled_sides
+from ..mesh import (
+    Bvh,
+    Surface,
+    first_at_equal_position,
+    intersecting_pairs,
+    sort_components,
+    uncancelled_sides,
+)
 from ..numerics import Array, Index, Mask
 from ..solid import (
     COMPONENTS_OVERLAP,
@@ -28,7 +35,7 @@ from ..solid import (
 )
 from ..verdict import MeasureError, Procedure, welding_tolerance
 from ..wall import split_thickness
-from .findings import FLOAT_UNAVAILABLE, NO_BODY, OPEN_HULL, SHARED_SPACE
+from .findings import FLOAT_UNAVAILABLE, FLOODED_OUTSIDE, NO_BODY, OPEN_HULL, SHARED_SPACE
 
 NOT_UNITED = {COMPONENTS_OVERLAP, SELF_INTERSECTING}
 
@@ -38,11 +45,14 @@ MAX_HOLLOWS = 8
 
 @dataclass(frozen=True, eq=False)
 class Hull:
-    """A closed surface, (n, 3) points and (m, 3) triangles, and the (k, 3) points of its rims."""
+    """A closed surface, (n, 3) points and (m, 3) triangles, the (k, 3) points of its rims, and the
+    (m,) part of each triangle.
+    """
 
     points: Array
     triangles: NDArray[np.integer]
     openings: Array
+    part: Index
 
 
 def outer_surface(body: Body) -> Iterator[tuple[SolidIntegrals, Array]]:
@@ -89,7 +99,8 @@ def find_hull(bodies: Iterable[Body]) -> Hull:
     faces = np.concatenate(triangles)
     owner = np.concatenate(part)
     kept = _outer_parts(joined, faces, owner, np.concatenate(caps), number)
-    return Hull(joined, faces[kept[owner]], np.concatenate(rims))
+    is_kept = kept[owner]
+    return Hull(joined, faces[is_kept], np.concatenate(rims), owner[is_kept])
 
 
 def _outer_parts(
@@ -100,11 +111,7 @@ def _outer_parts(
     """
     parts = sort_components(points, triangles, part, number)
     is_solid = parts.volume > 0.0
-    low, high = points.min(axis=0), points.max(axis=0)
-    reach = float(np.maximum(np.abs(low), np.abs(high)).max())
-    tolerance = welding_tolerance(
-        float(np.linalg.norm(high - low)), float(np.spacing(np.float32(reach)))
-    )
+    tolerance = _tolerance(points)
     relations = classify_pairs(points, parts, is_solid, tolerance)
     kept = is_solid.copy()
     kept[relations.contained_in[:, 0]] = False
@@ -116,13 +123,48 @@ def _outer_parts(
         pierced, unfinished = intersecting_pairs(tree, small, large, tolerance)
         if (pierced | unfinished).any():
             raise MeasureError(FLOAT_UNAVAILABLE, fault=SHARED_SPACE)
-        kept[small] = False
+        has_cap = np.zeros(number, bool)
+        has_cap[part[is_cap]] = True
+        kept[np.where(has_cap[small] & ~has_cap[large], large, small)] = False
     return kept
+
+
+def _tolerance(points: Array) -> float:
+    low, high = points.min(axis=0), points.max(axis=0)
+    reach = float(np.maximum(np.abs(low), np.abs(high)).max())
+    return welding_tolerance(
+        float(np.linalg.norm(high - low)), float(np.spacing(np.float32(reach)))
+    )
+
+
+def are_inside(hull: Hull, spaces: Sequence[Hull], tanks: Sequence[Hull]) -> Mask:
+    """Return a mask of the flooded spaces that lie in a hull; MeasureError if one reaches through
+    its surface, or overlaps another one or a tank.
+    """
+    every = [hull, *spaces, *tanks]
+    points = np.concatenate([each.points for each in every])
+    corners = np.cumsum([0, *[len(each.points) for each in every]])
+    first = np.cumsum([0, *[int(each.part.max()) + 1 for each in every]])
+    triangles = np.concatenate([each.triangles + at for each, at in zip(every, corners)])
+    part = np.concatenate([each.part + at for each, at in zip(every, first)])
+    parts = sort_components(points, triangles, part, int(first[-1]))
+    is_solid = parts.volume > 0.0
+    relations = classify_pairs(points, parts, is_solid, _tolerance(points))
+    owner = np.repeat(np.arange(len(every)), np.diff(first))
+    is_flooded = (owner > 0) & (owner <= len(spaces))
+    inner, outer = relations.contained_in.T
+    in_hull = owner[outer] == 0
+    twice = (is_flooded[inner] | is_flooded[outer]) & ~in_hull
+    if is_flooded[relations.intersecting].any() or twice.any():
+        raise MeasureError(FLOAT_UNAVAILABLE, fault=FLOODED_OUTSIDE)
+    is_outside = is_flooded & is_solid
+    is_outside[inner[in_hull]] = False
+    return np.bincount(owner, is_outside, len(every))[1 : len(spaces) + 1] == 0
 
 
 def fill_hollows(hull: Hull, up: Array) -> Hull:
     """Return the hull with the hollows that are open upward filled up to lids on their rims."""
-    points, triangles, openings = hull.points, hull.triangles, hull.openings
+    points, triangles, openings, part = hull.points, hull.triangles, hull.openings, hull.part
     for _ in range(MAX_HOLLOWS):
         try:
             hollow = find_hollow(points, triangles, up)
@@ -139,8 +181,33 @@ def fill_hollows(hull: Hull, up: Array) -> Hull:
         rim = hollow.points[start]
         count = len(hollow.points)
         lid = np.stack([stop, start, np.full(len(start), count)], axis=1)
-        added = np.concatenate([hollow.triangles, lid])
-        triangles = np.concatenate([triangles, added + len(points)])
+        added = np.concatenate([hollow.triangles, lid]) + len(points)
+        # What lies in the filled hollow displaces nothing more.
+        is_wall = np.isin(part, part[_same_triangles(points, triangles, hollow)])
         points = np.concatenate([points, hollow.points, rim.mean(axis=0)[None]])
+        number = int(part.max()) + 1
+        if not is_wall.all():
+            kept = _outer_parts(
+                points,
+                np.concatenate([triangles[~is_wall], added]),
+                np.concatenate([part[~is_wall], np.full(len(added), number)]),
+                np.arange(-np.count_nonzero(~is_wall), len(added)) >= len(hollow.triangles),
+                number + 1,
+            )
+            if not kept[number]:
+                raise MeasureError(FLOAT_UNAVAILABLE, fault=SHARED_SPACE)
+            is_kept = is_wall | kept[part]
+            triangles, part = triangles[is_kept], part[is_kept]
+        triangles = np.concatenate([triangles, added])
+        part = np.concatenate([part, np.full(len(added), number)])
         openings = np.concatenate([openings, rim])
-    return hull if triangles is hull.triangles else Hull(points, triangles, openings)
+    return hull if triangles is hull.triangles else Hull(points, triangles, openings, part)
+
+
+def _same_triangles(points: Array, triangles: NDArray[np.integer], hollow: Hollow) -> Mask:
+    """Return an (m,) mask of the triangles at the places of a hollow's walls."""
+    place = first_at_equal_position(np.concatenate([points, hollow.points]))
+    walls = np.sort(place[hollow.triangles + len(points)], axis=1)
+    every = np.concatenate([walls, np.sort(place[triangles], axis=1)])
+    same = np.unique(every, axis=0, return_inverse=True)[1].reshape(-1)
+    return np.isin(same[len(walls) :], same[: len(walls)])

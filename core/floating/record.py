@@ -15,9 +15,9 @@ from ..measurement import Body, Measurement
 from ..numerics import Array
 from ..verdict import MeasureError
 from ..verdict.finding import finding
-from .findings import HOLLOW_FLOODED, LIQUID_ENTERS
+from .findings import FLOAT_UNAVAILABLE, FLOODED_OUTSIDE, HOLLOW_FLOODED, LIQUID_ENTERS
 from .flotation import FloatingBody, Flotation, Tank, Vessel
-from .hulls import Hull, fill_hollows, find_hull
+from .hulls import Hull, are_inside, fill_hollows, find_hull
 from .righting import RightingCurve, righting_curve
 
 
@@ -60,15 +60,21 @@ def settle(
     wet = find_hull(bodies)
     dry = fill_hollows(wet, np.asarray(up, np.float64))
     lost = [find_hull([space]) for space in flooded]
-    liquids = []
+    liquids, closed = [], []
     for tank, fill, tank_density in tanks:
         hull = find_hull([tank])
+        closed.append(hull)
         vessel = Vessel(hull.points, hull.triangles, 1.0)
         liquids.append(Tank(replace(vessel, volume=fill * vessel.whole[0]), tank_density))
 
     def floating(hull: Hull) -> FloatingBody:
         points, triangles = hull.points, hull.triangles
-        for space in lost:
+        inside = are_inside(hull, lost, closed) if lost else ()
+        if hull is dry and not all(inside):
+            raise MeasureError(FLOAT_UNAVAILABLE, fault=FLOODED_OUTSIDE)
+        for space, is_inside in zip(lost, inside):
+            if not is_inside:  # in a flooded hollow
+                continue
             triangles = np.concatenate([triangles, space.triangles[:, ::-1] + len(points)])
             points = np.concatenate([points, space.points])
         return FloatingBody(points, triangles, mass, center, density, hull.openings, tuple(liquids))

@@ -28,6 +28,8 @@ MAX_TRIM_STEP = 0.2  # rad
 LEVEL_TRIM = 1e-12  # relative to the size: smaller trimming arms count as none
 ROUNDS = 40  # of the search for an angle
 ANGLE_ATOL = 1e-9
+SEARCH_STEP = np.radians(2.5)
+FIRST_HEEL = 1e-3  # rad; the arm at rest is zero, so that its sign is that beside it
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,8 +38,8 @@ class RightingCurve:
 
     `arms`: (k,) GZ, m. `trims`: (k,) rad. `energies`: (k,) work against the arms per weight from
     rest, m. `is_free`: whether the trim is free. `capsize`, `flooding`: the angles beyond which it
-    turns over, or liquid runs in through an opening, below and above zero; nan if not among the
-    angles.
+    turns over, or liquid runs in through an opening, below and above zero; nan if not between zero
+    and the angles.
     """
 
     angles: Array
@@ -51,8 +53,8 @@ class RightingCurve:
     @property
     def stable_range(self) -> tuple[float, float]:
         """The angles between which it comes back, as far as they are known."""
-        low = np.fmax(np.fmax(self.capsize[0], self.flooding[0]), self.angles[0])
-        high = np.fmin(np.fmin(self.capsize[1], self.flooding[1]), self.angles[-1])
+        low = np.fmax(np.fmax(self.capsize[0], self.flooding[0]), min(self.angles[0], 0.0))
+        high = np.fmin(np.fmin(self.capsize[1], self.flooding[1]), max(self.angles[-1], 0.0))
         return float(low), float(high)
 
 
@@ -94,8 +96,17 @@ def righting_curve(
     >>> float(np.degrees(curve.capsize[1]).round(6))
     90.0
     """
-    angles = np.unique(float_array("angles", angles, "k", finite=True))
-    check_filled("angles", angles)
+    wanted = np.unique(float_array("angles", angles, "k", finite=True))
+    check_filled("angles", wanted)
+    # The search has a grid of its own: between the angles asked for it may turn over and back.
+    low, high = min(wanted[0], 0.0), max(wanted[-1], 0.0)
+    grid = np.arange(np.ceil(low / SEARCH_STEP), np.floor(high / SEARCH_STEP) + 1.0) * SEARCH_STEP
+    grid = np.append(
+        grid, [sign * FIRST_HEEL for sign in (-1, 1) if low < sign * FIRST_HEEL < high]
+    )
+    is_new = np.abs(grid[:, None] - wanted).min(axis=1) > ANGLE_ATOL
+    angles = np.union1d(wanted, grid[is_new])
+    is_wanted = np.isin(angles, wanted)
     axis = rest.heel_axis if forward is None else float_array("forward", forward, 3)
     axis = axis - rest.up * float(rest.up @ axis)
     axis = axis / float(np.linalg.norm(axis))
@@ -119,15 +130,22 @@ def righting_curve(
     capsize, flooding = [], []
     for sign in (-1.0, 1.0):
         side = np.flatnonzero(sign * angles >= 0.0)[:: int(sign)]
-        capsize.append(
-            _first_change(angles, sign * arms, side, states, lambda *at, s=sign: s * arm_at(*at))
-        )
+        heeled_side = side[np.abs(angles[side]) > ANGLE_ATOL]
+        righting = sign * arms
+        if len(heeled_side) and righting[heeled_side[0]] <= 0.0:
+            capsize.append(0.0)
+        else:
+            capsize.append(
+                _first_change(
+                    angles, righting, heeled_side, states, lambda *at, s=sign: s * arm_at(*at)
+                )
+            )
         flooding.append(_first_change(angles, dry, side, states, depth_at))
     return RightingCurve(
-        angles,
-        arms,
-        np.array([trim for trim, _ in states]),
-        np.array([state.energy for _, state in states]) - rest.energy,
+        wanted,
+        arms[is_wanted],
+        np.array([trim for trim, _ in states])[is_wanted],
+        np.array([state.energy for _, state in states])[is_wanted] - rest.energy,
         free_trim,
         tuple(capsize),
         tuple(flooding),

@@ -148,9 +148,11 @@ def build_tree(description: Description, values: Mapping[str, float]) -> Tree:
             waiting.append(joint.parent)
         for below in reversed(waiting):
             if below not in poses:
-                pose = _pose(links, above.get(below), links[below], poses, values)
+                with np.errstate(invalid="ignore", over="ignore"):
+                    pose = _pose(links, above.get(below), links[below], poses, values)
                 if pose is not None and not (np.abs(pose.matrix) <= LARGEST).all():
-                    findings.append(_unusable(below, "its place is no number, or too far away"))
+                    cause = "its place is no number, or too far away"
+                    findings.append(_unusable(below, cause))
                     pose = None
                 poses[below] = pose
     return Tree(description, above, poses, findings)

@@ -64,7 +64,7 @@ def read_label_table(path: Path, limits: Limits) -> dict[int, Label]:
     for number, line in rows[1 if is_table else 0 :]:
         try:
             label, entry = _csv_row(line, columns, delimiter) if is_table else _text_row(line)
-        except (ValueError, IndexError) as error:
+        except (ValueError, IndexError, csv.Error) as error:
             raise _misread(number, line) from error
         if label in labels:
             raise _misread(number, line)
@@ -81,9 +81,11 @@ def _misread(number: int, line: str) -> FileError:
 def _columns(number: int, line: str) -> tuple[dict[str, int], str]:
     """Return the places of the columns that a .csv file's first line names, and its delimiter."""
     delimiter = max(",;\t", key=line.count)
-    names = [
-        re.sub(r"[^a-z0-9]", "", word.lower().replace("³", "3")) for word in _split(line, delimiter)
-    ]
+    try:
+        words = _split(line, delimiter)
+    except csv.Error as error:
+        raise _misread(number, line) from error
+    names = [re.sub(r"[^a-z0-9]", "", word.lower().replace("³", "3")) for word in words]
     places: dict[str, int] = {}
     for column, known in _COLUMNS.items():
         for name in known:
@@ -121,8 +123,10 @@ def _text_row(line: str) -> tuple[int, Label]:
 
 
 def _color(values: Iterable[float]) -> tuple[float, ...]:
-    """Return a color from 0 to 1; values may be up to 255."""
+    """Return a color from 0 to 1; values may be up to 255. Raises ValueError."""
     channels = [*values]
+    if not np.isfinite(channels).all():
+        raise ValueError("a color is not finite")
     unit = 255.0 if max(channels) > 1.0 else 1.0
     return tuple(channel / unit for channel in channels)
 

@@ -117,6 +117,8 @@ def _extension_labels(text: bytes, order: Literal["little", "big"]) -> dict[int,
     def begin(name: str, values: dict[str, str]) -> None:
         if name == "Label":
             color = [parse_number(values[channel]) for channel in ("Red", "Green", "Blue")]
+            if not np.isfinite(color).all():
+                raise ValueError("a color is not finite")
             current[:] = [parse_whole(values["Key"]), tuple(color), ""]
 
     def add(text: str) -> None:

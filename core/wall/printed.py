@@ -100,7 +100,8 @@ def _meeting(corners: Array, normals: Array, moves: Array) -> Array:
     if not reach > 0.0:
         return moves
     depth, hit = _depths(starts, -np.repeat(normals, count, axis=0), corners, reach)
-    own = np.repeat(plane, count)
+    triangle = np.repeat(np.arange(len(corners)), count)
+    own = plane[triangle]
     sampled = np.repeat(moves, count)
 
     def limited(limits: Array) -> Array:
@@ -111,7 +112,13 @@ def _meeting(corners: Array, normals: Array, moves: Array) -> Array:
 
     both = np.maximum(sampled + moves[hit], np.finfo(float).tiny)
     first = limited(np.where(depth < reach, np.minimum(depth, reach) * sampled / both, np.inf))
-    return limited(np.where(depth < reach, depth - first[hit], np.inf))
+    moved = limited(np.where(depth < reach, depth - first[hit], np.inf))
+    facing = np.einsum("ri,ri->r", normals[triangle], normals[hit]) < -1.0 + SAME_PLANE
+    if (facing & (moved[triangle] + moved[hit] > depth + SAME_PLANE * reach)).any():
+        raise ReadError(
+            PRINT_UNFIT, fault="a thin place lies between planes of thick ones. Cut it there"
+        )
+    return moved
 
 
 def _depths(starts: Array, rays: Array, corners: Array, reach: float) -> tuple[Array, Index]:

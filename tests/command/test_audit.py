@@ -203,6 +203,16 @@ def test_text_and_table_state_the_assumption_once(tmp_path):
     ]
 
 
+def test_no_baseline_knows_an_unexpected_total(tmp_path):
+    path, baseline = description(tmp_path / "r.urdf", RIGHT), tmp_path / "known.json"
+    assert answer("--expect-mass", "99", "--write-baseline", baseline, path)[1] == 1
+    known = json.loads(baseline.read_text(encoding="utf-8"))
+    assert known["findings"] == []
+    known["findings"] = [{"file": "r.urdf", "link": "", "code": "audit_total"}]
+    baseline.write_text(json.dumps(known), encoding="utf-8")
+    assert answer("--expect-mass", "12", "--baseline", baseline, path)[1] == 1
+
+
 def test_gate_counts_new_findings_of_its_level_alone(tmp_path):
     path, baseline = description(tmp_path / "r.urdf", RIGHT, WRONG), tmp_path / "known.json"
     assert [answer("--fail-on", level, path)[1] for level in ("error", "warning", "never")] == [

@@ -113,3 +113,17 @@ def test_solid_without_a_volume_is_refused():
     add_box("Box").body_moments.kind = "SHELL"
     (error,) = document("--below", "0")["errors"]
     assert "No level" in error["reason"]
+
+
+@pytest.mark.parametrize("height", [1e49, -1e49, 1e50, -1e300])
+def test_surface_against_a_far_height_is_exact_or_refused(height):
+    add_grid("Flat", lambda x, y: 0 * x)
+    found = document("--against", repr(height))
+    cut_fill = found["objects"][0]["cut_fill"]
+    if abs(height) >= 1e50:
+        assert cut_fill is None and "too far away" in found["errors"][0]["reason"]
+        return
+    assert cut_fill["net"] == pytest.approx(-4.0 * height)
+    side = cut_fill["fill" if height > 0 else "cut"]
+    assert side["center"] == pytest.approx([0, 0, height / 2], abs=abs(height) * 1e-12)
+    assert np.isfinite(cut_fill["error_bound"]["net"])

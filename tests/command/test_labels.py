@@ -90,6 +90,14 @@ def test_header_of_nrrd_names_segments(tmp_path):
     assert entry["name"] == "Spleen" and entry["label"]["color"] == [0.5, 0.25, 1.0]
 
 
+def test_color_of_segment_that_is_no_number_is_ignored(tmp_path):
+    lines = "Segment0_LabelValue:=2", "Segment0_Color:=nan 0.25 1"
+    path = written(tmp_path / "map.nrrd", nrrd(labels(), "spacings: 1 1 1", *lines))
+    _, document = run(tmp_path, path, "--label", "2")
+    (entry,) = document["objects"]
+    assert "color" not in entry["label"]
+
+
 def test_extension_of_nifti_names_labels(tmp_path):
     xml = (
         b'<CaretExtension><VolumeInformation Index="0"><LabelTable><Label Key="2" Red="0.5" '
@@ -115,6 +123,9 @@ def test_extension_of_nifti_names_labels(tmp_path):
         (["--label", "all"], "label,name\n1,Liver\n", "no label 2; it has 1"),
         (["--label", "all"], "Liver,Fat\n", "Line 1"),
         (["--label", "all"], "label,density\n1,heavy\n2,5\n", "Line 2"),
+        (["--label", "all"], "label,name\n1,{}\n".format("x" * 200_000), "Line 2"),
+        (["--label", "all"], "label,name,{}\n1,a,b\n".format("x" * 200_000), "Line 1"),
+        (["--label", "all"], "label,name,r,g,b\n1,a,nan,1,1\n", "Line 2"),
     ],
 )
 def test_labels_and_tables_that_do_not_fit_are_refused(tmp_path, options, table, part):

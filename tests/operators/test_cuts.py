@@ -11,6 +11,7 @@ import pytest
 from body_moments.blender.session import memory, stored
 from body_moments.core.cuts import cut_outline
 from body_moments.core.verdict import sentence
+from mathutils import Vector
 
 from tests.blender.batch_files import document
 from tests.blender.objects import add
@@ -119,7 +120,10 @@ def test_full_round_cavity_has_no_free_surface():
 
 
 def test_show_level_adds_meshes_and_nothing_else_moves():
+    parent = add(None, "Parent", (4, 5, 0))
     trough = add_trough()
+    trough.parent = parent
+    bpy.context.view_layer.update()
     LEVEL(by="VOLUME", volume=0.5)
     before = trough.matrix_world.copy()
     assert bpy.ops.object.body_moments_show_level() == {"FINISHED"}
@@ -130,6 +134,7 @@ def test_show_level_adds_meshes_and_nothing_else_moves():
     assert sum(face.area for face in surface.data.polygons) == pytest.approx(2.0)
     assert bpy.ops.object.body_moments_show_level(what="TABLE") == {"FINISHED"}
     table = bpy.data.objects["Trough Level Table"]
+    assert table.location == trough.matrix_world.translation == Vector((4, 5, 3))
     assert len(table.data.edges) == stored.cuts.TABLE_ROWS - 1
     assert trough.matrix_world == before
 

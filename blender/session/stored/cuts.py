@@ -233,7 +233,8 @@ def add_table(context: Context, obj: Object, level: Level) -> Object:
     vertices = [edited.verts.new((volume, 0.0, height)) for height, volume in shares.tolist()]
     for start, stop in zip(vertices, vertices[1:]):
         edited.edges.new((start, stop))
-    return _add_mesh(context, obj.name + " Level Table", edited, np.array(obj.location))
+    place = np.array(obj.matrix_world.translation)
+    return _add_mesh(context, obj.name + " Level Table", edited, place)
 
 
 def _add_mesh(context: Context, name: str, edited: bmesh.types.BMesh, place: Array) -> Object:

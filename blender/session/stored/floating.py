@@ -26,7 +26,7 @@ from ....core.floating import (
     righting_curve,
     settle,
 )
-from ....core.numerics import Array, rotation_matrix
+from ....core.numerics import Array
 from ....core.verdict import Finding, MeasureError
 from ...bodies.measure_body import measure_body
 from ...bodies.measure_object import measure_many
@@ -169,6 +169,7 @@ def _measure(context: Context, members: Iterable[Object]) -> None:
         obj
         for obj in members
         if measurable(obj)
+        and obj.body_moments_tank.role == "BODY"
         and (not properties.is_stored(obj) or staleness.stale_reason(obj, context.scene))
     ]
     results.store_measured(
@@ -332,5 +333,8 @@ def _held(obj: Object, afloat: Afloat, members: list[Object], scene: Scene) -> H
     is_at_rest = state.residual < PLACE_RTOL and abs(
         height - level
     ) < PLACE_RTOL * body.size + 1e-6 * abs(level)
-    axes = rotation_matrix(obj.matrix_world.to_quaternion())
+    # A mirrored matrix has no rotation of its own: its X axis counts as the mirrored one.
+    axes = present[0, :3, :3] / np.linalg.norm(present[0, :3, :3], axis=0)
+    if np.linalg.det(axes) < 0.0:
+        axes[:, 0] *= -1.0
     return Held(afloat, state, turn, up, is_at_rest, *heel_and_trim(up, axes))

@@ -4,6 +4,7 @@
 
 import numpy as np
 import pytest
+from body_moments.core.bodies.grid import label_value
 from body_moments.core.density import label_sums, sum_labels
 from body_moments.core.density.label_sums import label_moments
 from body_moments.core.moments.moments import monomials
@@ -46,7 +47,39 @@ def test_sums_far_from_first_voxel_stay_exact():
     assert np.abs(central).max() < 1e-8
 
 
+@pytest.mark.parametrize("axis", range(3))
+def test_sums_of_long_thin_maps_stay_exact(axis):
+    count = 200_000
+    sums = sum_labels(np.ones(np.where(np.arange(3) == axis, count, 1), np.uint8))[1]
+    cubes = monomials(3).tolist().index([3 * (axis == i) for i in range(3)])
+    assert sums[0] == count and sums[cubes] == (count * (count - 1) // 2) ** 2
+
+
 @pytest.mark.parametrize("samples", [[0.0, 0.5], [np.nan, 1.0], [np.inf, 1.0], range(10_001)])
 def test_samples_that_are_no_labels_are_refused(samples):
     with pytest.raises(MeasureError, match="no labels"):
         sum_labels(np.array(samples, np.float64)[None, None])
+
+
+@pytest.mark.parametrize(("label", "slope"), [(10, 0.1), (21, 1 / 3), (-30_000, 0.1), (4, 0.5)])
+def test_label_with_slope_of_float32_is_whole(label, slope):
+    assert label_value(label, float(np.float32(slope))) == round(label * slope)
+
+
+@pytest.mark.parametrize(
+    ("label", "slope", "cause"),
+    [
+        (5, 0.1, "whole number"),
+        (20_000_001, 0.5, "whole number"),
+        (1, 1e38, "too large"),
+        (9, 1e308, "too large"),
+    ],
+)
+def test_label_that_slope_makes_unfit_is_refused(label, slope, cause):
+    with pytest.raises(MeasureError, match=cause):
+        label_value(label, slope)
+
+
+def test_label_beyond_limit_is_refused_as_too_large():
+    with pytest.raises(MeasureError, match="too large"):
+        sum_labels(np.full((1, 1, 1), 1 << 62, np.uint64))

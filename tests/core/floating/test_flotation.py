@@ -212,6 +212,20 @@ def test_righting_arms_of_box_are_wall_sided():
     assert curve.arms == pytest.approx(arms, abs=1e-12)
 
 
+@pytest.mark.parametrize("angles", [(-90.0, 0.0, 90.0), (-90.0, 60.0)])
+@pytest.mark.parametrize("share", [0.212, 0.25])
+def test_capsize_is_found_between_the_angles_asked_for(share, angles):
+    # From its tilt, the log turns over a flat side on one side, and over an edge on the other.
+    rest = log(20.0, 1.0, 1.0, share).settle([0.0, 0.01, 1.0])
+    radius = 1.0 / (12.0 * share)
+    tilt = np.arctan(np.sqrt(-2.0 * (share / 2.0 + radius - 0.5) / radius))
+    curve = righting_curve(rest, np.radians(angles))
+    assert np.degrees(curve.angles) == pytest.approx(angles)
+    expected = sorted([tilt, np.pi / 4.0 - tilt])
+    assert sorted(np.abs(curve.capsize)) == pytest.approx(expected, abs=1e-6)
+    assert curve.stable_range == curve.capsize
+
+
 def test_righting_arms_integrate_to_energy():
     rest = log(6.0, 2.0, 1.0, 0.3).settle(UP)
     curve = righting_curve(rest, np.radians(np.arange(-90.0, 181.0, 1.0)))

@@ -115,6 +115,67 @@ def test_hollow_of_thick_hull_stays_dry():
     assert not rest.findings
 
 
+ENGINE = (-0.5, -0.5, 0.15), (0.5, 0.5, 0.65)
+CRATE = (-1.5, -0.7, 0.1), (1.5, 0.7, 3.0)  # stands on the floor, and is larger than the hollow
+
+
+@pytest.mark.parametrize("joined", [False, True])
+@pytest.mark.parametrize("inside", [ENGINE, ((-1.0, 0.2, 0.1), (1.0, 0.5, 1.7)), CRATE])
+def test_parts_in_hollow_of_thick_hull_displace_nothing(inside, joined):
+    bodies = [body(bowl(0.1), box(*inside))] if joined else [body(bowl(0.1)), body(box(*inside))]
+    rest = settle(bodies, 2000.0, np.array([0.0, 0.0, 0.4]), 1000.0, UP)
+    assert rest.draught == pytest.approx(0.25, rel=1e-12)
+    assert rest.plane.area == pytest.approx(8.0, rel=1e-12)
+
+
+SPACE = (-0.5, -0.5, 0.1), (0.5, 0.5, 0.6)
+
+
+def flooded(*spaces, tanks=()):
+    return settle(
+        *([body(bowl(0.1))], 2000.0, np.array([0.0, 0.0, 0.4]), 1000.0, UP),
+        [(body(box(*tank)), 0.5, 800.0) for tank in tanks],
+        [body(box(*space)) for space in spaces],
+    )
+
+
+def test_flooded_space_in_hollow_displaces_nothing():
+    apart = (1.0, -0.5, 0.1), (1.5, 0.5, 0.6)
+    assert flooded(SPACE).draught == pytest.approx((2.0 - 0.1) / (8.0 - 1.0), rel=1e-9)
+    two = flooded(SPACE, apart)
+    assert two.plane.area * two.up[2] == pytest.approx(8.0 - 1.0 - 0.5, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    "spaces",
+    [
+        [((-0.5, -0.5, 0.5), (0.5, 0.5, 1.5))],  # through the open top
+        [((-1.0, 20.0, 0.1), (1.0, 21.0, 0.9))],
+        [((-3.0, -2.0, -1.0), (3.0, 2.0, 2.0))],
+        [SPACE, ((0.0, 0.0, 0.2), (1.0, 0.8, 0.4))],
+        [SPACE, ((-0.2, -0.2, 0.2), (0.2, 0.2, 0.4))],
+    ],
+)
+@pytest.mark.parametrize("last_is_tank", [False, True])
+def test_flooded_space_outside_or_twice_is_refused(spaces, last_is_tank):
+    tanks = spaces[1:] if last_is_tank else []
+    with pytest.raises(MeasureError, match="flooded space"):
+        flooded(*spaces[: len(spaces) - len(tanks)], tanks=tanks)
+
+
+def test_large_cargo_through_open_top_displaces_nothing():
+    cargo = body(box((-1.9, -0.9, 0.1), (1.9, 0.9, 2.0)))
+    found = displaced(body(box(*HULL, without=[LID])), cargo)
+    assert found.capacity == pytest.approx(8.0, rel=1e-12)
+
+
+def test_rests_leave_out_those_in_which_liquid_runs_in():
+    boat = settle([body(bowl(0.1))], 2000.0, np.array([0.0, 0.0, 0.4]), 1000.0, UP).body
+    (rest,) = boat.find_rests()
+    assert rest.up == pytest.approx(UP, abs=1e-9)
+    assert rest.draught == pytest.approx(0.25, rel=1e-9)
+
+
 def test_flooded_hollow_is_reported_or_refused():
     bodies = [body(bowl(0.45))]
     capsized = settle(bodies, 4000.0, np.array([0.0, 0.0, 2.0]), 1000.0, [0.0, 0.1, 1.0])

@@ -7,6 +7,7 @@ import pytest
 from body_moments.core.bodies.pocket import ball_moments
 from body_moments.core.mesh import Surface
 from body_moments.core.polyhedron import polyhedron_moments
+from body_moments.core.verdict import MeasureError
 from body_moments.core.wall import core_surface
 
 from tests.close import close
@@ -74,6 +75,21 @@ FIN = [(0, 0), (20, 0), (20, 10), (10.5, 10), (10.5, 25), (9.5, 25), (9.5, 10), 
 def test_thin_fin_on_block_is_solid():
     block = (20 - 2 * WALL) * (10 - 2 * WALL) * (20 - 2 * LAYERS)
     assert close(core_volume(prism(FIN, 20.0, (10.0, 5.0))), block, 1e-12)
+
+
+STAIR = [(0, 0), (40, 0), (40, -10), (50, -10), (50, 0.5), (10, 0.5), (10, 10), (0, 10)]
+
+
+def test_web_between_planes_of_blocks_is_refused():
+    # The web lies between the bottom plane of the left block and the top plane of the right one.
+    points = np.array([(x, y, z) for z in (0.0, 30.0) for x, y in STAIR], float)
+    caps = [(0, 6, 7), (0, 5, 6), (0, 1, 5), (1, 4, 5), (1, 2, 4), (2, 3, 4)]
+    faces = [(a, c, b) for a, b, c in caps] + [(a + 8, b + 8, c + 8) for a, b, c in caps]
+    for i in range(8):
+        j = (i + 1) % 8
+        faces += [(i, j, j + 8), (i, j + 8, i + 8)]
+    with pytest.raises(MeasureError, match="between planes of thick"):
+        core_volume(Surface.from_triangles(points, faces))
 
 
 def test_wall_of_tube_is_solid_where_thin():
