@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from ..core.files.whole_file import whole_file
+from ..core.robots.findings import AUDIT_TOTAL
 from ..core.robots.write import audit_report
 from ..core.verdict import Severity, declared
 
@@ -47,7 +48,10 @@ def apply(document: dict[str, Any], options: Namespace) -> dict[str, Any]:
                 continue
             if is_light:
                 found = found | {"severity": str(Severity.NOTE)}
-            if options.known is not None and _key(found, link, options.baseline) in options.known:
+            is_known = (
+                options.known is not None and _key(found, link, options.baseline) in options.known
+            )
+            if is_known and found["code"] != AUDIT_TOTAL:
                 found = found | {"known": True}
             findings.append(found)
         links.append(link | {"findings": findings})
@@ -78,7 +82,7 @@ def read_baseline(path: Path) -> set[Key]:
 
 
 def write_baseline(path: Path, documents: Sequence[dict[str, Any]]) -> None:
-    """Write all findings but notes, with files relative to the baseline's folder.
+    """Write all findings but notes and expectations, with files relative to the baseline's folder.
 
     Raises OSError.
     """
@@ -91,7 +95,7 @@ def write_baseline(path: Path, documents: Sequence[dict[str, Any]]) -> None:
         (found, link)
         for link in links
         for found in link["findings"]
-        if found["severity"] != Severity.NOTE
+        if found["severity"] != Severity.NOTE and found["code"] != AUDIT_TOTAL
     ]
     findings = [
         dict(zip(("file", "link", "code"), key))

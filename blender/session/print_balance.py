@@ -32,8 +32,8 @@ from ..scene.rigid_world import down
 MAX_WALLS = 12
 COARSE, FINE = 21, 7  # places of a pocket along each axis, at first and around the best of them
 ZOOMS = 14
-FILLED = 0.999  # of the room, by the largest pocket
-SHARES = np.linspace(0.0, 1.0, 33)  # of the largest pocket, for the largest margin
+FILLED = 0.999  # a share of the room, by the largest pocket
+SHARES = np.linspace(0.0, 1.0, 33)  # shares of the largest pocket, for the largest margin
 
 
 class PrintBalance(NamedTuple):

@@ -22,8 +22,8 @@ from ..wall import PRINT_UNFIT, core_surface
 from .mesh_body import MeshBody
 from .pocket import PocketRoom, ball_moments
 
-LEAST_CORE = 1e-9  # of the volume
-POCKET_RTOL = 1e-5  # of its radius
+LEAST_CORE = 1e-9  # relative to the volume
+POCKET_RTOL = 1e-5  # relative to its radius
 
 
 def print_surfaces(body: MeshBody, printed: PrintSettings) -> tuple[list[Surface], list[Surface]]:

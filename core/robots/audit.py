@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..inertia import combine
-from ..mesh import Surface
+from ..mesh import Surface, hull_volumes
 from ..moments import Moments
 from ..moments.moments import SECOND_MOMENT_INDEX
 from ..numerics import Array
@@ -91,7 +91,8 @@ class LinkAudit:
     """Entries about one link. repaired: its corrected inertial, None if it stays. density: kg/m³,
     None if unknown.
 
-    geometry: the inertial of the evenly filled geometry with the stated mass, None if unknown;
+    geometry: the inertial of the evenly filled geometry with the stated mass, with 1 kg if that is
+    no mass, None if unknown; volume: of the geometry, m³;
     apart: the relative difference from it. is_impossible: True if no body within the geometry has
     the stated inertial. colliders: what the collision geometry beside the inertial does.
     """
@@ -104,6 +105,7 @@ class LinkAudit:
     apart: float = inf
     is_impossible: bool = False
     colliders: Effect | None = None
+    volume: float | None = None
 
     @property
     def findings(self) -> tuple[Finding, ...]:
@@ -496,15 +498,17 @@ def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete:
         one.shape.pose.apply(piece.points) for several in pieces.values() for one, piece in several
     ]
     hull = Hull(np.concatenate(points)) if points and not incomplete else None
-    reasons = impossible(stated, hull)
-    if not stated.mass > LEAST_MASS or any(one.code == INERTIAL_NOT_FINITE for one in reasons):
-        return LinkAudit(
-            link, tuple(Entry(one, place, compares=True) for one in reasons), is_impossible=True
-        )
-    wrong = [one for one in reasons if one.code != INERTIAL_TRIANGLE_SLIGHTLY]
     references = (
         [] if incomplete else [made for several in pieces.values() if (made := _reference(several))]
     )
+    reasons = impossible(stated, hull)
+    if not stated.mass > LEAST_MASS or any(one.code == INERTIAL_NOT_FINITE for one in reasons):
+        entries = [Entry(one, place, compares=True) for one in reasons]
+        found = LinkAudit(link, tuple(entries), is_impossible=True)
+        if not references:
+            return found
+        return replace(found, geometry=references[0].uniform(1.0), volume=references[0].volume)
+    wrong = [one for one in reasons if one.code != INERTIAL_TRIANGLE_SLIGHTLY]
     is_outside = any(one.code == INERTIAL_CENTER_OUTSIDE for one in wrong)
     diagnoses = diagnose(stated, references, [] if incomplete else _turned(pieces), is_outside)
     changes = [one for one in diagnoses if one.is_change]
@@ -536,14 +540,24 @@ def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete:
         entries = [*(Entry(one, place, (), guess, certainty, True) for one in left), *entries]
         if unusual:
             entries.append(Entry(finding(AUDIT_DENSITY, density=density), place, compares=True))
-    # Also an uneven filling needs matter of this density.
+    # The mass may lie anywhere in the hull: a motor in a cover.
     least = stated.mass / max(one.volume for one in references)
+    if least > DENSITIES[1] and hull is not None:
+        room = float(hull_volumes(hull.points, np.zeros(1, np.intp), 0.0)[0])
+        least = min(least, stated.mass / room) if room > 0.0 else least
     is_told = any(one.change or one.finding.code == AUDIT_DENSITY for one in entries)
     if least > DENSITIES[1] and not wrong and not is_told:
         entries.append(Entry(finding(AUDIT_DENSITY, density=least), place, compares=True))
     apart = min(one.compare(stated) for one in references)
     return LinkAudit(
-        link, tuple(entries), repaired, stated.mass / reference.volume, geometry, apart, bool(wrong)
+        link,
+        tuple(entries),
+        repaired,
+        stated.mass / reference.volume,
+        geometry,
+        apart,
+        bool(wrong),
+        volume=reference.volume,
     )
 
 

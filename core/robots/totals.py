@@ -148,7 +148,13 @@ def build_tree(description: Description, values: Mapping[str, float]) -> Tree:
             waiting.append(joint.parent)
         for below in reversed(waiting):
             if below not in poses:
-                poses[below] = _pose(links, above.get(below), links[below], poses, values)
+                with np.errstate(invalid="ignore", over="ignore"):
+                    pose = _pose(links, above.get(below), links[below], poses, values)
+                if pose is not None and not (np.abs(pose.matrix) <= LARGEST).all():
+                    cause = "its place is no number, or too far away"
+                    findings.append(_unusable(below, cause))
+                    pose = None
+                poses[below] = pose
     return Tree(description, above, poses, findings)
 
 
@@ -183,7 +189,8 @@ def _joint_values(
             wrong.append(_unusable(name, "the description has no such joint"))
         elif by_name[name].kind not in MOVABLE:
             wrong.append(_unusable(name, "its position is not one number"))
-    values = dict(stated)
+    zeros = {one.name: one.zero for one in motions if one.name and not one.leader}
+    values = zeros | dict(stated)
     for _ in motions:  # Followers may follow followers.
         more = {
             motion.name: motion.factor * values[motion.leader] + motion.offset

@@ -124,8 +124,7 @@ def _plane(places: Sequence[tuple[Array, Array] | None]) -> Plane | None:
 
 
 def _volume(audit: LinkAudit) -> float:
-    inertial = audit.link.inertial
-    return inertial.mass / audit.density if inertial and audit.density else 0.0
+    return audit.volume or 0.0
 
 
 def _is_copy(first: LinkAudit, second: LinkAudit) -> bool:

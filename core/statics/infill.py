@@ -10,7 +10,7 @@ import numpy as np
 
 from ..numerics import Array
 
-SAMPLES = 1001  # of the infill, for the largest margin
+SAMPLES = 1001  # steps of the infill, for the largest margin
 
 
 def infill_range(

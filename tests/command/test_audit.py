@@ -203,6 +203,16 @@ def test_text_and_table_state_the_assumption_once(tmp_path):
     ]
 
 
+def test_no_baseline_knows_an_unexpected_total(tmp_path):
+    path, baseline = description(tmp_path / "r.urdf", RIGHT), tmp_path / "known.json"
+    assert answer("--expect-mass", "99", "--write-baseline", baseline, path)[1] == 1
+    known = json.loads(baseline.read_text(encoding="utf-8"))
+    assert known["findings"] == []
+    known["findings"] = [{"file": "r.urdf", "link": "", "code": "audit_total"}]
+    baseline.write_text(json.dumps(known), encoding="utf-8")
+    assert answer("--expect-mass", "12", "--baseline", baseline, path)[1] == 1
+
+
 def test_gate_counts_new_findings_of_its_level_alone(tmp_path):
     path, baseline = description(tmp_path / "r.urdf", RIGHT, WRONG), tmp_path / "known.json"
     assert [answer("--fail-on", level, path)[1] for level in ("error", "warning", "never")] == [
@@ -323,6 +333,32 @@ def test_expectation_decides_the_exit_code(words, code, tmp_path):
     record = json.loads(text)
     assert found == code and len(record["findings"]) == code
     assert answer("--ignore", "audit_total", "--ignore", "audit_joint", *words, path)[1] == 0
+
+
+@pytest.mark.parametrize("place", ["0 nan 0", "0 1e200 0"])
+def test_place_that_is_no_number_leaves_centers_unknown(place, tmp_path):
+    joint = JOINT.format("j", "left_a", "right_a").replace("3 0 0", place)
+    links = [link.replace('name="a"', 'name="left_a"') for link in PAIR]
+    links = [link.replace('name="b"', 'name="right_a"') for link in links]
+    record = json.loads(answer(description(tmp_path / "r.urdf", *links, joint))[0])
+    assert [one["code"] for one in record["findings"]] == ["audit_joint"]
+    assert (record["total"]["mass"], record["total"]["center_of_mass"]) == (16000.0, None)
+
+
+@pytest.mark.parametrize("words", [(), ("--joint", "j=0")])
+def test_followers_stand_at_their_offset(words, tmp_path):
+    mimic = '<mimic joint="j" offset="1.5707963267948966"/></joint>'
+    follower = JOINT.format("f", "b", "c").replace("</joint>", mimic)
+    path = description(
+        tmp_path / "r.urdf",
+        *PAIR,
+        PAIR[1].replace('name="b"', 'name="c"'),
+        JOINT.format("j", "a", "b"),
+        follower,
+    )
+    found = json.loads(answer(*words, path)[0])["total"]["center_of_mass"]
+    plain = json.loads(answer("--joint", "f=1.5707963267948966", path)[0])
+    assert found == plain["total"]["center_of_mass"]
 
 
 @pytest.mark.parametrize(

@@ -105,3 +105,27 @@ def test_one_inertial_at_different_meshes_is_found(tmp_path):
     assert codes(record(tmp_path, first, other)).count("audit_copied") == 1
     same = LINK.format("b", "0.1 0 0.05", 2, 0.005, 0.007, 0.009, 0, 0, 0, box(0))
     assert "audit_copied" not in codes(record(tmp_path, first, same))
+
+
+@pytest.mark.parametrize("mass", [0, -1])
+def test_massless_link_of_other_geometry_gets_no_twin(mass, tmp_path):
+    left = LINK.format("l_arm", "0.1 0.02 0.05", mass, *TENSOR, box(0.02, "0.6 0.1 0.1"))
+    right = LINK.format("r_arm", "0.1 -0.02 0.05", 2, *TENSOR, box(-0.02))
+    link = record(tmp_path, left, right)["links"][1]
+    assert link["repaired"] is None
+    assert not any(one["change"] or one["geometry"] for one in link["findings"])
+    alike = LINK.format("l_arm", "0.1 0.02 0.05", mass, *TENSOR, box(0.02))
+    assert record(tmp_path, alike, right)["links"][1]["repaired"]["mass"] == 2
+
+
+@pytest.mark.parametrize("place", ["nan", "inf", "1e160"])
+def test_place_that_is_no_number_is_a_finding(place, tmp_path):
+    path = tmp_path / "r.xml"
+    body = '<body name="{}_a" pos="0 {} 0"><geom type="box" size=".1 .1 .1" mass="1"/></body>'
+    bodies = body.format("left", place) + body.format("right", -1)
+    path.write_text("<mujoco><worldbody>{}</worldbody></mujoco>".format(bodies))
+    (text,), code = audit.answer(audit.parse(["audit", str(path)]))
+    found = json.loads(text)
+    assert code == 1 and found["total"]["mass"] == 2 and found["total"]["inertia"] is None
+    assert [one["code"] for one in found["findings"]] == ["audit_joint"]
+    assert "left_a" in found["findings"][0]["message"]

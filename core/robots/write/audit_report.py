@@ -143,7 +143,7 @@ def _entry(one: Entry, link: LinkAudit | None, file: str) -> dict[str, Any]:
     place = {"file": one.place.file or file, "line": one.place.line, "column": one.place.column}
     head = _finding(one.finding) | {"severity": str(one.severity), "message": one.message} | place
     compared = link if one.compares else None
-    geometry = compared and compared.geometry
+    geometry = compared.geometry if compared and compared.density else None
     return head | {
         "reasons": [_finding(reason) for reason in one.reasons],
         "stated": compared and _inertial(compared.link.inertial),
