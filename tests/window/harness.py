@@ -22,7 +22,7 @@ import numpy as np
 SIZE = 1000, 1000  # pixels of the screen
 START_LIMIT = 480.0  # seconds until Blender's window answers
 STEP_LIMIT = 240.0  # seconds until what was pressed has happened
-PAGES = 3  # Buttons are searched as far down the sidebar.
+PAGES = 5  # Buttons are searched as far down the sidebar.
 # Ctrl C beside a button would save the selected objects in a file.
 PREPARED = """
 bpy.context.preferences.system.viewport_aa = "OFF"

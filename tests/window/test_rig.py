@@ -77,7 +77,7 @@ def first_in_properties(tab):
 
 def test_bones_are_measured_and_drawn_in_their_pose(rig):
     window = rig
-    window.ask("bpy.ops.object.body_moments_measure_bones()")
+    window.press("object.body_moments_measure_bones")
     window.wait(f"'body_mass' in {BONES}['bone 0']")
     masses = window.get(f"[bone['body_mass'] for bone in {BONES}]")
     assert [round(mass, 6) for mass in masses] == [1000.0, 1000.0, 1000.0, 1125.0]
