@@ -393,7 +393,7 @@ BAMBU_SETTINGS = {
     "sparse_infill_density": "20%",
     "wall_loops": "3",
     "top_shell_layers": "5",
-    "bottom_shell_layers": "4",
+    "bottom_shell_layers": ["4"],
     "layer_height": "0.2",
     "filament_density": ["1.24", "1.27"],
 }
