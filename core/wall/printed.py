@@ -18,7 +18,13 @@ from numpy.typing import NDArray
 from ..mesh import Surface, overlapping_box_pairs
 from ..numerics import Array, Index
 from ..verdict import ReadError
-from .directions import LEAST_SQUARES_RTOL, SAME_PLANE_RTOL, UNEVEN_RTOL, weld_equal
+from .directions import (
+    LEAST_SQUARES_RTOL,
+    SAME_PLANE_RTOL,
+    UNEVEN_RTOL,
+    corner_geometry,
+    weld_equal,
+)
 from .findings import PRINT_UNFIT
 
 MAX_SAMPLED = 20_000  # triangles with several samples of their thickness; of others, the middle
@@ -37,18 +43,12 @@ def core_surface(surface: Surface, wall: float, top: float, bottom: float) -> Su
     """
     points, triangles = weld_equal(surface)
     corners = points[triangles]
-    sides = corners[:, [1, 2, 0]] - corners
-    crossed = np.cross(sides[:, 0], sides[:, 1])
-    double = np.linalg.norm(crossed, axis=1)
-    flat = double > 1e-12 * np.linalg.norm(sides, axis=2).max(axis=1) ** 2
-    normals = crossed / np.where(flat, double, 1.0)[:, None]
+    normals, angles, _, solid = corner_geometry(corners)
     layers = np.where(normals[:, 2] > 0.0, top, bottom) * np.abs(normals[:, 2])
     moves = np.maximum(wall * np.hypot(normals[:, 0], normals[:, 1]), layers)
-    turned = np.stack([sides, -sides[:, [2, 0, 1]]])
-    angles = np.arctan2(double[:, None], np.einsum("mki,mki->mk", *turned))
-    weights = np.where(flat[:, None], angles, 0.0)
-    moves = np.where(flat, moves, 0.0)
-    moves[flat] = _meeting(corners[flat], normals[flat], moves[flat])
+    weights = np.where(solid[:, None], angles, 0.0)
+    moves = np.where(solid, moves, 0.0)
+    moves[solid] = _meeting(corners[solid], normals[solid], moves[solid])
     return Surface(_move(points, triangles, normals, weights, moves), triangles)
 
 
