@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Levels of liquids in vessels, and cut and fill of surfaces."""
 
+from collections.abc import Callable
+
 from bpy.props import EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Event, Object, Operator
 
@@ -17,6 +19,8 @@ from . import selection
 class OnSubject(selection.OnSelectionInObjectMode):
     """Base of operators on the object that the panel is about, after a dialog."""
 
+    execute: Callable[[Context], set[str]]
+
     @classmethod
     def poll(cls, context: Context) -> bool:
         obj = subject(context)
@@ -28,9 +32,6 @@ class OnSubject(selection.OnSelectionInObjectMode):
         if context.window is None:
             return self.execute(context)
         return context.window_manager.invoke_props_dialog(self)
-
-    def execute(self, context: Context) -> set[str]:
-        raise NotImplementedError
 
 
 class OBJECT_OT_body_moments_level(OnSubject, Operator):

@@ -45,7 +45,6 @@ from ..solid import measure_solid
 from ..verdict import MeasureError, Procedure, check_size
 
 TRIANGLES_PER_BLOCK = 4096  # triangles whose products stay in the cache
-PAIRS_PER_BLOCK = 1 << 16
 EXPONENTS = monomials(2)
 # Rows of the sums: 1, x, y, z, xx, xy, xz, yy, yz, zz, then the latter six times z.
 DIVISORS = np.array([2.0, 6.0, 6.0, 6.0, *6 * [24.0], *6 * [120.0]])
@@ -53,7 +52,6 @@ RAISED = np.array([3, 6, 8, 9, 10, 11, 12, 13, 14, 15])  # rows of each monomial
 # Rows of each monomial with z left out.
 LEVEL = np.array([0, 1, 2, 0, 4, 5, 1, 7, 2, 0])
 ACROSS = EXPONENTS[:, 2] == 0
-PAIRS = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)]
 # Errors in units of rounding: of rotated positions; of the products for one triangle, relative to
 # its area and to the products in its area.
 PLACE_ROUNDINGS = 24.0

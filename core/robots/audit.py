@@ -92,7 +92,7 @@ class LinkAudit:
     None if unknown.
 
     geometry: the inertial of the evenly filled geometry with the stated mass, with 1 kg if that is
-    no mass, None if unknown; volume: of the geometry, m³;
+    no mass, None if unknown. volume: of the geometry, m³, 0 if unknown.
     apart: the relative difference from it. is_impossible: True if no body within the geometry has
     the stated inertial. colliders: what the collision geometry beside the inertial does.
     """
@@ -105,7 +105,7 @@ class LinkAudit:
     apart: float = inf
     is_impossible: bool = False
     colliders: Effect | None = None
-    volume: float | None = None
+    volume: float = 0.0
 
     @property
     def findings(self) -> tuple[Finding, ...]:

@@ -151,8 +151,11 @@ def build_tree(description: Description, values: Mapping[str, float]) -> Tree:
                 with np.errstate(invalid="ignore", over="ignore"):
                     pose = _pose(links, above.get(below), links[below], poses, values)
                 if pose is not None and not (np.abs(pose.matrix) <= LARGEST).all():
+                    joint = above.get(below)
+                    name = joint.name if joint and joint.name else below
+                    place = joint.place if joint else links[below].place
                     cause = "its place is no number, or too far away"
-                    findings.append(_unusable(below, cause))
+                    findings.append(_unusable(name, cause, place))
                     pose = None
                 poses[below] = pose
     return Tree(description, above, poses, findings)

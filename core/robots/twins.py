@@ -77,12 +77,12 @@ def find_pairs(audits: Sequence[LinkAudit], tree: Tree) -> tuple[list[Pair], Pla
         pairs += [
             Pair(first, other, True) for other in others if _is_copy(audits[first], audits[other])
         ]
-    rest = [index for index in indices.values() if index not in paired and _volume(audits[index])]
-    rest.sort(key=lambda index: _volume(audits[index]))
+    rest = [index for index in indices.values() if index not in paired and audits[index].volume]
+    rest.sort(key=lambda index: audits[index].volume)
     near = [
         Pair(first, second)
         for first, second in zip(rest, rest[1:])
-        if _volume(audits[second]) <= (1.0 + ALIKE) * _volume(audits[first])
+        if audits[second].volume <= (1.0 + ALIKE) * audits[first].volume
         and audits[first].geometry is not None
     ]
     return pairs + [pair for pair in near if _is_mirrored(audits, tree, pair, plane)], plane
@@ -123,13 +123,9 @@ def _plane(places: Sequence[tuple[Array, Array] | None]) -> Plane | None:
     return Plane(normal, float(np.median((first + second) / 2.0 @ normal)))
 
 
-def _volume(audit: LinkAudit) -> float:
-    return audit.volume or 0.0
-
-
 def _is_copy(first: LinkAudit, second: LinkAudit) -> bool:
     """Return whether two links have equal geometry along their own axes."""
-    low, high = sorted((_volume(first), _volume(second)))
+    low, high = sorted((first.volume, second.volume))
     if not low or high > (1.0 + EQUAL) * low or not first.geometry or not second.geometry:
         return False
     return _reference(second).compare(first.geometry) <= EQUAL
@@ -172,7 +168,7 @@ def images(
         maps.insert(0, end.inverse() @ plane.mirror(start))
     if first.geometry is None or second.geometry is None:
         return maps
-    low, high = sorted((_volume(first), _volume(second)))
+    low, high = sorted((first.volume, second.volume))
     reference = _reference(second)
     apart = [reference.compare(mapped(first.geometry, pose)) for pose in maps]
     if high > (1.0 + TOLERANCE) * low or min(apart) > TOLERANCE:
@@ -194,18 +190,22 @@ def disagreement(
 
 
 def find_copies(audits: Sequence[LinkAudit]) -> Iterator[list[int]]:
-    """Yield the links of each inertial that stands at links of different geometry."""
-    groups: dict[bytes, list[int]] = {}
+    """Yield the links of each inertial that stands at links of different geometry.
+
+    Drawn geometry is compared with drawn geometry alone: colliders are often rougher.
+    """
+    groups: dict[tuple[bytes, bool], list[int]] = {}
     for index, one in enumerate(audits):
         inertial = one.link.inertial
         if inertial is not None and one.geometry is not None and inertial.mass > 0.0:
             numbers = np.concatenate([[inertial.mass], inertial.center, inertial.inertia.ravel()])
-            groups.setdefault(numbers.tobytes(), []).append(index)
+            is_drawn = any(shape.role == "visual" for shape in one.link.shapes)
+            groups.setdefault((numbers.tobytes(), is_drawn), []).append(index)
     for group in groups.values():
         first, *others = (audits[index] for index in group)
         size = np.sqrt(np.trace(_reference(first).inertia))
         if any(
-            abs(_volume(one) / _volume(first) - 1.0) > TOLERANCE
+            abs(one.volume / first.volume - 1.0) > TOLERANCE
             or np.linalg.norm(_moments(one) - _moments(first)) > TOLERANCE * size**2
             for one in others
         ):

@@ -130,7 +130,10 @@ class SlicerProject:
         known = {**self.settings, **settings}
 
         def number(name: str, percent: bool = False) -> float | None:
-            text = next((str(known[key]) for key in _NAMES[name] if key in known), "")
+            value = next((known[key] for key in _NAMES[name] if key in known), "")
+            if isinstance(value, list):  # a value for each variant of the printer
+                value = value[0] if value else ""
+            text = str(value)
             if not text or ("%" in text and not percent):
                 return None
             return parse_number(text.rstrip("%").strip())

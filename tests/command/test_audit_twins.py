@@ -105,6 +105,8 @@ def test_one_inertial_at_different_meshes_is_found(tmp_path):
     assert codes(record(tmp_path, first, other)).count("audit_copied") == 1
     same = LINK.format("b", "0.1 0 0.05", 2, 0.005, 0.007, 0.009, 0, 0, 0, box(0))
     assert "audit_copied" not in codes(record(tmp_path, first, same))
+    collider = other.replace("visual>", "collision>")
+    assert "audit_copied" not in codes(record(tmp_path, first, collider))
 
 
 @pytest.mark.parametrize("mass", [0, -1])
