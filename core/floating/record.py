@@ -19,7 +19,6 @@ from .flotation import FloatingBody, Flotation, Tank, Vessel
 from .hulls import Hull, are_inside, fill_hollows, find_hull
 from .righting import RightingCurve, righting_curve
 
-
 MAX_HULLS = 4  # kept: the wet one, and the last with hollows filled
 
 
