@@ -4,6 +4,10 @@
 
 from ..core.verdict import error, note, warning
 
+PRINT_SETTINGS = (
+    "the file's print settings, which cannot be read: the part counts as a solid. Give them by "
+    "--print"
+)
 SOLID_OPERAND_MEASURED = warning(
     "solid_operand_measured",
     "Measured as a part, but cuts or joins “{object}” by a Boolean modifier. Display it as wire or "

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from bpy.types import Context, Object
 
-from ...core.bodies import PocketRoom, print_body, print_surfaces, to_si
+from ...core.bodies import PocketRoom, find_cores, print_body, to_si
 from ...core.measurement import Pocket
 from ...core.numerics import Array, shortest_decimal
 from ...core.statics import (
@@ -109,7 +109,8 @@ def balance_print(
             placed(pocket=Pocket((0.0, 0.0, 0.0), 0.0, 0.0))  # refused
         mass = placed(pocket=None)
         excess = ballast - now.infill / 100.0 * (settings.density or 0.0)
-        room = PocketRoom(*print_surfaces(made, now), now.line_width)
+        cores, outsides = find_cores(made, now)
+        room = PocketRoom([one.surface for one in cores], outsides, now.line_width)
         center, radius, reached = _place_pocket(
             room,
             lambda places: (places / settings.unit - middle) @ axes,

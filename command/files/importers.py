@@ -24,7 +24,7 @@ from ...core.cad import FACES_NOT_READ, SurfaceFile, has_surfaces, read_surfaces
 from ...core.files import file_limits
 from ...core.mesh import Surface
 from ...core.polyhedron import box_center
-from ...core.solid import measure_solid
+from ...core.solid import UNCHECKED, measure_solid
 from ...core.streams import (
     KINDS,
     NEGATIVE_PARTS_CUT,
@@ -36,7 +36,7 @@ from ...core.streams import (
 )
 from ...core.verdict import Procedure
 from ...core.verdict.finding import FileError, Finding, finding
-from ..findings import FILE_HIDES
+from ..findings import FILE_HIDES, PRINT_SETTINGS
 from .references import Opened
 
 # Numbers of vertices with a meaning of their own; Blender makes attributes of all others.
@@ -102,9 +102,14 @@ def import_3mf(path: str) -> Opened:
             meshes[one.key] = _mesh(one)
         obj = bpy.data.objects.new(one.name, meshes[one.key])
         bpy.context.scene.collection.objects.link(obj)
-        _set_print(obj.body_moments, one.print_settings)
+        remarks = []
+        if one.print_settings is None:
+            remarks.append(finding(UNCHECKED, subject=PRINT_SETTINGS))
+        else:
+            _set_print(obj.body_moments, one.print_settings)
         if negative:
-            notes[obj.name] = (finding(NEGATIVE_PARTS_CUT, names=negative),)
+            remarks.append(finding(NEGATIVE_PARTS_CUT, names=negative))
+        notes[obj.name] = tuple(remarks)
         if one.hidden:
             obj.hide_render = True
             hidden[obj.name] = finding(FILE_HIDES, cause=one.hidden)

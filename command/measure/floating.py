@@ -34,7 +34,7 @@ def floating_entry(
     try:
         rest = settle([body], properties.mass, properties.center, options.float, up)
         angles = np.radians(options.gz or ())
-        entry = float_record(rest, measurement, options.frame, angles, rest.body.find_rests())
+        entry = float_record(rest, measurement, options.frame, angles, rest.body.find_rests([rest]))
         return {"floating": entry}, rest.findings
     except MeasureError as refusal:
         contents.errors.append(failure(measurement.name, refusal.finding))

@@ -46,8 +46,8 @@ from .mesh_body import of_drawn as of_drawn
 from .mesh_body import sum_of_instances as sum_of_instances
 from .mesh_body import with_input_error as with_input_error
 from .pocket import PocketRoom as PocketRoom
+from .printed import find_cores as find_cores
 from .printed import print_body as print_body
-from .printed import print_surfaces as print_surfaces
 from .reading import NO_VALUES as NO_VALUES
 from .reading import FaceAttributes as FaceAttributes
 from .reading import Part as Part

@@ -16,18 +16,20 @@ from ..moments import KNOWN_ORDER, Measure
 from ..moments.moments import sum_moments
 from ..numerics import Array
 from ..polyhedron import polyhedron_moments
-from ..verdict import Procedure
+from ..verdict import NEGLIGIBLE, Procedure
 from ..verdict.finding import ReadError, finding
-from ..wall import PRINT_UNFIT, core_surface
+from ..wall import PRINT_UNFIT, PrintCore, find_core
+from .findings import WALL_THICKNESS_VARIES
 from .mesh_body import MeshBody
 from .pocket import PocketRoom, ball_moments
+from .wall import REPORTED
 
 LEAST_CORE = 1e-9  # relative to the volume
 POCKET_RTOL = 1e-5  # relative to its radius
 
 
-def print_surfaces(body: MeshBody, printed: PrintSettings) -> tuple[list[Surface], list[Surface]]:
-    """Return the surfaces of the cores of a body, and of its outside. Raises MeasureError."""
+def find_cores(body: MeshBody, printed: PrintSettings) -> tuple[list[PrintCore], list[Surface]]:
+    """Return the cores of a body, and the surfaces of its outside. Raises MeasureError."""
     cores, outsides = [], []
     for solid, matrices in body.solids:
         if solid.method == Procedure.OPEN:
@@ -35,7 +37,7 @@ def print_surfaces(body: MeshBody, printed: PrintSettings) -> tuple[list[Surface
         for matrix in matrices:
             surface = solid.repaired_surface.transform(matrix[:3, :3], matrix[:3, 3])
             thicknesses = printed.wall, printed.top_height, printed.bottom_height
-            cores.append(core_surface(surface, *thicknesses))
+            cores.append(find_core(surface, *thicknesses))
             outsides.append(surface)
     return cores, outsides
 
@@ -51,9 +53,9 @@ def print_body(body: MeshBody, settings: Settings, place: Array | None = None) -
     if body.mass is not None:
         raise ReadError(WALL_UNSUPPORTED, quantity="A varying density")
     order = max(KNOWN_ORDER, settings.order or 0)
-    cores, outsides = print_surfaces(body, printed)
+    cores, outsides = find_cores(body, printed)
     core = sum_moments(
-        [polyhedron_moments(core, order, exact=True, allow_open=True)[0] for core in cores]
+        [polyhedron_moments(one.surface, order, exact=True, allow_open=True)[0] for one in cores]
     )
     volume = body.third_order() if order == KNOWN_ORDER else body.moments(order, False)[0]
     if not core.total > LEAST_CORE * volume.total:
@@ -61,6 +63,14 @@ def print_body(body: MeshBody, settings: Settings, place: Array | None = None) -
             PRINT_UNFIT, fault="its walls and layers are thicker than the part. Use Kind: Solid"
         )
     filled = volume + core * (printed.infill / 100.0 - 1.0)
+    findings = body.findings
+    minimum = min(one.minimum for one in cores)
+    maximum = max(one.maximum for one in cores)
+    if minimum < 1.0 - REPORTED or maximum > 1.0 + REPORTED:
+        misplaced = sum(one.misplaced for one in cores) * (1.0 - printed.infill / 100.0)
+        slight = misplaced < NEGLIGIBLE * volume.total
+        varies = finding(WALL_THICKNESS_VARIES, slight=slight, minimum=minimum, maximum=maximum)
+        findings = (*findings, varies)
     record = printed.record()
     ballast = None
     if (pocket := printed.pocket) is not None:
@@ -69,7 +79,7 @@ def print_body(body: MeshBody, settings: Settings, place: Array | None = None) -
             raise ReadError(PRINT_UNFIT, fault=fault)
         place = np.eye(4) if place is None else place
         center = place[:3, :3] @ pocket.center + place[:3, 3]
-        room = PocketRoom(cores, outsides, printed.line_width)
+        room = PocketRoom([one.surface for one in cores], outsides, printed.line_width)
         if pocket.radius > float(room.radii(center[None])[0]) * (1.0 + POCKET_RTOL):
             fault = "its pocket reaches out of the core. Make it smaller, or remove it"
             raise ReadError(PRINT_UNFIT, fault=fault)
@@ -91,6 +101,7 @@ def print_body(body: MeshBody, settings: Settings, place: Array | None = None) -
         record["price"] = kilograms / printed.spool * printed.price
     return replace(
         body,
+        findings=findings,
         mass=mass.truncate(KNOWN_ORDER),
         higher_mass=mass if order > KNOWN_ORDER else None,
         density_from=finding(DENSITY_FROM, source="walls and infill of a print"),

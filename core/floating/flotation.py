@@ -15,8 +15,9 @@ a slab on the waterplane.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import product
 
@@ -28,8 +29,10 @@ from ..inertia import frame_about
 from ..moments import U
 from ..numerics import Array, float_array, index_array, rotation_matrix
 from ..verdict import Finding, MeasureError
+from ..verdict.finding import finding
 from .findings import (
     FLOAT_UNAVAILABLE,
+    HOLLOW_FLOODED,
     LIQUID_ENTERS,
     NO_BODY,
     NO_LIQUID_DENSITY,
@@ -39,6 +42,7 @@ from .findings import (
 )
 
 MAX_STEPS = 200
+MAX_ROUNDS = 8  # of filling hollows and settling
 FIRST_LEVELS = 17
 SLAB_RTOL = 1e-6  # of the volume: the cube of a smaller error is lost in rounding
 FULL_RTOL = 1e-12  # a tank without less has no free surface
@@ -167,6 +171,9 @@ class FloatingBody:
     openings : (k, 3) array_like
         Points at which liquid runs in if they are below the waterline.
     tanks : tuple of Tank
+    fitted : callable, optional
+        Returns the body for a direction against gravity, with the hollows filled that are open
+        upward, or with its hollows full of the liquid for None; the same one for the same hull.
 
     Raises
     ------
@@ -198,6 +205,7 @@ class FloatingBody:
     density: float
     openings: Array = field(default_factory=lambda: np.empty((0, 3)))
     tanks: tuple[Tank, ...] = ()
+    fitted: Callable[[Array | None], FloatingBody] | None = None
 
     def __post_init__(self) -> None:
         set_field = object.__setattr__
@@ -264,40 +272,69 @@ class FloatingBody:
         planes = [vessel.surface_at(up, guess) for vessel, guess in zip(vessels, guesses)]
         return Flotation(self, up, planes[0], tuple(planes[1:]))
 
-    def settle(self, up: ArrayLike) -> Flotation:
-        """Return the position in which it comes to rest, downhill from a direction against gravity.
+    def settle(self, up: ArrayLike, known: Sequence[Flotation] = ()) -> Flotation:
+        """Return the position in which it comes to rest, downhill from a direction against gravity,
+        or one of the known ones.
+
+        Its hollows keep the liquid out if they do so in the position of rest.
 
         Raises
         ------
         MeasureError
             If none is found, or liquid runs in.
         """
-        rest = self._descend(self.at(up))
-        if rest.depth_of_openings > 0.0:
-            raise MeasureError(LIQUID_ENTERS, depth=rest.depth_of_openings)
-        return rest
+        up = float_array("up", up, 3, finite=True)
+        up = up / float(np.linalg.norm(up))
+        fitted = self.fitted or (lambda _: self)
+        body = fitted(up)
+        try:
+            wet = fitted(None)
+        except MeasureError:  # it sinks
+            wet = None
+        flooded = depth = None
+        for _ in range(MAX_ROUNDS):
+            rest = body._descend(body.at(up), [other for other in known if other.body is body])
+            if any(rest is other for other in known):
+                return rest
+            start, up = up, rest.up
+            if rest.depth_of_openings > 0.0:
+                depth = depth or rest.depth_of_openings
+                if flooded is not None:
+                    return flooded.with_flooded_hollow(depth)
+                if wet is None or body is wet:
+                    raise MeasureError(LIQUID_ENTERS, depth=depth)
+                body = wet
+                continue
+            is_turned = float(np.linalg.norm(up - start)) >= SAME_ATTITUDE
+            fresh = fitted(up) if is_turned or (body is wet and depth is not None) else body
+            if fresh is not body:
+                flooded, body = rest if body is wet else None, fresh
+            elif body is wet:
+                return rest.with_flooded_hollow(depth)
+            else:
+                return rest
+        raise MeasureError(FLOAT_UNAVAILABLE, fault=NO_REST)
 
-    def find_rests(self) -> list[Flotation]:
-        """Return the positions of rest found from 26 starts, the lowest energy first, without those
-        in which liquid runs in.
+    def find_rests(self, known: Sequence[Flotation] = ()) -> list[Flotation]:
+        """Return the known positions of rest and those found from 26 starts, the lowest energy
+        first, without those in which liquid runs in.
 
         Raises
         ------
         MeasureError
-            If none is found.
+            If there is none.
         """
-        found: list[Flotation] = []
+        found = [*known]
         for start in STARTS:
             try:
-                rest = self._descend(self.at(start), found)
+                rest = self.settle(start, found)
             except MeasureError:
                 continue
             if not any(rest.is_near(other, SAME_ATTITUDE) for other in found):
                 found.append(rest)
-        dry = [rest for rest in found if rest.depth_of_openings <= 0.0]
-        if not dry:
+        if not found:
             raise MeasureError(FLOAT_UNAVAILABLE, fault=NO_REST)
-        return sorted(dry, key=lambda rest: rest.energy)
+        return sorted(found, key=lambda rest: rest.energy)
 
     def _descend(self, state: Flotation, known: Sequence[Flotation] = ()) -> Flotation:
         """Return the minimum of the energy downhill, or the known one that comes near."""
@@ -500,6 +537,19 @@ class Flotation:
     def depth_of_openings(self) -> float:
         """How far the deepest opening is below the waterline; negative above, -inf without any."""
         return self.level - float((self.body.openings @ self.up).min(initial=np.inf))
+
+    def with_flooded_hollow(self, depth: float | None) -> Flotation:
+        """Return it with a finding if the liquid has run in by a depth, or fills a hollow that is
+        open downward and would carry the body alone.
+        """
+        if depth is None and self.body.fitted is not None:
+            with suppress(MeasureError):
+                lidded = self.body.fitted(-self.up)
+                if lidded.capacity - self.body.capacity > self.displacement:
+                    depth = replace(self, body=lidded).depth_of_openings
+        if depth is None:
+            return self
+        return replace(self, findings=(finding(HOLLOW_FLOODED, depth=depth),))
 
     def is_near(self, other: Flotation, angle: float) -> bool:
         """Return whether the two positions differ by less than an angle."""

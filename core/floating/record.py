@@ -14,11 +14,12 @@ from numpy.typing import ArrayLike
 from ..measurement import Body, Measurement
 from ..numerics import Array
 from ..verdict import MeasureError
-from ..verdict.finding import finding
-from .findings import FLOAT_UNAVAILABLE, FLOODED_OUTSIDE, HOLLOW_FLOODED, LIQUID_ENTERS
+from .findings import FLOAT_UNAVAILABLE, FLOODED_OUTSIDE
 from .flotation import FloatingBody, Flotation, Tank, Vessel
 from .hulls import Hull, are_inside, fill_hollows, find_hull
 from .righting import RightingCurve, righting_curve
+
+MAX_HULLS = 4  # kept: the wet one, and the last with hollows filled
 
 
 def settle(
@@ -58,7 +59,6 @@ def settle(
         If it sinks, leaks, or does not rest.
     """
     wet = find_hull(bodies)
-    dry = fill_hollows(wet, np.asarray(up, np.float64))
     lost = [find_hull([space]) for space in flooded]
     liquids, closed = [], []
     for tank, fill, tank_density in tanks:
@@ -67,29 +67,34 @@ def settle(
         vessel = Vessel(hull.points, hull.triangles, 1.0)
         liquids.append(Tank(replace(vessel, volume=fill * vessel.whole[0]), tank_density))
 
-    def floating(hull: Hull) -> FloatingBody:
+    made: list[tuple[Hull, FloatingBody]] = []
+
+    def fitted(up: Array | None) -> FloatingBody:
+        hull = wet if up is None else fill_hollows(wet, up)
+        for other, body in made:
+            if np.array_equal(other.triangles, hull.triangles) and np.array_equal(
+                other.points, hull.points
+            ):
+                return body
         points, triangles = hull.points, hull.triangles
         inside = are_inside(hull, lost, closed) if lost else ()
-        if hull is dry and not all(inside):
+        if not made and not all(inside):
             raise MeasureError(FLOAT_UNAVAILABLE, fault=FLOODED_OUTSIDE)
         for space, is_inside in zip(lost, inside):
             if not is_inside:  # in a flooded hollow
                 continue
             triangles = np.concatenate([triangles, space.triangles[:, ::-1] + len(points)])
             points = np.concatenate([points, space.points])
-        return FloatingBody(points, triangles, mass, center, density, hull.openings, tuple(liquids))
+        body = FloatingBody(
+            points, triangles, mass, center, density, hull.openings, tuple(liquids), fitted
+        )
+        if len(made) > MAX_HULLS:
+            del made[int(made[0][0] is wet)]
+        made.insert(0 if hull is wet else len(made), (hull, body))
+        return body
 
-    try:
-        return floating(dry).settle(up)
-    except MeasureError as refusal:
-        if dry is wet or refusal.finding.code != LIQUID_ENTERS:
-            raise
-        try:
-            rest = floating(wet).settle(up)
-        except MeasureError:
-            raise refusal from None
-        depth = refusal.finding.values["depth"]
-        return replace(rest, findings=(finding(HOLLOW_FLOODED, depth=depth),))
+    start = np.asarray(up, np.float64)
+    return fitted(start).settle(start)
 
 
 def heel_and_trim(up: Array, axes: Array) -> tuple[float, float]:

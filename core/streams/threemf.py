@@ -93,7 +93,7 @@ class Placed:
     key: the same at all places of a mesh. matrix: (4, 4), for column vectors. hidden: the reason
     why it is no part of what is printed, or empty. item: the number of the build's item that it
     belongs to. is_negative: true if it is cut away from the item's other meshes. print_settings: as
-    `SlicerProject.print_settings` returns them.
+    `SlicerProject.print_settings` returns them; None if they cannot be read.
     """
 
     name: str
@@ -104,7 +104,7 @@ class Placed:
     hidden: str = ""
     item: int = 0
     is_negative: bool = False
-    print_settings: Mapping[str, float] = field(default_factory=dict)
+    print_settings: Mapping[str, float] | None = field(default_factory=dict)
 
 
 def read_3mf(path: str, limits: Limits = DEFAULT_LIMITS) -> tuple[list[Placed], float]:
@@ -236,11 +236,15 @@ class _Package:
                 one = replace(one, name=part.name)
             is_negative = part.kind == NEGATIVE
             settings = {**project.objects.get(top, {}), **part.settings}
+            try:
+                printed = project.print_settings(settings)
+            except (ValueError, TypeError):
+                printed = None
             yield replace(
                 one,
                 hidden=one.hidden or ("" if is_negative else part.kind),
                 is_negative=is_negative,
-                print_settings=project.print_settings(settings),
+                print_settings=printed,
             )
 
     def _mesh(self, key: tuple[str, str], found: _Object) -> tuple[NDArray, NDArray]:

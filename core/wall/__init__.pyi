@@ -7,7 +7,8 @@ from .findings import NO_FACE_AREA as NO_FACE_AREA
 from .findings import PRINT_UNFIT as PRINT_UNFIT
 from .findings import WALL_MEASURED as WALL_MEASURED
 from .moments import wall_moments as wall_moments
-from .printed import core_surface as core_surface
+from .printed import PrintCore as PrintCore
+from .printed import find_core as find_core
 from .walls import OffsetSolid as OffsetSolid
 from .walls import first_positive_root as first_positive_root
 from .walls import offset_solid as offset_solid

@@ -12,10 +12,12 @@ there. Planar cores, of all bodies with such vertices, have exact moments.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh import Surface, overlapping_box_pairs
+from ..mesh import Surface, overlapping_box_pairs, triangle_areas
 from ..numerics import Array, Index
 from ..verdict import ReadError
 from .directions import (
@@ -34,8 +36,21 @@ SAMPLES = np.array([[1, 1, 1], [4, 1, 1], [1, 4, 1], [1, 1, 4]]) / [[3.0], [6.0]
 SAME_PLANE = 1e-6  # difference of the normals, and relative of the heights, of one plane
 
 
-def core_surface(surface: Surface, wall: float, top: float, bottom: float) -> Surface:
-    """Return the surface of the core; its signed volume is not positive if there is none.
+class PrintCore(NamedTuple):
+    """The surface of a core; its signed volume is not positive if there is none.
+
+    minimum, maximum: the moves of faces at their corners, in multiples of what they should be.
+    misplaced: the volume that unequal moves add or move by the size of the body.
+    """
+
+    surface: Surface
+    minimum: float
+    maximum: float
+    misplaced: float
+
+
+def find_core(surface: Surface, wall: float, top: float, bottom: float) -> PrintCore:
+    """Return the core of a printed body.
 
     surface: closed, with faces outward, its z upward in the print. wall: the width of the walls;
     top, bottom: the heights of the layers below faces that face up, and above those that face
@@ -49,14 +64,24 @@ def core_surface(surface: Surface, wall: float, top: float, bottom: float) -> Su
     weights = np.where(solid[:, None], angles, 0.0)
     moves = np.where(solid, moves, 0.0)
     moves[solid] = _meeting(corners[solid], normals[solid], moves[solid])
-    return Surface(_move(points, triangles, normals, weights, moves), triangles)
+    steps = _steps(len(points), triangles, normals, weights, moves)
+    depths = np.einsum("mi,mki->mk", normals, steps[triangles])
+    ratios = depths[moves > 0.0] / moves[moves > 0.0, None]
+    unequal = triangle_areas(points, triangles) * (depths.mean(axis=1) - moves)
+    ways = corners.mean(axis=1) - points.mean(axis=0)
+    shifted = float(np.linalg.norm(unequal @ ways)) / float(np.ptp(points, axis=0).max())
+    return PrintCore(
+        Surface(points - steps, triangles),
+        float(ratios.min(initial=1.0)),
+        float(ratios.max(initial=1.0)),
+        max(abs(float(unequal.sum())), shifted),
+    )
 
 
-def _move(
-    points: Array, triangles: NDArray[np.integer], normals: Array, weights: Array, moves: Array
+def _steps(
+    count: int, triangles: NDArray[np.integer], normals: Array, weights: Array, moves: Array
 ) -> Array:
-    """Return the points after the planes of their triangles have moved inward."""
-    count = len(points)
+    """Return the (count, 3) inward steps of points whose triangles' planes move."""
     corner = triangles.ravel()
     weight = weights.ravel()
     normals = np.repeat(normals, 3, axis=0)
@@ -83,7 +108,7 @@ def _move(
     rough = off > UNEVEN_RTOL * np.sqrt(total(moves**2))
     if rough.any():
         steps[rough] = solved(LEAST_SQUARES_RTOL)[0][rough]
-    return points - steps
+    return steps
 
 
 def _meeting(corners: Array, normals: Array, moves: Array) -> Array:

@@ -426,3 +426,12 @@ def test_settings_of_bambu_and_orca_are_read(tmp_path, widths, wall, own, infill
     assert (block["print"]["infill"], block["print"]["walls"]) == (infill, walls)
     core = (40 - 2 * wall) * (20 - 2 * wall) * (24 - 1.8) * 1e-9
     assert close(block["mass"], density * (19_200e-9 - (1.0 - infill / 100.0) * core), 1e-6)
+
+
+@pytest.mark.parametrize("own", [{"extruder": "x"}, {"wall_loops": "two"}])
+def test_unreadable_print_settings_leave_the_part_solid(tmp_path, own):
+    metadata = "".join('<metadata key="{}" value="{}"/>'.format(*pair) for pair in own.items())
+    path = bambu(tmp_path / "a.3mf", INSIDE, "modifier_part", metadata, json.dumps(BAMBU_SETTINGS))
+    (block,) = document(path)["objects"]
+    assert block["kind"] == "solid" and close(block["volume"], 19_200e-9, 1e-6)
+    assert [one["code"] for one in block["findings"]].count("unchecked") == 1

@@ -153,6 +153,31 @@ def test_each_listed_position_is_reached(scene):
         assert found.state.draught == pytest.approx(rests[place - 1].draught, rel=1e-4)
 
 
+def test_boat_on_its_side_floats_dry_in_upright_position(scene):
+    water(scene)
+    outer, inner = (
+        np.array([[-x, -y], [x, -y], [x, y], [-x, y]]) for x, y in ((2.0, 1.0), (1.9, 0.9))
+    )
+    rings = [(outer, 0.0), (outer, 0.5), (inner, 0.5), (inner, 0.1)]
+    points = [(*corner, z) for ring, z in rings for corner in ring.tolist()]
+    quads = [
+        (low + i, low + (i + 1) % 4, low + 4 + (i + 1) % 4, low + 4 + i)
+        for low in (0, 4, 8)
+        for i in range(4)
+    ]
+    mesh = bpy.data.meshes.new("Boat")
+    mesh.from_pydata(points, [], [(3, 2, 1, 0), (12, 13, 14, 15), *quads])
+    boat = objects.add(mesh, rotation=(1.6, 0.0, 0.0))
+    boat.body_moments.density = 900.0
+    bpy.ops.object.body_moments_float_positions()
+    draughts = [rest.draught for rest in held(boat).afloat.rests]
+    place = int(np.argmin(draughts)) + 1
+    assert bpy.ops.object.body_moments_float(position=place) == {"FINISHED"}
+    depth = 0.9 * (4.0 - 3.8 * 1.8 * 0.4) / 8.0
+    assert held(boat).state.draught == pytest.approx(depth, rel=1e-5)
+    assert held(boat).is_at_rest and not held(boat).afloat.rest.findings
+
+
 @pytest.mark.parametrize(
     ("change", "code", "word"),
     [

@@ -196,7 +196,7 @@ def float_body(
     afloat = read(context.evaluated_depsgraph_get(), members)
     rest = afloat.rest
     if position:
-        rests = known.rests if known is not None and known.rests else rest.body.find_rests()
+        rests = known.rests if known is not None and known.rests else rest.body.find_rests([rest])
         up = rests[(position - 1) % len(rests)].up
         if known is not None and known.rests:
             up = _turn_since(afloat, known) @ up
@@ -237,7 +237,7 @@ def _turn_since(afloat: Afloat, known: Afloat) -> Array:
 def find_positions(context: Context, members: Sequence[Object]) -> Afloat:
     """Find all positions of rest of a body, and keep them."""
     afloat = read(context.evaluated_depsgraph_get(), members)
-    afloat.rests = tuple(afloat.rest.body.find_rests())
+    afloat.rests = tuple(afloat.rest.body.find_rests([afloat.rest]))
     _measure(context, members)
     remember(afloat, members, context.evaluated_depsgraph_get())
     return afloat

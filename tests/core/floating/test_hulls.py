@@ -8,6 +8,7 @@ from body_moments.core import MeasureError, Surface
 from body_moments.core.bodies import Part, Reading, body_of_mesh
 from body_moments.core.floating import FloatingBody, find_hull, settle
 from body_moments.core.measurement import Settings
+from body_moments.core.numerics import rotation_matrix
 
 UP = (0.0, 0.0, 1.0)
 QUADS = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
@@ -174,6 +175,34 @@ def test_rests_leave_out_those_in_which_liquid_runs_in():
     (rest,) = boat.find_rests()
     assert rest.up == pytest.approx(UP, abs=1e-9)
     assert rest.draught == pytest.approx(0.25, rel=1e-9)
+
+
+@pytest.mark.parametrize("heel", [0.3, 1.6, 3.1])
+@pytest.mark.parametrize(("height", "sheer"), [(0.5, 0.0), (1.0, 0.1)])
+def test_rests_do_not_depend_on_attitude_in_file(heel, height, sheer):
+    shape = bowl(0.1)
+    points = shape.points * [1.0, 1.0, height]
+    points[4:12, 2] += sheer * points[4:12, 0]
+    turn = rotation_matrix([np.cos(heel / 2.0), np.sin(heel / 2.0), 0.0, 0.0])
+    boat = body(Surface(points @ turn.T, quads=shape.quads))
+    volume = float(boat.volume.raw[0])
+    rest = settle([boat], 900.0 * volume, np.asarray(boat.volume.center), 1000.0, UP)
+    rests = sorted(rest.body.find_rests([rest]), key=lambda one: one.draught)
+    assert len(rests) == 2
+    assert min(np.linalg.norm(rest.up - one.up) for one in rests) < 1e-6
+    upright, inverted = rests
+    assert (turn.T @ upright.up)[2] > 0.9 and not upright.findings
+    assert [found.code for found in inverted.findings] == ["hollow_flooded"]
+    if not sheer:
+        depth = 0.9 * volume / 8.0
+        assert upright.draught == pytest.approx(depth, rel=1e-9)
+        walls = 0.9 * height * (8.0 - 3.8 * 1.8)  # open downward, below the floor
+        depth = 0.9 * height + (0.9 * volume - walls) / 8.0
+        assert inverted.draught == pytest.approx(depth, rel=1e-9)
+    for one in rests:
+        again = rest.body.settle(one.up)
+        assert again.draught == pytest.approx(one.draught, rel=1e-9)
+        assert len(again.findings) == len(one.findings)
 
 
 def test_flooded_hollow_is_reported_or_refused():

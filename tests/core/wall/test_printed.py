@@ -8,7 +8,7 @@ from body_moments.core.bodies.pocket import ball_moments
 from body_moments.core.mesh import Surface
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.verdict import MeasureError
-from body_moments.core.wall import core_surface
+from body_moments.core.wall import find_core
 
 from tests.close import close
 
@@ -37,7 +37,7 @@ def box(x, y, z):
 
 
 def core_volume(surface, *heights):
-    core = core_surface(surface, WALL, *(heights or (LAYERS, LAYERS)))
+    core = find_core(surface, WALL, *(heights or (LAYERS, LAYERS))).surface
     return polyhedron_moments(core, allow_open=True)[0].total
 
 
@@ -200,7 +200,7 @@ SHAPES = {
 def test_core_agrees_with_count_of_voxels(name):
     surface, inside = SHAPES[name]
     low, high = surface.points.min(axis=0) - 0.1, surface.points.max(axis=0) + 0.1
-    core = core_surface(surface, WALL, LAYERS, LAYERS)
+    core = find_core(surface, WALL, LAYERS, LAYERS).surface
     volume, area = polyhedron_moments(core, area_order=0, allow_open=True)
     assert abs(volume.total - voxel_core(inside, low, high)) < 0.5 * STEP * area.total
 
@@ -216,3 +216,14 @@ def test_ball_has_moments_of_its_quadrature():
     for exponents, moment in zip(found, found.raw):
         powers = np.prod([x**n for x, n in zip(points, exponents)], axis=0)
         assert abs(moment - (weight * powers).sum()) < 1e-9 * 3.0 ** (3 + sum(exponents))
+
+
+def test_unequal_moves_at_blunt_corners_are_stated():
+    even = find_core(box(20, 20, 20), WALL, LAYERS, LAYERS)
+    assert close(even.minimum, 1.0, 1e-12) and close(even.maximum, 1.0, 1e-12)
+    assert even.misplaced <= 1e-9
+    # The four planes at the top, of two slopes, do not meet in a point after they moved.
+    corners = np.array([(-10, -4, 0), (10, -4, 0), (10, 4, 0), (-10, 4, 0), (0, 0, 6)])
+    sides = [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4), (0, 2, 1), (0, 3, 2)]
+    roof = find_core(Surface.from_triangles(corners, sides), WALL, LAYERS, LAYERS)
+    assert roof.minimum < 0.99 < 1.01 < roof.maximum and roof.misplaced > 0.0
