@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from ..blender.write.findings import FILE_NOT_WRITTEN
+from ..core.density import POUND
 from ..core.files import FILE_WITHOUT_OBJECTS, XML_ENTITIES
 from ..core.files.whole_file import whole_file
 from ..core.measurement import counted, print_message
@@ -35,7 +36,7 @@ from .supervisor.progress import Progress
 
 NO_DESCRIPTION = "there is no robot description in {}"
 OTHER_FILES = {DESCRIPTION_UNKNOWN, FILE_WITHOUT_OBJECTS, XML_ENTITIES}
-MASS_UNITS = {"kg": 1.0, "g": 1e-3, "t": 1e3, "lb": 0.45359237}
+MASS_UNITS = {"kg": 1.0, "g": 1e-3, "t": 1e3, "lb": POUND}
 _EPILOG = """\
 FILE is URDF, SDF, MJCF, USD or xacro; of a folder, all such files but xacro and .usdc are audited.
 USD that is binary or refers to other files needs the Python module usd-core, and xacro the module

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from math import degrees, pi
+from math import pi
 from typing import TYPE_CHECKING
 
 from bpy.types import Context, UILayout
@@ -63,8 +63,7 @@ def _level(layout: UILayout, level: Level) -> None:
         ],
     )
     if level.tilt is not None and level.tilt < pi:
-        tilt = degrees(level.tilt)
-        rows.table(column, [("Spills at Tilt", "{:.2f}°".format(tilt), repr(tilt), "°")])
+        rows.table(column, [rows.angle_cell("Spills at Tilt", level.tilt)])
     row = layout.row(align=True)
     row.operator("object.body_moments_show_level", text="Show Level").what = "SURFACE"
     row.operator("object.body_moments_show_level", text="", icon="CURVE_DATA").what = "TABLE"

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from math import degrees, isfinite, pi
+from math import isfinite, pi
 from typing import TYPE_CHECKING
 
 from bpy.types import Context, UILayout
@@ -86,7 +86,10 @@ def _numbers(layout: UILayout, held: Held) -> None:
             ("Mass", "mass", state.body.total_mass),
         ],
     )
-    rows.table(column, [_angle("Heel, about X", held.heel), _angle("Trim, about Y", held.trim)])
+    rows.table(
+        column,
+        [rows.angle_cell("Heel, about X", held.heel), rows.angle_cell("Trim, about Y", held.trim)],
+    )
     smaller, larger = state.metacentric_heights
     rows.quantities(column, [("GM", "length", smaller), ("GM, Lengthwise", "length", larger)])
     body = rows.fold(layout, "body_moments_floating_more", "Hydrostatics")
@@ -113,11 +116,6 @@ def _numbers(layout: UILayout, held: Held) -> None:
             rows.group(body, label, rows.AXIS_LABELS, "length", held.to_world(point), size)
 
 
-def _angle(label: str, angle: float) -> rows.Cell:
-    shown = "{:.2f}°".format(round(degrees(angle), 2) + 0.0).replace("-", "−")
-    return (label, shown, repr(degrees(angle)), "°")
-
-
 def _positions(layout: UILayout, afloat: Afloat) -> None:
     if not afloat.rests:
         return
@@ -142,15 +140,15 @@ def _stability(layout: UILayout, curve: RightingCurve) -> None:
         column,
         [
             rows.quantity_cell("Largest GZ", "length", float(curve.arms[largest])),
-            _angle("At Heel", float(curve.angles[largest])),
-            _angle("Stable From", low),
-            _angle("Stable To", high),
+            rows.angle_cell("At Heel", float(curve.angles[largest])),
+            rows.angle_cell("Stable From", low),
+            rows.angle_cell("Stable To", high),
         ],
     )
     for label, angles in (("Capsizes Beyond", curve.capsize), ("Floods Beyond", curve.flooding)):
         reached = [abs(angle) for angle in angles if isfinite(angle)]
         if reached:
-            rows.table(column, [_angle(label, min(reached))])
+            rows.table(column, [rows.angle_cell(label, min(reached))])
     if high >= pi - 1e-6 and low <= 1e-6 - pi:
         rows.remark(column, "It comes back from any heel.")
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
+from math import degrees
 from typing import Any
 
 import blf
@@ -139,6 +140,12 @@ def quantity_cell(label: str, quantity: str, si: float | None) -> Cell:
     if si is None:
         return label, "–", "", ""
     return label, scene_units().text(quantity, si), repr(float(si)), SI_UNITS[quantity]
+
+
+def angle_cell(label: str, angle: float) -> Cell:
+    """Return the cells of a row for an angle in radians, shown in degrees."""
+    shown = "{:.2f}°".format(round(degrees(angle), 2) + 0.0).replace("-", "−")
+    return label, shown, repr(degrees(angle)), "°"
 
 
 def values(

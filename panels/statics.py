@@ -79,18 +79,13 @@ def _support(layout: UILayout, context: Context, support: Support | None, is_kno
         rows.state(column, localized(text), "ERROR")
     if support is not None:
         margin = support.margin * meters_per_unit(context.scene)
-        angle = degrees(support.tipping_angle)
-        toward = degrees(atan2(support.direction[1], support.direction[0]))
+        toward = atan2(support.direction[1], support.direction[0])
         cells = [
-            ("Margin", rows.scene_units().text("length", margin), repr(margin), "m"),
-            ("Tipping Angle", _degrees(angle), repr(angle), "°"),
-            ("Toward, from X", _degrees(toward), repr(toward), "°"),
+            rows.quantity_cell("Margin", "length", margin),
+            rows.angle_cell("Tipping Angle", support.tipping_angle),
+            rows.angle_cell("Toward, from X", toward),
         ]
     rows.table(column, cells)
-
-
-def _degrees(angle: float) -> str:
-    return "{:.2f}°".format(round(angle, 2) + 0.0).replace("-", "−")
 
 
 def _poses(layout: UILayout, poses: RestingPoses | Finding | None) -> None:

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import numpy as np
 from bpy.types import Depsgraph, Object
-from numpy.typing import NDArray
 
 from ...core.cuts import (
     CUT_FILL_UNAVAILABLE,
@@ -34,27 +33,26 @@ def cut_fill_against(other: Object, surface: Surface, depsgraph: Depsgraph, unit
     """Return cut and fill of a surface against an object: its plane if it is flat or shows no
     faces (its X and Y axes), else its surface.
     """
-    points, triangles = surface.points.astype(np.float64), surface.all_triangles()[0]
     if not measurable(other):
         matrix = np.array(other.matrix_world, np.float64)
         normal = np.cross(matrix[:3, 0], matrix[:3, 1])
-        return _against_plane(points, triangles, normal, unit * matrix[:3, 3], surface)
+        return _against_plane(surface, normal, unit * matrix[:3, 3])
     shown = world_surface(other, depsgraph, unit)
     faces = shown.all_triangles()[0]
     try:
         error = float(shown.coordinate_error.max())
         plane = fit_plane(shown.points, faces, np.eye(3), np.zeros(3), error)
     except MeasureError:
-        return cut_fill_between(points, triangles, shown.points, faces)
-    return _against_plane(points, triangles, plane.axes[:, 2], plane.origin, surface)
+        return cut_fill_between(surface.points, surface.all_triangles()[0], shown.points, faces)
+    return _against_plane(surface, plane.axes[:, 2], plane.origin)
 
 
-def _against_plane(
-    points: Array, triangles: NDArray[np.integer], normal: Array, place: Array, surface: Surface
-) -> CutFill:
+def _against_plane(surface: Surface, normal: Array, place: Array) -> CutFill:
     """Return cut and fill against the plane through a place; its upper side counts as up."""
     size = float(np.linalg.norm(normal))
     if not size > 0.0 or abs(normal[2]) < MIN_RIM_SPREAD * size:
         raise MeasureError(CUT_FILL_UNAVAILABLE, fault=PLANE_UPRIGHT)
     normal = normal if normal[2] >= 0.0 else -normal
-    return cut_fill(points, triangles, normal, float(normal @ place), surface.coordinate_error)
+    triangles = surface.all_triangles()[0]
+    offset = float(normal @ place)
+    return cut_fill(surface.points, triangles, normal, offset, surface.coordinate_error)

@@ -133,8 +133,8 @@ def _set_print(settings: bpy.types.PropertyGroup, found: Mapping[str, float]) ->
             settings.density = value
         else:
             key, scale = PRINT_OPTIONS[name]
-            number = value * scale
-            setattr(settings, key, round(number) if scale == 1 and name != "infill" else number)
+            is_count = isinstance(getattr(settings, key), int)
+            setattr(settings, key, round(value) if is_count else value * scale)
     if found:
         settings.kind = "PRINTED"
 

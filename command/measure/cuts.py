@@ -16,10 +16,9 @@ from ...core.cuts import (
     CutFill,
     below_record,
     contents_record,
-    cut_fill,
     cut_fill_record,
-    fit_rim,
     partly_compared,
+    surface_cut_fill,
 )
 from ...core.inertia import NO_CERTAIN_VOLUME
 from ...core.measurement import NO_VOLUME, Body, Measurement
@@ -91,6 +90,4 @@ def _cut_fill(
     surface = join_surfaces([*body.surfaces(True)])
     if isinstance(against, str) and against != RIM and against_object is not None:
         return against_object(against, surface)
-    points, triangles = surface.points.astype(float), surface.all_triangles()[0]
-    up, offset = fit_rim(points, triangles) if against == RIM else ((0.0, 0.0, 1.0), against)
-    return cut_fill(points, triangles, up, float(offset), surface.coordinate_error)
+    return surface_cut_fill(surface, None if against == RIM else float(against))

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..mesh import Bvh, Surface, sort_components
+from ..mesh import Surface, join_surfaces, tree_of_all
 from ..moments import Measure, Moments, monomials
 from ..numerics import Array
 
@@ -34,9 +34,9 @@ class PocketRoom:
 
     def __init__(self, cores: Sequence[Surface], outsides: Sequence[Surface], line: float) -> None:
         self.line = line
-        self._trees = _tree(cores), _tree(outsides)
-        points = np.concatenate([core.points for core in cores])
-        self.low, self.high = points.min(axis=0), points.max(axis=0)
+        joined = join_surfaces(cores), join_surfaces(outsides)
+        self._trees = [tree_of_all(one.points, one.all_triangles()[0]) for one in joined]
+        self.low, self.high = joined[0].points.min(axis=0), joined[0].points.max(axis=0)
 
     def radii(self, places: Array) -> Array:
         """Return the (k,) largest radii of pockets around places (k, 3); 0 outside of the core."""
@@ -50,13 +50,3 @@ class PocketRoom:
         radii = np.minimum(core.distances(places - core.origin, whole), away)
         found[inside] = np.maximum(radii, 0.0)
         return found
-
-
-def _tree(surfaces: Sequence[Surface]) -> Bvh:
-    starts = np.cumsum([0, *(len(surface.points) for surface in surfaces)])
-    points = np.concatenate([surface.points for surface in surfaces]).astype(np.float64)
-    triangles = np.concatenate(
-        [surface.all_triangles()[0] + start for surface, start in zip(surfaces, starts)]
-    ).astype(np.intp)
-    together = sort_components(points, triangles, np.zeros(len(triangles), np.intp), 1)
-    return Bvh(points, together, np.ones(1, bool))

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..inertia import MassProperties
-from ..mesh import Bvh, ConvexHull, Surface, convex_hull, normals, sort_components, triangle_areas
+from ..mesh import Bvh, ConvexHull, Surface, convex_hull, normals, tree_of_all, triangle_areas
 from ..numerics import Array, spread_directions
 from ..polyhedron import volume_and_center
 from ..robots import Inertial, Pose, Shape, equal_inertia_shape, primitive_moments
@@ -112,7 +112,7 @@ def _merge_within(
     """Merge pairs of pieces whose common hull keeps the outward distance, the smallest added volume
     first.
     """
-    tree = _tree_of(surface)
+    tree = tree_of_all(surface.points, surface.all_triangles()[0])
     size = float(np.ptp(surface.points, axis=0).max())
     pieces = dict(enumerate(hulls))
     gaps = {number: hull.gap for number, hull in pieces.items()}
@@ -315,7 +315,7 @@ def distances(
     is_convex = hull_volume(hull) - volume_and_center(surface)[0] <= CONVEX_RTOL * hull_volume(hull)
     if is_convex or outward > enough:
         return max(outward, 0.0), inward, step + max(sags)
-    tree = _tree_of(surface)
+    tree = tree_of_all(surface.points, surface.all_triangles()[0])
     own_step = 0.0
     for fineness in (COARSE_STEPS, STEPS) if enough < inf else (STEPS,):
         places, own_step = _outer_samples(solids, size, fineness)
@@ -323,13 +323,6 @@ def distances(
         if outward > enough:
             break
     return outward, inward, max(step, own_step) + max(sags)
-
-
-def _tree_of(surface: Surface) -> Bvh:
-    points = np.asarray(surface.points, np.float64)
-    triangles = surface.all_triangles()[0].astype(np.intp)
-    together = np.zeros(len(triangles), np.intp)
-    return Bvh(points, sort_components(points, triangles, together, 1), np.ones(1, bool))
 
 
 def _farthest_outside(tree: Bvh, places: Array, size: float, enough: float) -> float:

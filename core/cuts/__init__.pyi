@@ -16,6 +16,7 @@ from .open_surfaces import CutFill as CutFill
 from .open_surfaces import cut_fill as cut_fill
 from .open_surfaces import cut_fill_between as cut_fill_between
 from .open_surfaces import fit_rim as fit_rim
+from .open_surfaces import surface_cut_fill as surface_cut_fill
 from .part_below import PartBelow as PartBelow
 from .part_below import below as below
 from .part_below import cut_outline as cut_outline

@@ -18,6 +18,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..inertia import frame_about
 from ..mesh import first_at_equal_position, uncancelled_sides
 from ..moments import Moments, U
 from ..moments.moments import TINY
@@ -287,11 +288,8 @@ def spill_tilt(
     35.26
     """
     hollow = find_hollow(points, triangles, up)
-    first = np.eye(3)[int(np.argmin(np.abs(hollow.up)))]
-    first = first - hollow.up * (hollow.up @ first)
-    first = first / float(np.linalg.norm(first))
+    first, second, _ = np.array(frame_about(hollow.up.tolist()))
     angles = np.arange(DIRECTIONS) * (2.0 * np.pi / DIRECTIONS)
-    second = np.cross(hollow.up, first)
     best, way = np.pi, first
     if hollow.sealed:
         return best, way

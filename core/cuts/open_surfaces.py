@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..inertia import frame_about
 from ..mesh import (
+    Surface,
     consistent_orientation,
     find_edges,
     first_at_equal_position,
@@ -192,6 +193,15 @@ def fit_rim(
     if width[1] <= MIN_RIM_SPREAD**2 * width[2] or abs(normal @ up) < MIN_RIM_SPREAD:
         raise MeasureError(CUT_FILL_UNAVAILABLE, fault=RIM_UPRIGHT)
     return normal, float(normal @ center)
+
+
+def surface_cut_fill(surface: Surface, height: float | None) -> CutFill:
+    """Measure the volumes between an open surface and a height, or with None the plane through its
+    rim. Raises MeasureError.
+    """
+    points, triangles = surface.points, surface.all_triangles()[0]
+    up, offset = fit_rim(points, triangles) if height is None else ((0.0, 0.0, 1.0), height)
+    return cut_fill(points, triangles, up, offset, surface.coordinate_error)
 
 
 def cut_fill_between(

@@ -51,7 +51,6 @@ DIVISORS = np.array([2.0, 6.0, 6.0, 6.0, *6 * [24.0], *6 * [120.0]])
 RAISED = np.array([3, 6, 8, 9, 10, 11, 12, 13, 14, 15])  # rows of each monomial times z
 # Rows of each monomial with z left out.
 LEVEL = np.array([0, 1, 2, 0, 4, 5, 1, 7, 2, 0])
-ACROSS = EXPONENTS[:, 2] == 0
 # Errors in units of rounding: of rotated positions; of the products for one triangle, relative to
 # its area and to the products in its area.
 PLACE_ROUNDINGS = 24.0

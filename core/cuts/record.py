@@ -28,9 +28,7 @@ def below_record(surface: Surface, level: float) -> dict[str, Any]:
     if not low[2] < level < high[2]:
         raise MeasureError(LEVEL_UNAVAILABLE, fault=PLANE_MISSES)
     triangles = surface.all_triangles()[0]
-    found = measure_below(
-        surface.points.astype(np.float64), triangles, [UP], [level], surface.coordinate_error
-    )
+    found = measure_below(surface.points, triangles, [UP], [level], surface.coordinate_error)
     part, face = found.part.at(0), found.face.at(0)
     return {
         "level": level,
@@ -49,7 +47,7 @@ def contents_record(surface: Surface, level: float) -> dict[str, Any] | None:
     there.
     """
     try:
-        hollow = find_hollow(surface.points.astype(np.float64), surface.all_triangles()[0])
+        hollow = find_hollow(surface.points, surface.all_triangles()[0])
         liquid = hollow.contents(level)
     except MeasureError:
         return None

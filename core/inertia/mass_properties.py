@@ -17,7 +17,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments import SECOND_MOMENT_INDEX, Measure, Moments, U, sum_moments
-from ..numerics import Array, Mask, PerBody, check_type, float_array, rotation_array
+from ..numerics import (
+    Array,
+    Mask,
+    PerBody,
+    check_type,
+    float_array,
+    inertia_of_second,
+    rotation_array,
+    second_of_inertia,
+)
 from ..verdict import MeasureError
 from .findings import NO_CERTAIN_VOLUME
 from .principal_frames import PrincipalFrame, principal_frame, principal_frames
@@ -112,7 +121,7 @@ class MassProperties:
         second = weight[..., None, None] * (
             moments.raw[..., SECOND_MOMENT_INDEX] - total[..., None, None] * products
         )
-        inertia = second.trace(axis1=-2, axis2=-1)[..., None, None] * IDENTITY_3 - second
+        inertia = inertia_of_second(second)
         principal = weight[..., None] * frame.moments
         # rounding may violate this for a flat body
         principal[..., 2] = np.minimum(principal[..., 2], principal[..., 0] + principal[..., 1])
@@ -241,7 +250,7 @@ def affine_image(
     """
     linear = np.asarray(linear, np.float64)
     preferred = np.asarray(preferred_axes, np.float64)
-    second = np.trace(properties.inertia) / 2.0 * IDENTITY_3 - properties.inertia
+    second = second_of_inertia(properties.inertia)
     second = linear @ second @ linear.T * (mass / properties.mass)
     spread, axes = np.linalg.eigh(second)
     spread = np.maximum(spread[::-1], 0.0)
@@ -254,7 +263,7 @@ def affine_image(
         properties,
         mass=float(mass),
         center=np.asarray(center, np.float64),
-        inertia=np.trace(second) * IDENTITY_3 - second,
+        inertia=inertia_of_second(second),
         principal=PrincipalFrame(moments, axes, symmetry="", is_unique=False, finding=None),
     )
 

@@ -10,6 +10,7 @@ from .bvh import boxes_overlap as boxes_overlap
 from .bvh import intersecting_pairs as intersecting_pairs
 from .bvh import overlapping_box_pairs as overlapping_box_pairs
 from .bvh import sort_components as sort_components
+from .bvh import tree_of_all as tree_of_all
 from .correspondence import Correspondence as Correspondence
 from .correspondence import Elements as Elements
 from .correspondence import correspondences as correspondences

@@ -495,3 +495,11 @@ def boxes_overlap(centers: NDArray, extents: NDArray) -> bool:
     # a flat box overlaps another one by nothing
     pairs = following_pairs(*_sweep(low, high, 0.0), PAIRS_PER_BATCH)
     return any(bool(((low[i] < high[j]) & (low[j] < high[i])).all(axis=1).any()) for i, j in pairs)
+
+
+def tree_of_all(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> Bvh:
+    """Return the tree of all triangles as one component."""
+    points = np.asarray(points, np.float64)
+    component = np.zeros(len(triangles), np.intp)
+    whole = sort_components(points, triangles.astype(np.intp, copy=False), component, 1)
+    return Bvh(points, whole, np.ones(1, bool))

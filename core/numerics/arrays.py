@@ -178,3 +178,13 @@ def distinct_arrays(arrays: NDArray, within: float) -> Array:
         np.abs(arrays[:, None] - arrays[None]).max(axis=tuple(range(2, arrays.ndim + 1))) < within
     )
     return arrays[np.argmax(same, axis=1) == np.arange(len(arrays))]
+
+
+def inertia_of_second(second: NDArray) -> Array:
+    """Return the (..., 3, 3) inertia tensors of second moments ∫x x' dm about the same point."""
+    return np.trace(second, axis1=-2, axis2=-1)[..., None, None] * np.eye(3) - second
+
+
+def second_of_inertia(inertia: NDArray) -> Array:
+    """Return the (..., 3, 3) second moments ∫x x' dm of inertia tensors about the same point."""
+    return np.trace(inertia, axis1=-2, axis2=-1)[..., None, None] / 2.0 * np.eye(3) - inertia

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics import Array, Mask, polar_rotation, quaternion, rotation_matrix
+from ..numerics import Array, Mask, inertia_of_second, polar_rotation, quaternion, rotation_matrix
 
 # indices of the last frame on the ground, or of frame 0, and of the next frame on the ground
 Flight = tuple[int, int]
@@ -114,7 +114,7 @@ def momenta_between(course: Course, first: int, last: int) -> tuple[Array, Array
     )
     spin = 2.0 * np.einsum("fji,fj->fi", rotation, spin) / (turn * turn).sum(axis=1)[:, None]
     second = spread.sum(axis=1) + np.einsum("p,fpi,fpj->fij", masses, arm, arm)
-    inertia = np.trace(second, axis1=1, axis2=2)[:, None, None] * np.eye(3) - second
+    inertia = inertia_of_second(second)
     product = growth @ spread
     skew = (product - product.swapaxes(-1, -2)).sum(axis=1)
     inner = np.einsum("p,fpi->fi", masses, np.cross(arm, arm_rate))

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics import Array
+from ..numerics import Array, inertia_of_second
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +43,7 @@ class Parts:
         """(3, 3) inertia tensor of the total about its center, in kg and Blender's units."""
         arms = self.centers - self.center
         spread = self.spreads.sum(axis=0) + np.einsum("p,pi,pj->ij", self.masses, arms, arms)
-        return np.trace(spread) * np.eye(3) - spread
+        return inertia_of_second(spread)
 
     @classmethod
     def join(cls, several: Sequence[Parts]) -> Parts:

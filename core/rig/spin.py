@@ -18,7 +18,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics import Array, quaternion, rotation_matrix
+from ..numerics import Array, inertia_of_second, quaternion, rotation_matrix
 from .motion import Course, continuous
 
 # Of a frame, in -1 to 1. A cubic through the first, second, fourth and fifth has the least error of
@@ -80,7 +80,7 @@ class CarriedParts:
     def inertia(self) -> Array:
         """(f, n, p, 3, 3) inertia tensors of the parts about the common center."""
         second = self.spreads + np.einsum("p,fnpi,fnpj->fnpij", self.masses, self.arms, self.arms)
-        return np.trace(second, axis1=-2, axis2=-1)[..., None, None] * np.eye(3) - second
+        return inertia_of_second(second)
 
     @cached_property
     def momenta(self) -> Array:

@@ -19,7 +19,7 @@ from ..inertia import combine
 from ..mesh import Surface, hull_volumes
 from ..moments import Moments
 from ..moments.moments import SECOND_MOMENT_INDEX
-from ..numerics import Array
+from ..numerics import Array, inertia_of_second, second_of_inertia
 from ..solid import measure_solid
 from ..verdict import Procedure, internal_error, sentence, severity
 from ..verdict.finding import Finding, MeasureError, Severity, finding
@@ -431,7 +431,7 @@ def _weighed(shape: StatedShape, mass: Moments) -> Moments:
     own = combine([(placed, 1.0)])
     body = shape.rules.complete(StatedInertial(own.mass, own.center, own.inertia))
     assert body is not None
-    second = np.trace(body.inertia) / 2.0 * np.eye(3) - body.inertia
+    second = second_of_inertia(body.inertia)
     return replace(second_moments(body.mass, body.center, second), measure=placed.measure)
 
 
@@ -570,14 +570,13 @@ def _guess(stated: StatedInertial, geometry: StatedInertial, hull: Hull | None) 
     reference = Reference(1.0, geometry.center, geometry.inertia / geometry.mass)
     if reference.compare_centers(stated) <= DIFFERS:
         return geometry
-    second = np.trace(geometry.inertia) / 2.0 * np.eye(3) - geometry.inertia
+    second = second_of_inertia(geometry.inertia)
     way = stated.center - geometry.center
     way = way / np.linalg.norm(way)
     # Near the border of the hull the geometry is shrunk towards it, until it fits.
     for part in 0.5 ** np.arange(10.0):
         shrink = np.eye(3) - (1.0 - part) * np.outer(way, way)
-        shrunk = shrink @ second @ shrink
-        tensor = np.trace(shrunk) * np.eye(3) - shrunk
+        tensor = inertia_of_second(shrink @ second @ shrink)
         guessed = replace(geometry, center=stated.center, tensor=tensor)
         if not impossible(guessed, hull):
             return guessed
@@ -630,8 +629,7 @@ def _reference(pieces: Sequence[tuple[StatedShape, _Piece]]) -> Reference | None
         if piece.moments is None:
             return None
         own = piece.moments.transform(stated.shape.pose.matrix).about_center()
-        second = own.raw[SECOND_MOMENT_INDEX]
-        inertia = np.trace(second) * np.eye(3) - second
+        inertia = inertia_of_second(own.raw[SECOND_MOMENT_INDEX])
         whole = whole.add(Body(float(own.raw[0]), own.about, inertia))
     if whole.center is None or whole.inertia is None:
         return None

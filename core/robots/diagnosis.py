@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics import Array, rotation_matrix
+from ..numerics import Array, rotation_matrix, second_of_inertia
 from ..verdict.finding import Finding, finding
 from .findings import (
     AUDIT_ANGLES,
@@ -118,7 +118,7 @@ class Reference:
         """Return the mass properties of this geometry, filled evenly with the stated mass, beside
         the stated ones.
         """
-        second = stated.mass * (np.trace(self.inertia) / 2.0 * np.eye(3) - self.inertia)
+        second = stated.mass * second_of_inertia(self.inertia)
         volume_ratio = None if drawn_volume is None else self.volume / drawn_volume
         return compare(
             stated.principal(), stated.mass, self.center - stated.center, second, volume_ratio

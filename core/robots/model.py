@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from ..inertia import EQUAL_MOMENTS_RTOL, combine
 from ..mesh import Surface
 from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, monomial_count
-from ..numerics import Array
+from ..numerics import Array, second_of_inertia
 
 # Known values of an axis: N·m·s/rad or N·s/m, N·m or N, N·m/rad or N/m, N·m or N, rad/s or m/s.
 VALUES = ("damping", "friction", "stiffness", "effort", "velocity")
@@ -344,7 +344,7 @@ def combine_inertials(inertials: list[Inertial]) -> Inertial:
     for inertial in inertials:
         raw = np.zeros(monomial_count(3))
         raw[0] = inertial.mass
-        raw[SECOND_MOMENT_INDEX] = np.trace(inertial.inertia) / 2.0 * np.eye(3) - inertial.inertia
+        raw[SECOND_MOMENT_INDEX] = second_of_inertia(inertial.inertia)
         bodies.append((Moments(raw, inertial.center, Measure.MASS), 1.0))
     total = combine(bodies)
     return Inertial.with_agreeing_axes(

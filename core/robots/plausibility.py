@@ -26,7 +26,7 @@ from math import pi, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics import Array, spread_directions
+from ..numerics import Array, second_of_inertia, spread_directions
 from ..verdict.finding import Finding, finding
 from .findings import (
     INERTIAL_CENTER_OUTSIDE,
@@ -174,7 +174,7 @@ def _excess_spread(stated: StatedInertial, hull: Hull, is_outside: bool) -> list
     """Return the reason why no body within the hull has a possible tensor. is_outside: of a center
     within the hull.
     """
-    second = (np.trace(stated.inertia) / 2.0 * np.eye(3) - stated.inertia) / stated.mass
+    second = second_of_inertia(stated.inertia) / stated.mass
     directions = np.concatenate([np.linalg.eigh(second)[1].T, spread_directions(DIRECTIONS)])
     variance = np.einsum("ki,ij,kj->k", directions, second, directions)
     # The center may be off by its own tolerance.

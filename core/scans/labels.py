@@ -109,20 +109,20 @@ def _csv_row(line: str, columns: Mapping[str, int], delimiter: str) -> tuple[int
     density = parse_number(text) if text else None
     if density is not None and not 0.0 < density < np.inf:
         raise ValueError(text)
-    color = _color(map(parse_number, colors)) if len(colors) == 3 else None
+    color = read_color(map(parse_number, colors)) if len(colors) == 3 else None
     return parse_whole(texts["label"]), Label(texts.get("name", ""), color, density)
 
 
 def _text_row(line: str) -> tuple[int, Label]:
     for pattern, group in ((_ITK_SNAP, 2), (_FREESURFER, 3)):
         if found := pattern.fullmatch(line):
-            color = _color(map(float, found.group(group).split()))
+            color = read_color(map(float, found.group(group).split()))
             return int(found["label"]), Label(found["name"], color)
     label, name = line.split(None, 1)
     return parse_whole(label), Label(name.strip('"'))
 
 
-def _color(values: Iterable[float]) -> tuple[float, ...]:
+def read_color(values: Iterable[float]) -> tuple[float, ...]:
     """Return a color from 0 to 1; values may be up to 255. Raises ValueError."""
     channels = [*values]
     if not np.isfinite(channels).all():
@@ -138,7 +138,7 @@ def segment_labels(fields: Mapping[str, str]) -> dict[int, Label]:
         if found := re.fullmatch(r"=(Segment\d+_)LabelValue", key):
             color = fields.get("={}Color".format(found[1]), "").split()
             try:
-                known = _color(map(parse_number, color)) if len(color) == 3 else None
+                known = read_color(map(parse_number, color)) if len(color) == 3 else None
                 labels[parse_whole(text)] = Label(fields.get("={}Name".format(found[1]), ""), known)
             except ValueError:
                 continue  # a remark in the header, without effect on sums

@@ -27,7 +27,7 @@ from ..files import (
 from ..numerics import Array, rotation_matrix
 from ..verdict import FileError
 from .findings import SCAN_IN_SEVERAL_FILES, SCAN_SAMPLE_TYPE, SCAN_SIZE
-from .labels import Label
+from .labels import Label, read_color
 from .scan import (
     Scan,
     map_samples,
@@ -116,10 +116,8 @@ def _extension_labels(text: bytes, order: Literal["little", "big"]) -> dict[int,
 
     def begin(name: str, values: dict[str, str]) -> None:
         if name == "Label":
-            color = [parse_number(values[channel]) for channel in ("Red", "Green", "Blue")]
-            if not np.isfinite(color).all():
-                raise ValueError("a color is not finite")
-            current[:] = [parse_whole(values["Key"]), tuple(color), ""]
+            color = read_color(parse_number(values[name]) for name in ("Red", "Green", "Blue"))
+            current[:] = [parse_whole(values["Key"]), color, ""]
 
     def add(text: str) -> None:
         if current:

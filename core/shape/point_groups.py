@@ -20,7 +20,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh import Bvh, sort_components
+from ..mesh import Bvh, tree_of_all
 from ..numerics import Array, Index, Mask, cross_rows, lengths
 from .symmetries import Symmetry, axis_rotation
 
@@ -64,10 +64,7 @@ class PlacedTriangles:
 
     @cached_property
     def _tree(self) -> Bvh:
-        whole = sort_components(
-            self.points, self.triangles, np.zeros(len(self.triangles), np.intp), 1
-        )
-        return Bvh(self.points, whole, np.ones(1, bool))
+        return tree_of_all(self.points, self.triangles)
 
     def _distances(self, points: NDArray, within: float) -> Array:
         return self._tree.distances(

@@ -29,18 +29,15 @@ def infill_range(
         for one in (empty, growth)
     )
     root = -at_zero / np.where(rate != 0.0, rate, 1.0)
-    low = max(0.0, *root[rate > 0.0], 0.0)
-    high = min(1.0, *root[rate < 0.0], 1.0)
+    low = float(root[rate > 0.0].max(initial=0.0))
+    high = float(root[rate < 0.0].min(initial=1.0))
     return (low, high) if low <= high and (at_zero[rate == 0.0] >= 0.0).all() else None
 
 
 def largest_margin(corners: Array, empty: Array, growth: Array) -> tuple[float, float]:
     """Return the largest margin that any infill gives, and that infill, as `infill_range`."""
-    start, along = _edges(corners)
     infill = np.linspace(0.0, 1.0, SAMPLES)
-    moments = empty + infill[:, None] * growth
-    centers = moments[:, 1:] / moments[:, :1]
-    margins = (centers @ along.T - np.einsum("ki,ki->k", along, start)).min(axis=1)
+    margins = _margins(corners, empty + infill[:, None] * growth)
     best = int(margins.argmax())
     return float(margins[best]), float(infill[best])
 
@@ -62,8 +59,14 @@ def least_ballast(corners: Array, mass: Array, places: Array, margin: float, sig
 
 def ballast_margins(corners: Array, mass: Array, places: Array, added: Array) -> Array:
     """Return the (k,) margins that masses (k,), below zero if taken away, give at places (k, 2)."""
+    unit = np.column_stack([np.ones(len(places)), places])
+    return _margins(corners, mass + added[:, None] * unit)
+
+
+def _margins(corners: Array, moments: Array) -> Array:
+    """Return the margins of the centers of (k, 3) masses and first moments."""
     start, along = _edges(corners)
-    centers = (mass[1:] + added[:, None] * places) / (mass[0] + added)[:, None]
+    centers = moments[:, 1:] / moments[:, :1]
     return (centers @ along.T - np.einsum("ki,ki->k", along, start)).min(axis=1)
 
 

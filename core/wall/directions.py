@@ -112,7 +112,7 @@ def offset_directions(
     count = len(points)
     normals, angles, noise, solid = (
         np.concatenate(column)
-        for column in zip(*(_corner_geometry(points[part], stored) for part in blocks(triangles)))
+        for column in zip(*(corner_geometry(points[part], stored) for part in blocks(triangles)))
     )
     corner = triangles[solid].ravel()
     weight = angles[solid].ravel()
@@ -289,9 +289,11 @@ def _maximin_direction(
     vectors[behind[better]] = (scale[:, None] * best_direction)[better]
 
 
-def _corner_geometry(points: NDArray, stored: float) -> tuple[NDArray, NDArray, NDArray, NDArray]:
+def corner_geometry(
+    points: NDArray, stored: float = 0.0
+) -> tuple[NDArray, NDArray, NDArray, NDArray]:
     """Return (m, 3) unit normals, (m, 3) angles, (m, 2) bounds of the normals' errors, and a mask
-    of known normals.
+    of known normals. points: (m, 3, 3) corners.
     """
     sides = points[:, [1, 2, 0]] - points
     normal = np.cross(sides[:, 0], sides[:, 1])

@@ -17,10 +17,16 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh import Surface, overlapping_box_pairs
+from ..mesh import Surface, overlapping_box_pairs, triangle_areas
 from ..numerics import Array, Index
 from ..verdict import ReadError
-from .directions import LEAST_SQUARES_RTOL, SAME_PLANE_RTOL, UNEVEN_RTOL, weld_equal
+from .directions import (
+    LEAST_SQUARES_RTOL,
+    SAME_PLANE_RTOL,
+    UNEVEN_RTOL,
+    corner_geometry,
+    weld_equal,
+)
 from .findings import PRINT_UNFIT
 
 MAX_SAMPLED = 20_000  # triangles with several samples of their thickness; of others, the middle
@@ -52,22 +58,16 @@ def find_core(surface: Surface, wall: float, top: float, bottom: float) -> Print
     """
     points, triangles = weld_equal(surface)
     corners = points[triangles]
-    sides = corners[:, [1, 2, 0]] - corners
-    crossed = np.cross(sides[:, 0], sides[:, 1])
-    double = np.linalg.norm(crossed, axis=1)
-    flat = double > 1e-12 * np.linalg.norm(sides, axis=2).max(axis=1) ** 2
-    normals = crossed / np.where(flat, double, 1.0)[:, None]
+    normals, angles, _, solid = corner_geometry(corners)
     layers = np.where(normals[:, 2] > 0.0, top, bottom) * np.abs(normals[:, 2])
     moves = np.maximum(wall * np.hypot(normals[:, 0], normals[:, 1]), layers)
-    turned = np.stack([sides, -sides[:, [2, 0, 1]]])
-    angles = np.arctan2(double[:, None], np.einsum("mki,mki->mk", *turned))
-    weights = np.where(flat[:, None], angles, 0.0)
-    moves = np.where(flat, moves, 0.0)
-    moves[flat] = _meeting(corners[flat], normals[flat], moves[flat])
+    weights = np.where(solid[:, None], angles, 0.0)
+    moves = np.where(solid, moves, 0.0)
+    moves[solid] = _meeting(corners[solid], normals[solid], moves[solid])
     steps = _steps(len(points), triangles, normals, weights, moves)
     depths = np.einsum("mi,mki->mk", normals, steps[triangles])
     ratios = depths[moves > 0.0] / moves[moves > 0.0, None]
-    unequal = double / 2.0 * (depths.mean(axis=1) - moves)
+    unequal = triangle_areas(points, triangles) * (depths.mean(axis=1) - moves)
     ways = corners.mean(axis=1) - points.mean(axis=0)
     shifted = float(np.linalg.norm(unequal @ ways)) / float(np.ptp(points, axis=0).max())
     return PrintCore(

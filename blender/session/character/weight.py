@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from ....core.bodies import float64_matrix
 from ....core.inertia import COLUMNS, ROWS, PlainBody, principal_axes, tensor_rows
-from ....core.numerics import Array, Index, shortest_decimal
+from ....core.numerics import Array, Index, second_of_inertia, shortest_decimal
 from ....core.rig import Parts
 from ....core.statics import Support, find_contacts, support_of_contacts
 from ....core.verdict import EditRefusedError, MeasureError, ReadError
@@ -122,7 +122,7 @@ class Character:
             (turn, head) = frames[name]
             to_bone = np.linalg.inv(place @ float64_matrix(bone.matrix_local))
             tensor = np.array(tensor_rows(body.inertia))
-            spread = np.trace(tensor) / 2.0 * np.eye(3) - tensor
+            spread = second_of_inertia(tensor)
             linear = to_bone[:3, :3] @ turn / unit
             centers.append(linear @ body.center + to_bone[:3, :3] @ head + to_bone[:3, 3])
             spreads.append(linear @ spread @ linear.T)

@@ -23,11 +23,10 @@ from ....core.cuts import (
     CutFill,
     Hollow,
     PartBelow,
-    cut_fill,
     find_hollow,
-    fit_rim,
     partly_compared,
     spill_tilt,
+    surface_cut_fill,
 )
 from ....core.mesh import join_surfaces
 from ....core.numerics import Array
@@ -179,11 +178,7 @@ def measure_cut_fill(
             raise QueryError(NO_SUCH_NAME, kind="object", name=other)
         found = cut_fill_against(reference, surface, depsgraph, unit)
     else:
-        points, triangles = surface.points.astype(np.float64), surface.all_triangles()[0]
-        up, offset = (0.0, 0.0, 1.0), height
-        if against == "RIM":
-            up, offset = fit_rim(points, triangles)
-        found = cut_fill(points, triangles, up, offset, surface.coordinate_error)
+        found = surface_cut_fill(surface, None if against == "RIM" else height)
     known = KnownCutFill(found, partly_compared(found))
     memory.cut_fills[obj] = known
     _remember(obj, Kind.CUT_FILL, context)

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from ...files import parse_numbers
 from ...mesh import Surface, convex_hull
-from ...numerics import Array, rotation_matrix
+from ...numerics import Array, inertia_of_second, rotation_matrix, second_of_inertia
 from ...verdict import Finding, MeasureError
 from ..model import Pose, Shape
 from ..stated import (
@@ -356,11 +356,11 @@ def _inertial(node: Node, frame: _Frame) -> StatedInertial:
     if frame.is_plain:
         return stated
     # The second moments of the mass about the center scale with its place.
-    second = np.trace(tensor) / 2.0 * np.eye(3) - stated.inertia
+    second = second_of_inertia(stated.inertia)
     second = frame.mass * second * np.outer(frame.scale, frame.scale)
     pose = frame.place(center, np.eye(3))
     turn = frame.pose.rotation
-    inertia = turn @ (np.trace(second) * np.eye(3) - second) @ turn.T
+    inertia = turn @ inertia_of_second(second) @ turn.T
     return StatedInertial(stated.mass * frame.mass, pose.position, inertia)
 
 
