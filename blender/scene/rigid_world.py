@@ -21,6 +21,11 @@ from .findings import RIGID_WORLD_LINKED
 MIN_MASS = bpy.types.RigidBodyObject.bl_rna.properties["mass"].hard_min  # kg
 
 
+def has_gravity(scene: Scene) -> bool:
+    """Return whether anything falls in a scene."""
+    return scene.use_gravity and any(scene.gravity)
+
+
 def down(scene: Scene) -> Array:
     """Return the direction of gravity, (3,); -Z if the scene has none."""
     gravity = np.array(scene.gravity, np.float64) if scene.use_gravity else np.zeros(3)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...core.floating import float_record, settle
+from ...core.floating import FLOAT_UNAVAILABLE, NO_GRAVITY, float_record, settle
 from ...core.measurement import Body, Measurement
 from ...core.verdict import Finding, MeasureError
 from .entries import Contents, failure
@@ -23,15 +23,17 @@ def floating_entry(
     measurement: Measurement,
     options: Namespace,
     contents: Contents,
-    up: ArrayLike = UP,
+    up: ArrayLike | None = UP,
 ) -> tuple[dict[str, Any], tuple[Finding, ...]]:
     """Return the entry `floating` of a record, and findings; None, and an error, if the body does
     not float.
 
-    up: against gravity.
+    up: against gravity; None without any.
     """
     properties = measurement.mass_properties
     try:
+        if up is None:
+            raise MeasureError(FLOAT_UNAVAILABLE, fault=NO_GRAVITY)
         rest = settle([body], properties.mass, properties.center, options.float, up)
         angles = np.radians(options.gz or ())
         entry = float_record(rest, measurement, options.frame, angles, rest.body.find_rests([rest]))

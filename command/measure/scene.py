@@ -24,7 +24,7 @@ from ...blender.read.assembly import operands_of, total_caveats
 from ...blender.read.places import place_error
 from ...blender.read.tracking import tracking_paused
 from ...blender.scale import meters_per_unit
-from ...blender.scene.rigid_world import down
+from ...blender.scene.rigid_world import down, has_gravity
 from ...blender.session.findings import NO_SUCH_NAME
 from ...blender.session.tracking.staleness import mark_up_to_date
 from ...blender.settings import properties as settings
@@ -298,7 +298,8 @@ class Scene:
         if self.options.float:
             depsgraph = bpy.context.evaluated_depsgraph_get()
             body = measure_body(obj, depsgraph, self._wanted).body
-            up = -down(bpy.context.scene)
+            scene = bpy.context.scene
+            up = -down(scene) if has_gravity(scene) else None
             floating, of_liquid = floating_entry(body, named, self.options, contents, up)
             more |= floating
             named = replace(named, findings=(*named.findings, *of_liquid))

@@ -58,6 +58,15 @@ def test_heavy_box_is_an_error_with_remedy():
     assert "remove more than 6000 kg of its 12000 kg" in found["errors"][0]["reason"]
 
 
+@pytest.mark.parametrize("change", [{"use_gravity": False}, {"gravity": (0.0, 0.0, 0.0)}])
+def test_nothing_floats_without_gravity(change):
+    for name, value in change.items():
+        setattr(bpy.context.scene, name, value)
+    found = floating_box()
+    assert found["objects"][0]["floating"] is None
+    assert "no gravity" in found["errors"][0]["reason"]
+
+
 def test_mesh_file_floats_as_its_object(tmp_path):
     there = floating_box()["objects"][0]["floating"]
     path = files.save(tmp_path / "box.obj")

@@ -200,6 +200,34 @@ def test_refused_float_moves_nothing(scene, reported, change, code, word):
     assert held(obj) is None and "body_mass" not in obj
 
 
+def test_child_held_by_a_constraint_is_refused(scene, reported):
+    water(scene)
+    boat = hull(location=(0.0, 0.0, 3.0))
+    child = hull((0.2, 0.2, 0.2), location=(0.0, 0.0, 3.0))
+    child.name = "Held"
+    child.parent = boat
+    child.matrix_parent_inverse = boat.matrix_basis.inverted()
+    limit = child.constraints.new("LIMIT_LOCATION")
+    limit.use_min_z, limit.min_z = True, 3.0
+    objects.only(boat)
+    bpy.context.view_layer.update()
+    before = [*boat.matrix_world, *child.matrix_world]
+    assert bpy.ops.object.body_moments_float() == {"CANCELLED"}
+    assert reported.values("child_not_held")["object"] == "Held"
+    bpy.context.view_layer.update()
+    assert [*boat.matrix_world, *child.matrix_world] == before
+
+
+def test_far_body_is_at_rest_once_it_floats(scene):
+    water(scene)
+    obj = hull(location=(1e6, 2e6, 5.0), rotation=(0.2, -0.1, 0.7))
+    assert bpy.ops.object.body_moments_float() == {"FINISHED"}
+    assert held(obj).is_at_rest
+    assert obj.location.z == pytest.approx(0.0, abs=1e-5)
+    obj.location.z += 0.01
+    assert not held(obj).is_at_rest
+
+
 def test_overlapping_parts_are_refused(scene, reported):
     water(scene)
     boat = hull()

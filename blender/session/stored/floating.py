@@ -27,7 +27,7 @@ from ....core.floating import (
     settle,
 )
 from ....core.numerics import Array
-from ....core.verdict import Finding, MeasureError
+from ....core.verdict import EditRefusedError, Finding, MeasureError
 from ...bodies.measure_body import measure_body
 from ...bodies.measure_object import measure_many
 from ...read.fingerprint import settings_hash
@@ -35,7 +35,8 @@ from ...read.visibility import measurable
 from ...scale import meters_per_unit
 from ...scene import fcurves, reframe
 from ...scene.changes import ancestors
-from ...scene.rigid_world import down
+from ...scene.findings import CHILD_NOT_HELD
+from ...scene.rigid_world import down, has_gravity
 from ...scene.transforms import TransformChannels, world
 from ...settings.floating import liquid_density
 from ...write import properties
@@ -113,7 +114,7 @@ def _carrier(obj: Object) -> Object:
 
 
 def _up(scene: Scene) -> Array:
-    if not scene.use_gravity or not np.any(scene.gravity):
+    if not has_gravity(scene):
         raise MeasureError(FLOAT_UNAVAILABLE, fault=NO_GRAVITY)
     return -down(scene)
 
@@ -199,7 +200,7 @@ def float_body(
         rests = known.rests if known is not None and known.rests else rest.body.find_rests([rest])
         up = rests[(position - 1) % len(rests)].up
         if known is not None and known.rests:
-            up = _turn_since(afloat, known) @ up
+            up = _turn_since(known.places[0], afloat.places[0])[0][:3, :3] @ up
         rest = rest.body.settle(up)
     notes += rest.findings
     scene = context.scene
@@ -209,6 +210,7 @@ def float_body(
     size = rest.body.size / unit
     saved = [TransformChannels(root) for root in roots]
     is_moved = False
+    targets = [matrix @ world(member) for member in members]
     try:
         for root in roots:
             target = matrix @ world(root)
@@ -218,6 +220,9 @@ def float_body(
             ].max() > reframe.location_tolerance(root, size):
                 is_moved = True
                 reframe.move(context, reframe.Plan(root, target, size, move_only=False))
+        for member, target in zip(members, targets):
+            if not _is_close(world(member), target, size):
+                raise EditRefusedError(CHILD_NOT_HELD, object=member.name)
     except BaseException:
         for channels in saved:
             channels.restore()
@@ -228,10 +233,23 @@ def float_body(
     return is_moved
 
 
-def _turn_since(afloat: Afloat, known: Afloat) -> Array:
-    """Return the (3, 3) rotation of a body since it was read before."""
-    turn = afloat.places[0] @ np.linalg.inv(known.places[0])
-    return turn[:3, :3] / np.cbrt(np.linalg.det(turn[:3, :3]))
+def _turn_since(before: Array, now: Array) -> tuple[Array, Array]:
+    """Return the (4, 4) rigid motion of an object between two matrices, and its (3,) scales."""
+    left, scale, right = np.linalg.svd(now[:3, :3] @ np.linalg.inv(before[:3, :3]))
+    turn = np.eye(4)
+    turn[:3, :3] = left @ right
+    turn[:3, 3] = now[:3, 3] - turn[:3, :3] @ before[:3, 3]
+    return turn, scale
+
+
+def _is_close(places: Array, others: Array, size: float) -> bool:
+    """Return whether (..., 4, 4) matrices are equal up to rounding; size: of their body."""
+    off = np.abs(places - others)
+    far = float(np.spacing(np.float32(np.abs(others[..., 3]).max())))
+    return bool(
+        off[..., :3].max() <= PLACE_RTOL * np.abs(others[..., :3]).max()
+        and off[..., 3].max() <= PLACE_RTOL * size + 4.0 * far
+    )
 
 
 def find_positions(context: Context, members: Sequence[Object]) -> Afloat:
@@ -308,10 +326,9 @@ def _held(obj: Object, afloat: Afloat, members: list[Object], scene: Scene) -> H
         staleness.stale_reason(member, scene, stamp_of) for member in members
     )
     is_live = any(map(following.is_live, members))
-    turn = present[0] @ np.linalg.inv(afloat.places[0])
-    carried = turn @ afloat.places
-    is_stale |= bool((np.abs(carried - present) > PLACE_RTOL * np.abs(present).max()).any())
-    scale = np.linalg.svd(turn[:3, :3], compute_uv=False)
+    turn, scale = _turn_since(afloat.places[0], present[0])
+    size = afloat.rest.body.size / meters_per_unit(scene)
+    is_stale |= not _is_close(turn @ afloat.places, present, size)
     is_stale |= bool((np.abs(scale - 1.0) > PLACE_RTOL).any())
     if is_stale:
         if not is_live:
