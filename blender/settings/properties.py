@@ -33,6 +33,7 @@ from .given import (
     mass_property,
 )
 from .hooks import changed, density_changed, threshold_changed, wall_changed
+from .options import PRINT_OPTIONS, set_print
 
 TRANSLATION_CONTEXT = (
     "Body Moments"  # for words that mean something else in Blender's own translations
@@ -61,19 +62,8 @@ COPIED_PROPERTIES = (
         "value_density",
         "transfer_table",
     ),
-    *(
-        "print_walls",
-        "print_line_width",
-        "print_top_layers",
-        "print_bottom_layers",
-        "print_layer_height",
-        "print_infill",
-        "pocket_center",
-        "pocket_radius",
-        "pocket_density",
-        "spool_price",
-        "spool_mass",
-    ),
+    *(name for name, _ in PRINT_OPTIONS.values()),
+    *("pocket_center", "pocket_radius", "pocket_density"),
     *("spline_order", *GIVEN_PROPERTIES),
 )
 
@@ -133,17 +123,6 @@ def _millimeters(name: str, description: str, default: float) -> Any:
     )
 
 
-# Fields of `PrintSettings`: their properties, and these per SI unit.
-PRINT_OPTIONS = {
-    "walls": ("print_walls", 1),
-    "line_width": ("print_line_width", 1e3),
-    "top": ("print_top_layers", 1),
-    "bottom": ("print_bottom_layers", 1),
-    "layer_height": ("print_layer_height", 1e3),
-    "infill": ("print_infill", 1),
-    "price": ("spool_price", 1),
-    "spool": ("spool_mass", 1),
-}
 PRINT_FIELDS = "print_walls", "print_top_layers", "print_bottom_layers", "print_infill"
 # By key: name, description and values of PRINT_FIELDS.
 PRESETS = {
@@ -501,9 +480,7 @@ def apply_options(settings: PropertyGroup, options, scene: Scene) -> None:
     if options.mass is not None:
         settings.mass_from = "MASS"
         settings.mass = options.mass
-    for name, value in options.printed:
-        key, scale = PRINT_OPTIONS[name]
-        setattr(settings, key, value * scale)
+    set_print(settings, dict(options.printed))
     if options.thickness is not None:
         settings.thickness = options.thickness / meters_per_unit(scene)
 

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from ...blender.bodies.union import subtract
 from ...blender.scene.imports import show_bodies
-from ...blender.settings.properties import PRINT_OPTIONS
+from ...blender.settings.options import set_print
 from ...core.cad import FACES_NOT_READ, SurfaceFile, has_surfaces, read_surfaces
 from ...core.files import file_limits
 from ...core.mesh import Surface
@@ -128,15 +128,11 @@ def import_3mf(path: str) -> Opened:
 
 def _set_print(settings: bpy.types.PropertyGroup, found: Mapping[str, float]) -> None:
     """Set an object's settings to those of a slicer's project, if it has any."""
-    for name, value in found.items():
-        if name == "density":
-            settings.density = value
-        else:
-            key, scale = PRINT_OPTIONS[name]
-            is_count = isinstance(getattr(settings, key), int)
-            setattr(settings, key, round(value) if is_count else value * scale)
     if found:
         settings.kind = "PRINTED"
+    if "density" in found:
+        settings.density = found["density"]
+    set_print(settings, {name: value for name, value in found.items() if name != "density"})
 
 
 def _without_negative_parts(

@@ -7,7 +7,7 @@ until the object, its place or the unit changes.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import bmesh
 import bpy
@@ -43,7 +43,7 @@ from ...settings.options import object_settings
 from .. import memory
 from ..findings import NO_SUCH_NAME
 from ..tracking import handlers, staleness, stamps
-from ..tracking.stamps import Kind, Stamp
+from ..tracking.stamps import Kind
 
 MAX_TILTED_TRIANGLES = 20_000  # of vessels whose spill tilt is computed
 
@@ -204,11 +204,7 @@ def cut_fill_of(obj: Object, scene: Scene) -> KnownCutFill | None:
 
 def is_stale(obj: Object, scene: Scene, kind: Kind) -> bool:
     """Return whether a remembered result no longer holds."""
-
-    def stamp_of(each: Object) -> Stamp | None:
-        return stamps.carried(each, kind)
-
-    return bool(staleness.stale_reason(obj, scene, stamp_of))
+    return bool(staleness.stale_reason(obj, scene, partial(stamps.carried, kind=kind)))
 
 
 def add_surface(context: Context, obj: Object, level: Level) -> Object:
