@@ -7,6 +7,7 @@ from bpy.types import Object, PropertyGroup, Scene
 
 from ...core.density import BY_NAME
 from .given import choice_property
+from .hooks import part_changed
 
 LIQUIDS = {
     "SEA_WATER": "Sea Water",
@@ -55,6 +56,7 @@ class BodyMomentsTankSettings(PropertyGroup):
             "tank itself has no mass",
         ),
         ("FLOODED", "Flooded", "It is a space that the liquid around the body fills, too"),
+        update=part_changed,
     )
     fill: FloatProperty(
         name="Fill Level",
@@ -63,6 +65,7 @@ class BodyMomentsTankSettings(PropertyGroup):
         min=0.0,
         max=100.0,
         subtype="PERCENTAGE",
+        update=part_changed,
     )
 
 

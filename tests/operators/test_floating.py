@@ -92,6 +92,20 @@ def test_children_and_tanks_float_as_one_body(scene):
     assert held(boat).state.draught == pytest.approx(depth, rel=1e-5)
 
 
+def test_second_draw_looks_at_no_object_of_the_scene(scene, monkeypatch):
+    from body_moments.blender.session.stored import floating
+
+    water(scene)
+    boat = hull(density=300.0)
+    bpy.ops.object.body_moments_float()
+    first = held(boat)
+    monkeypatch.setattr(floating, "_held", None)
+    assert floating.held_body(boat, scene) is first
+    boat.body_moments_tank.role = "TANK"
+    monkeypatch.undo()
+    assert held(boat) is None
+
+
 @pytest.mark.parametrize("asked", ["boat", "part"])
 def test_heel_is_that_of_the_root_whichever_part_is_asked(scene, asked):
     water(scene)

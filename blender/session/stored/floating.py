@@ -303,16 +303,11 @@ def held_body(obj: Object, scene: Scene) -> Held | Finding | None:
     afloat = memory.afloat.get(obj)
     if afloat is None:
         return None
-    by_uid = {member.session_uid: member for member in scene.objects}
-    members = [by_uid[uid] for uid in afloat.uids if uid in by_uid]
-    if len(members) < len(afloat.uids):
-        return None
-    roles = _roles(members)
     liquid = scene.body_moments_liquid.level, liquid_density(scene)
-    key = (memory.state.generation, scene.session_uid, *liquid, roles)
+    key = (memory.state.generation, scene.session_uid, *liquid)
     if afloat.shown is None or afloat.shown[0] != key:
         try:
-            value = _held(obj, afloat, members, scene)
+            value = _held(obj, afloat, scene)
         except MeasureError as refusal:
             value = refusal.finding
         afloat = memory.afloat[obj]
@@ -320,7 +315,11 @@ def held_body(obj: Object, scene: Scene) -> Held | Finding | None:
     return afloat.shown[1]
 
 
-def _held(obj: Object, afloat: Afloat, members: list[Object], scene: Scene) -> Held | None:
+def _held(obj: Object, afloat: Afloat, scene: Scene) -> Held | None:
+    by_uid = {member.session_uid: member for member in scene.objects}
+    members = [by_uid[uid] for uid in afloat.uids if uid in by_uid]
+    if len(members) < len(afloat.uids):
+        return None
     present = np.array([float64_matrix(member.matrix_world) for member in members])
     is_stale = _roles(members) != afloat.roles or any(
         staleness.stale_reason(member, scene, stamp_of) for member in members
@@ -336,7 +335,7 @@ def _held(obj: Object, afloat: Afloat, members: list[Object], scene: Scene) -> H
         depsgraph = bpy.context.view_layer.depsgraph
         fresh = read(depsgraph, members)
         remember(fresh, members, depsgraph)
-        return _held(obj, fresh, members, scene)
+        return _held(obj, fresh, scene)
     unit = meters_per_unit(scene)
     turn[:3, 3] *= unit
     up = _up(scene)
