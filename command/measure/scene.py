@@ -276,33 +276,43 @@ class Scene:
             else None
         )
         more |= {} if colliders is None else {"colliders": colliders}
-        is_cut = self.options.below is not None or self.options.against is not None
-        if is_cut or self.options.float:
-            depsgraph = bpy.context.evaluated_depsgraph_get()
-            body = measure_body(obj, depsgraph, wanted).body
-        if is_cut:
-            unit = self._wanted.unit_scale or meters_per_unit(bpy.context.scene)
-
-            def against_object(name: str, surface: Surface) -> CutFill:
-                other = bpy.context.scene.objects.get(name)
-                if other is None:
-                    raise QueryError(NO_SUCH_NAME, kind="object", name=name)
-                return cut_fill_against(other, surface, depsgraph, unit)
-
-            cuts, of_cuts = cut_entries(named, body, self.options, contents, against_object)
-            more |= cuts
-            named = replace(named, findings=(*named.findings, *of_cuts))
-        if self.options.float:
-            scene = bpy.context.scene
-            up = -down(scene) if has_gravity(scene) else None
-            floating, of_liquid = floating_entry(body, named, self.options, contents, up)
-            more |= floating
-            named = replace(named, findings=(*named.findings, *of_liquid))
+        if any(getattr(self.options, name) is not None for name in ("below", "against", "float")):
+            entries, of_body = self._body_entries(obj, named, wanted, contents)
+            more |= entries
+            named = replace(named, findings=(*named.findings, *of_body))
         if self.options.thumbnails:
             more["thumbnail"] = thumbnail_of(obj, measurement, self._wanted.unit_scale)
         entry = record.record(named, self.options.frame, order, surface, more, self.options.about)
         contents.objects.append(entry)
         contents.measured.append((label, obj, measurement))
+
+    def _body_entries(
+        self,
+        obj: bpy.types.Object,
+        measurement: Measurement,
+        wanted: MeasureOptions,
+        contents: Contents,
+    ) -> tuple[dict[str, Any], list[Finding]]:
+        """Return the entries of cuts and of floating, if requested, and findings about them."""
+        scene = bpy.context.scene
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+        unit = wanted.unit_scale or meters_per_unit(scene)
+        body = measure_body(obj, depsgraph, wanted).body
+
+        def against_object(name: str, surface: Surface) -> CutFill:
+            other = scene.objects.get(name)
+            if other is None:
+                raise QueryError(NO_SUCH_NAME, kind="object", name=name)
+            return cut_fill_against(other, surface, depsgraph, unit)
+
+        entries, found = cut_entries(measurement, body, self.options, contents, against_object)
+        findings = [*found]
+        if self.options.float:
+            up = -down(scene) if has_gravity(scene) else None
+            floating, of_liquid = floating_entry(body, measurement, self.options, contents, up)
+            entries |= floating
+            findings += of_liquid
+        return entries, findings
 
     def _default_density(
         self, obj: bpy.types.Object, measurement: Measurement
