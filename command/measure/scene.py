@@ -276,8 +276,11 @@ class Scene:
             else None
         )
         more |= {} if colliders is None else {"colliders": colliders}
-        if self.options.below is not None or self.options.against is not None:
+        is_cut = self.options.below is not None or self.options.against is not None
+        if is_cut or self.options.float:
             depsgraph = bpy.context.evaluated_depsgraph_get()
+            body = measure_body(obj, depsgraph, wanted).body
+        if is_cut:
             unit = self._wanted.unit_scale or meters_per_unit(bpy.context.scene)
 
             def against_object(name: str, surface: Surface) -> CutFill:
@@ -286,18 +289,10 @@ class Scene:
                     raise QueryError(NO_SUCH_NAME, kind="object", name=name)
                 return cut_fill_against(other, surface, depsgraph, unit)
 
-            cuts, of_cuts = cut_entries(
-                named,
-                measure_body(obj, depsgraph, wanted).body,
-                self.options,
-                contents,
-                against_object,
-            )
+            cuts, of_cuts = cut_entries(named, body, self.options, contents, against_object)
             more |= cuts
             named = replace(named, findings=(*named.findings, *of_cuts))
         if self.options.float:
-            depsgraph = bpy.context.evaluated_depsgraph_get()
-            body = measure_body(obj, depsgraph, self._wanted).body
             scene = bpy.context.scene
             up = -down(scene) if has_gravity(scene) else None
             floating, of_liquid = floating_entry(body, named, self.options, contents, up)

@@ -18,8 +18,8 @@ class GridOptions(NamedTuple):
     smallest value inside the body, None for all of the grid; filled: with the grid's own density,
     not with one material. value_density: kg/m³ of a value of 1; table: a transfer table instead, ""
     for none. spline_order: 1 voxels, 2 trilinear, 4 cubic. sample_positions: the positions of
-    uneven samples, as `positions_text` writes them. label:
-    of a label map, 0 for all labels but 0; None to measure otherwise.
+    uneven samples, as `positions_text` writes them. label: of
+    a label map, 0 for all labels but 0; None to measure otherwise.
     """
 
     grid: str = ""

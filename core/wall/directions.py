@@ -14,7 +14,7 @@ and Kale, Theory of Computing 8, 2012).
 
 Inside a flat side and along a straight edge a vertex may slide without moving the planes. There d
 is as even as it can be, Σ cot |d_i - d_j|² least (Pinkall and Polthier, Experiment. Math. 2, 1993),
-so that the finely cut sides of a thick- walled box shrink as a whole, and do not fold over if its
+so that the finely cut sides of a thick-walled box shrink as a whole, and do not fold over if its
 edges move inward.
 """
 

@@ -109,6 +109,15 @@ def test_closed_body_and_missing_object_are_errors():
         assert reason in found["errors"][0]["reason"]
 
 
+def test_sheet_that_does_not_float_keeps_its_cut_and_fill():
+    add_grid("Slope", lambda x, y: x, (0, 0, 3))
+    found = document("--against", "3", "--float", "Water")
+    (entry,) = found["objects"]
+    assert entry["cut_fill"]["cut"]["volume"] == pytest.approx(1.0, rel=1e-6)
+    assert entry["floating"] is None
+    assert [error["name"] for error in found["errors"]] == ["Slope"]
+
+
 def test_solid_without_a_volume_is_refused():
     add_box("Box").body_moments.kind = "SHELL"
     (error,) = document("--below", "0")["errors"]
