@@ -151,6 +151,31 @@ def test_positions_and_righting_arms_move_nothing(scene):
     assert "Righting Arms" in texts
 
 
+def test_float_keeps_rests_and_curve_until_the_shape_changes(scene):
+    water(scene)
+    obj = hull(location=(1.0, 2.0, 3.0), rotation=(0.3, 0.2, 0.1))
+    bpy.ops.object.body_moments_float_positions()
+    bpy.ops.object.body_moments_righting_arms()
+    before = held(obj).afloat
+    assert bpy.ops.object.body_moments_float() == {"FINISHED"}
+    after = held(obj).afloat
+    assert after.curve is before.curve
+    metacenters = [rest.metacentric_heights for rest in before.rests]
+    assert len(metacenters) == 2  # upright and upside-down
+    found = [rest.metacentric_heights for rest in after.rests]
+    assert np.array(found) == pytest.approx(np.array(metacenters), rel=1e-5)
+    other = next(i for i, rest in enumerate(after.rests, 1) if not rest.is_near(after.rest, 0.1))
+    assert bpy.ops.object.body_moments_float(position=other) == {"FINISHED"}
+    assert obj.matrix_world.col[2].z == pytest.approx(-1.0, abs=BLENDER)
+    there = held(obj).afloat
+    assert len(there.rests) == 2 and there.curve is None  # it was of the other position
+    obj.data.vertices[0].co.x -= 1.0
+    obj.data.update()
+    bpy.context.view_layer.update()
+    bpy.ops.object.body_moments_float()
+    assert not held(obj).afloat.rests
+
+
 def test_each_listed_position_is_reached(scene):
     water(scene)
     obj = hull((6.0, 2.0, 1.0), rotation=(0.3, 0.2, 0.1))

@@ -10,6 +10,7 @@ then if Live is on. The waterline follows the place, the liquid and its density 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import bpy
@@ -47,6 +48,7 @@ from ..tracking.stamps import Kind, Stamp
 from . import results
 
 PLACE_RTOL = 1e-5  # of float32 matrices
+SAME_REST = 1e-4  # rad
 GZ_KEY = "body_righting_arm"
 
 
@@ -193,15 +195,13 @@ def float_body(
     roots = [obj for obj in members if not any(other in members for other in ancestors(obj.parent))]
     for root in roots:
         reframe.check_movable(root)
-    known = memory.afloat.get(members[0])
-    afloat = read(context.evaluated_depsgraph_get(), members)
+    afloat = _read_again(context, members)
     rest = afloat.rest
     if position:
-        rests = known.rests if known is not None and known.rests else rest.body.find_rests([rest])
-        up = rests[(position - 1) % len(rests)].up
-        if known is not None and known.rests:
-            up = _turn_since(known.places[0], afloat.places[0])[0][:3, :3] @ up
-        rest = rest.body.settle(up)
+        rests = afloat.rests or rest.body.find_rests([rest])
+        rest = rests[(position - 1) % len(rests)]
+        if not rest.is_near(afloat.rest, SAME_REST):
+            afloat.curve = None
     notes += rest.findings
     scene = context.scene
     unit = meters_per_unit(scene)
@@ -233,13 +233,41 @@ def float_body(
     return is_moved
 
 
-def _turn_since(before: Array, now: Array) -> tuple[Array, Array]:
-    """Return the (4, 4) rigid motion of an object between two matrices, and its (3,) scales."""
-    left, scale, right = np.linalg.svd(now[:3, :3] @ np.linalg.inv(before[:3, :3]))
+def _turn_since(afloat: Afloat, members: Sequence[Object], scene: Scene) -> Array | None:
+    """Return the (4, 4) rigid motion of a body since it was read; None if more has changed."""
+    if _roles(members) != afloat.roles or any(
+        staleness.stale_reason(member, scene, stamp_of) for member in members
+    ):
+        return None
+    present = np.array([world(member) for member in members])
+    before = afloat.places[0]
+    left, scale, right = np.linalg.svd(present[0, :3, :3] @ np.linalg.inv(before[:3, :3]))
     turn = np.eye(4)
     turn[:3, :3] = left @ right
-    turn[:3, 3] = now[:3, 3] - turn[:3, :3] @ before[:3, 3]
-    return turn, scale
+    turn[:3, 3] = present[0, :3, 3] - turn[:3, :3] @ before[:3, 3]
+    size = afloat.rest.body.size / meters_per_unit(scene)
+    is_rigid = (np.abs(scale - 1.0) <= PLACE_RTOL).all()
+    return turn if is_rigid and _is_close(turn @ afloat.places, present, size) else None
+
+
+def _read_again(context: Context, members: Sequence[Object]) -> Afloat:
+    """Read a body, and keep what is known of it if only its place has changed."""
+    afloat = read(context.evaluated_depsgraph_get(), members)
+    known = memory.afloat.get(members[0])
+    if (
+        known is None
+        or known.uids != afloat.uids
+        or known.rest.body.density != afloat.rest.body.density
+    ):
+        return afloat
+    turn = _turn_since(known, members, context.scene)
+    if turn is not None:
+        settle_at = afloat.rest.body.settle
+        with suppress(MeasureError):
+            afloat.rests = tuple(settle_at(turn[:3, :3] @ rest.up) for rest in known.rests)
+        if np.linalg.norm(turn[:3, :3] @ known.rest.up - afloat.rest.up) < SAME_REST:
+            afloat.curve = known.curve
+    return afloat
 
 
 def _is_close(places: Array, others: Array, size: float) -> bool:
@@ -254,7 +282,7 @@ def _is_close(places: Array, others: Array, size: float) -> bool:
 
 def find_positions(context: Context, members: Sequence[Object]) -> Afloat:
     """Find all positions of rest of a body, and keep them."""
-    afloat = read(context.evaluated_depsgraph_get(), members)
+    afloat = _read_again(context, members)
     afloat.rests = tuple(afloat.rest.body.find_rests([afloat.rest]))
     _measure(context, members)
     remember(afloat, members, context.evaluated_depsgraph_get())
@@ -263,7 +291,7 @@ def find_positions(context: Context, members: Sequence[Object]) -> Afloat:
 
 def heel(context: Context, members: Sequence[Object], angles: Array, free_trim: bool) -> Afloat:
     """Compute the righting arms of a body from where it settles, and keep them."""
-    afloat = read(context.evaluated_depsgraph_get(), members)
+    afloat = _read_again(context, members)
     afloat.curve = righting_curve(afloat.rest, angles, free_trim=free_trim)
     _measure(context, members)
     remember(afloat, members, context.evaluated_depsgraph_get())
@@ -320,17 +348,9 @@ def _held(obj: Object, afloat: Afloat, scene: Scene) -> Held | None:
     members = [by_uid[uid] for uid in afloat.uids if uid in by_uid]
     if len(members) < len(afloat.uids):
         return None
-    present = np.array([float64_matrix(member.matrix_world) for member in members])
-    is_stale = _roles(members) != afloat.roles or any(
-        staleness.stale_reason(member, scene, stamp_of) for member in members
-    )
-    is_live = any(map(following.is_live, members))
-    turn, scale = _turn_since(afloat.places[0], present[0])
-    size = afloat.rest.body.size / meters_per_unit(scene)
-    is_stale |= not _is_close(turn @ afloat.places, present, size)
-    is_stale |= bool((np.abs(scale - 1.0) > PLACE_RTOL).any())
-    if is_stale:
-        if not is_live:
+    turn = _turn_since(afloat, members, scene)
+    if turn is None:
+        if not any(map(following.is_live, members)):
             return None
         depsgraph = bpy.context.view_layer.depsgraph
         fresh = read(depsgraph, members)
@@ -350,7 +370,8 @@ def _held(obj: Object, afloat: Afloat, scene: Scene) -> Held | None:
         height - level
     ) < PLACE_RTOL * body.size + 1e-6 * abs(level)
     # A mirrored matrix has no rotation of its own: its X axis counts as the mirrored one.
-    axes = present[0, :3, :3] / np.linalg.norm(present[0, :3, :3], axis=0)
+    axes = world(members[0])[:3, :3]
+    axes /= np.linalg.norm(axes, axis=0)
     if np.linalg.det(axes) < 0.0:
         axes[:, 0] *= -1.0
     return Held(afloat, state, turn, up, is_at_rest, *heel_and_trim(up, axes))
