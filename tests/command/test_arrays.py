@@ -10,8 +10,7 @@ import json
 import numpy as np
 import pytest
 from body_moments.command.findings import NEEDS_BLEND
-from body_moments.core.density.smooth_threshold import smooth_threshold_body
-from body_moments.core.density.threshold import threshold_body
+from body_moments.core.density import smooth_threshold_body, threshold_body
 from body_moments.operators import batch
 
 from tests.blender.batch_files import codes, in_process, sentence

@@ -335,16 +335,6 @@ def test_expectation_decides_the_exit_code(words, code, tmp_path):
     assert answer("--ignore", "audit_total", "--ignore", "audit_joint", *words, path)[1] == 0
 
 
-@pytest.mark.parametrize("place", ["0 nan 0", "0 1e200 0"])
-def test_place_that_is_no_number_leaves_centers_unknown(place, tmp_path):
-    joint = JOINT.format("j", "left_a", "right_a").replace("3 0 0", place)
-    links = [link.replace('name="a"', 'name="left_a"') for link in PAIR]
-    links = [link.replace('name="b"', 'name="right_a"') for link in links]
-    record = json.loads(answer(description(tmp_path / "r.urdf", *links, joint))[0])
-    assert [one["code"] for one in record["findings"]] == ["audit_joint"]
-    assert (record["total"]["mass"], record["total"]["center_of_mass"]) == (16000.0, None)
-
-
 @pytest.mark.parametrize("words", [(), ("--joint", "j=0")])
 def test_followers_stand_at_their_offset(words, tmp_path):
     mimic = '<mimic joint="j" offset="1.5707963267948966"/></joint>'

@@ -11,8 +11,7 @@ import pytest
 pytest.importorskip("bpy")
 import bmesh
 import bpy
-from body_moments.core.measurement.documents import to_csv
-from body_moments.core.measurement.page import to_html
+from body_moments.core.measurement import to_csv, to_html
 
 from tests.blender.batch_files import add_box, document
 from tests.blender.objects import add

@@ -16,7 +16,6 @@ from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")
 CORE = 18.32**2 * 18.4e-9
-USUAL = "walls=2,line_width=0.00042,top=4,bottom=4,layer_height=0.0002,infill=15"
 
 
 @pytest.fixture(params=["stl", "blend"])

@@ -5,8 +5,7 @@
 from fractions import Fraction
 
 import numpy as np
-from body_moments.core.moments import Measure, Moments
-from body_moments.core.moments.exponents import monomials
+from body_moments.core.moments import Measure, Moments, monomials
 
 
 def box(size, center, mass=1):

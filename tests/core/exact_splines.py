@@ -13,8 +13,7 @@ from fractions import Fraction
 
 import numpy as np
 from body_moments.core.numerics.bspline import SplineSpace
-from body_moments.core.nurbs.blender_knots import blender_space
-from body_moments.core.nurbs.splines import Patch
+from body_moments.core.nurbs import Patch, blender_space
 
 HALF = np.sqrt(0.5)
 

@@ -22,13 +22,7 @@ from body_moments.core import (
     solid_transform,
 )
 from body_moments.core.density import threshold_body
-from body_moments.core.flat import (
-    directed_edges,
-    fit_plane,
-    measure_section,
-    region_moments,
-)
-from body_moments.core.flat.section_properties import Plane
+from body_moments.core.flat import Plane, directed_edges, fit_plane, measure_section, region_moments
 from body_moments.core.fourier import polygon_transform, surface_transform
 from body_moments.core.inertia import combine, pose_matrix
 from body_moments.core.mesh import convex_hull

@@ -12,13 +12,14 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
-from body_moments.core.colliders.effects import (
+from body_moments.core.colliders import (
+    Wanted,
     correct_masses,
     correct_vertices,
     effect,
+    make_colliders,
     uniform_masses,
 )
-from body_moments.core.colliders.fits import Wanted, make_colliders
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.polyhedron import polyhedron_moments

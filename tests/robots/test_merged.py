@@ -10,8 +10,7 @@ import numpy as np
 import pinocchio
 import pytest
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.robots.audit import Auditor
-from body_moments.core.robots.formats import FORMATS
+from body_moments.core.robots import FORMATS, Auditor
 from body_moments.core.robots.model import (
     FreeAxis,
     Joint,

@@ -4,8 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.robots.audit import Auditor
-from body_moments.core.robots.formats import FORMATS
+from body_moments.core.robots import FORMATS, Auditor
 from body_moments.core.robots.model import combine_inertials
 from body_moments.core.robots.read.descriptions import Roots, read_description
 

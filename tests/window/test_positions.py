@@ -57,11 +57,6 @@ faults.to_mesh(mesh)
 mesh.update()
 bpy.context.view_layer.update()
 """
-WARNINGS = """
-import json
-findings = json.loads(bpy.data.objects["Cube"]["body_findings"])
-result = bpy.data.objects["Cube"]["body_warnings"], len(findings)
-"""
 CLOSED = """
 import bpy
 panels = bpy.types.Panel.__subclasses__()

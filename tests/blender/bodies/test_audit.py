@@ -13,15 +13,13 @@ pytest.importorskip("bpy")
 import numpy as np
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.numerics.rotations import rotation_matrix
-from body_moments.core.robots.audit import Auditor, repaired_copy
-from body_moments.core.robots.model import Inertial, Link, Pose, Robot, Shape
+from body_moments.core.robots import Auditor, Inertial, Link, Pose, Robot, Shape, repaired_copy
 from body_moments.core.robots.plausibility import impossible
 from body_moments.core.robots.read.descriptions import Roots, read_description
 from body_moments.core.robots.write import mjcf, sdf, usd
 from body_moments.core.robots.write.stl import to_stl
 from body_moments.core.robots.write.text import roll_pitch_yaw
-from body_moments.core.verdict.finding import FileError, Severity
-from body_moments.core.verdict.sentences import severity
+from body_moments.core.verdict import FileError, Severity, severity
 
 from tests.blender.findings import refused
 from tests.close import close

@@ -8,8 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.read import splines
-from body_moments.core.nurbs.blender_knots import blender_space, display_parameters, display_table
-from body_moments.core.nurbs.splines import Patch
+from body_moments.core.nurbs import Patch, blender_space, display_parameters, display_table
 
 from tests.blender.objects import add
 from tests.blender.spline_bodies import surface

@@ -10,8 +10,7 @@ import pytest
 from body_moments.blender.scene.imports import import_bodies
 from body_moments.core.cad.surface_file import read_surfaces
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
-from body_moments.core.nurbs.blender_knots import display_parameters
-from body_moments.core.nurbs.splines import Patch
+from body_moments.core.nurbs import Patch, display_parameters
 
 from tests.blender.objects import measured
 from tests.blender.surface_files import imported, written

@@ -12,9 +12,7 @@ from body_moments.core.cad.iges_entities import UNIT_NAMES, UNITS
 from body_moments.core.cad.surface_file import read_surfaces
 from body_moments.core.files.limits import Limits
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
-from body_moments.core.nurbs.patch_moments import area_moments
-from body_moments.core.nurbs.solid import measure_patches
-from body_moments.core.nurbs.splines import Patch
+from body_moments.core.nurbs import Patch, area_moments, measure_patches
 from body_moments.core.verdict.finding import FileError
 from body_moments.tests.close import close
 from body_moments.tests.core.exact_splines import flux_moment, sphere, torus

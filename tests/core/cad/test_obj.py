@@ -10,9 +10,7 @@ import pytest
 from body_moments.core.cad.surface_file import SUFFIXES, read_surfaces
 from body_moments.core.files import NOT_REGULAR
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
-from body_moments.core.nurbs.blender_knots import bezier_patches
-from body_moments.core.nurbs.solid import measure_patches
-from body_moments.core.nurbs.splines import Patch
+from body_moments.core.nurbs import Patch, bezier_patches, measure_patches
 from body_moments.core.verdict.finding import FileError, finding
 from body_moments.tests.close import close
 from body_moments.tests.core.exact_splines import sphere, torus

@@ -15,8 +15,7 @@ import numpy as np
 import pytest
 from body_moments.core.colliders.effects import correct_masses, effect, uniform_masses
 from body_moments.core.inertia import combine
-from body_moments.core.robots.model import Pose, Shape
-from body_moments.core.robots.primitives import moments_of
+from body_moments.core.robots import Pose, Shape, moments_of
 from body_moments.core.verdict.finding import MeasureError
 
 

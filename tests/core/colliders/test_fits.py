@@ -16,8 +16,7 @@ from body_moments.core.inertia import MassProperties
 from body_moments.core.mesh import Surface, convex_hull
 from body_moments.core.numerics import spread_directions
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.robots.model import Pose, Shape
-from body_moments.core.robots.primitives import moments_of
+from body_moments.core.robots import Pose, Shape, moments_of
 from body_moments.core.verdict.finding import MeasureError
 
 from tests.core import bodies

@@ -9,12 +9,15 @@ from math import comb
 
 import numpy as np
 import pytest
-from body_moments.core.density.polynomial import Polynomial, parse_polynomial
-from body_moments.core.density.polynomial_mass import local_coordinates, polynomial_mass_of_images
+from body_moments.core.density import (
+    Polynomial,
+    local_coordinates,
+    parse_polynomial,
+    polynomial_mass_of_images,
+)
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.mesh.point_triangle import winding_number
-from body_moments.core.moments.images import sum_of_images
-from body_moments.core.moments.moments import Moments
+from body_moments.core.moments import Moments, sum_of_images
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 

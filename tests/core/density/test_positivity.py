@@ -4,8 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.density.polynomial import parse_polynomial
-from body_moments.core.density.polynomial_mass import find_negative_point
+from body_moments.core.density import find_negative_point, parse_polynomial
 
 from tests.close import close
 from tests.core import bodies, exact

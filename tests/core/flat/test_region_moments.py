@@ -6,15 +6,14 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.flat import directed_edges, region_moments
-from body_moments.core.flat.polygon import plane_positions
-from body_moments.core.moments.complex_form import (
+from body_moments.core.flat import directed_edges, plane_positions, region_moments
+from body_moments.core.moments import (
     complex_moments,
     flusser_invariants,
     hu_invariants,
+    monomials,
     normalize,
 )
-from body_moments.core.moments.exponents import monomials
 from body_moments.core.polyhedron.n_dimensions import multi_indices
 
 from tests.core import rational

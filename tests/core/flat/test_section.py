@@ -8,14 +8,13 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from body_moments.core.flat import Plane, fit_plane, measure_section, region
 from body_moments.core.flat.polygon import (
     OutlineDefects,
     directed_edges,
     find_defects,
     orient_loops,
 )
-from body_moments.core.flat.section import fit_plane, measure_section, region
-from body_moments.core.flat.section_properties import Plane
 from body_moments.core.verdict.finding import MeasureError
 from hypothesis import given
 

@@ -4,13 +4,12 @@
 
 import numpy as np
 import pytest
-from body_moments.core.fourier.instances import BodyTransform
+from body_moments.core.fourier import BodyTransform, FrequencyGrid
 from body_moments.core.fourier.transform import (
     run_to_completion,
     solid_transform,
     surface_transform,
 )
-from body_moments.core.fourier.wave_vectors import FrequencyGrid
 
 from tests.close import close
 from tests.core import bodies

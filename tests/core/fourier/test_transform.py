@@ -13,8 +13,7 @@ from body_moments.core.fourier.transform import Transform, solid_transform, surf
 from body_moments.core.fourier.wave_vectors import FrequencyGrid
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.polyhedron import integration
-from body_moments.core.verdict.finding import MeasureError
-from body_moments.core.verdict.findings import TOO_LARGE, TOO_SMALL
+from body_moments.core.verdict import TOO_LARGE, TOO_SMALL, MeasureError
 
 from tests.close import close
 from tests.core import bodies, exact

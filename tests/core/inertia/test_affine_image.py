@@ -4,8 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.inertia.mass_properties import MassProperties, affine_image
-from body_moments.core.inertia.third_moment_frames import HALF_TURN_SIGNS
+from body_moments.core.inertia import HALF_TURN_SIGNS, MassProperties, affine_image
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.polyhedron import polyhedron_moments
 

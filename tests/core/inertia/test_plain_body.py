@@ -6,16 +6,15 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.inertia.mass_properties import MassProperties
-from body_moments.core.inertia.plain_body import (
+from body_moments.core.inertia import (
     TENSOR,
+    MassProperties,
     PlainBody,
     add_bodies,
     principal_axes,
     tensor_rows,
 )
-from body_moments.core.moments import Measure, Moments
-from body_moments.core.moments.moments import SECOND_MOMENT_INDEX
+from body_moments.core.moments import SECOND_MOMENT_INDEX, Measure, Moments
 
 from tests.close import close
 from tests.core.boxes import box

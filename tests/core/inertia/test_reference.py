@@ -7,10 +7,8 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.inertia.mass_properties import MassProperties
-from body_moments.core.inertia.plain_body import PlainBody, Reference, tensor_rows
-from body_moments.core.moments import Measure, Moments
-from body_moments.core.moments.exponents import monomials
+from body_moments.core.inertia import MassProperties, PlainBody, Reference, tensor_rows
+from body_moments.core.moments import Measure, Moments, monomials
 from body_moments.core.verdict.finding import QueryError
 
 from tests.close import close

@@ -4,9 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.mesh.boundary import BoundarySum
-from body_moments.core.mesh.edges import find_edges
-from body_moments.core.mesh.surface import Surface
+from body_moments.core.mesh import BoundarySum, Surface, find_edges
 
 from tests.core.bodies import (
     box,

@@ -4,8 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.mesh import convex_hull
-from body_moments.core.mesh.hulls import convex_polygon
+from body_moments.core.mesh import convex_hull, convex_polygon
 from body_moments.core.verdict import MeasureError
 
 from tests.close import close

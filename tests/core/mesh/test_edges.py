@@ -4,21 +4,18 @@
 
 import numpy as np
 import pytest
-from body_moments.core.mesh.edges import (
+from body_moments.core.mesh import (
+    Surface,
     closed_side_faces,
     consistent_orientation,
     find_edges,
-    group_components,
-)
-from body_moments.core.mesh.surface import Surface
-from body_moments.core.mesh.welding import (
     first_at_equal_position,
     first_at_near_position,
+    group_components,
     same_vertices_groups,
     vertex_tolerance,
 )
-from body_moments.core.numerics.arrays import first_occurrence
-from body_moments.core.numerics.graph import connected_components
+from body_moments.core.numerics import connected_components, first_occurrence
 from body_moments.core.solid.measure import measure_solid
 from hypothesis import given
 

@@ -6,12 +6,9 @@ bound.
 
 import numpy as np
 import pytest
-from body_moments.core.density.polynomial import parse_polynomial
-from body_moments.core.density.polynomial_mass import polynomial_mass_of_images
+from body_moments.core.density import parse_polynomial, polynomial_mass_of_images
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.moments import Moments
-from body_moments.core.moments.exponents import monomials
-from body_moments.core.moments.images import sum_of_images
+from body_moments.core.moments import Moments, monomials, sum_of_images
 from body_moments.core.polyhedron import polyhedron_moments
 
 # No symmetry: the faces on one side are stretched more than those on the other, and the center

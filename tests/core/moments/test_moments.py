@@ -13,9 +13,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from body_moments.core.inertia import MassProperties, pose_matrix
-from body_moments.core.moments.affine_maps import are_similarities
-from body_moments.core.moments.complex_form import normalize
-from body_moments.core.moments.images import sum_of_images
+from body_moments.core.moments import are_similarities, normalize, sum_of_images
 from body_moments.core.moments.moments import (
     Measure,
     Moments,

@@ -9,12 +9,10 @@ from math import comb
 
 import numpy as np
 import pytest
-from body_moments.core.numerics.bspline import SplineSpace, clamped_space
-from body_moments.core.numerics.quadrature import gauss_legendre
+from body_moments.core.numerics import SplineSpace, clamped_space, gauss_legendre
+from body_moments.core.nurbs import Patch, blender_space
 from body_moments.core.nurbs.bezier import cells_of
-from body_moments.core.nurbs.blender_knots import blender_space
 from body_moments.core.nurbs.patch_moments import flux_sums
-from body_moments.core.nurbs.splines import Patch
 
 from tests.core.exact_splines import span_polynomials
 

@@ -9,8 +9,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
-from body_moments.core.nurbs.blender_knots import bezier_patches, blender_space
-from body_moments.core.nurbs.splines import Patch
+from body_moments.core.nurbs import Patch, bezier_patches, blender_space
 
 WHOLE = (None, None)
 SPACES = [

@@ -6,10 +6,8 @@ import numpy as np
 import pytest
 from body_moments.core.moments.moments import monomials
 from body_moments.core.numerics.bspline import clamped_space
-from body_moments.core.nurbs.flat_face import FlatFace, planar_region
+from body_moments.core.nurbs import Curve, FlatFace, Patch, measure_patches, planar_region
 from body_moments.core.nurbs.patch_moments import area_moments, sheet_moments, volume_moments
-from body_moments.core.nurbs.solid import measure_patches
-from body_moments.core.nurbs.splines import Curve, Patch
 
 from tests.close import close
 from tests.core.polygons import arcs, polygon

@@ -5,10 +5,13 @@
 import numpy as np
 import pytest
 from body_moments.core.numerics.bspline import clamped_space
-from body_moments.core.nurbs.blender_knots import blender_space
-from body_moments.core.nurbs.patch_moments import area_moments, volume_moments
-from body_moments.core.nurbs.solid import measure_patches
-from body_moments.core.nurbs.splines import Patch
+from body_moments.core.nurbs import (
+    Patch,
+    area_moments,
+    blender_space,
+    measure_patches,
+    volume_moments,
+)
 from body_moments.core.nurbs.tracked_solid import IncrementalPatchMoments, TrackedSolid
 from body_moments.core.papers.soldea_elber_rivlin_2002_phi import phi, phi_moments
 

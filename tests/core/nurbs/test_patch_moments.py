@@ -7,11 +7,9 @@ rules.
 import numpy as np
 import pytest
 from body_moments.core.moments.moments import monomials
-from body_moments.core.numerics.bspline import SplineSpace, clamped_space
-from body_moments.core.numerics.quadrature import gauss_legendre_with_ends
-from body_moments.core.nurbs import patch_moments
+from body_moments.core.numerics import SplineSpace, clamped_space, gauss_legendre_with_ends
+from body_moments.core.nurbs import Patch, bezier_patches, patch_moments
 from body_moments.core.nurbs.bezier import cells_of
-from body_moments.core.nurbs.blender_knots import bezier_patches
 from body_moments.core.nurbs.patch_moments import (
     area_moments,
     sheet_moments,
@@ -19,7 +17,6 @@ from body_moments.core.nurbs.patch_moments import (
     volume_moments,
     weighted_monomials,
 )
-from body_moments.core.nurbs.splines import Patch
 
 from tests.close import close
 from tests.core.exact_splines import flux_moment, sphere, torus

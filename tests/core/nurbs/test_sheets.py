@@ -5,8 +5,7 @@
 import numpy as np
 import pytest
 from body_moments.core.numerics.bspline import clamped_space
-from body_moments.core.nurbs.solid import measure_sheet
-from body_moments.core.nurbs.splines import Patch
+from body_moments.core.nurbs import Patch, measure_sheet
 
 from tests.close import close
 from tests.core.exact_splines import sphere, tube

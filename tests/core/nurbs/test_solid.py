@@ -8,12 +8,15 @@ import numpy as np
 import pytest
 from body_moments.core.moments.moments import monomials
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
-from body_moments.core.nurbs.flat_face import planar_region
-from body_moments.core.nurbs.patch_moments import volume_moments
+from body_moments.core.nurbs import (
+    Curve,
+    Patch,
+    measure_patches,
+    planar_region,
+    sharpest_crease,
+    volume_moments,
+)
 from body_moments.core.nurbs.patch_topology import find_topology
-from body_moments.core.nurbs.seams import sharpest_crease
-from body_moments.core.nurbs.solid import measure_patches
-from body_moments.core.nurbs.splines import Curve, Patch
 from body_moments.core.verdict.finding import Finding
 from hypothesis import given
 

@@ -11,14 +11,14 @@ from itertools import permutations
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.polyhedron.n_dimensions import (
+from body_moments.core.polyhedron import (
     closes,
     enclosed_moments,
     facet_moments,
     facets_of,
     multi_indices,
     outer_facets,
+    polyhedron_moments,
 )
 
 from tests.close import close

@@ -7,9 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.polyhedron.any_order import extend_small_moments
-from body_moments.core.polyhedron.third_order import small_moments
+from body_moments.core.polyhedron import extend_small_moments, polyhedron_moments, small_moments
 
 from tests.close import close
 from tests.core import bodies, exact, shapes

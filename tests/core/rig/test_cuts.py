@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 from body_moments.core.inertia import MassProperties
 from body_moments.core.mesh import Surface
-from body_moments.core.moments.exponents import monomials
-from body_moments.core.moments.moments import sum_moments
+from body_moments.core.moments import monomials, sum_moments
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.rig.cuts import bone_pieces, dominant_bones
 

@@ -11,8 +11,7 @@ from math import degrees, radians
 import numpy as np
 import pytest
 from body_moments.core.inertia.mass_properties import MassProperties
-from body_moments.core.mesh.hulls import convex_hull
-from body_moments.core.mesh.surface import Surface
+from body_moments.core.mesh import Surface, convex_hull
 from body_moments.core.numerics.rotations import quaternion
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.robots.diagnosis import (

@@ -10,8 +10,7 @@ import struct
 
 import numpy as np
 import pytest
-from body_moments.core.scans.formats import read_scan, sample_matrix
-from body_moments.core.scans.labels import count_labels
+from body_moments.core.scans import count_labels, read_scan, sample_matrix
 from body_moments.core.verdict.finding import FileError
 
 from tests.core.scan_files import nifti, nrrd

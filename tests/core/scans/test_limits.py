@@ -15,8 +15,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from body_moments.core.files.limits import Limits
-from body_moments.core.scans.formats import read_scan
-from body_moments.core.scans.numpy_files import read_raw
+from body_moments.core.scans import read_raw, read_scan
 from body_moments.core.verdict.finding import FileError, MeasureError
 from body_moments.tests.core.scan_files import nifti, nrrd, written
 

@@ -11,9 +11,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
+from body_moments.core.shape import equivalent_frames, nearest_frame, symmetry
 from body_moments.core.shape.axial_harmonics import axial_harmonics, axis_last, turn_by_harmonics
-from body_moments.core.shape.symmetries import symmetry
-from body_moments.core.shape.unique_frames import equivalent_frames, nearest_frame
 
 from tests.close import close
 from tests.core import bodies, shapes

@@ -5,9 +5,8 @@
 import numpy as np
 import pytest
 from body_moments.core.flat import directed_edges, region_moments
+from body_moments.core.shape import disc_zernike, match_flat
 from body_moments.core.shape import registration as matching
-from body_moments.core.shape.registration import match_flat
-from body_moments.core.shape.zernike import disc_zernike
 
 from tests.core import shapes
 from tests.core.recursion import moments

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from body_moments.core.flat import directed_edges, region_moments
 from body_moments.core.moments.moments import Moments
-from body_moments.core.shape.point_groups import PlacedTriangles
+from body_moments.core.shape import UNDECIDED, PlacedTriangles, Symmetry, disc_zernike, symmetry
 from body_moments.core.shape.registration import (
     MIRROR,
     flat_symmetry,
@@ -14,8 +14,6 @@ from body_moments.core.shape.registration import (
     holds_by_outline,
     turns_about_normal,
 )
-from body_moments.core.shape.symmetries import UNDECIDED, Symmetry, symmetry
-from body_moments.core.shape.zernike import disc_zernike
 
 from tests.core import bodies, shapes
 from tests.core.bodies import ball

@@ -9,8 +9,7 @@ from math import pi, sqrt
 
 import numpy as np
 import pytest
-from body_moments.core.moments.moments import monomials
-from body_moments.core.moments.solid_harmonics import couple, harmonic_moments
+from body_moments.core.moments import couple, harmonic_moments, monomials
 from body_moments.core.shape.zernike import (
     MAX_ORDER_BY_MOMENTS,
     _disc_radial,

@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.solid.measure import measure_solid
-from body_moments.core.verdict.finding import Finding, MeasureError
-from body_moments.core.verdict.findings import TOO_LARGE, TOO_SMALL
+from body_moments.core.verdict import TOO_LARGE, TOO_SMALL, Finding, MeasureError
 
 from tests.close import close
 from tests.core.bodies import (

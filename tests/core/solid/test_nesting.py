@@ -4,16 +4,14 @@
 
 import numpy as np
 import pytest
-from body_moments.core.mesh.bvh import Bvh, sort_components
-from body_moments.core.mesh.surface import Surface
-from body_moments.core.solid.measure import measure_solid
+from body_moments.core.mesh import Bvh, Surface, sort_components
+from body_moments.core.solid import ComponentComparison, measure_solid
 from body_moments.core.solid.nesting import (
     ComponentRelations,
     cavity_host,
     classify_pairs,
     orient_nested_components,
 )
-from body_moments.core.solid.orientation import ComponentComparison
 from hypothesis import given
 
 from tests.close import close

@@ -6,9 +6,7 @@ import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.solid.measure import measure_solid
-from body_moments.core.verdict.finding import Severity
-from body_moments.core.verdict.sentences import severity
-from body_moments.core.verdict.tolerances import NEGLIGIBLE
+from body_moments.core.verdict import NEGLIGIBLE, Severity, severity
 
 from tests.close import close
 from tests.core.bodies import CORNERS, SIDES, box, inverted, joined, mesh

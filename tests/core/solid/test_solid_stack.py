@@ -5,13 +5,8 @@
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.solid.measure import measure_left_over, measure_solid
-from body_moments.core.solid.solid_stack import (
-    can_be_stacked,
-    measure_stack,
-)
-from body_moments.core.verdict.health import Intersection
-from body_moments.core.verdict.method import Procedure
+from body_moments.core.solid import can_be_stacked, measure_left_over, measure_solid, measure_stack
+from body_moments.core.verdict import Intersection, Procedure
 
 from tests.close import close
 from tests.core.bodies import hourglass, mesh, moved

@@ -13,7 +13,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from body_moments.core.verdict import catalog
+from body_moments.core.verdict import (
+    Method,
+    Procedure,
+    Source,
+    catalog,
+    least_trusted,
+    sentence,
+    truncate_list,
+)
 from body_moments.core.verdict.finding import (
     Finding,
     MeasureError,
@@ -22,8 +30,6 @@ from body_moments.core.verdict.finding import (
     truncate_findings,
     unique,
 )
-from body_moments.core.verdict.method import Method, Procedure, Source, least_trusted
-from body_moments.core.verdict.sentences import sentence, truncate_list
 
 from tests.core.findings import declarations
 from tests.package.modules import WINGS
