@@ -6,7 +6,6 @@ measurement.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, fields
 
 from bpy.types import Object, PropertyGroup, Scene
@@ -15,6 +14,7 @@ from ...core.measurement import Pocket, PrintSettings, RequestedResults, Setting
 from ...core.numerics import shortest_decimal
 from ..scale import meters_per_unit
 from .density import object_density
+from .properties import PRINT_OPTIONS
 
 
 @dataclass(frozen=True)
@@ -42,19 +42,6 @@ class MeasureOptions(RequestedResults):
 AS_SET = MeasureOptions()  # every object as its own settings say
 
 
-# Fields of `PrintSettings`: their properties, and one of these in SI units.
-PRINT_OPTIONS = {
-    "walls": ("print_walls", 1),
-    "line_width": ("print_line_width", 1e-3),
-    "top": ("print_top_layers", 1),
-    "bottom": ("print_bottom_layers", 1),
-    "layer_height": ("print_layer_height", 1e-3),
-    "infill": ("print_infill", 1),
-    "price": ("spool_price", 1),
-    "spool": ("spool_mass", 1),
-}
-
-
 def print_settings(properties: PropertyGroup) -> PrintSettings:
     """Return the print settings in the settings of an object."""
     radius, density = properties.pocket_radius, properties.pocket_density
@@ -65,14 +52,6 @@ def print_settings(properties: PropertyGroup) -> PrintSettings:
         value = getattr(properties, name)
         values[field] = shortest_decimal(value) * scale if isinstance(value, float) else value
     return PrintSettings(**values, pocket=pocket if radius else None)
-
-
-def set_print(properties: PropertyGroup, values: Mapping[str, float]) -> None:
-    """Set fields of `PrintSettings` in the settings of an object."""
-    for field, value in values.items():
-        name, scale = PRINT_OPTIONS[field]
-        is_count = isinstance(getattr(properties, name), int)
-        setattr(properties, name, round(value) if is_count else value / scale)
 
 
 def object_settings(

@@ -7,6 +7,7 @@ The given mass has no unit type: Blender would scale it by scale_length³, while
 same in all units.
 """
 
+from collections.abc import Mapping
 from functools import partial
 from typing import Any
 
@@ -33,12 +34,22 @@ from .given import (
     mass_property,
 )
 from .hooks import changed, density_changed, threshold_changed, wall_changed
-from .options import PRINT_OPTIONS, set_print
 
 TRANSLATION_CONTEXT = (
     "Body Moments"  # for words that mean something else in Blender's own translations
 )
 
+# Fields of `PrintSettings`: their properties, and one of these in SI units.
+PRINT_OPTIONS = {
+    "walls": ("print_walls", 1),
+    "line_width": ("print_line_width", 1e-3),
+    "top": ("print_top_layers", 1),
+    "bottom": ("print_bottom_layers", 1),
+    "layer_height": ("print_layer_height", 1e-3),
+    "infill": ("print_infill", 1),
+    "price": ("spool_price", 1),
+    "spool": ("spool_mass", 1),
+}
 COPIED_PROPERTIES = (
     *(
         "kind",
@@ -459,6 +470,14 @@ def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
 def comparable(value):
     """Return the value in a form that can be compared: an array as a tuple of its numbers."""
     return value[:] if hasattr(value, "foreach_get") else value
+
+
+def set_print(properties: PropertyGroup, values: Mapping[str, float]) -> None:
+    """Set fields of `PrintSettings` in the settings of an object."""
+    for field, value in values.items():
+        name, scale = PRINT_OPTIONS[field]
+        is_count = isinstance(getattr(properties, name), int)
+        setattr(properties, name, round(value) if is_count else value / scale)
 
 
 def apply_options(settings: PropertyGroup, options, scene: Scene) -> None:

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from ...blender.bodies.union import subtract
 from ...blender.scene.imports import show_bodies
-from ...blender.settings.options import set_print
+from ...blender.settings.properties import set_print
 from ...core.cad import FACES_NOT_READ, SurfaceFile, has_surfaces, read_surfaces
 from ...core.files import file_limits
 from ...core.mesh import Surface
