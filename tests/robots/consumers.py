@@ -85,10 +85,11 @@ def pinocchio(path):
     build = {".urdf": pinocchio.buildModelFromUrdf, ".xml": pinocchio.buildModelFromMJCF}
     model = build[Path(path).suffix](str(path))
     data = model.createData()
-    known = model.referenceConfigurations
-    start = known["qpos0"] if "qpos0" in known else pinocchio.neutral(model)
-    pinocchio.forwardKinematics(model, data, start)
-    placed = [data.oMi[i].act(one) for i, one in enumerate(model.inertias)]
+    pinocchio.forwardKinematics(model, data, pinocchio.neutral(model))
+    # It misplaces the root of MJCF.
+    is_free = Path(path).suffix == ".xml" and model.njoints > 1 and model.joints[1].nq == 7
+    root = data.oMi[1] if is_free else pinocchio.SE3.Identity()
+    placed = [root.actInv(data.oMi[i]).act(one) for i, one in enumerate(model.inertias)]
     return [(one.mass, one.lever, one.inertia) for one in placed if one.mass]
 
 
