@@ -336,8 +336,8 @@ def test_expectation_decides_the_exit_code(words, code, tmp_path):
 
 
 SDF_CHAIN = """<sdf version="1.11"><model name="m">{}{}</model></sdf>"""
-SDF_LINK = """<link name="{}"><pose>{} 0 0 0 0 0</pose><inertial><pose>1 0 0 0 0 0</pose><mass>1</mass>
-</inertial></link>"""
+SDF_LINK = """<link name="{}"><pose>{} 0 0 0 0 0</pose><inertial><pose>1 0 0 0 0 0</pose>
+<mass>1</mass></inertial></link>"""
 SDF_JOINT = """<joint name="{}" type="revolute"><parent>{}</parent><child>{}</child><axis>
 <xyz>0 0 1</xyz>{}</axis></joint>"""
 
