@@ -74,3 +74,20 @@ def place_objects(places: Mapping[str, Array]) -> None:
             obj.matrix_basis = Matrix()
             obj.matrix_parent_inverse = Matrix(places[obj.name])  # unlike channels, it holds shear
     bpy.context.view_layer.update()
+
+
+def show_points(obj: bpy.types.Object, points: Array) -> None:
+    """Move the vertices of a mesh object to (n, 3) points in the world, without modifiers and keys.
+
+    ValueError if their counts differ.
+    """
+    obj.data = obj.data.copy()
+    if len(points) != len(obj.data.vertices):
+        raise ValueError("points")
+    obj.modifiers.clear()
+    obj.shape_key_clear()
+    place = np.eye(4)
+    place[:3, 3] = points.mean(axis=0)
+    local = (points - place[:3, 3]).astype(np.float32)
+    obj.data.attributes["position"].data.foreach_set("vector", local.ravel())
+    place_objects({obj.name: place})
