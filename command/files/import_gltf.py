@@ -23,7 +23,7 @@ from ...core.files import FILE_UNREADABLE, MALFORMED, GltfFile, map_file, node_m
 from ...core.numerics import Array
 from ...core.verdict.finding import FileError, Finding, finding
 from ..findings import FILE_HIDES, PLACES_UNCHECKED
-from .placing import MOST_WEIGHT, measure_at, place_objects, show_points
+from .placing import MOST_WEIGHT, measure_at, place_objects, show_points, shown_seconds
 from .references import Opened
 
 ADD_ON = "io_scene_gltf2"  # It comes with Blender, and may be switched off.
@@ -91,16 +91,11 @@ def import_gltf(path: str, frame: float | None) -> Opened:
         bpy.data.objects[name].hide_render = True
     notes = measure_at(frame)
     try:
-        _correct(_Pose(GltfFile(map_file(path), path), _seconds() if notes else 0.0), shown)
+        _correct(_Pose(GltfFile(map_file(path), path), shown_seconds() if notes else 0.0), shown)
     except MALFORMED:
         cause = "its animations, joints or nodes are compressed, or unreadable"
         notes = (*notes, finding(PLACES_UNCHECKED, cause=cause))
     return Opened(notes=notes, hidden=hidden)
-
-
-def _seconds() -> float:
-    scene = bpy.context.scene
-    return scene.frame_current_final / (scene.render.fps * scene.render.fps_base)
 
 
 def _line_of(vnode: Any, gltf: Any) -> list[int]:

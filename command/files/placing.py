@@ -28,6 +28,12 @@ def set_frame(frame: float) -> None:
     bpy.context.scene.frame_set(whole, subframe=frame - whole)
 
 
+def shown_seconds(first: float = 0.0) -> float:
+    """Return the time of the evaluated frame, in seconds from the first one."""
+    scene = bpy.context.scene
+    return (scene.frame_current_final - first) / (scene.render.fps * scene.render.fps_base)
+
+
 def measure_at(frame: float | None) -> tuple[Finding, ...]:
     """Evaluate the scene at a frame, or else the first one of its animations; return a note if
     there are any.
