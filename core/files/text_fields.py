@@ -91,9 +91,8 @@ def refuse_line(data: Data, at: int, fault: Fault) -> NoReturn:
     raise FileError(LINE_MISREAD, line=line, text=fault[0], expected=fault[1])
 
 
-def parse_decimals(text: bytes) -> tuple[Array, Index, int]:
-    """Return the (n,) decimal numbers of a text, the offsets of their first letters, and the count
-    of exponents.
+def parse_decimals(text: bytes) -> tuple[Array, Index]:
+    """Return the (n,) decimal numbers of a text, and the offsets of their first letters.
 
     Words of letters separate numbers. ValueError if another word is no number, or touches a letter.
     """
@@ -106,4 +105,4 @@ def parse_decimals(text: bytes) -> tuple[Array, Index, int]:
     words = np.where(is_part | is_exponent, letters, np.uint8(_SPACE)).tobytes().split()
     if len(words) != len(starts) or (follows & (letters > _NINE) & ~is_exponent).any():
         raise ValueError("no decimal numbers")
-    return np.array(words, np.float64), starts, int(np.count_nonzero(is_exponent))
+    return np.array(words, np.float64), starts

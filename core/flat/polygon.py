@@ -21,8 +21,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..moments import Measure, Moments
-from ..moments.exponents import monomial_count, monomial_index
+from ..moments import Measure, Moments, monomial_count, monomial_index
 from ..numerics import (
     Array,
     Index,

@@ -21,8 +21,7 @@ from functools import lru_cache
 import numpy as np
 
 from ..inertia import MOMENTS_OVERFLOW, NOISE_LEVEL, SecondMomentAxes, frame_about
-from ..moments import Measure, Moments
-from ..moments.exponents import monomial_index, monomials, tensor_index
+from ..moments import Measure, Moments, monomial_index, monomials, tensor_index
 from ..numerics import Array, NDArray, distinct_arrays, spread_directions
 from ..verdict import MeasureError
 

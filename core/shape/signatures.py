@@ -32,8 +32,17 @@ from math import hypot, log, pi, sqrt, tanh
 
 import numpy as np
 
-from ..moments import Measure, Moments, U, along_first, complex_moments, couple, harmonic_moments
-from ..moments.exponents import monomial_count, monomials
+from ..moments import (
+    Measure,
+    Moments,
+    U,
+    along_first,
+    complex_moments,
+    couple,
+    harmonic_moments,
+    monomial_count,
+    monomials,
+)
 from ..numerics import Array, Mask, NDArray, PerBody, check_type
 from ..verdict import FileError
 from .findings import SIGNATURE_INVALID

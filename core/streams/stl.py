@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from ..files import (
     MARK,
-    MAX_FLOAT32,
     SHORT,
     SHORT_OR_NAN,
     Data,
@@ -41,10 +40,6 @@ SAMPLES = 1000  # triangles that show where the body is
 TEXT_PER_BLOCK = 1 << 20  # bytes
 TEXT_PER_TRIANGLE = 250  # bytes, about
 FACET_END = b"endfacet"
-# The words of a facet without the letter that numbers may have, and all letters of numbers and
-# white space.
-FACET_LETTERS = b"factnormaloutrloopvrtxvrtxvrtxndloopndfact"
-_NUMERIC = b"0123456789.e+- \t\r\n\v\f"
 _NORMAL = re.compile(rb"normal[^v]*?out")
 # words for the end of a file
 BY_COUNT = "where its number of triangles does"
@@ -148,63 +143,19 @@ class StlFile:
 
         FileError if a word is wrong.
         """
-        has_solids = b"solid" in text
-        corners = None if has_solids else _plain_corners(text)
-        if corners is not None:
-            return corners
-        if not self._is_checked:
-            check_stl_text(map_file(self._path))
-            self._is_checked = True
-        text = SOLID.sub(b"", text) if has_solids else text
-        # a normal that is no number
-        corners = _plain_corners(_NORMAL.sub(b"normal 0 0 0 out", text))
-        if corners is None:
-            raise FileError(STL_CUT_SHORT, end=BY_WORD)
-        return corners
-
-
-def _plain_corners(text: bytes) -> NDArray[np.float32] | None:
-    """Return the (n, 3, 3) corners of facets whose words and numbers are in their places, or None
-    if some are not.
-    """
-    count = text.count(FACET_END)
-    if text.translate(None, _NUMERIC) != FACET_LETTERS * count:
-        return None
-    try:
-        numbers, at, exponents = parse_decimals(text)
-    except ValueError:
-        return None
-    if len(numbers) != 12 * count or text.count(b"e") != 11 * count + exponents:
-        return None
-    letters = np.frombuffer(text, np.uint8)
-    at = at.reshape(count, 12)
-    if (
-        np.count_nonzero((letters[1:] > ord(" ")) & (letters[:-1] <= ord(" "))) + (text[:1] > b" ")
-        != len(_FACET_WORDS) * count
-    ):
-        return None
-    normal, vertex, loop = (
-        np.flatnonzero(letters == ord(one)).reshape(count, times)
-        for one, times in (("m", 1), ("x", 3), ("p", 2))
-    )
-    # Each row is in order if the words and the first and last numbers between them are.
-    order = (
-        normal,
-        at[:, [0, 2]],
-        loop[:, :1],
-        vertex[:, :1],
-        at[:, [3, 5]],
-        vertex[:, 1:2],
-        at[:, [6, 8]],
-        vertex[:, 2:],
-        at[:, [9, 11]],
-        loop[:, 1:],
-    )
-    positions = np.concatenate(order, axis=1)
-    is_plain = (positions[:, 1:] > positions[:, :-1]).all() and np.abs(numbers).max(
-        initial=0.0
-    ) < MAX_FLOAT32
-    return numbers.reshape(count, 4, 3)[:, 1:].astype(np.float32) if is_plain else None
+        if _FACETS.match(text).end() < len(text):  # type: ignore[union-attr]
+            if not self._is_checked:
+                check_stl_text(map_file(self._path))
+                self._is_checked = True
+            # a normal that is no number
+            text = _NORMAL.sub(b"normal 0 0 0 out", text)
+        if b"solid" in text:
+            text = SOLID.sub(b"", text)
+        try:
+            numbers = parse_decimals(text)[0].reshape(-1, 4, 3)
+        except ValueError as error:
+            raise FileError(STL_CUT_SHORT, end=BY_WORD) from error
+        return numbers[:, 1:].astype(np.float32)
 
 
 def _binary_corners(file: BinaryIO) -> Iterator[NDArray[np.float32]]:
