@@ -15,7 +15,7 @@ from ..measurement import Body, Measurement
 from ..numerics import Array
 from ..verdict import MeasureError
 from .findings import FLOAT_UNAVAILABLE, FLOODED_OUTSIDE
-from .flotation import FloatingBody, Flotation, Tank, Vessel
+from .flotation import STARTS, FloatingBody, Flotation, Tank, Vessel
 from .hulls import Hull, are_inside, fill_hollows, find_hull
 from .righting import RightingCurve, righting_curve
 
@@ -67,6 +67,12 @@ def settle(
         vessel = Vessel(hull.points, hull.triangles, 1.0)
         liquids.append(Tank(replace(vessel, volume=fill * vessel.whole[0]), tank_density))
 
+    start = np.asarray(up, np.float64)
+    if lost:
+        are_inside(wet, lost, closed)  # refuses those that overlap
+    for space in lost:
+        if not any(_holds(fill_hollows(wet, way), space, False) for way in (start, *STARTS)):
+            raise MeasureError(FLOAT_UNAVAILABLE, fault=FLOODED_OUTSIDE)
     made: list[tuple[Hull, FloatingBody]] = []
 
     def fitted(up: Array | None) -> FloatingBody:
@@ -77,11 +83,8 @@ def settle(
             ):
                 return body
         points, triangles = hull.points, hull.triangles
-        inside = are_inside(hull, lost, closed) if lost else ()
-        if not made and not all(inside):
-            raise MeasureError(FLOAT_UNAVAILABLE, fault=FLOODED_OUTSIDE)
-        for space, is_inside in zip(lost, inside):
-            if not is_inside:  # in a flooded hollow
+        for space in lost:
+            if not _holds(hull, space, True):  # it is in a flooded hollow
                 continue
             triangles = np.concatenate([triangles, space.triangles[:, ::-1] + len(points)])
             points = np.concatenate([points, space.points])
@@ -93,8 +96,15 @@ def settle(
         made.insert(0 if hull is wet else len(made), (hull, body))
         return body
 
-    start = np.asarray(up, np.float64)
     return fitted(start).settle(start)
+
+
+def _holds(hull: Hull, space: Hull, through: bool) -> bool:
+    """Return whether a flooded space lies in a hull; `through` if it goes through a lid of it."""
+    try:
+        return bool(are_inside(hull, [space], ())[0])
+    except MeasureError:
+        return through
 
 
 def heel_and_trim(up: Array, axes: Array) -> tuple[float, float]:

@@ -4,11 +4,13 @@
 
 An object floats as one body with the objects that it carries (its children). The body is read on
 request; it is remembered until a shape, a setting or a place within it changes, and read again
-then if Live is on. The waterline follows the place, the liquid and its density at once.
+then by the timer of Live if that is on (`follow`). The waterline follows the place, the liquid and
+its density at once.
 """
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -59,7 +61,7 @@ class Afloat:
     uids: the session uids of its objects, which survive undo; name: of the first one. places:
     (k, 4, 4) their matrices when it was read; roles: of the members.
     rest: where it settles from there, in m. curve: its righting arms. rests: all positions of rest.
-    shown: the generation and the scene, and what is displayed for them.
+    shown: the generation and the scene, and what is displayed for them. seconds: of reading it.
     """
 
     uids: tuple[int, ...]
@@ -70,6 +72,7 @@ class Afloat:
     curve: RightingCurve | None = None
     rests: tuple[Flotation, ...] = ()
     shown: tuple[tuple, Held | Finding | None] | None = None
+    seconds: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,6 +133,7 @@ def read(depsgraph: Depsgraph, members: Sequence[Object]) -> Afloat:
     """Read a floating body and settle it, without moving anything; MeasureError if it does not
     float.
     """
+    start = time.thread_time()
     scene = depsgraph.scene
     parts = {obj: measure_body(obj, depsgraph) for obj in members if measurable(obj)}
 
@@ -153,7 +157,8 @@ def read(depsgraph: Depsgraph, members: Sequence[Object]) -> Afloat:
     )
     places = np.array([float64_matrix(obj.matrix_world) for obj in members])
     uids = tuple(obj.session_uid for obj in members)
-    return Afloat(uids, members[0].name, places, _roles(members), rest)
+    seconds = time.thread_time() - start
+    return Afloat(uids, members[0].name, places, _roles(members), rest, seconds=seconds)
 
 
 def remember(afloat: Afloat, members: Iterable[Object], depsgraph: Depsgraph) -> None:
@@ -338,24 +343,46 @@ def held_body(obj: Object, scene: Scene) -> Held | Finding | None:
             value = _held(obj, afloat, scene)
         except MeasureError as refusal:
             value = refusal.finding
-        afloat = memory.afloat[obj]
         afloat.shown = (key, value)
     return afloat.shown[1]
 
 
-def _held(obj: Object, afloat: Afloat, scene: Scene) -> Held | None:
+def _members(afloat: Afloat, scene: Scene) -> list[Object]:
+    """Return the objects of a body, none if one is gone."""
     by_uid = {member.session_uid: member for member in scene.objects}
-    members = [by_uid[uid] for uid in afloat.uids if uid in by_uid]
-    if len(members) < len(afloat.uids):
+    return [by_uid[uid] for uid in afloat.uids] if {*afloat.uids} <= by_uid.keys() else []
+
+
+def follow(depsgraph: Depsgraph, budget: float) -> bool:
+    """Read the bodies with Live on that have changed again, if that took no longer than the budget
+    in seconds; return whether others wait.
+    """
+    waiting = False
+    for afloat in {id(afloat): afloat for afloat in memory.afloat}.values():
+        members = _members(afloat, depsgraph.scene)
+        if not any(map(following.is_live, members)) or (
+            _turn_since(afloat, members, depsgraph.scene) is not None
+        ):
+            continue
+        if afloat.seconds > budget:
+            waiting = True
+            continue
+        try:
+            remember(read(depsgraph, members), members, depsgraph)
+        except MeasureError as refusal:
+            afloat.shown = ((), refusal.finding)
+            handlers.count_change(members[0])
+    return waiting
+
+
+def _held(obj: Object, afloat: Afloat, scene: Scene) -> Held | None:
+    members = _members(afloat, scene)
+    if not members:
         return None
     turn = _turn_since(afloat, members, scene)
     if turn is None:
-        if not any(map(following.is_live, members)):
-            return None
-        depsgraph = bpy.context.view_layer.depsgraph
-        fresh = read(depsgraph, members)
-        remember(fresh, members, depsgraph)
-        return _held(obj, fresh, scene)
+        is_live = any(map(following.is_live, members))
+        return afloat.shown[1] if is_live and afloat.shown is not None else None
     unit = meters_per_unit(scene)
     turn[:3, 3] *= unit
     up = _up(scene)
