@@ -30,6 +30,7 @@ def settle(
     up: ArrayLike,
     tanks: Iterable[tuple[Body, float, float]] = (),
     flooded: Iterable[Body] = (),
+    center_error: ArrayLike = (0.0, 0.0),
 ) -> Flotation:
     """Return the position in which measured bodies rest as one, downhill from where they are.
 
@@ -48,6 +49,8 @@ def settle(
         Tanks, each with the filled share of its volume and the density of its liquid.
     flooded : iterable of Body
         Spaces that the liquid around the body fills, too.
+    center_error : (2,) array_like
+        Bounds of the center of mass by rounding and by storing, m.
 
     Returns
     -------
@@ -64,7 +67,7 @@ def settle(
     for tank, fill, tank_density in tanks:
         hull = find_hull([tank])
         closed.append(hull)
-        vessel = Vessel(hull.points, hull.triangles, 1.0)
+        vessel = Vessel(hull.points, hull.triangles, 1.0, hull.displacement)
         liquids.append(Tank(replace(vessel, volume=fill * vessel.whole[0]), tank_density))
 
     start = np.asarray(up, np.float64)
@@ -89,7 +92,16 @@ def settle(
             triangles = np.concatenate([triangles, space.triangles[:, ::-1] + len(points)])
             points = np.concatenate([points, space.points])
         body = FloatingBody(
-            points, triangles, mass, center, density, hull.openings, tuple(liquids), fitted
+            points,
+            triangles,
+            mass,
+            center,
+            density,
+            hull.openings,
+            tuple(liquids),
+            fitted,
+            hull.displacement,
+            np.asarray(center_error, np.float64),
         )
         if len(made) > MAX_HULLS:
             del made[int(made[0][0] is wet)]
@@ -136,6 +148,7 @@ def float_record(
         return float(rest.up @ point) - rest.keel
 
     heel, trim = heel_and_trim(rest.up, measurement.rotation)
+    bounds = rest.error_bounds
     entry: dict[str, Any] = {
         "liquid_density": rest.body.density,
         "displacement": rest.displacement,
@@ -150,6 +163,10 @@ def float_record(
         "waterplane_moments": rest.waterplane_moments,
         "center_of_buoyancy": axes.T @ (rest.center_of_buoyancy - origin),
         "center_of_flotation": axes.T @ (rest.center_of_flotation - origin),
+        "error_bound": {
+            **{name: bound[0] for name, bound in bounds.items()},
+            "input": {name: bound[1] for name, bound in bounds.items()},
+        },
         "residual": rest.residual,
         "matrix": rest.matrix(),
         "rests": [

@@ -42,6 +42,7 @@ from ...scene.findings import CHILD_NOT_HELD
 from ...scene.rigid_world import down, has_gravity
 from ...scene.transforms import TransformChannels, world
 from ...settings.floating import liquid_density
+from ...settings.options import AS_SET, MeasureOptions
 from ...write import properties
 from .. import memory
 from ..live import following
@@ -129,31 +130,50 @@ def _roles(members: Iterable[Object]) -> tuple:
     return tuple((tank.role, tank.fill if tank.role == "TANK" else 0.0) for tank in tanks)
 
 
-def read(depsgraph: Depsgraph, members: Sequence[Object]) -> Afloat:
+def read(
+    depsgraph: Depsgraph,
+    members: Sequence[Object],
+    options: MeasureOptions = AS_SET,
+    density: float | None = None,
+) -> Afloat:
     """Read a floating body and settle it, without moving anything; MeasureError if it does not
     float.
+
+    options: of the objects with a mass of their own. density: of the liquid, kg/m³, in place of the
+    scene's.
     """
     start = time.thread_time()
     scene = depsgraph.scene
-    parts = {obj: measure_body(obj, depsgraph) for obj in members if measurable(obj)}
+    of_space = replace(AS_SET, unit_scale=options.unit_scale)
+    parts = {
+        obj: measure_body(
+            obj, depsgraph, options if obj.body_moments_tank.role == "BODY" else of_space
+        )
+        for obj in members
+        if measurable(obj)
+    }
 
     def having(role: str) -> list[Object]:
         return [obj for obj in parts if obj.body_moments_tank.role == role]
 
     masses = [parts[obj].mass_properties for obj in having("BODY")]
-    mass = float(sum(each.mass for each in masses))
-    center = sum((each.mass * each.center for each in masses), np.zeros(3)) / (mass or 1.0)
+    shares = np.array([each.mass for each in masses])
+    mass = float(shares.sum())
+    shares = shares / (mass or 1.0)
+    center = shares @ np.reshape([each.center for each in masses], (-1, 3))
+    bounds = np.reshape([parts[obj].measurement.center_bounds for obj in having("BODY")], (-1, 2))
     rest = settle(
         [parts[obj].body for obj in having("BODY")],
         mass,
         center,
-        liquid_density(scene),
+        liquid_density(scene) if density is None else density,
         _up(scene),
         [
             (parts[obj].body, obj.body_moments_tank.fill / 100.0, parts[obj].measurement.density)
             for obj in having("TANK")
         ],
         [parts[obj].body for obj in having("FLOODED")],
+        shares @ bounds,
     )
     places = np.array([float64_matrix(obj.matrix_world) for obj in members])
     uids = tuple(obj.session_uid for obj in members)
