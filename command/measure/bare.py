@@ -14,6 +14,7 @@ from argparse import Namespace
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from ...blender.session.findings import NO_SUCH_NAME
@@ -32,6 +33,7 @@ from ...core.bodies import (
 )
 from ...core.cad import has_surfaces, read_meshes
 from ...core.files import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
+from ...core.floating import settle
 from ...core.measurement import Measurement, PrintSettings, Settings, record
 from ...core.robots import FORMATS as ROBOT_FORMATS
 from ...core.scans import LABEL_ABSENT, Label, read_label_table
@@ -71,6 +73,7 @@ BYTES_OF_FILE = {
     ".stl": 50,
     ".ply": 19,
 }
+UP = (0.0, 0.0, 1.0)
 DEFAULT_DENSITY = 1000.0  # kg/m³
 DEFAULT_THICKNESS = 0.001  # m, as of an object
 _NOT_OF_STREAMS = (
@@ -274,7 +277,17 @@ class BareFile:
                     sheet = [finding(MEASURED_AS_SHELL)]
                 more, of_liquid = {}, ()
                 if self.options.float:
-                    more, of_liquid = floating_entry(body, measurement, self.options, contents)
+                    of_mass = measurement.mass_properties
+                    settled = partial(
+                        settle,
+                        [body],
+                        of_mass.mass,
+                        of_mass.center,
+                        self.options.float,
+                        UP,
+                        center_error=measurement.center_bounds,
+                    )
+                    more, of_liquid = floating_entry(settled, measurement, self.options, contents)
                 if self.options.thumbnails:
                     surface = reading.join()
                     properties = measurement.mass_properties
