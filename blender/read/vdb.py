@@ -6,8 +6,6 @@ An OpenVDB tree has nodes of 4096, 128 and 8 voxels a side; the depth of a value
 of 128 exists.
 """
 
-from __future__ import annotations
-
 import importlib
 from collections.abc import Iterator
 from itertools import product

@@ -19,13 +19,12 @@ from dataclasses import dataclass
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.bodies import GRID_TOO_LARGE, Reading, float64_matrix, name_subject
 from ...core.density import GRID_TRANSFORM_SINGULAR
 from ...core.files import OTHERS_LEFT_OUT
 from ...core.mesh import Surface
-from ...core.numerics import Array, shortest_decimal
+from ...core.numerics import Array, NDArray, shortest_decimal
 from ...core.verdict.finding import Finding, ReadError, finding
 from .decisions import modifier_findings
 from .findings import (

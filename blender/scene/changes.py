@@ -8,8 +8,6 @@ generator: it yields whenever it needs the scene evaluated, and gets the evaluat
 Unrelated changes go forward side by side, with one evaluation for all of them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Generator, Iterable, Iterator
 from typing import TypeVar
 

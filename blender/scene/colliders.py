@@ -9,8 +9,6 @@ follows its scale. A primitive has its pose in the body's frame; its parent inve
 body's scale.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from math import copysign

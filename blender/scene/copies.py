@@ -13,8 +13,6 @@ compares the present frame, without shading: an object that would look different
 in a render, is left out before.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
@@ -26,10 +24,9 @@ from typing import NamedTuple
 import bpy
 import numpy as np
 from bpy.types import ID, Context, Mesh, Node, NodesModifier, NodeTree, Object, bpy_prop_collection
-from numpy.typing import NDArray
 
 from ...core.mesh import Correspondence, Elements, correspondences
-from ...core.numerics import Array
+from ...core.numerics import Array, NDArray
 from ...core.verdict import LINKED_OBJECT
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from . import reframe

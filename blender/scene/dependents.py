@@ -7,14 +7,11 @@ Surfaces are compared as they are evaluated, point by point in the world, becaus
 modifiers could say how each of them depends on an origin.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from bpy.types import ID, Constraint, Depsgraph, Object
 from mathutils import Matrix
-from numpy.typing import NDArray
 
-from ...core.numerics import Array
+from ...core.numerics import Array, NDArray
 from ...core.verdict.finding import EditRefusedError, Finding, ReadError, finding
 from ..read.objects import read_object
 from ..read.visibility import measurable

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Empties at the principal frames of objects, and the moving of empties whose children stay."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Generator, Sequence
 
 import bpy

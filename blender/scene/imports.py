@@ -9,8 +9,6 @@ get their points last. Nothing of the user's scene is selected, changed or evalu
 voxels from .vdb files only, so one is written beside the scan.
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -21,13 +19,12 @@ from typing import NamedTuple
 import bpy
 import numpy as np
 from bpy.types import Context, Curve, Object, Scene
-from numpy.typing import NDArray
 
 from ...core.bodies import SplineReading
 from ...core.cad import MAX_ORDER, SurfaceBody, is_storable, read_surfaces
 from ...core.density import positions_text
 from ...core.files import FILE_UNREADABLE, Limits
-from ...core.numerics import Array, shortest_decimal
+from ...core.numerics import Array, NDArray, shortest_decimal
 from ...core.nurbs import Face, FlatFace, Patch, bezier_space
 from ...core.scans import (
     Positions,

@@ -10,8 +10,6 @@ their sign together in a mirrored object or one turned inside out: the volume is
 Nodes compute in single precision: five to six digits.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import bpy

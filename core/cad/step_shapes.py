@@ -18,14 +18,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..numerics import Array, SplineSpace, clamped_space
-from ..nurbs import Curve, Face, FlatFace, bezier_curves, nearest_parameters
+from ..nurbs import Curve, Face, FlatFace, Quadric, bezier_curves, nearest_parameters
 from ..verdict import FileError, MeasureError
 from .findings import SURFACE_DAMAGED, SURFACE_POINTS, SURFACE_UNSUPPORTED
 from .iges_entities import MAX_ARC, MAX_DEPTH
 from .iges_sweeps import TURN, join_pieces, revolve, rule
 from .part21 import Part21, Reference
 from .surfaces import SurfaceRefusedError, bezier_surface, placed_surface
-from ._stub import Boundary, Quadric, within
+from .trimmed import Boundary, within
 
 MISS_RTOL = 1e-4  # Relative to an edge: a vertex may be so far from its curve.
 SAMPLES = 257  # points of a spline where the search for the parameters of vertices begins

@@ -18,8 +18,6 @@ probability is its solid angle, seen from the center. A face that is not stable 
 to the face that the body tips onto.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import atan2
 
