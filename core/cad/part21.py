@@ -21,6 +21,7 @@ Parts: TypeAlias = dict[str, list[Any]]
 # Strings and comments hide a semicolon.
 _STOP = re.compile(rb"'[^']*'|/\*.*?\*/|;", re.DOTALL)
 _HEAD = re.compile(rb"(?:\s|/\*.*?\*/)*#(\d+)\s*=\s*(\w*)", re.DOTALL)
+_REFERENCE = re.compile(rb"#(\d+)")
 _ENTITY = re.compile(rb"(\w+)\s*\(")
 _TOKEN = re.compile(
     r"#(?P<reference>\d+)|'(?P<text>(?:[^']|'')*)'|(?P<real>[+-]?\d+\.\d*(?:[eE][+-]?\d+)?)"
@@ -81,6 +82,17 @@ class Part21:
     def line(self, number: int) -> int:
         """Return the line in which an instance begins, or the last line."""
         return self._data.count(b"\n", 0, self._spans.get(number, (None, None))[0]) + 1
+
+    def extract(self, *lines: str) -> bytes:
+        """Return a file of these statements and of all instances that they need."""
+        last = "".join(lines).encode()
+        needed: set[int] = set()
+        texts = [last]
+        for text in texts:
+            for number in set(map(int, _REFERENCE.findall(text))) & self._spans.keys() - needed:
+                needed.add(number)
+                texts.append(b"#%d=%s;\n" % (number, self._data[slice(*self._spans[number])]))
+        return b"ISO-10303-21;\n%sEND-ISO-10303-21;\n" % b"".join(texts)
 
     def entity(self, number: int) -> str:
         """Return the longest name of an instance's entities."""

@@ -9,6 +9,7 @@ are in the unit of the first.
 from __future__ import annotations
 
 import math
+import zlib
 from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -17,9 +18,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from ..files import FILE_TOO_LARGE
+from ..files import DEFAULT_LIMITS, FILE_TOO_LARGE
 from ..numerics import Array, clamped_space
 from ..nurbs import Curve, Face, close_pairs, patches_size
 from ..verdict import WELDING_RTOL, FileError
@@ -66,8 +67,8 @@ class _Child(NamedTuple):
 class StepReader:
     """A reader of the solids of a STEP file."""
 
-    def __init__(self, path: Path, _for_blender: bool) -> None:
-        self._text = Part21(path.read_bytes())
+    def __init__(self, path: Path, _for_blender: bool, data: bytes | None = None) -> None:
+        self._text = Part21(path.read_bytes() if data is None else data)
         self._stem = path.stem
         self._shapes = Shapes(self._text)
         self._refusals = Refusals()
@@ -111,7 +112,10 @@ class StepReader:
             with self._noting(number):
                 self._map(number)
         placed = {
-            twin for row in self._children.values() for one in row for twin in self._group(one.number)
+            twin
+            for row in self._children.values()
+            for one in row
+            for twin in self._group(one.number)
         }
         # First the roots, then what only a circle of assemblies places.
         for number in [*(one for one in representations if one not in placed), *representations]:
@@ -209,7 +213,7 @@ class StepReader:
                 for unit in self._text[context].get("GLOBAL_UNIT_ASSIGNED_CONTEXT", [[]])[0]:
                     for kind in found.keys() & self._text[unit].keys():
                         found[kind] = self._size(unit, 0)
-                if not 0.0 < min(found.values()):
+                if not min(found.values()) > 0.0:
                     raise refuse("a unit of no known length")
                 self._contexts[context] = found["LENGTH_UNIT"], found["PLANE_ANGLE_UNIT"]
                 self._unit = self._unit or found["LENGTH_UNIT"]
@@ -286,12 +290,22 @@ class StepReader:
                 tuple(faces),
                 scale * (moved + self._shapes.gap) + 2.0 * turning * reach,
                 next((self._colors[one] for one in shells if one in self._colors), None),
+                zlib.compress(
+                    self._text.extract(
+                        "#{}=SHAPE_REPRESENTATION('',(#{}),#{});\n".format(
+                            owner, number, self._attribute(owner, 2)
+                        )
+                    )
+                ),
+                matrix,
             )
         )
 
     def _product(self, number: int) -> str:
         """Return the name of the product that has a representation."""
-        owner = next((self._owners[one] for one in self._group(number) if one in self._owners), None)
+        owner = next(
+            (self._owners[one] for one in self._group(number) if one in self._owners), None
+        )
         if owner is None:
             return ""
         product = self._attribute(self._attribute(owner, 2), 2)
@@ -300,7 +314,9 @@ class StepReader:
     def _solid(self, number: int) -> list[Face]:
         """Return the faces of a solid, or of a model of surfaces."""
         _, values = self._shapes.pick(number, SOLIDS)
-        shells = [one for value in values[1:] for one in (value if isinstance(value, list) else [value])]
+        shells = [
+            one for value in values[1:] for one in (value if isinstance(value, list) else [value])
+        ]
         return [face for shell in shells for face in self._shell(shell)]
 
     def _shell(self, number: int) -> list[Face]:
@@ -325,7 +341,9 @@ class StepReader:
         return faces
 
     def _face(self, number: int, outward: bool) -> list[Face]:
-        _, (_, bounds, surface, same, *_) = self._shapes.pick(number, ("ADVANCED_FACE", "FACE_SURFACE"))
+        _, (_, bounds, surface, same, *_) = self._shapes.pick(
+            number, ("ADVANCED_FACE", "FACE_SURFACE")
+        )
         loops = []
         for bound in bounds:
             _, (_, loop, ahead) = self._shapes.pick(bound, ("FACE_OUTER_BOUND", "FACE_BOUND"))
@@ -351,7 +369,10 @@ class StepReader:
                 self._uses[edge] += 1
         ends = np.array([curve.points[[0, -1]] for curve in curves])
         gaps = np.abs(ends[:, 0] - np.roll(ends[:, 1], 1, axis=0)).max()
-        if gaps > WELDING_RTOL * np.ptp(np.concatenate([one.points for one in curves]), axis=0).max():
+        if (
+            gaps
+            > WELDING_RTOL * np.ptp(np.concatenate([one.points for one in curves]), axis=0).max()
+        ):
             raise refuse("a loop that does not close")
         return _turned(curves, is_ahead)
 
@@ -368,6 +389,15 @@ class StepReader:
                 made = self._shapes.curve(curve, ends if same else ends[::-1])
                 self._edges[number] = _turned(made, same)
         return self._edges[number]
+
+
+def read_source(source: bytes, matrix: ArrayLike) -> tuple[tuple[Face, ...], float]:
+    """Return the faces of a body's `source` in place, and their rounding. Raise FileError."""
+    unpacked = zlib.decompressobj().decompress(source, DEFAULT_LIMITS.text_bytes)
+    (body,) = StepReader(Path(), False, unpacked).read().bodies
+    place = np.reshape(matrix, (4, 4))
+    scale = float(np.linalg.norm(place[:3, :3], 2))
+    return tuple(face.transform(place) for face in body.patches), scale * body.rounding
 
 
 def _turned(curves: list[Curve], is_ahead: bool) -> list[Curve]:

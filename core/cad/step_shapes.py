@@ -15,7 +15,6 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..numerics import Array, SplineSpace, clamped_space
 from ..nurbs import Curve, Face, FlatFace, Quadric, bezier_curves, nearest_parameters
@@ -64,8 +63,9 @@ def refuse(fault: str) -> SurfaceRefusedError:
 
 
 class Shapes:
-    """The curves and surfaces of a file, in its unit. angle: radians per unit of angles; gap: largest
-    distance of a vertex from a curve.
+    """The curves and surfaces of a file, in its unit.
+
+    angle: radians per unit of angles. gap: largest distance of a vertex from a curve.
     """
 
     def __init__(self, text: Part21) -> None:
@@ -129,9 +129,7 @@ class Shapes:
 
     def _ending(self, curves: list[Curve], ends: Sequence[Array]) -> list[Curve]:
         """Return curves whose ends are moved to the vertices."""
-        gap = max(
-            float(np.linalg.norm(curves[k].points[k] - ends[k])) for k in (0, -1)
-        )
+        gap = max(float(np.linalg.norm(curves[k].points[k] - ends[k])) for k in (0, -1))
         self.gap = max(self.gap, gap)
         size = max(float(np.ptp(curve.points, axis=0).max()) for curve in curves)
         if gap > MISS_RTOL * size:
@@ -155,9 +153,7 @@ class Shapes:
         return within(surface, [Boundary(loop, None) for loop in loops], rounding=self.gap)
 
 
-def _line(
-    shapes: Shapes, _: Any, values: list[Any], ends: Sequence[Array] | None
-) -> list[Curve]:
+def _line(shapes: Shapes, _: Any, values: list[Any], ends: Sequence[Array] | None) -> list[Curve]:
     if ends is None:
         raise ValueError("a line without ends")
     begin = shapes.point(values[1])
@@ -301,8 +297,12 @@ def _revolution(shapes: Shapes, _: Any, values: list[Any], loops: list[list[Curv
         along = shapes.direction(shapes.pick(line[2], ("VECTOR",))[1][1])
         if not abs(along @ axis) > 1e-9:
             return axis
-        heights = (np.concatenate([curve.points for loop in loops for curve in loop]) - place) @ axis
-        ends = [place + height / (along @ axis) * along for height in (heights.min(), heights.max())]
+        heights = (
+            np.concatenate([curve.points for loop in loops for curve in loop]) - place
+        ) @ axis
+        ends = [
+            place + height / (along @ axis) * along for height in (heights.min(), heights.max())
+        ]
     return revolve(join_pieces(shapes.curve(values[1], ends)), begin, axis, 0.0, TURN)
 
 
