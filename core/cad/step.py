@@ -90,7 +90,7 @@ class StepReader:
         """Read the solids. FileError if none can be kept."""
         text = self._text
         if text.torn:
-            self._note(EntityError(text.torn, SURFACE_DAMAGED, {"fault": "the end of the file"}))
+            self._note(EntityError(text.torn, SURFACE_DAMAGED, {"fault": "the end of the file, which comes too early"}))
         for name, take in (
             ("SHAPE_DEFINITION_REPRESENTATION", self._own),
             ("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION", self._use),

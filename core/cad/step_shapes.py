@@ -303,7 +303,8 @@ def _revolution(shapes: Shapes, _: Any, values: list[Any], loops: list[list[Curv
         ends = [
             place + height / (along @ axis) * along for height in (heights.min(), heights.max())
         ]
-    return revolve(join_pieces(shapes.curve(values[1], ends)), begin, axis, 0.0, TURN)
+    swept = revolve(join_pieces(shapes.curve(values[1], ends)), begin, axis, 0.0, TURN)
+    return swept.reverse_orientation()  # The angle is the first parameter.
 
 
 _BASES = ("TRIMMED_CURVE", "SURFACE_CURVE", "SEAM_CURVE", "INTERSECTION_CURVE")
