@@ -83,6 +83,7 @@ class StepReader:
         self._colors: dict[int, tuple[float, ...]] = {}
         self._bodies: list[SurfaceBody] = []
         self._visited: set[int] = set()
+        self._noted: set[int] = set()
         self._placed = 0
         self._unit = 0.0
 
@@ -132,11 +133,13 @@ class StepReader:
                 yield
         except EntityError as error:
             self._is_whole = False
-            if not torn or error.values.get("fault") != MISSING:
+            is_torn = bool(torn) and error.values.get("fault") == MISSING
+            if not is_torn and error.number not in self._noted:
                 self._note(error)
 
     def _note(self, error: EntityError) -> None:
         """Note the refusal of an entity."""
+        self._noted.add(error.number)
         name = self._text.entity(error.number)
         place = "#{} (line {})".format(error.number, self._text.line(error.number))
         self._refusals.add(error.code, name, place, **error.values)
