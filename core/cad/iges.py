@@ -380,11 +380,9 @@ class IgesReader:
             faces: list[Face] = [first_region([loops], self._plane_normal(base, matrix))]
         elif base.type in ANALYTIC:
             quadric = self._quadric(base, self._text.fields(base), matrix)
-            faces = within(quadric, boundaries, rounding=self._rounding)
-            if self._for_blender:
-                patches = [face for face in faces if isinstance(face, Patch)]
-                for patch in patches:
-                    bezier_surface(patch, (None, None), True)
+            faces = within(
+                quadric, boundaries, rounding=self._rounding, only_patches=self._for_blender
+            )
         elif base.type in SWEPT:
             surface, quadric = self._swept(base, matrix)
             # Parameters of other surfaces than splines are those of no exact form.
@@ -392,7 +390,9 @@ class IgesReader:
             domain = surface.spaces[0].domain, surface.spaces[1].domain
             patches = bezier_surface(surface, (None, None), self._for_blender)
             rounding = self._rounding
-            faces = trimmed_faces(surface, domain, patches, in_space, has_outer, rounding, quadric)
+            faces = trimmed_faces(
+                surface, domain, patches, in_space, has_outer, rounding, quadric, self._for_blender
+            )
         elif base.type != SURFACE:
             raise SurfaceRefusedError(
                 SURFACE_UNSUPPORTED, base=NAMES.get(base.type, str(base.type))
@@ -409,9 +409,11 @@ class IgesReader:
                 boundaries,
                 has_outer,
                 rounding,
+                None,
+                self._for_blender,
             )
         if self._for_blender and not all(isinstance(face, Patch) for face in faces):
-            raise SurfaceRefusedError(SURFACE_TRIMMED)
+            raise SurfaceRefusedError(SURFACE_TRIMMED)  # a flat face
         return faces
 
     def _swept(self, base: Entry, matrix: NDArray) -> tuple[Patch, Quadric | None]:

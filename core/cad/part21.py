@@ -14,13 +14,14 @@ from typing import Any, TypeAlias
 
 from ..files import FILE_TOO_LARGE, FILE_UNRECOGNIZED
 from ..verdict import FileError
-from .iges_entities import MAX_DEPTH, decimal_rounding
+from .iges_entities import MANY_DIGITS, MAX_DEPTH
 
 MAX_INSTANCES = 5_000_000
 Parts: TypeAlias = dict[str, list[Any]]
 # Strings and comments hide a semicolon.
 _STOP = re.compile(rb"'[^']*'|/\*.*?\*/|;", re.DOTALL)
 _HEAD = re.compile(rb"(?:\s|/\*.*?\*/)*#(\d+)\s*=\s*(\w*)", re.DOTALL)
+_REAL = re.compile(rb"\d+\.\d*")
 _REFERENCE = re.compile(rb"#(\d+)")
 _ENTITY = re.compile(rb"(\w+)\s*\(")
 _TOKEN = re.compile(
@@ -48,8 +49,8 @@ class Part21:
     """The instances of a STEP file.
 
     named: the numbers of instances by the names of their entities. torn: the number of the last
-    instance if the file ends too early, else 0. rounding: largest effect of decimals on a number,
-    by entity. FileError if it is no STEP file.
+    instance if the file ends too early, else 0. precision: largest share of a number that its last
+    decimal rounds away. FileError if it is no STEP file.
     """
 
     def __init__(self, data: bytes) -> None:
@@ -59,7 +60,10 @@ class Part21:
         self._spans: dict[int, tuple[int, int]] = {}
         self._known: dict[int, Parts] = {}
         self.named: dict[str, list[int]] = {}
-        self.rounding: dict[str, float] = {}
+        digits = max(
+            (len(word.replace(b".", b"").strip(b"0")) for word in _REAL.findall(data)), default=0
+        )
+        self.precision = 0.5 * 10.0 ** (1 - digits) if digits >= MANY_DIGITS else 0.0
         start = last = 0
         statement = b""
         for stop in _STOP.finditer(data):
@@ -105,9 +109,7 @@ class Part21:
         """
         if number not in self._known:
             text = self._data[slice(*self._spans[number])].decode("utf-8", "replace")
-            parts = self._known[number] = _parts(text)
-            name = next(iter(parts))
-            self.rounding[name] = max(self.rounding.get(name, 0.0), decimal_rounding([text]))
+            self._known[number] = _parts(text)
         return self._known[number]
 
 

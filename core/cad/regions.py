@@ -26,6 +26,7 @@ MISS_RTOL = 1e-4  # relative to the size: a curve beyond this distance is not on
 POLE_RTOL = 1e-9  # relative to the size: the slope by the angle at a pole
 MIN_CLEARANCE = 1e-3  # of curves from the poles of a sphere, as one minus the sine of the latitude
 AXES = 64  # directions among which a sphere's axis is chosen
+BESIDE = 1e-5  # of a period: a spot so near to a seam is in the region too
 MIN_STEP = 1e-12  # relative to the coordinates' range: a gap of a track that needs no line
 
 
@@ -48,8 +49,11 @@ class Track:
     @property
     def steps(self) -> Array:
         """(n, 2, 2) begin and end of all straight steps."""
-        rows = np.stack([self.pieces[:, :-1], self.pieces[:, 1:]], axis=2).reshape(-1, 2, 2)
-        return np.concatenate([rows, self.lines])
+        runs = self.pieces.reshape(-1, 2)
+        steps = np.stack([runs[:-1], runs[1:]], axis=1)
+        last = self.lines[-1:]
+        closing = last if len(last) and (last[0, 0] == runs[-1]).all() else steps[:0]
+        return np.concatenate([steps, closing])
 
 
 def curved_region(
@@ -256,6 +260,8 @@ def _covers(
 ) -> int:
     """Return how often strips from the base line to (n, 2, 2) steps cover a spot (2,)."""
     period = chart.periods[1 - axis]
+    # A seam often ends where a loop begins: its own coordinate is that of a sample.
+    spot = spot + BESIDE * period
     begin, end = (
         np.floor((row[:, 1 - axis] - spot[1 - axis]) / period) for row in np.moveaxis(steps, 1, 0)
     )

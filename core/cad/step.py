@@ -50,8 +50,6 @@ COLORS = {
         ("black", "red", "green", "yellow", "blue", "magenta", "cyan", "white")
     )
 }
-# The decimals of these numbers turn or bend; those of others move.
-ANGULAR = ("DIRECTION", "CONICAL_SURFACE", "BOUNDED_CURVE", "BOUNDED_SURFACE")
 MAX_FACES = 200_000  # faces placed by a file
 MAX_STYLES = 64  # entities between a styled item and its color
 
@@ -91,7 +89,13 @@ class StepReader:
         """Read the solids. FileError if none can be kept."""
         text = self._text
         if text.torn:
-            self._note(EntityError(text.torn, SURFACE_DAMAGED, {"fault": "the end of the file, which comes too early"}))
+            self._note(
+                EntityError(
+                    text.torn,
+                    SURFACE_DAMAGED,
+                    {"fault": "the end of the file, which comes too early"},
+                )
+            )
         for name, take in (
             ("SHAPE_DEFINITION_REPRESENTATION", self._own),
             ("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION", self._use),
@@ -281,17 +285,18 @@ class StepReader:
         if self._placed > MAX_FACES:
             raise FileError(FILE_TOO_LARGE, limit=MAX_FACES, content="surfaces")
         label = self._attribute(number, 0)
-        reach = max(float(np.abs(face.points).max()) for face in faces)
-        decimals = self._text.rounding
-        turning = max(decimals.get(name, 0.0) for name in ANGULAR)
-        moved = max(size for name, size in decimals.items() if name not in ANGULAR)
         scale = float(np.linalg.norm(matrix[:3, :3], 2))
+        reach = max(
+            factor * float(np.abs(face.points).max())
+            for factor, own in ((1.0, faces), (scale, self._solids[number]))
+            for face in own
+        )
         shells = [number, *np.ravel(self._attribute(number, 1)).tolist(), owner]
         self._bodies.append(
             SurfaceBody(
                 (self._product(owner) if is_alone or not label else label) or self._stem,
                 tuple(faces),
-                scale * (moved + self._shapes.gap) + 2.0 * turning * reach,
+                scale * self._shapes.gap + 4.0 * self._text.precision * reach,
                 next((self._colors[one] for one in shells if one in self._colors), None),
                 zlib.compress(
                     self._text.extract(

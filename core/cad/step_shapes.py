@@ -116,16 +116,16 @@ class Shapes:
 
     def curve(self, number: int, ends: Sequence[Array] | None, depth: int = 0) -> list[Curve]:
         """Return a curve from the first to the second of two points, the whole curve for None."""
-        with blame(number):
-            name, values = self.pick(number, (*_CURVES, *_BASES))
-            if name in _BASES:
-                if depth == MAX_DEPTH:
-                    raise refuse("references to itself, or nested too deeply")
-                if name != "TRIMMED_CURVE" or values[4] or ends is None:
-                    return self.curve(values[1], ends, depth + 1)
-                return [one.reverse() for one in self.curve(values[1], ends[::-1], depth + 1)[::-1]]
-            made = _CURVES[name](self, self.text[number], values, ends)
-        return made if ends is None else self._ending(made, ends)
+        name, values = self.pick(number, (*_CURVES, *_BASES))
+        if name not in _BASES:
+            with blame(number):
+                made = _CURVES[name](self, self.text[number], values, ends)
+            return made if ends is None else self._ending(made, ends)
+        if depth == MAX_DEPTH:
+            raise refuse("references to itself, or nested too deeply")
+        if name != "TRIMMED_CURVE" or values[4] or ends is None:
+            return self.curve(values[1], ends, depth + 1)
+        return [one.reverse() for one in self.curve(values[1], ends[::-1], depth + 1)[::-1]]
 
     def _ending(self, curves: list[Curve], ends: Sequence[Array]) -> list[Curve]:
         """Return curves whose ends are moved to the vertices."""

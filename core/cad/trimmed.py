@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics import Array, clamped_space
+from ..numerics import Array, clamped_space, cross, dot
 from ..nurbs import (
     Curve,
     Face,
@@ -61,12 +61,14 @@ def within(
     *,
     rounding: float = 0.0,
     directed: bool = True,
+    only_patches: bool = False,
 ) -> list[Face]:
     """Return the faces of a surface within boundaries, facing as the surface does;
     SurfaceRefusedError if they bound none.
 
     rounding: largest effect of the file's decimals on a point. directed: whether boundaries run
-    with the face on their left, seen from the side of the surface's normal.
+    with the face on their left, seen from the side of the surface's normal. only_patches: refuse a
+    trimmed surface.
     """
     loops = [one.curves or _lifted(surface, one.parameters or ()) for one in boundaries]
     if not all(loops):
@@ -79,6 +81,8 @@ def within(
         spanned = [Boundary(loop) for loop in loops]
         if patch is not None and (not loops or _follow_sides(patch, _UNIT, spanned)):
             return [patch]
+        if only_patches:
+            raise SurfaceRefusedError(SURFACE_TRIMMED)
         return [curved_region(surface, loops, rounding, directed)]
     if _is_flat(surface, FLAT_RTOL * patches_size([surface]) + 4.0 * rounding):
         return [first_region([loops], vector_area([surface]))]
@@ -107,7 +111,7 @@ def _lifted(surface: Patch | Quadric, parameters: Sequence[Curve]) -> list[Curve
                 chart.evaluate(*curve.evaluate(low + (high - low) * at).T[:2])[0].T
                 for at in (nodes, between)
             )
-            points = np.linalg.solve(tables[0], truth)
+            points = np.asarray(np.linalg.solve(tables[0], truth), np.float64)
             miss = np.abs(tables[1] @ points - check).max()
             if miss <= LIFTED_RTOL * np.ptp(truth, axis=0).max() or depth == LIFTED_DEPTH:
                 found.append(Curve(space, points))
@@ -125,12 +129,14 @@ def trimmed_faces(
     has_outer: bool,
     rounding: float = 0.0,
     quadric: Quadric | None = None,
+    only_patches: bool = False,
 ) -> list[Face]:
     """Return the faces of a surface within boundaries.
 
     domain: the used part of the surface. patches: that part, in one piece unless the surface may be
     torn. has_outer: False if the outer boundary is that of the surface. rounding: largest effect of
     the file's decimals on a point. quadric: the whole surface, if it is one.
+    only_patches: refuse a trimmed surface.
     """
     if not boundaries:
         return [*patches]
@@ -138,6 +144,8 @@ def trimmed_faces(
         (patch,) = patches
         if has_outer and _follow_sides(patch, domain, boundaries):
             return [patch]
+        if only_patches:
+            raise SurfaceRefusedError(SURFACE_TRIMMED)
         tolerance = FLAT_RTOL * patches_size([surface]) + 4.0 * rounding
         around = [curve if ahead else curve.reverse() for curve, ahead in patch.sides]
         around = [curve for curve in around if np.ptp(curve.points, axis=0).any()]
@@ -151,10 +159,10 @@ def trimmed_faces(
         if quadric is None:
             return within(patch, [*outer, *lifted], rounding=rounding, directed=False)
         middle = np.array([[np.mean(space.domain)] for space in patch.spaces])
-        place, *slopes = (row[:, 0] for row in SplineChart(patch).evaluate(*middle))
-        _, *own_slopes = (row[:, 0] for row in quadric.evaluate(*quadric.project(place[None]).T))
+        place, along, across = SplineChart(patch).evaluate(*middle)
+        _, own_along, own_across = quadric.evaluate(*quadric.project(place.T).T)
         faces = within(quadric, [*outer, *lifted], rounding=rounding, directed=False)
-        is_turned = np.cross(*slopes) @ np.cross(*own_slopes) < 0.0
+        is_turned = float(dot(cross(along, across), cross(own_along, own_across))[0]) < 0.0
         return [face.reverse_orientation() for face in faces] if is_turned else faces
     raise SurfaceRefusedError(SURFACE_TRIMMED)
 

@@ -55,6 +55,11 @@ class Quadric:
         """Return no knots: the surface is smooth."""
         return np.zeros(0)
 
+    def step(self, each: int) -> tuple[float, float]:
+        """Return the widths of tiles, `each` to a quarter of a turn."""
+        width = TURN / 4.0 / each
+        return width, width if self.minor else math.inf
+
     def transform(self, matrix: NDArray) -> Quadric:
         """Return the image of the surface under a (4, 4) affine map."""
         return Quadric(np.asarray(matrix) @ self.frame, self.radius, self.minor, self.slope)
@@ -120,4 +125,4 @@ class Quadric:
 
     @cached_property
     def _inverse(self) -> Array:
-        return np.linalg.inv(self.frame)[:3]
+        return np.asarray(np.linalg.inv(self.frame)[:3], np.float64)

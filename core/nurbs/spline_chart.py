@@ -65,6 +65,12 @@ class SplineChart:
             inner = np.unique(inner[:-1] + period * turns[:, None])
         return inner[(inner > low) & (inner < high)]
 
+    def step(self, each: int) -> tuple[float, float]:
+        """Return the widths of tiles, `each` to a mean span."""
+        low, high = np.array([space.domain for space in self.patch.spaces]).T
+        width = (high - low) / [each * len(space.spans) for space in self.patch.spaces]
+        return float(width[0]), float(width[1])
+
     def transform(self, matrix: NDArray) -> SplineChart:
         """Return the image of the patch under a (4, 4) affine map."""
         return SplineChart(self.patch.transform(matrix))

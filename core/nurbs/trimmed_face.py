@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Faces: regions of curved surfaces within closed loops of curves, which lie on them but for a small
+"""Faces: regions of curved surfaces within closed loops of curves, which lie on them within a small
 distance.
 
 Green's theorem in the surface's coordinates, with an antiderivative along one of them:
@@ -22,12 +22,13 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
+from typing import TypeAlias, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
-from ..numerics import Array, Index, SplineSpace, clamped_space, gauss_legendre
+from ..numerics import Array, Index, SplineSpace, clamped_space, cross, gauss_legendre
 from .bezier import ROUNDING, VOLUME_RTOL, homogeneous
 from .patch_moments import AREA_RTOL, area_slope, area_terms, flux_terms, sheet_terms
 from .quadric import Quadric
@@ -46,9 +47,12 @@ MIN_TOLERANCE = 1e-13  # of strips, relative to their size
 ROUNDED_ORDERS = 16  # orders of the bases of a typical surface, for the rounding of its points
 # Factor on the difference of two rules that do not agree yet when a strip is not cut any more.
 UNCONVERGED_FACTOR = 8.0
+SAME_HEIGHT = 1e-9  # relative to all heights: samples that share a row of tiles
 FLAT_STEP = 1e-12  # a change of a coordinate, relative to its range, that bounds nothing
 # Returns (K + 1, ...) integrands and sizes at points with derivatives, each (3, ...).
 Terms = Callable[[list[NDArray]], NDArray]
+# Segment, lower and upper end, and the shares of the way between where a strip begins and ends.
+Strips: TypeAlias = tuple[Index, Array, Array, Array, Array]
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,6 +164,92 @@ class TrimmedFace:
         # The integral of the mean curvature of a sphere is 4π times its radius.
         return self.perimeter + 4.0 * np.pi * self._size
 
+    def quads(self, each: int) -> Array:
+        """Return (n, 4, 3) corners of quadrilaterals that fill the region, with about `each` steps
+        to a span or a quarter of a turn.
+        """
+        return self._tiles(each)[1]
+
+    def sagitta(self, each: int) -> float:
+        """Return the largest distance of the middles of the quadrilaterals from the surface."""
+        tiles, corners = self._tiles(each)
+        middle = self.chart.evaluate(*tiles.mean(axis=1).T)[0].T
+        return float(np.linalg.norm(corners.mean(axis=1) - middle, axis=1).max(initial=0.0))
+
+    def normals(self, number: int, each: int) -> Array:
+        """Return (m, 3) unit normals at the samples of a side's curve."""
+        place = self.chart.project(self.curves[number].samples(each))
+        _, along, across = self.chart.evaluate(*place.T)
+        normal = self.facing * np.stack(cross(along, across), axis=1)
+        return normal / np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
+
+    def _tiles(self, each: int) -> tuple[Array, Array]:
+        """Return (n, 4, 2) coordinates of the corners of `quads`, and the corners.
+
+        Rows along the direction of strips are cut at the samples of the loops; between two of these
+        the region is where strips of odd sum lie.
+        """
+        axis, other = self.axis, 1 - self.axis
+        stride = max(1, (SAMPLES - 1) // each)
+        tracks = self.tracks[:, ::stride]
+        steps = np.concatenate(
+            [np.stack([tracks[:, :-1], tracks[:, 1:]], axis=2).reshape(-1, 2, 2), self.lines]
+        )
+        widths = self.chart.step(each)
+        heights = [*np.unique(steps[..., axis]).tolist(), self.base]
+        grain = SAME_HEIGHT * max(max(heights) - min(heights), 1e-300)
+        heights = np.unique(np.round(np.array(heights) / grain))
+        (begin, end) = np.moveaxis(steps, 1, 0)
+        ends = np.round(np.stack([begin[:, axis], end[:, axis]]) / grain)
+        cuts = [
+            np.linspace(a, b, 1 + max(1, int(np.ceil((b - a) * grain / widths[axis] - 1e-9))))[:-1]
+            for a, b in zip(heights[:-1], heights[1:])
+        ]
+        heights = np.concatenate([*cuts, heights[-1:]])
+        bottom, top = heights[:-1], heights[1:]
+        low, high = ends.min(axis=0), ends.max(axis=0)
+        row, edge = np.nonzero((low <= bottom[:, None]) & (high >= top[:, None]) & (low < high))
+        slope = (end - begin)[edge, other] / (ends[1] - ends[0])[edge]
+        x = begin[edge, other] + (np.stack([bottom[row], top[row]]) - ends[0, edge]) * slope
+        period = self.chart.periods[other]
+        if period:
+            x -= period * np.floor(x.mean(axis=0) / period)
+        enters = (ends[1] > ends[0])[edge] == (axis == 0)
+        order = np.lexsort((x.sum(axis=0), row))
+        first = order[np.unique(row[order], return_index=True)[1]] if len(order) else order
+        x[:, first[~enters[first]]] += period
+        order = np.lexsort((x.sum(axis=0), row))
+        pairs = np.flatnonzero(enters[order][:-1] & ~enters[order][1:] & (np.diff(row[order]) == 0))
+        left, right = x[:, order[pairs]], x[:, order[pairs + 1]]
+        rows = row[order[pairs]]
+        # Rows that no loop enters are all in the region, or none of them.
+        empty = np.setdiff1d(np.arange(len(bottom)), row)
+        level = ends.mean(axis=0)
+        base = self.base / grain
+        beyond = np.where(
+            bottom[empty, None] >= base - 0.5,
+            level > bottom[empty, None],
+            -(level < top[empty, None]),
+        )
+        turns = (beyond * (end - begin)[:, other]).sum(axis=1) / (period or 1.0)
+        full = empty[np.round(np.abs(turns)) % 2 == 1] if period else empty[:0]
+        rows = np.concatenate([rows, full])
+        left = np.concatenate([left, np.zeros((2, len(full)))], axis=1)
+        right = np.concatenate([right, np.full((2, len(full)), period)], axis=1)
+        parts = np.maximum(np.ceil((right - left).max(axis=0) / widths[other]), 1).astype(np.intp)
+        tile = np.repeat(np.arange(len(rows)), parts)
+        index = np.arange(len(tile)) - np.repeat(np.cumsum(parts) - parts, parts)
+        corners = []
+        for end_of_row, step in ((0, 0), (0, 1), (1, 1), (1, 0)):
+            share = (index + step) / parts[tile]
+            across = left[end_of_row, tile] * (1.0 - share) + right[end_of_row, tile] * share
+            height = (bottom, top)[end_of_row][rows[tile]] * grain
+            corners.append(np.stack([across, height] if axis else [height, across], axis=-1))
+        tiles = np.stack(corners, axis=1)
+        if (self.facing < 0.0) == (axis == 1):
+            tiles = tiles[:, ::-1]
+        return tiles, np.moveaxis(self.chart.evaluate(*np.moveaxis(tiles, -1, 0))[0], 0, -1)
+
     def _reach(self, about: NDArray) -> float:
         return float(np.sqrt(((self.points - about) ** 2).sum(axis=-1).max()))
 
@@ -212,7 +302,9 @@ class TrimmedFace:
             values = values + fine[:k, done].sum(axis=1)
             estimate += float(np.where(good, differ, UNCONVERGED_FACTOR * differ)[done].sum())
             size += float(fine[k, done].sum())
-            index, ends, strips = _cut(index, ends, [row[~done] for row in strips])
+            index, ends, strips = _cut(
+                index, ends, cast("Strips", tuple(row[~done] for row in strips))
+            )
         return values * (-1.0 if self.axis else 1.0), estimate, size
 
     def _gap_integrals(self, terms: Terms, about: NDArray) -> tuple[Array, Array, float]:
@@ -245,7 +337,7 @@ class TrimmedFace:
         self,
         index: Index,
         ends: NDArray,
-        strips: Sequence[NDArray],
+        strips: Strips,
         terms: Terms,
         about: NDArray,
         most: int,
@@ -282,7 +374,7 @@ class TrimmedFace:
         return found[0], found[1]
 
     @cached_property
-    def _strips(self) -> tuple[Index, Array, list[Array]]:
+    def _strips(self) -> tuple[Index, Array, Strips]:
         """Segments of curves and lines, and the strips from the base line to them.
 
         (s,) piece, (s, 2) ends on it; and for each strip its segment, lower end, upper end (NaN: at
@@ -333,8 +425,8 @@ class TrimmedFace:
             between = marks[(marks > min(self.base, top)) & (marks < max(self.base, top))]
             stops = [self.base, *(between if top > self.base else between[::-1]).tolist(), np.nan]
             strips += [(segment, a, b, 0.0, 1.0) for a, b in zip(stops[:-1], stops[1:])]
-        rows = list(np.array(strips, np.float64).reshape(-1, 5).T)
-        return index, ends, [rows[0].astype(np.intp), *rows[1:]]
+        segment, *rows = np.array(strips, np.float64).reshape(-1, 5).T
+        return index, ends, cast("Strips", (segment.astype(np.intp), *rows))
 
     def _coordinates(self, index: Index, at: NDArray) -> tuple[Array, Array]:
         """Return (2, n, m) coordinates and their slopes on pieces (n,), at (n, m) parameters from 0
@@ -420,9 +512,7 @@ def _evaluate(nets: NDArray, at: NDArray, origin: NDArray) -> tuple[Array, Array
     return place + origin[:, None, None], velocity
 
 
-def _cut(
-    index: Index, ends: NDArray, strips: Sequence[NDArray]
-) -> tuple[Index, Array, list[Array]]:
+def _cut(index: Index, ends: NDArray, strips: Strips) -> tuple[Index, Array, Strips]:
     """Return strips cut in four, with the halves of their segments."""
     used, part = np.unique(strips[0], return_inverse=True)
     middle = ends[used].mean(axis=1)
@@ -436,4 +526,8 @@ def _cut(
         for half in (0, 1)
         for begin, end in ((first, between), (between, last))
     ]
-    return np.tile(index[used], 2), halves, [np.concatenate(row) for row in zip(*quarters)]
+    return (
+        np.tile(index[used], 2),
+        halves,
+        cast("Strips", tuple(np.concatenate(row) for row in zip(*quarters))),
+    )
