@@ -80,7 +80,7 @@ def test_step_part_of_a_kernel_is_within_its_bound(tmp_path, name):
     assert abs(scale**3 * volume.total - truth) <= error + slack
     assert error <= 1e-9 * truth
     if "prism" not in name and name != "leaning":
-        assert np.abs(scale * volume.center - center).max() <= 2e-6  # that of GProp is off
+        assert np.abs(scale * volume.center - center).max() <= 1e-5  # GProp is so far off the axis
 
 
 @pytest.mark.parametrize("name, unit", [("mm", 1e-3), ("inch", 0.0254), ("m", 1.0)])
