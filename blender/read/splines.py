@@ -19,7 +19,7 @@ from bpy.types import Curve
 from ...core.bodies import SplineReading, float64_matrix
 from ...core.cad import read_source
 from ...core.moments import FLOAT32_HALF_ULP
-from ...core.numerics import Array, NDArray, SplineSpace
+from ...core.numerics import Array, NDArray
 from ...core.nurbs import Patch, blender_space, display_parameters, display_table
 from ...core.verdict.finding import ReadError, finding
 from .findings import CONTROL_POINTS_RECOVERED, SCALE_ZERO_AXIS, SPLINES_LEFT_OUT
@@ -29,6 +29,8 @@ from .mesh import read_array, vertex_points
 AGREEMENT_RTOL = 4e-6
 RECOVERY_RTOL = 1e-6  # relative to the size: error of recovered control points
 MAX_CONDITION = 1e4  # largest condition number of a direction's samples
+# beginnings of a spline's properties, as arguments of `blender_space`
+SPACE = ("point_count_", "order_", "use_cyclic_", "use_bezier_", "use_endpoint_")
 
 
 SOURCE = "body_cad"  # property of the data that show a body of a STEP file
@@ -132,10 +134,12 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
     samples = []
     left_out = 0
     for spline, start, end in zip(splines, starts[:-1], starts[1:]):
-        spaces = _spaces(spline)
-        if spaces is None:
+        # with v first, a patch's normal points as Blender's faces do
+        v, u = (blender_space(*(getattr(spline, name + axis) for name in SPACE)) for axis in "vu")
+        if v is None or u is None:
             left_out += 1
             continue
+        spaces = (v, u)
         shape = (spline.point_count_v, spline.point_count_u)
         patches.append(
             Patch(
@@ -183,13 +187,6 @@ def nonpositive_weights(splines) -> int:
 def weighted_points(spline) -> NDArray[np.float32]:
     """Return (n, 4) control points and weights of a spline that is not a Bézier one."""
     return read_array(spline.points, "co", (len(spline.points), 4), np.float32)
-
-
-def _spaces(spline) -> tuple[SplineSpace, SplineSpace] | None:
-    """Return the spaces of v and u: with v first, a patch's normal points as Blender's faces do."""
-    names = ("point_count_", "order_", "use_cyclic_", "use_bezier_", "use_endpoint_")
-    v, u = (blender_space(*(getattr(spline, name + axis) for name in names)) for axis in "vu")
-    return None if v is None or u is None else (v, u)
 
 
 def _verified(
