@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Write the bodies of tests/core/cad/kernel with OpenCascade (`pip install cadquery-ocp`), and their
-properties by its GProp.
+"""Write the bodies of tests/core/cad/kernel with OpenCascade (`pip install cadquery-ocp`), and
+their properties by its GProp.
 
 The faces are converted to B-splines; NAME.igs has trimmed surfaces (144), NAME_solid.igs a manifold
 solid (186).
