@@ -9,12 +9,15 @@ shape keys and hooks are applied by the formulas of key.cc and MOD_hook.cc in fl
 object read from a file are a picture of the file's faces, which `keep_faces` keeps.
 """
 
+import hashlib
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 from bpy.types import Curve
 
 from ...core.bodies import SplineReading, float64_matrix
+from ...core.cad import read_source
 from ...core.moments import FLOAT32_HALF_ULP
 from ...core.numerics import Array, NDArray
 from ...core.nurbs import Patch, blender_space, display_parameters, display_table
@@ -30,6 +33,7 @@ MAX_CONDITION = 1e4  # largest condition number of a direction's samples
 SPACE = ("point_count_", "order_", "use_cyclic_", "use_bezier_", "use_endpoint_")
 
 
+SOURCE = "body_cad"  # property of the data that show a body of a STEP file
 _faces_of_file: dict[int, SplineReading] = {}  # by the identifier of the data in this session
 # These move control points whatever their switch says (curve_get_tessellate_point in displist.cc);
 # other modifiers only with `use_apply_on_spline`. None does after the first constructive modifier.
@@ -74,13 +78,38 @@ def keep_faces(readings: dict[Curve, SplineReading]) -> None:
     _faces_of_file.update({data.session_uid: reading for data, reading in readings.items()})
 
 
+def keep_source(data: Curve, source: bytes, matrix: Sequence[float]) -> None:
+    """Store a body of a STEP file and its (4, 4) matrix with the data that show it."""
+    data[SOURCE] = {"source": source, "matrix": matrix, "shown": _shown_digest(data)}
+
+
+def _shown_digest(data: Curve) -> str:
+    digests = [hashlib.sha256(weighted_points(spline)) for spline in data.splines]
+    return "".join(digest.hexdigest() for digest in digests)
+
+
+def _kept_faces(original) -> SplineReading | None:
+    """Return the faces that an object shows, None if it was changed since, or shows none."""
+    data = original.data
+    source = data.get(SOURCE)
+    if source is not None:
+        is_changed = any(spline_modifiers(original)) or data.shape_keys is not None
+        if is_changed or _shown_digest(data) != source["shown"]:
+            return None
+        if data.session_uid not in _faces_of_file:
+            faces, rounding = read_source(source["source"], source["matrix"])
+            _faces_of_file[data.session_uid] = SplineReading(faces, rounding, ())
+    return _faces_of_file.get(data.session_uid)
+
+
 def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
     """Return the patches of a surface object, checked against `mesh` if given; None if the mesh
     must be measured.
     """
     original = evaluated.original
-    if original.data.session_uid in _faces_of_file:
-        return _faces_of_file[original.data.session_uid]
+    kept = _kept_faces(original)
+    if kept is not None:
+        return kept
     if spline_modifiers(original)[1]:
         return None
     splines = [spline for spline in evaluated.data.splines if spline.type == "NURBS"]
