@@ -183,9 +183,8 @@ def row_of(program: str, form: str, remark: str, found: list, robots: list[Robot
             )
         )
     largest = ["{:.0e}".format(one) for one in np.max(errors, axis=0)] if errors else ["–"] * 3
-    reasons = sorted({one for one in found if isinstance(one, str)})
-    for reason in reasons:
-        print(program, form, reason, file=sys.stderr)
+    if reasons := [one for one in found if isinstance(one, str)]:
+        print(program, form, reasons[0], file=sys.stderr)
     count = "{} of {}".format(len(errors), len(found))
     return "| {} |\n".format(" | ".join([program, form, count, *largest, remark]))
 
