@@ -86,6 +86,7 @@ TOOLBOX = {
     "film": ("tumbling.py", ("tools",), "the film of the thrown crates in the manual"),
     "retrieval": ("retrieval.py", (), "the rate at which moved and noisy parts are recognized"),
     "robots": ("published_robots.py", ("tools",), "audit robots of the Python index"),
+    "consumers": ("robot_consumers.py", (), "load exported robots in all programs that read them"),
     "soak": (
         "soak",
         TESTED,

@@ -17,7 +17,14 @@ import zipfile
 from collections import Counter
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
+import numpy as np
+from loading import ROOT, load_checkout
+
+load_checkout()
+
+from tests.robots.consumers import summed
+
+CONSUMERS = ROOT / ".envs" / "robots" / "bin" / "python"
 PACKAGES = (
     *("airo-models==0.0.12", "armar==1.1.0", "cookie-description==1.2.1", "dexmate-urdf==0.8.4"),
     *("example-robot-data==6.0.0", "fourier-robot-descriptions==0.2.7", "gb-robot-models==0.1.0"),
@@ -63,9 +70,11 @@ This page audits robot descriptions in packages of the Python index, with their 
 is one robot: if several files describe a robot of that name, it is the file with the most links.
 {robots} robots with {links} links: {error} errors, {warning} warnings. In all {files} files of
 these packages the audit repaired {repaired} links; of these, {left} have an error or a warning
-about their inertial when audited again. The geometry's numbers assume that the drawn shapes of a
-link hold all of its mass. [Audit](robots.md#audit) says what the findings mean. The page was made
-by `python3 tests/project.py robots`.
+about their inertial when audited again. Total mass and center of {compared} files that Pinocchio
+(URDF) or MuJoCo (MJCF) loads were compared with theirs: {differ} differ by more than 1e-9. The
+geometry's numbers assume that the drawn shapes of a link hold all of its mass.
+[Audit](robots.md#audit) says what the findings mean. The page was made by `python3 tests/project.py
+robots`.
 
 | package | robot | file | links | mass, kg | errors | warnings | what was found (links) |
 |---|---|---|---|---|---|---|---|
@@ -118,6 +127,32 @@ def repairs_of(before: list[dict], after: list[dict]) -> Counter:
     return counts
 
 
+def compare_totals(documents: list[dict], python: str) -> Counter:
+    """Return the counts of files whose totals were compared with another program's, and that
+    differ. python: the interpreter that has both programs.
+    """
+    counts: Counter = Counter(compared=0, differ=0)
+    for program, form in (("pinocchio", "urdf"), ("mujoco", "mjcf")):
+        several = [one for one in documents if one["format"] == form and one["total"]["mass"]]
+        command = [python, ROOT / "tests" / "robots" / "consumers.py", program]
+        command += [one["file"] for one in several]
+        done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True)
+        answers = json.loads(done.stdout.strip().splitlines()[-1])
+        for document, bodies in zip(several, answers, strict=True):
+            total = document["total"]
+            if isinstance(bodies, str) or not bodies or total["left_out"]:
+                continue
+            mass, center, _ = summed(bodies)
+            counts["compared"] += 1
+            near = total["center_of_mass"] and np.allclose(
+                [total["mass"] / mass, *total["center_of_mass"]], [1.0, *center], 0.0, 1e-9
+            )
+            if not near:
+                counts["differ"] += 1
+                print(document["file"], total["mass"], mass, center, file=sys.stderr)
+    return counts
+
+
 def row_of(package: str, document: dict) -> tuple[str, Counter]:
     """Return a robot's row of the table, and its counts by severity."""
     codes, levels = Counter(), Counter(links=len(document["links"]))
@@ -146,13 +181,17 @@ def row_of(package: str, document: dict) -> tuple[str, Counter]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--folder", type=Path, default=ROOT / ".envs" / "robots-audited")
-    folder = parser.parse_args().folder
+    parser.add_argument("--python", help="interpreter with Pinocchio and MuJoCo")
+    options = parser.parse_args()
+    folder = options.folder
     folder.mkdir(parents=True, exist_ok=True)
     rows, total = [], Counter()
     for package in PACKAGES:
         largest: dict[str, dict] = {}
         reports = reports_of(package, folder)
         total += repairs_of(*reports)
+        now = {one["file"]: one for one in [*reports[0], *reports[1]] if one["links"]}
+        total += compare_totals([*now.values()], options.python or str(CONSUMERS))
         for document in reports[0]:
             known = largest.get(document["robot"])
             if document["links"] and (
@@ -164,7 +203,8 @@ def main() -> None:
             rows.append(row)
             total += levels
     numbers = {
-        name: total[name] for name in ("links", "error", "warning", "files", "repaired", "left")
+        name: total[name]
+        for name in ("links", "error", "warning", "files", "repaired", "left", "compared", "differ")
     }
     text = HEAD.format(robots=len(rows), **numbers) + "".join(rows)
     (ROOT / "docs" / "robots-audited.md").write_text(text, encoding="utf-8")

@@ -82,8 +82,10 @@ def drake(path):
 def pinocchio(path):
     import pinocchio
 
-    build = {".urdf": pinocchio.buildModelFromUrdf, ".xml": pinocchio.buildModelFromMJCF}
-    model = build[Path(path).suffix](str(path))
+    if Path(path).suffix == ".urdf":
+        model = pinocchio.buildModelFromUrdf(str(path), mimic=True)
+    else:
+        model = pinocchio.buildModelFromMJCF(str(path))
     data = model.createData()
     pinocchio.forwardKinematics(model, data, pinocchio.neutral(model))
     # It misplaces the root of MJCF.

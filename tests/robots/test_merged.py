@@ -25,6 +25,7 @@ from body_moments.core.robots.write.joints import merge_fixed
 from body_moments.core.robots.write.stl import write_meshes
 
 from tests.core.bodies import box
+from tests.robots import consumers, links
 from tests.robots.links import inertial, near, rotation, shaped
 
 COUNT = 12
@@ -78,10 +79,25 @@ def test_merged_robot_has_the_same_totals(form, seed, tmp_path):
     elif form == "urdf":
         model = pinocchio.buildModelFromUrdf(str(path))
         assert all(model.existFrame(name) for name in needed)
-        mass = sum(one.mass for one in model.inertias)
+
+
+@pytest.mark.parametrize("is_merged", [False, True])
+@pytest.mark.parametrize(
+    "program, form",
+    [("mujoco", "urdf"), ("mujoco", "mjcf"), ("pinocchio", "urdf"), ("opensim", "osim")],
+)
+def test_total_is_that_of_another_program(program, form, is_merged, tmp_path):
+    """tools/robot_consumers.py has more robots and programs."""
+    for seed in range(2):
+        robot = links.assembly(seed)
+        path = tmp_path / (str(seed) + FORMATS[form].suffix)
+        named = write_meshes(robot, path)
+        named = merge_fixed(named) if is_merged else named
+        path.write_text(FORMATS[form].writer_module.write(named), encoding="utf-8")
+        mass, center, inertia = consumers.summed(getattr(consumers, program)(path))
+        truth = links.total(robot, form == "urdf" and not robot.roots[0].is_fixed)
         assert abs(mass / truth.mass - 1.0) < 1e-12
-        loaded = mujoco.MjModel.from_xml_path(str(path))
-        assert abs(loaded.body_mass.sum() / truth.mass - 1.0) < 1e-9
+        assert near(center, truth.center, 1e-12) and near(inertia, truth.inertia, 1e-12)
 
 
 @pytest.mark.parametrize("is_merged", [False, True])
