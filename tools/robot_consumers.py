@@ -189,7 +189,7 @@ def row_of(program: str, form: str, remark: str, found: list, robots: list[Robot
     return "| {} |\n".format(" | ".join([program, form, count, *largest, remark]))
 
 
-def words_of(bodies: object) -> str:
+def words_of(bodies: list | str) -> str:
     """Return what a program makes of the second link of a probe."""
     if isinstance(bodies, str):
         return "refused"

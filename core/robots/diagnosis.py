@@ -245,7 +245,6 @@ def _best_change(stated: StatedInertial, references: Sequence[Reference]) -> Dia
 
 
 def _is_same(first: StatedInertial, other: StatedInertial) -> bool:
-    """Return whether two inertials are equal but for rounding."""
     body = Reference(1.0, first.center, first.inertia / first.mass)
     return body.compare(other) <= SAME
 
@@ -378,7 +377,6 @@ def _units(stated: StatedInertial, reference: Reference, keeps: bool) -> Iterato
 
 
 def _pounds(stated: StatedInertial) -> Iterator[Change]:
-    """Yield changes of pounds, and of inertias in them, to SI units."""
     mass = stated.mass * POUND
     yield (
         AUDIT_UNIT,
@@ -438,7 +436,6 @@ def _frames(stated: StatedInertial) -> Iterator[Change]:
 
 
 def _centers(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
-    """Yield changes of the center of mass alone."""
     # Any center becomes that of geometry at the origin, if it is only made small enough.
     is_away = np.linalg.norm(reference.center) > DIFFERS * np.sqrt(np.trace(reference.inertia) / 2)
     for factor in LENGTH_UNITS if is_away else ():

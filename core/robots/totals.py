@@ -216,7 +216,6 @@ def _pose(
     poses: Mapping[str, Pose | None],
     values: Mapping[str, float],
 ) -> Pose | None:
-    """Return the pose of a link whose parent has one."""
     if joint is None:
         return link.pose
     outer = poses[joint.parent] if joint.parent else Pose()

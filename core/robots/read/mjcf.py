@@ -279,7 +279,6 @@ def _body_pose(body: Node, above: _Frame) -> Pose:
 
 
 def _motion(joint: Node, frame: _Frame) -> Motion:
-    """Return the motion of a joint in its body."""
     values = frame.model.attributes(joint, frame.defaults)
     kind = "free" if joint.tag == "freejoint" else values.get("type", "hinge")
     unit = 1.0

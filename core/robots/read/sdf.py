@@ -234,7 +234,6 @@ def _text(node: Node, *path: str) -> str:
 
 
 def _inertial(node: Node) -> StatedInertial:
-    """Return an inertial, whose pose is always in its link."""
     pose, angles, quaternion, _ = _pose(node)
     tensor = np.eye(3)
     for name, i, j in ENTRIES:

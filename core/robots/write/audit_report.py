@@ -236,7 +236,6 @@ def to_html(documents: Sequence[dict[str, Any]]) -> str:
 
 
 def _summary(document: dict[str, Any]) -> str:
-    """Return the counts of links and of findings as text."""
     if document["errors"]:
         return "not read"
     counts = count_findings(document)
@@ -274,7 +273,6 @@ def _rests_on_geometry(documents: Iterable[dict[str, Any]]) -> bool:
 
 
 def _numbers(inertial: dict[str, Any] | None) -> str:
-    """Return an inertial in one line."""
     if inertial is None or inertial["mass"] is None:
         return "unknown"
     if inertial["inertia"] is None:

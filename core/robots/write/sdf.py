@@ -54,7 +54,6 @@ def check(robot: Robot) -> list[Finding]:
 
 
 def _is_whole(joint: Joint) -> bool:
-    """Return whether SDF can write the joint as a single joint."""
     return len(joint.free) < 2 or joint.is_ball or _joint_type(joint) == "universal"
 
 

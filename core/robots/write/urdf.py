@@ -211,7 +211,6 @@ def _is_flat(surface: Surface | None) -> bool:
 def _add_joint(
     root: Element, name: str, parent: str, child: str, pose: Pose, joint: Joint | None
 ) -> Element:
-    """Add a joint with one axis or none, and return its element."""
     axis = joint.free[0] if joint is not None and joint.free else None
     element = SubElement(root, "joint", name=name, type=_joint_type(axis))
     _add_origin(element, pose)
