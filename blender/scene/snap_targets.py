@@ -23,7 +23,7 @@ from ...core.inertia import EQUAL_AXES, MassProperties, PrincipalFrame, zhang_ch
 from ...core.numerics import Array, polar_rotation
 from ...core.shape import MAX_FIT_RTOL, RigidMatch
 from ...core.verdict import EditRefusedError, Finding, Procedure
-from ..bodies.measure_body import MeasuredBody, measure_body
+from ..bodies.measure_body import measure_body
 from ..bodies.measure_object import measured_in_turn
 from ..bodies.shape.shape import NoShapeError, shape_of_measured
 from ..bodies.stack import Measured
@@ -159,7 +159,7 @@ def target_of(
     return SnapTarget.of_body(obj, body, principal, unit)
 
 
-def _frame_by_shape(measured: MeasuredBody) -> PrincipalFrame:
+def _frame_by_shape(measured: Measured) -> PrincipalFrame:
     """Return the principal frame that the shape fixes; the measured one if it has no shape."""
     try:
         return shape_of_measured(measured, 1).principal_frame()

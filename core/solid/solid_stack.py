@@ -1,17 +1,17 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measurement of many small solids at once, if they face outward and are closed as they are or by
-caps alone.
+"""Measurement of small solids at once, one or many, if they face outward and are closed as they are
+or by caps alone.
 
 A solid may have one or several separate pieces. Results are exact or capped, with the same numbers
-as from `measure_solid`, which measures all other solids one by one. Caps are made if every edge has
-one face, or two that agree, at each boundary vertex one side arrives and one leaves, every loop has
-an area, and no vertices touch that a repair would weld.
+as from `measure_alone`, which measures all other solids. Caps are made if every edge has one face,
+or two that agree, at each boundary vertex one side arrives and one leaves, every loop has an area,
+and no vertices touch that a repair would weld.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -33,13 +33,22 @@ from ..mesh import (
 )
 from ..moments import Moments, U, sum_moments
 from ..numerics import NEXT_AXIS, PREVIOUS_AXIS, Array, Index, Mask
-from ..polyhedron import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH, small_moments
-from ..verdict import WELDING_RTOL, DefectiveElements, Finding, Intersection, MeshHealth
+from ..polyhedron import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH, box_center, small_moments
+from ..verdict import (
+    WELDING_RTOL,
+    DefectiveElements,
+    Finding,
+    Intersection,
+    MeasureError,
+    MeshHealth,
+    Procedure,
+)
 from .boundary_loops import OwnedLoops, has_distinct_vertices, side_ends
 from .closedness import SUM_ROUNDING, GivenIntegrals, prove_closed, same_sign
-from .orientation import zero_volume
+from .orientation import OrientedSolid, zero_volume
+from .repaired_mesh import RepairedMesh
 from .self_intersection import MAX_UNSURE_LINES, measure_excess
-from .solid_method import cap_finding, shape_findings
+from .solid_method import SolidIntegrals, cap_finding, shape_findings
 
 MAX_COMPONENTS = 16  # Limit for one body: all pairs are compared.
 # times the volume that counts as none: bodies with smaller components are measured one by one
@@ -47,8 +56,8 @@ CLEAR_VOLUME = 4.0
 
 
 @dataclass(frozen=True, eq=False)
-class SolidStack:
-    """The moments of the bodies that n surfaces bound, meaningless unless measured.
+class SmallSolids:
+    """The bodies of n small surfaces, meaningless unless measured.
 
     `is_measured`: (n,) surfaces closed as they are or by caps; `is_integrated`: (n,) surfaces whose
     integrals hold for the faces as given, at least. `cones`: (n, 2) sums of the cones over faces,
@@ -79,6 +88,10 @@ class SolidStack:
             self.volume.at(i), self.area.at(i), self.planarity.at(i), agree, prove_closed(surface)
         )
 
+    def method(self, i: int) -> Procedure:
+        """Return the method of a measured body."""
+        return Procedure.CAPPED if self.caps.is_capped[i] else Procedure.EXACT
+
     def health(self, i: int) -> MeshHealth:
         """Return the state of a measured body's surface."""
         flat = self.planarity
@@ -90,7 +103,7 @@ class SolidStack:
             non_planar_faces=int(flat.non_planar_counts[i]),
             volume_spread=float(flat.volume_spread[i]),
             cap_area_share=self._cap_share(i),
-            self_intersection=self.intersection[i],
+            self_intersection=Intersection(self.intersection[i]),
             defective_elements=DefectiveElements(boundary_edges=edges),
         )
 
@@ -110,22 +123,74 @@ class SolidStack:
             found += shape_findings(True, flat.at(i), self.volume.at(i))
         return tuple(found)
 
+    def solid(self, i: int, surface: Surface) -> SolidIntegrals:
+        """Return a measured body; `surface` is its own."""
+        health = self.health(i)
+        mesh = self.caps.mesh(i, surface, health)
+        yes = np.ones(mesh.number, bool)
+        measured = surface if health.closed else Surface(mesh.points, mesh.triangles)
+        volume = self.volume.at(i)
+        oriented = OrientedSolid(mesh, health.closed, measured, volume, True, yes, ~yes, ~yes, None)
+        return SolidIntegrals(
+            volume, self.area.at(i), health, self.method(i), self.findings(i), oriented, surface
+        )
+
     def _cap_share(self, i: int) -> float:
         return float(self.caps.counts[i, 2] / self.area.raw[i, 0])
 
 
-def can_be_stacked(surfaces: Sequence[Surface]) -> list[bool]:
-    """Return which surfaces `measure_stack` can measure."""
-    return SurfaceStack.takes(surfaces, MAX_SMALL_TRIANGLES)
+@dataclass(frozen=True, eq=False)
+class SolidStack:
+    """The measured bodies of n surfaces, `stack[i]` each.
+
+    `volume`, `area`: (n,) stacks of their moments, as in `SolidIntegrals`; zero for refused
+    surfaces. `small`, `places`: bodies measured together, and the (n,) places of the surfaces among
+    them, -1 for others. `alone`: the bodies measured one by one, or why they are refused.
+    """
+
+    surfaces: Sequence[Surface]
+    volume: Moments
+    area: Moments
+    small: SmallSolids | None
+    places: Index
+    alone: Mapping[int, SolidIntegrals | Finding]
+
+    def __getitem__(self, i: int) -> SolidIntegrals:
+        found = self.alone.get(i)
+        if isinstance(found, Finding):
+            raise MeasureError(found)
+        if found is not None:
+            return found
+        assert self.small is not None
+        return self.small.solid(int(self.places[i]), self.surfaces[i])
+
+    def verdict(self, i: int) -> tuple[Procedure, tuple[Finding, ...]]:
+        """Return the method and findings of a body."""
+        if i in self.alone:
+            return self[i].method, self[i].findings
+        assert self.small is not None
+        place = int(self.places[i])
+        return self.small.method(place), self.small.findings(place)
+
+    def given_surface(self, i: int) -> Surface:
+        """Return the `SolidIntegrals.given_surface` of a body."""
+        return self[i].given_surface if i in self.alone else self.surfaces[i]
+
+    def health(self, i: int) -> MeshHealth:
+        """Return the state of a body's surface."""
+        if i in self.alone:
+            return self[i].health
+        assert self.small is not None
+        return self.small.health(int(self.places[i]))
 
 
-def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
-    """Measure the bodies of surfaces, at least one, that `can_be_stacked` allows, if closed as they
+def measure_small(surfaces: Sequence[Surface]) -> SmallSolids:
+    """Measure the bodies of surfaces, at least one, that `SurfaceStack.takes`, if closed as they
     are or by caps.
     """
     stack = SurfaceStack.from_surfaces(surfaces)
     low, high = stack.box
-    center = (low / 2.0 + high / 2.0).astype(np.float32).astype(np.float64)
+    center = box_center(low, high, stack.points.dtype)
     reach = np.maximum(high - center, center - low) * (1.0 + 4.0 * U)
     volume, area, cones = small_moments(
         stack.points,
@@ -191,7 +256,7 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
             triangles.some(rows), tolerance[rows], _renumbered(part[chosen])
         )
         is_measured[rows] = intersection[rows] == Intersection.NOT_FOUND
-    return SolidStack(
+    return SmallSolids(
         is_measured,
         is_integrated & ~capped,
         cones,
@@ -323,6 +388,36 @@ class StackCaps:
         for name, values in changed.items():
             values[rows] = getattr(total, name)
         return replace(volume, **changed)
+
+    def mesh(self, i: int, surface: Surface, report: MeshHealth) -> RepairedMesh:
+        """Return one surface with its caps; without triangles if it is one component, and closed as
+        it is.
+        """
+        number = report.components
+        stack = self.triangles
+        points = surface.points
+        triangles = surface.triangles[:0]
+        face = part = np.empty(0, np.intp)
+        if number > 1 or not report.closed:
+            start, begin = stack.first_point[i], stack.first_triangle[i]
+            rows = slice(begin, begin + stack.triangle_counts[i])
+            points = stack.points[start : start + stack.point_counts[i]]
+            triangles = stack.triangles[rows] - start
+            face = np.full(len(triangles), -1)
+            face[: surface.triangle_count] = surface.all_triangles()[1]
+            part = self.part[rows] - self.part[rows].min()
+        return RepairedMesh(
+            points,
+            triangles,
+            face,
+            np.zeros(len(face), bool),
+            part,
+            number,
+            np.zeros(number, bool),
+            np.concatenate([self.counts[i : i + 1], np.zeros((number - 1, 3))]),
+            report,
+            capped_edges=self.edges_of(i),
+        )
 
     def edges_of(self, i: int) -> Index:
         """Return the (k, 2) edges along the holes of one surface."""

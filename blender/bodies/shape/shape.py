@@ -61,9 +61,9 @@ from ....core.shape.signatures import Signature, signature, signatures
 from ....core.verdict import OBJECT_SIZE, TOO_LARGE, Procedure, Source
 from ....core.verdict.finding import Finding, ReadError, finding
 from ...settings.options import MeasureOptions
-from ..measure_body import THREADS, MeasuredBody, measure_body
+from ..measure_body import THREADS, measure_body
 from ..measure_object import measured_in_turn
-from ..stack import MeasuredStack
+from ..stack import Measured, MeasuredStack
 from .surface_distance import EXACT_DISTANCE
 
 EQUAL_AXES_ATOL = 1e-12  # cosine: harmonics about axes nearer to each other are equal
@@ -370,7 +370,7 @@ def surface_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> S
     return surface_shape(measure_body(obj, depsgraph, SURFACE_OPTIONS))
 
 
-def surface_shape(measured: MeasuredBody) -> Shape:
+def surface_shape(measured: Measured) -> Shape:
     """Return the shape of a body that was measured with SURFACE_OPTIONS, which must have
     polygons.
     """
@@ -390,7 +390,7 @@ def shape_of(
     return shape_of_measured(measure_body(obj, depsgraph, options), options.threads)
 
 
-def shape_of_measured(measured: MeasuredBody, threads: int) -> Shape:
+def shape_of_measured(measured: Measured, threads: int) -> Shape:
     """Return the shape of a measured body, or raise NoShapeError if it has none."""
     measurement, body = measured.measurement, measured.body
     if body.mass is not None and not body.has_surface:
@@ -435,8 +435,8 @@ def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]
     linear = np.array([member.matrix[:3, :3] for member in stack.members])
     is_even = are_similarities(linear)
     determinant = np.linalg.det(linear)
-    solids = next((shape.solids for shape in stack.shapes if shape.solids is not None), None)
-    if solids is None:
+    solids = stack.solids
+    if solids.small is None:
         return found
     # A body is a shape in its own coordinates, or the unevenly mapped shape of a single object.
     body_of: dict[tuple[int, int], int] = {}
@@ -444,19 +444,20 @@ def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]
     maps = []
     of_member = {}
     for i, member in enumerate(stack.members):
-        shape = stack.shapes[member.shape]
-        if shape.solids is None:
+        if member.shape in solids.alone:
             continue
-        key = (shape.row, -1 if is_even[i] else i)
+        key = (member.shape, -1 if is_even[i] else i)
         if key not in body_of:
             body_of[key] = len(rows)
-            rows.append(shape.row)
+            rows.append(int(solids.places[member.shape]))
             maps.append(np.eye(3) if is_even[i] else linear[i])
         of_member[i] = body_of[key]
-    volume = solids.volume.at(np.array(rows))
+    if not rows:
+        return found
+    volume = solids.small.volume.at(rows)
     centers = volume.about + volume.raw[:, 1:4] / volume.raw[:, :1]
     of_bodies, scale = _signatures(
-        solids.caps.triangles, np.array(rows), np.array(maps), centers, order
+        solids.small.caps.triangles, np.array(rows), np.array(maps), centers, order
     )
     reach = np.finfo(np.float64).eps * np.abs(stack.mass_properties.center).max(axis=1)
     for i, body in of_member.items():

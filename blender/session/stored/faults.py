@@ -13,7 +13,7 @@ from bpy.types import Object
 
 from ....core.bodies import Reading
 from ....core.numerics import Array
-from ....core.verdict import FLIPPED_FACES
+from ....core.verdict import FLIPPED_FACES, Procedure
 from ...bodies.stack import Measured
 from .. import memory
 from ..tracking import updates
@@ -53,10 +53,12 @@ def remember(obj: Object, measured: Measured) -> None:
         elements = measured.measurement.health.defective_elements
         place = np.linalg.inv(reading.matrix) @ part.matrices[0]
     else:
-        shape = measured.stack.shape(measured.index)
-        surface = shape.surface
-        if (elements := shape.defects) is None:
+        solids = measured.stack.solids
+        row = measured.stack.members[measured.index].shape
+        if row not in solids.alone and measured.method.procedure is Procedure.EXACT:
             return
+        surface = solids.surfaces[row]
+        elements = solids.health(row).defective_elements
     pairs, faces = (
         np.concatenate([getattr(elements, name) for name in names]) for names in (PAIRS, FACES)
     )
