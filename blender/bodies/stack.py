@@ -26,7 +26,7 @@ from ...core.moments import Moments, are_similarities, are_singular, image
 from ...core.numerics import Array, Index, Mask, rotation_matrix
 from ...core.polyhedron import area_of_images
 from ...core.solid import SolidStack, measure_again
-from ...core.verdict import Finding, MeshHealth, Method, Procedure
+from ...core.verdict import Finding, Method, Procedure
 from ..read.fingerprint import transform_key
 from ..read.mesh import read_digest
 from ..settings.accepted import accepted_codes, with_acceptance
@@ -79,10 +79,6 @@ class MeasuredStack:
         """Return the surface of one member, in its own coordinates."""
         return self.solids.surfaces[self.members[i].shape]
 
-    def health(self, i: int) -> MeshHealth:
-        """Return the state of one member's surface."""
-        return self.solids.health(self.members[i].shape)
-
     def some(self, which: list[int]) -> MeasuredStack:
         """Return the stack of the members with these indices."""
         if len(which) == len(self.members):
@@ -122,7 +118,7 @@ class MeasuredStack:
     def measurement(self, i: int) -> Measurement:
         """Return the measurement of one member."""
         obj = self.members[i].obj
-        health = self.health(i)
+        health = self.solids[self.members[i].shape].health
         volume = self.volume.at(i)
         density = self.density[i]
         return build_measurement(
@@ -225,7 +221,6 @@ def measure_members(members: list[Member], surfaces: list[Surface]) -> MeasuredS
     rotation = rotation_matrix([member.quaternion for member in members])
 
     properties = MassProperties.of_stack(volume, density, rotation, fixed)
-    verdicts = {shape: solids.verdict(shape) for shape in set(which.tolist())}
     geometry = np.ascontiguousarray(np.concatenate([volume.raw, area.raw], axis=1))
     return MeasuredStack(
         members,
@@ -242,9 +237,9 @@ def measure_members(members: list[Member], surfaces: list[Surface]) -> MeasuredS
             fingerprint(numbers, transform_key(each.obj), each.digest)
             for numbers, each in zip(geometry, members)
         ],
-        [METHODS[verdicts[member.shape][0]] for member in members],
+        [METHODS[solids[member.shape].method] for member in members],
         [
-            _findings(member.obj, verdicts[member.shape][1] + bounds)
+            _findings(member.obj, solids[member.shape].findings + bounds)
             for member, bounds in zip(members, find_large_bounds(volume, area, properties))
         ],
     )
@@ -271,7 +266,7 @@ def _areas(solids: SolidStack, which: Index, matrices: NDArray) -> Moments:
     regular[~even, :3, :3] = np.eye(3)
     placed = image(area, regular)
     for i in np.flatnonzero(~even).tolist():
-        found = area_of_images(solids.given_surface(int(which[i])), matrices[i : i + 1, :3, :3])
+        found = area_of_images(solids[int(which[i])].given_surface, matrices[i : i + 1, :3, :3])
         for name in ("raw", "rounding_error", "input_error", "about"):
             getattr(placed, name)[i] = getattr(found, name)
     return placed

@@ -23,6 +23,7 @@ from .findings import OVERLAP_OF_INSTANCES as OVERLAP_OF_INSTANCES
 from .findings import SELF_INTERSECTING as SELF_INTERSECTING
 from .findings import UNCHECKED as UNCHECKED
 from .findings import VERTICES_WELDED as VERTICES_WELDED
+from .measure import SolidStack as SolidStack
 from .measure import measure_again as measure_again
 from .measure import measure_solid as measure_solid
 from .measure import measure_stack as measure_stack
@@ -34,7 +35,7 @@ from .orientation import ClosedParts as ClosedParts
 from .orientation import ComponentComparison as ComponentComparison
 from .orientation import zero_volume as zero_volume
 from .solid_method import SolidIntegrals as SolidIntegrals
-from .solid_stack import SolidStack as SolidStack
+from .solid_stack import SmallSolid as SmallSolid
 
 __all__ = [
     "SolidIntegrals",

@@ -16,12 +16,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 
 from ..mesh import Surface, SurfaceStack
-from ..moments import KNOWN_ORDER, Moments, join_moments
+from ..moments import KNOWN_ORDER, Moments, stack_moments
 from ..numerics import check_type
 from ..polyhedron import MAX_SMALL_TRIANGLES, nothing
 from ..verdict import Finding, MeasureError, Procedure
@@ -39,7 +39,7 @@ from .orientation import OrientedSolid, orient_components
 from .repaired_mesh import UNKNOWN, RepairedMesh, copy_with
 from .self_intersection import find_self_intersection
 from .solid_method import SolidIntegrals, judge
-from .solid_stack import SolidStack, measure_small
+from .solid_stack import SmallSolid, measure_small
 from .weld_open_parts import (
     copied_faces,
     drop_collapsed_triangles,
@@ -120,35 +120,56 @@ def measure_stack(
     """
     for surface in surfaces:
         check_type("surface", surface, Surface)
-    places = np.full(len(surfaces), -1)
     fits = SurfaceStack.takes(surfaces, 0 if shell else MAX_SMALL_TRIANGLES)
     counts = np.array([surface.triangle_count for surface in surfaces]) * fits
-    which = np.flatnonzero(fits & (np.cumsum(counts) <= MAX_STACKED_TRIANGLES))
-    places[which] = np.arange(len(which))
-    small = measure_small([surfaces[i] for i in which.tolist()]) if len(which) else None
-    is_alone = np.ones(len(surfaces), bool)
-    stacks: list[tuple[Moments, Moments]] = []
-    if small is not None:
-        is_alone[which] = ~small.is_measured
-        stacks.append((small.volume, small.area))
-    alone: dict[int, SolidIntegrals | Finding] = {}
-    rows = places.copy()
-    for row, i in enumerate(np.flatnonzero(is_alone).tolist(), len(which)):
-        surface = surfaces[i]
-        rows[i] = row
-        given = None if small is None or places[i] < 0 else small.given(int(places[i]), surface)
+    which = np.flatnonzero(fits & (np.cumsum(counts) <= MAX_STACKED_TRIANGLES)).tolist()
+    small = measure_small([surfaces[i] for i in which]) if which else None
+    rows = {i: SmallSolid(small, row, surfaces[i]) for row, i in enumerate(which)}
+    solids: list[SolidIntegrals | Finding] = []
+    for i, surface in enumerate(surfaces):
+        row = rows.get(i)
+        if row is not None and row.is_measured:
+            solids.append(row)
+            continue
         try:
-            solid = alone[i] = measure_alone(surface, given, shell, threads)
-            volume, area = solid.volume, solid.area
+            solids.append(measure_alone(surface, row and row.given(), shell, threads))
         except MeasureError as refusal:
-            alone[i] = refusal.finding
-            volume, area = nothing(KNOWN_ORDER, None)
-            area = area.truncate(KNOWN_ORDER if shell else 0)
-        stacks.append((volume.at(None), area.at(None)))
-    volume, area = (join_moments(parts) for parts in zip(*stacks))
-    if alone:
-        volume, area = volume.at(rows), area.at(rows)
-    return SolidStack(surfaces, volume, area, small, places, alone)
+            solids.append(refusal.finding)
+    return SolidStack(surfaces, solids)
+
+
+@dataclass(frozen=True, eq=False)
+class SolidStack:
+    """The bodies of n surfaces, `stack[i]` each, or why they are refused.
+
+    `volume`, `area`: stacks of their moments; zero for refused surfaces.
+    """
+
+    surfaces: Sequence[Surface]
+    solids: Sequence[SolidIntegrals | Finding]
+
+    def __getitem__(self, i: int) -> SolidIntegrals:
+        solid = self.solids[i]
+        if isinstance(solid, Finding):
+            raise MeasureError(solid)
+        return solid
+
+    @cached_property
+    def volume(self) -> Moments:
+        return self._moments(0)
+
+    @cached_property
+    def area(self) -> Moments:
+        return self._moments(1)
+
+    def _moments(self, which: int) -> Moments:
+        none = nothing(KNOWN_ORDER, None)[which]
+        return stack_moments(
+            [
+                none if isinstance(solid, Finding) else (solid.volume, solid.area)[which]
+                for solid in self.solids
+            ]
+        )
 
 
 def measure_alone(

@@ -11,8 +11,9 @@ and no vertices touch that a repair would weld.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,7 +40,6 @@ from ..verdict import (
     DefectiveElements,
     Finding,
     Intersection,
-    MeasureError,
     MeshHealth,
     Procedure,
 )
@@ -77,111 +77,74 @@ class SmallSolids:
     component_counts: Index
     caps: StackCaps
 
-    def given(self, i: int, surface: Surface) -> GivenIntegrals | None:
+
+class SmallSolid(SolidIntegrals):
+    """Body `i` of a stack, with results that are computed when they are asked for."""
+
+    def __init__(self, stack: SmallSolids, i: int, surface: Surface):
+        volume = stack.volume.at(i)
+        area = stack.area.at(i)
+        self.__dict__.update(stack=stack, i=i, given_surface=surface, volume=volume, area=area)
+
+    @property
+    def is_measured(self) -> bool:
+        return bool(self.stack.is_measured[self.i])
+
+    def given(self) -> GivenIntegrals | None:
         """Return the integrals over the faces of a surface that is not measured, or None if they do
         not hold.
         """
-        if not self.is_integrated[i]:
+        if not self.stack.is_integrated[self.i]:
             return None
-        agree = bool(same_sign(*self.cones[i].tolist()))
-        return GivenIntegrals(
-            self.volume.at(i), self.area.at(i), self.planarity.at(i), agree, prove_closed(surface)
-        )
+        agree = bool(same_sign(*self.stack.cones[self.i].tolist()))
+        flat = self.stack.planarity.at(self.i)
+        return GivenIntegrals(self.volume, self.area, flat, agree, prove_closed(self.given_surface))
 
-    def method(self, i: int) -> Procedure:
-        """Return the method of a measured body."""
-        return Procedure.CAPPED if self.caps.is_capped[i] else Procedure.EXACT
+    @cached_property
+    def method(self) -> Procedure:
+        return Procedure.CAPPED if self.stack.caps.is_capped[self.i] else Procedure.EXACT
 
-    def health(self, i: int) -> MeshHealth:
-        """Return the state of a measured body's surface."""
-        flat = self.planarity
-        edges = self.caps.edges_of(i)
+    @cached_property
+    def health(self) -> MeshHealth:
+        flat = self.stack.planarity
+        edges = self.stack.caps.edges_of(self.i)
         return MeshHealth(
             closed=not len(edges),
             boundary_edges=len(edges),
-            components=int(self.component_counts[i]),
-            non_planar_faces=int(flat.non_planar_counts[i]),
-            volume_spread=float(flat.volume_spread[i]),
-            cap_area_share=self._cap_share(i),
-            self_intersection=Intersection(self.intersection[i]),
+            components=int(self.stack.component_counts[self.i]),
+            non_planar_faces=int(flat.non_planar_counts[self.i]),
+            volume_spread=float(flat.volume_spread[self.i]),
+            cap_area_share=self._cap_share,
+            self_intersection=Intersection(self.stack.intersection[self.i]),
             defective_elements=DefectiveElements(boundary_edges=edges),
         )
 
-    def findings(self, i: int) -> tuple[Finding, ...]:
-        """Return the findings about a measured body."""
-        flat = self.planarity
+    @cached_property
+    def findings(self) -> tuple[Finding, ...]:
+        flat = self.stack.planarity
+        caps = self.stack.caps
         found = []
-        if self.caps.is_capped[i]:
-            share = self._cap_share(i)
-            total = float(self.volume.raw[i, 0])
+        if caps.is_capped[self.i]:
+            size = float(self.stack.size[self.i])
+            edges = caps.edges_of(self.i)
             found.append(
-                cap_finding(
-                    self.caps.edges_of(i), self.caps.counts[i], share, float(self.size[i]), total
-                )
+                cap_finding(edges, caps.counts[self.i], self._cap_share, size, self.volume.total)
             )
-        if flat.volume_spread[i]:
-            found += shape_findings(True, flat.at(i), self.volume.at(i))
+        if flat.volume_spread[self.i]:
+            found += shape_findings(True, flat.at(self.i), self.volume)
         return tuple(found)
 
-    def solid(self, i: int, surface: Surface) -> SolidIntegrals:
-        """Return a measured body; `surface` is its own."""
-        health = self.health(i)
-        mesh = self.caps.mesh(i, surface, health)
+    @cached_property
+    def oriented(self) -> OrientedSolid:
+        mesh = self.stack.caps.mesh(self.i, self.given_surface, self.health)
+        is_closed = self.health.closed
         yes = np.ones(mesh.number, bool)
-        measured = surface if health.closed else Surface(mesh.points, mesh.triangles)
-        volume = self.volume.at(i)
-        oriented = OrientedSolid(mesh, health.closed, measured, volume, True, yes, ~yes, ~yes, None)
-        return SolidIntegrals(
-            volume, self.area.at(i), health, self.method(i), self.findings(i), oriented, surface
-        )
+        surface = self.given_surface if is_closed else Surface(mesh.points, mesh.triangles)
+        return OrientedSolid(mesh, is_closed, surface, self.volume, True, yes, ~yes, ~yes, None)
 
-    def _cap_share(self, i: int) -> float:
-        return float(self.caps.counts[i, 2] / self.area.raw[i, 0])
-
-
-@dataclass(frozen=True, eq=False)
-class SolidStack:
-    """The measured bodies of n surfaces, `stack[i]` each.
-
-    `volume`, `area`: (n,) stacks of their moments, as in `SolidIntegrals`; zero for refused
-    surfaces. `small`, `places`: bodies measured together, and the (n,) places of the surfaces among
-    them, -1 for others. `alone`: the bodies measured one by one, or why they are refused.
-    """
-
-    surfaces: Sequence[Surface]
-    volume: Moments
-    area: Moments
-    small: SmallSolids | None
-    places: Index
-    alone: Mapping[int, SolidIntegrals | Finding]
-
-    def __getitem__(self, i: int) -> SolidIntegrals:
-        found = self.alone.get(i)
-        if isinstance(found, Finding):
-            raise MeasureError(found)
-        if found is not None:
-            return found
-        assert self.small is not None
-        return self.small.solid(int(self.places[i]), self.surfaces[i])
-
-    def verdict(self, i: int) -> tuple[Procedure, tuple[Finding, ...]]:
-        """Return the method and findings of a body."""
-        if i in self.alone:
-            return self[i].method, self[i].findings
-        assert self.small is not None
-        place = int(self.places[i])
-        return self.small.method(place), self.small.findings(place)
-
-    def given_surface(self, i: int) -> Surface:
-        """Return the `SolidIntegrals.given_surface` of a body."""
-        return self[i].given_surface if i in self.alone else self.surfaces[i]
-
-    def health(self, i: int) -> MeshHealth:
-        """Return the state of a body's surface."""
-        if i in self.alone:
-            return self[i].health
-        assert self.small is not None
-        return self.small.health(int(self.places[i]))
+    @property
+    def _cap_share(self) -> float:
+        return float(self.stack.caps.counts[self.i, 2] / self.area.total)
 
 
 def measure_small(surfaces: Sequence[Surface]) -> SmallSolids:

@@ -13,6 +13,7 @@ from bpy.types import Object
 
 from ....core.bodies import Reading
 from ....core.numerics import Array
+from ....core.solid import SmallSolid
 from ....core.verdict import FLIPPED_FACES, Procedure
 from ...bodies.stack import Measured
 from .. import memory
@@ -53,12 +54,11 @@ def remember(obj: Object, measured: Measured) -> None:
         elements = measured.measurement.health.defective_elements
         place = np.linalg.inv(reading.matrix) @ part.matrices[0]
     else:
-        solids = measured.stack.solids
-        row = measured.stack.members[measured.index].shape
-        if row not in solids.alone and measured.method.procedure is Procedure.EXACT:
+        solid = measured.stack.solids[measured.stack.members[measured.index].shape]
+        if isinstance(solid, SmallSolid) and solid.method is Procedure.EXACT:
             return
-        surface = solids.surfaces[row]
-        elements = solids.health(row).defective_elements
+        surface = measured.stack.surface(measured.index)
+        elements = solid.health.defective_elements
     pairs, faces = (
         np.concatenate([getattr(elements, name) for name in names]) for names in (PAIRS, FACES)
     )

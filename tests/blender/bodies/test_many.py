@@ -10,6 +10,7 @@ from body_moments.blender.bodies import stack
 from body_moments.blender.bodies.measure_body import measure_body
 from body_moments.blender.bodies.measure_object import measure_many
 from body_moments.blender.settings.options import AS_SET, MeasureOptions
+from body_moments.core.solid import SmallSolid
 from mathutils import Matrix
 
 from tests.blender.many_objects import bpy, shards
@@ -88,7 +89,7 @@ def _is_stacked(found):
 
 
 def _is_together(found):
-    return found.stack.members[found.index].shape not in found.stack.solids.alone
+    return isinstance(found.stack.solids[found.stack.members[found.index].shape], SmallSolid)
 
 
 def all_outcomes(objects, options=AS_SET):

@@ -9,6 +9,7 @@ import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.mesh.surface_stack import SurfaceStack
 from body_moments.core.solid.measure import measure_alone, measure_solid, measure_stack
+from body_moments.core.solid.solid_stack import SmallSolid
 from body_moments.core.verdict import Intersection, Procedure
 
 from tests.close import close
@@ -118,9 +119,9 @@ def agree(one, other):
 
 
 def assert_alike(stack, i, surface):
-    alone, together = measure_alone(surface), stack.health(i)
-    method, found_together = stack.verdict(i)
-    assert alone.method is method
+    alone, row = measure_alone(surface), stack[i]
+    together, found_together = row.health, row.findings
+    assert alone.method is row.method
     for one, other in ((alone.volume, stack.volume.at(i)), (alone.area, stack.area.at(i))):
         assert (np.abs(one.raw - other.raw) <= one.rounding_error).all()
         assert agree(one.about, other.about)
@@ -134,7 +135,6 @@ def assert_alike(stack, i, surface):
         for several in (alone.findings, found_together)
     ]
     assert agree(findings[0], findings[1])
-    row = stack[i]
     assert close(row.exact_third_order().total, alone.volume.total, 1e-9)
     first, second = alone.parts(), row.parts()
     assert first.number == second.number and first.host_part.tolist() == second.host_part.tolist()
@@ -145,7 +145,7 @@ def assert_alike(stack, i, surface):
 
 
 def is_together(stack):
-    return [i not in stack.alone for i in range(len(stack.surfaces))]
+    return [isinstance(solid, SmallSolid) for solid in stack.solids]
 
 
 FORMS = {
@@ -167,12 +167,13 @@ def test_stacked_bodies_match_single_measurements(seed, form):
     surfaces = [form(body(rng)) for _ in range(250)]
     stack = measure_stack(surfaces)
     measured = np.flatnonzero(is_together(stack))
-    methods = [stack.verdict(i)[0] for i in measured.tolist()]
+    methods = [stack[i].method for i in measured.tolist()]
     assert 20 < methods.count(Procedure.CAPPED) < len(measured) - 20
     for i in measured.tolist():
         assert_alike(stack, i, surfaces[i])
-    assert stack.small.is_integrated[~stack.small.is_measured].any()
-    for i in stack.alone:
+    small = stack[int(measured[0])].stack
+    assert small.is_integrated[~small.is_measured].any()
+    for i in np.flatnonzero(~np.array(is_together(stack))).tolist():
         assert_same(stack[i], measure_alone(surfaces[i]))
 
 
@@ -271,7 +272,7 @@ def test_star_shaped_bodies_are_proved_together():
     surfaces = [mesh(points, triangles.tolist(), np.float32) for points, triangles in parts]
     for several in (surfaces, surfaces[:2], surfaces[2:]):
         stack = measure_stack(several)
-        assert not stack.alone and (stack.small.intersection == Intersection.EXCLUDED).all()
+        assert {row.health.self_intersection for row in stack.solids} == {Intersection.EXCLUDED}
         for i, surface in enumerate(several):
             assert_alike(stack, i, surface)
 
@@ -302,7 +303,7 @@ def test_warped_quads_are_compared_as_drawn():
 def test_stack_of_any_size_gives_no_numpy_warning(size):
     stack = measure_stack([mesh(CORNERS * size, SIDES, np.float32)] * 2)
     assert close(stack.volume.raw[:, 0], [size**3] * 2, 1e-14)
-    assert bool(stack.alone) == (size > 2.0**100)
+    assert all(is_together(stack)) == (size < 2.0**100)
 
 
 def test_an_empty_mesh_has_no_place_in_a_stack_and_no_error():
