@@ -93,7 +93,6 @@ class _Collector:
         self.faces = 0
         self._by_mesh: dict[bpy.types.Mesh, int | None] = {}
         self._by_content: dict[tuple, int] = {}
-        self._digests: dict[Settings, str] = {}
 
     def add(self, obj: bpy.types.Object) -> None:
         """Add an object, as a member of the stack if it can be stacked and read."""
@@ -108,10 +107,9 @@ class _Collector:
         mesh = None if settings is None else plain_mesh(obj, self.depsgraph)
         if settings is None or mesh is None:
             return None
-        try:
-            shape = self._by_mesh[mesh]
-        except KeyError:
-            shape = self._by_mesh[mesh] = self._read(mesh)
+        if mesh not in self._by_mesh:
+            self._by_mesh[mesh] = self._read(mesh)
+        shape = self._by_mesh[mesh]
         if shape is None:
             return None
         matrix = obj.evaluated_get(self.depsgraph).matrix_world
@@ -121,7 +119,6 @@ class _Collector:
             obj,
             shape,
             settings,
-            self._digest(settings),
             placed,
             tuple(placed[:3, 3].tolist()) if has_places(obj) else location.to_tuple(),
             (turn.w, turn.x, turn.y, turn.z),
@@ -142,24 +139,17 @@ class _Collector:
         settings = object_settings(obj, self.scene, options, self.unit)
         return settings if settings.kind == "solid" and settings.overlap == "signed" else None
 
-    def _digest(self, settings: Settings) -> str:
-        known = self._digests.get(settings)
-        if known is None:
-            known = self._digests[settings] = settings.digest
-        return known
-
     def _read(self, mesh: bpy.types.Mesh) -> int | None:
         """Return the index of the shape of a mesh; None if it has to be measured alone."""
         if not len(mesh.polygons) or len(mesh.polygons) > MAX_STACKED_FACES:
             return None
         surface = mesh_surface(mesh)
         content = surface.content
-        if content in self._by_content:
-            return self._by_content[content]
-        self.surfaces.append(surface)
-        self.faces += len(surface.triangles) + len(surface.quads)
-        self._by_content[content] = len(self.surfaces) - 1
-        return len(self.surfaces) - 1
+        if content not in self._by_content:
+            self._by_content[content] = len(self.surfaces)
+            self.surfaces.append(surface)
+            self.faces += len(surface.triangles) + len(surface.quads)
+        return self._by_content[content]
 
     def outcomes(self) -> Iterator[list[tuple[bpy.types.Object, Outcome]]]:
         """Yield the outcomes of the objects: stacked objects together, others one by one."""

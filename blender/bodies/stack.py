@@ -37,7 +37,7 @@ METHODS = {verdict: Method(verdict) for verdict in Procedure}
 class Member(NamedTuple):
     """An object that may join a stack.
 
-    `shape`: index of its surface. `digest`: digest of the settings.
+    `shape`: index of its surface.
     `matrix`: (4, 4) map from the mesh's coordinates to the world, Blender units.
     `location`, `quaternion`: the object's frame.
     """
@@ -45,7 +45,6 @@ class Member(NamedTuple):
     obj: bpy.types.Object
     shape: int
     settings: Settings
-    digest: str
     matrix: Array
     location: tuple[float, ...]
     quaternion: tuple[float, ...]
@@ -234,7 +233,7 @@ def measure_members(members: list[Member], surfaces: list[Surface]) -> MeasuredS
         rotation,
         np.array([member.location for member in members]) * unit,
         [
-            fingerprint(numbers, transform_key(each.obj), each.digest)
+            fingerprint(numbers, transform_key(each.obj), each.settings.digest)
             for numbers, each in zip(geometry, members)
         ],
         [METHODS[solids[member.shape].method] for member in members],

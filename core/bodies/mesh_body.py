@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 
 from ..measurement import Body
 from ..mesh import Surface, normals
-from ..moments import sum_of_images
-from ..moments.moments import Moments, monomials, sum_moments
+from ..moments import Moments, monomials, sum_moments, sum_of_images
 from ..numerics import Array
 from ..polyhedron import polyhedron_moments
 from ..solid import (

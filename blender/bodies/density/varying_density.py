@@ -38,8 +38,7 @@ from ....core.mesh import Surface
 from ....core.moments import KNOWN_ORDER, Moments, similarity_groups, sum_moments, sum_of_images
 from ....core.numerics import Array
 from ....core.polyhedron import polyhedron_moments
-from ....core.solid import ClosedParts
-from ....core.solid.measure import SolidIntegrals
+from ....core.solid import ClosedParts, SolidIntegrals
 from ....core.verdict import NEGLIGIBLE, Procedure
 from ....core.verdict.finding import Finding, ReadError, finding, truncate_findings
 from ...settings.density import DensityField, density_key, material_density
