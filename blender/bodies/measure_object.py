@@ -92,6 +92,7 @@ class _Collector:
         self.surfaces: list[Surface] = []
         self.faces = 0
         self._by_mesh: dict[bpy.types.Mesh, int | None] = {}
+        self._settings: dict[Settings, Settings] = {}
         self._by_content: dict[tuple, int] = {}
 
     def add(self, obj: bpy.types.Object) -> None:
@@ -137,7 +138,9 @@ class _Collector:
         ):
             return None
         settings = object_settings(obj, self.scene, options, self.unit)
-        return settings if settings.kind == "solid" and settings.overlap == "signed" else None
+        if settings.kind != "solid" or settings.overlap != "signed":
+            return None
+        return self._settings.setdefault(settings, settings)  # equal ones share their digest
 
     def _read(self, mesh: bpy.types.Mesh) -> int | None:
         """Return the index of the shape of a mesh; None if it has to be measured alone."""

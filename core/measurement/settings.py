@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property
 from typing import Any, NamedTuple
 
 from ..numerics import shortest_decimal
@@ -102,8 +102,7 @@ class Settings:
     compare: bool = True
     threads: int = 1
 
-    @property
-    @lru_cache(maxsize=64)  # Objects often have equal settings.
+    @cached_property
     def digest(self) -> str:
         """Digest of the settings behind stored results, without those that have no effect on this
         kind of body.
