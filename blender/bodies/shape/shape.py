@@ -287,7 +287,7 @@ class Shape:
         """Return Zernike descriptors of polygons to `order`, by quadrature above 20 and if raw
         moments lose digits.
         """
-        points = self.points_about_center()
+        points = np.concatenate([piece.used_points() - self.center for piece in self.pieces()])
         radius = float(np.sqrt((points * points).sum(axis=1).max()))
         # About the center and at about unit size, because high powers of a length soon exceed the
         # range of numbers.
@@ -350,10 +350,6 @@ class Shape:
         whole = join_surfaces(list(self.pieces()))
         points = (whole.points.astype(np.float64) - self.center) / self.size
         return PlacedTriangles(points, whole.all_triangles()[0], near, far)
-
-    def points_about_center(self) -> Array:
-        """Return (n, 3) corners of all faces, relative to the center."""
-        return np.concatenate([piece.used_points() - self.center for piece in self.pieces()])
 
 
 class NoShapeError(ReadError):
