@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """glTF files as objects of the open scene, corrected by the file's nodes.
 
-Blender's importer ignores KHR_node_visibility and MSFT_lod, drops the shear of a matrix, and
-clamps the weights of morph targets. Its hook tells the object of each node.
+Blender's importer ignores KHR_node_visibility and MSFT_lod, drops the shear of a matrix and of
+joints, and clamps the weights of morph targets. Its hook tells the object of each node.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from ...core.files import FILE_UNREADABLE, MALFORMED, GltfFile, map_file, node_m
 from ...core.numerics import Array
 from ...core.verdict.finding import FileError, Finding, finding
 from ..findings import FILE_HIDES, PLACES_UNCHECKED
-from .placing import MOST_WEIGHT, measure_at, place_objects
+from .placing import MOST_WEIGHT, measure_at, place_objects, show_points, shown_seconds
 from .references import Opened
 
 ADD_ON = "io_scene_gltf2"  # It comes with Blender, and may be switched off.
@@ -67,9 +67,16 @@ def import_gltf(path: str, frame: float | None) -> Opened:
             if obj.type == "MESH":
                 shown[obj.name] = _node_of(vnode, gltf)
             line = _line_of(vnode, gltf)
-            if any(_is_invisible(gltf.data.nodes[number]) for number in line):
+            if any(
+                _extension(gltf.data.nodes[number], "KHR_node_visibility").get("visible") is False
+                for number in line
+            ):
                 hidden[obj.name] = finding(FILE_HIDES, cause="it is invisible")
-            elif not _coarse_levels(gltf.data.nodes).isdisjoint(line):
+            elif any(
+                number in _extension(node, "MSFT_lod").get("ids", ())
+                for node in gltf.data.nodes
+                for number in line
+            ):
                 hidden[obj.name] = finding(FILE_HIDES, cause="it is a coarser level of detail")
 
     # The importer looks for extensions in add-ons of the preferences, of which it is one itself.
@@ -91,15 +98,11 @@ def import_gltf(path: str, frame: float | None) -> Opened:
         bpy.data.objects[name].hide_render = True
     notes = measure_at(frame)
     try:
-        _correct(_Pose(GltfFile(map_file(path), path), _seconds() if notes else 0.0), shown)
-    except MALFORMED:  # Such as compressed animations.
-        notes = (*notes, finding(PLACES_UNCHECKED, cause="its nodes or animations are unreadable"))
+        _correct(_Pose(GltfFile(map_file(path), path), shown_seconds() if notes else 0.0), shown)
+    except MALFORMED:
+        cause = "its animations, joints or nodes are compressed, or unreadable"
+        notes = (*notes, finding(PLACES_UNCHECKED, cause=cause))
     return Opened(notes=notes, hidden=hidden)
-
-
-def _seconds() -> float:
-    scene = bpy.context.scene
-    return scene.frame_current_final / (scene.render.fps * scene.render.fps_base)
 
 
 def _line_of(vnode: Any, gltf: Any) -> list[int]:
@@ -113,15 +116,9 @@ def _line_of(vnode: Any, gltf: Any) -> list[int]:
     return [number for number in line if isinstance(number, int)]
 
 
-def _is_invisible(node: Any) -> bool:
-    extension = (node.extensions or {}).get("KHR_node_visibility", {})
-    return isinstance(extension, dict) and extension.get("visible", True) is False
-
-
-def _coarse_levels(nodes: list[Any]) -> set[int]:
-    """Return the numbers of the nodes that others name as their coarser levels of detail."""
-    named = [(node.extensions or {}).get("MSFT_lod", {}) for node in nodes]
-    return {number for one in named if isinstance(one, dict) for number in one.get("ids", ())}
+def _extension(node: Any, name: str) -> dict[str, Any]:
+    extension = (node.extensions or {}).get(name)
+    return extension if isinstance(extension, dict) else {}
 
 
 def _node_of(vnode: Any, gltf: Any) -> _Shown:
@@ -142,6 +139,7 @@ class _Pose:
     """The nodes of a glTF file at a time of its first animation, the one that Blender shows."""
 
     def __init__(self, file: GltfFile, seconds: float) -> None:
+        self._file = file
         self._document = file.document
         self._nodes = self._document.get("nodes", [])
         self._parents = {
@@ -173,6 +171,37 @@ class _Pose:
         node = self._nodes[number]
         rest = node.get("weights") or self._document["meshes"][node["mesh"]].get("weights", ())
         return np.array(self._animated.get(number, {}).get("weights", rest), np.float64)
+
+    def skinned(self, number: int) -> Array:
+        """Return the (n, 3) points of a node with joints in the world, in the file's axes, in the
+        order of Blender's vertices.
+        """
+        node = self._nodes[number]
+        skin = self._document["skins"][node["skin"]]
+        joints = np.array([self.place(joint) for joint in skin["joints"]])
+        if "inverseBindMatrices" in skin:
+            inverse = self._file.numbers(skin["inverseBindMatrices"]).reshape(-1, 4, 4)
+            joints = joints @ inverse.transpose(0, 2, 1)
+        blocks = [np.empty((0, 3))]
+        for part in self._document["meshes"][node["mesh"]]["primitives"]:
+            arrays = {name: self._file.numbers(one) for name, one in part["attributes"].items()}
+            points = np.ones((len(arrays["POSITION"]), 4))
+            points[:, :3] = arrays["POSITION"]
+            for weight, target in zip(self.weights(number), part.get("targets", ())):
+                if weight and "POSITION" in target:
+                    points[:, :3] += weight * self._file.numbers(target["POSITION"])
+            moved = np.zeros_like(points)
+            for name in (name for name in arrays if name.startswith("JOINTS_")):
+                shares = arrays["WEIGHTS" + name[6:]]
+                for joint, share in zip(arrays[name].T.astype(int), shares.T):
+                    moved += share[:, None] * (joints[joint] @ points[..., None])[..., 0]
+            used = np.arange(len(points))
+            if "indices" in part:
+                used = np.unique(self._file.numbers(part["indices"])).astype(int)
+            if not moved[used, 3].all():
+                raise ValueError("WEIGHTS")
+            blocks.append(moved[used, :3] / moved[used, 3:])
+        return np.concatenate(blocks)
 
 
 def _target(target: dict[str, Any]) -> tuple[int, str] | None:
@@ -220,7 +249,9 @@ def _sampled(file: GltfFile, sampler: dict[str, Any], seconds: float, part: str)
 
 
 def _correct(pose: _Pose, shown: dict[str, _Shown]) -> None:
-    """Bring objects to the places, and shape keys to the weights, that a file states."""
+    """Bring objects to the places, shape keys to the weights, and vertices that joints move to the
+    points, that a file states.
+    """
     weighted: set[bpy.types.Key] = set()
     for name, node in shown.items():
         shapes = bpy.data.objects[name].data.shape_keys
@@ -236,6 +267,9 @@ def _correct(pose: _Pose, shown: dict[str, _Shown]) -> None:
             if not node.is_skinned
         }
     )
+    for name, node in shown.items():
+        if node.is_skinned:
+            show_points(bpy.data.objects[name], pose.skinned(node.number) @ UPRIGHT[:3, :3].T)
 
 
 def _set_weight(shapes: bpy.types.Key, block: bpy.types.ShapeKey, weight: float) -> None:

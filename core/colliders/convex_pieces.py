@@ -8,14 +8,11 @@ edge, or divide the piece evenly; all of them are compared at once on a coarse c
 More pieces than wanted are made; those whose common hull costs least are merged afterwards.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Generator, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh import (
     ConvexHull,
@@ -25,7 +22,7 @@ from ..mesh import (
     triangle_areas,
     triangle_distances,
 )
-from ..numerics import Array, Index, Mask, connected_components, spread_directions
+from ..numerics import Array, Index, Mask, NDArray, connected_components, spread_directions
 from ..verdict import MeasureError
 from .plane_cuts import ON_PLANE_RTOL, Piece, connected_parts, cut, piece_from_surface
 
@@ -194,10 +191,7 @@ def _concave_planes(piece: Piece, size: float) -> Array:
     other = piece.normals[piece.face[second]]
     turn = np.einsum("ij,ij->i", np.cross(one, other), b - a)
     concave = turn < -1e-6 * size
-    a = a[concave]
-    b = b[concave]
-    one = one[concave]
-    other = other[concave]
+    a, b, one, other = (values[concave] for values in (a, b, one, other))
     weight = -turn[concave]
     if not len(a):
         return np.zeros((0, 4))

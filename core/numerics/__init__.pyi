@@ -11,9 +11,11 @@ from .arguments import has_form as has_form
 from .arguments import index_array as index_array
 from .arguments import number_array as number_array
 from .arguments import shape_error as shape_error
+from .arguments import unit_vector as unit_vector
 from .array_types import Array as Array
 from .array_types import Index as Index
 from .array_types import Mask as Mask
+from .array_types import NDArray as NDArray
 from .arrays import NEXT_AXIS as NEXT_AXIS
 from .arrays import PREVIOUS_AXIS as PREVIOUS_AXIS
 from .arrays import PerBody as PerBody
@@ -44,7 +46,6 @@ from .compensated import two_sum as two_sum
 from .float32 import shortest_decimal as shortest_decimal
 from .graph import EDGES_PER_BLOCK as EDGES_PER_BLOCK
 from .graph import connected_components as connected_components
-from .graph import connected_neighbors as connected_neighbors
 from .quadrature import gauss_legendre as gauss_legendre
 from .quadrature import gauss_legendre_with_ends as gauss_legendre_with_ends
 from .quadrature import spread_directions as spread_directions

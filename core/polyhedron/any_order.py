@@ -16,8 +16,6 @@ point of the body, and scaled by a power of two to at most about 1 if they are f
 high powers stay in range.
 """
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -28,20 +26,22 @@ from math import frexp
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..inertia import MOMENTS_OVERFLOW
 from ..mesh import Surface
-from ..moments import Measure, Moments, U, unchecked_moments
-from ..moments.exponents import (
+from ..moments import (
+    Measure,
+    Moments,
+    U,
     count_of_degree,
     factorial_ratios,
     monomial_count,
     monomial_values,
     monomials,
     quotient_indices,
+    unchecked_moments,
 )
-from ..numerics import Array, batches, cross, dot, indices_in_range
+from ..numerics import Array, NDArray, batches, cross, dot, indices_in_range
 from ..verdict import MeasureError, check_size
 from .any_order_kernel import SLICES, UNDERFLOW_BOUND, absolute_sums, coefficient_sums
 from .third_order import NO_VERTEX, Faces, box_center, finite_box, nothing, paired_corners

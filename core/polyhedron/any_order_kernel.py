@@ -14,15 +14,12 @@ y or z moves rows to the next run. All sums are of positive terms if the coordin
 so a computed S_α is off by at most (6 n + 8) u S_α(|a|, |b|, |c|).
 """
 
-from __future__ import annotations
-
 from functools import lru_cache
 from math import factorial
 
 import numpy as np
 
-from ..moments import U
-from ..moments.exponents import count_of_degree, monomials, quotient_indices
+from ..moments import U, count_of_degree, monomials, quotient_indices
 from ..numerics import Array, Index
 
 FACES_PER_CHUNK = 32  # faces that share one bound of their coordinates

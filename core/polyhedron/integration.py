@@ -7,8 +7,6 @@ To third order a kernel of its own is several times as fast (`third_order`); hig
 the recursion (`any_order`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 from math import isfinite
 from typing import Any
@@ -18,8 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..inertia import MOMENTS_OVERFLOW
 from ..mesh import BoundarySum, PlanarityAccumulator, Surface
-from ..moments import Measure, Moments, U
-from ..moments.exponents import monomial_count
+from ..moments import Measure, Moments, U, monomial_count
 from ..numerics import (
     Array,
     check_order,

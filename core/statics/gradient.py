@@ -20,8 +20,6 @@ About the body's own center, first moments vanish, so that the derivative of the
 ∂first / volume.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from functools import partial
 
@@ -29,7 +27,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..mesh import Surface
-from ..moments.exponents import monomial_count
+from ..moments import monomial_count
 from ..numerics import Array, check_type, cross, float_array
 
 TRIANGLES_PER_BLOCK = 65536  # triangles at a time

@@ -28,6 +28,75 @@ Y_UP = {"Up": (1, 1), "Front": (2, 1), "Coord": (0, 1)}
 TURNS = "Lcl Rotation", "PreRotation", "PostRotation"
 MOVES = "Lcl Translation", "RotationOffset", "RotationPivot", "ScalingOffset", "ScalingPivot"
 ACTIVE = {"RotationActive": 1, "InheritType": 1}
+SKIN = 'Deformer: 80, "Deformer::", "Skin" {\nVersion: 101\n}\n'
+CLUSTER = """\
+Deformer: {}, "SubDeformer::", "Cluster" {{
+Indexes: *8 {{
+a: 0,1,2,3,4,5,6,7
+}}
+Weights: *8 {{
+a: {}
+}}
+Transform: *16 {{
+a: {}
+}}
+TransformLink: *16 {{
+a: {}
+}}
+}}
+"""
+# an animation of a property, keyed at 0 and 1 s
+ANIMATION = """\
+AnimationStack: 93, "AnimStack::a", "" {{
+}}
+AnimationLayer: 94, "AnimLayer::l", "" {{
+}}
+AnimationCurveNode: 95, "AnimCurveNode::{}", "" {{
+Properties70: {{
+{}}}
+}}
+"""
+CURVE = """\
+AnimationCurve: {}, "AnimCurve::", "" {{
+KeyTime: *2 {{
+a: 0,46186158000
+}}
+KeyValueFloat: *2 {{
+a: {},0
+}}
+KeyAttrFlags: *1 {{
+a: {}
+}}
+KeyAttrDataFloat: *4 {{
+a: 0,0,0,0
+}}
+KeyAttrRefCount: *1 {{
+a: 2
+}}
+}}
+"""
+SHAPE = """\
+Geometry: 90, "Geometry::s", "Shape" {{
+Version: 100
+Indexes: *4 {{
+a: 4,5,6,7
+}}
+Vertices: *12 {{
+a: 100,0,0,100,0,0,100,0,0,100,0,0
+}}
+}}
+Deformer: 91, "Deformer::b", "BlendShape" {{
+Version: 100
+}}
+Deformer: 92, "SubDeformer::s", "BlendShapeChannel" {{
+Version: 100
+FullWeights: *1 {{
+a: 100
+}}
+Properties70: {{
+{}}}
+}}
+"""
 
 
 def property_line(name, value):
@@ -57,6 +126,28 @@ def write(path, models, axes=AXES, unit=1.0, more="", more_links=""):
         links += 'C: "OO",{},{}\n'.format(number, parent)
         links += 'C: "OO",1,{}\n'.format(number) if kind == "Mesh" else ""
     return files.write_text(path, text + more + "}\nConnections: {\n" + links + more_links + "}\n")
+
+
+def with_shape(text, links, weight):
+    """Add a shape that makes the box 1 m longer per weight."""
+    links += 'C: "OO",91,1\nC: "OO",92,91\nC: "OO",90,92\n'
+    return text + SHAPE.format(property_line("DeformPercent", 100 * weight)), links
+
+
+def animation(target, name, values, flags=260):
+    """Key the numbers of a property at 0 s, and 0 at 1 s."""
+    channels = ["d|" + axis for axis in ("XYZ" if len(values) == 3 else [name])]
+    rest = "".join(property_line(channel, 0.0) for channel in channels)
+    text = ANIMATION.format(name.replace("Lcl Rotation", "R"), rest)
+    links = 'C: "OO",94,93\nC: "OO",95,94\nC: "OP",95,{}, "{}"\n'.format(target, name)
+    for number, (channel, value) in enumerate(zip(channels, values, strict=True), 96):
+        text += CURVE.format(number, value, flags)
+        links += 'C: "OP",{},95, "{}"\n'.format(number, channel)
+    return text, links
+
+
+def matrix(linear, move):
+    return np.vstack([np.column_stack([linear, move]), [0, 0, 0, 1]])
 
 
 def by_name(found):
@@ -205,26 +296,42 @@ def test_binary_fbx_of_blender_agrees_with_its_nodes(tmp_path):
 @pytest.mark.parametrize("moves", [False, True])
 @pytest.mark.parametrize("weight", [0.5, 9.75, 20.0, -15.0, 1000.0])
 def test_fbx_weight_is_the_files_or_doubtful(tmp_path, weight, moves):
-    shape = 'Geometry: 90, "Geometry::s", "Shape" {\nVersion: 100\nIndexes: *4 {\na: 4,5,6,7\n}\n'
-    shape += "Vertices: *12 {\na: " + ",".join(["100,0,0"] * 4) + "\n}\n}\n"
-    shape += 'Deformer: 91, "Deformer::b", "BlendShape" {\nVersion: 100\n}\n'
-    shape += 'Deformer: 92, "SubDeformer::s", "BlendShapeChannel" {\nVersion: 100\n'
-    shape += "FullWeights: *1 {\na: 100\n}\nProperties70: {\n"
-    shape += property_line("DeformPercent", 100 * weight) + "}\n}\n"
-    links = "".join('C: "OO",{},{}\n'.format(*pair) for pair in ((91, 1), (92, 91), (90, 92)))
+    shape, links = with_shape("", "", weight)
     if moves:
-        shape += 'AnimationStack: 93, "AnimStack::a", "" {\n}\n'
-        shape += 'AnimationLayer: 94, "AnimLayer::l", "" {\n}\n'
-        shape += 'AnimationCurveNode: 95, "AnimCurveNode::DeformPercent", "" {\nProperties70: {\n'
-        shape += property_line("d|DeformPercent", 0.0) + "}\n}\n"
-        shape += 'AnimationCurve: 96, "AnimCurve::", "" {\nKeyTime: *2 {\na: 0,46186158000\n}\n'
-        shape += "KeyValueFloat: *2 {{\na: {},0\n}}\n".format(100 * weight)
-        shape += "KeyAttrFlags: *1 {\na: 260\n}\nKeyAttrDataFloat: *4 {\na: 0,0,0,0\n}\n"
-        shape += "KeyAttrRefCount: *1 {\na: 2\n}\n}\n"
-        links += 'C: "OO",94,93\nC: "OO",95,94\nC: "OP",95,92, "DeformPercent"\n'
-        links += 'C: "OP",96,95, "d|DeformPercent"\n'
+        more, more_links = animation(92, "DeformPercent", [100 * weight])
+        shape, links = shape + more, links + more_links
     path = write(tmp_path / "t.fbx", [("part", "Mesh", {}, 0)], more=shape, more_links=links)
     body = measured(path)
     is_doubtful = moves and abs(weight) > 10.0
     assert is_doubtful == ("places_unchecked" in codes(body))
     assert is_doubtful or close(body["volume"], 6.0 * abs(1.0 + weight), 1e-5)
+
+
+@pytest.mark.parametrize("flags", [None, 4, 8])  # of linear keys, of cubic ones
+@pytest.mark.parametrize("bone_scale", [[1, 1, 1], [1, 3, 0.5]])
+def test_fbx_skin_follows_the_clusters(tmp_path, bone_scale, flags):
+    part = {"Lcl Translation": [500, 0, 0], "GeometricTranslation": [0, 0, 10]}
+    low = {"Lcl Rotation": [0, 20, 30], "Lcl Scaling": bone_scale, **ACTIVE}
+    high = {"Lcl Translation": [0, 10, 200], "Lcl Rotation": [20 - 7 * bool(flags), 0, 0], **ACTIVE}
+    models = [("part", "Mesh", part, 0), ("low", "LimbNode", low, 0), ("high", "LimbNode", high, 3)]
+    binds = np.diag([1.0, 2, 1, 1]), matrix(np.eye(3), [5, -10, -180])
+    shares = np.tile([[0.75, 0.25], [0.2, 0.2]], (4, 1))
+    more, links = with_shape(SKIN, 'C: "OO",80,1\n', 0.5)
+    for number, (bind, share) in enumerate(zip(binds, shares.T, strict=True), 81):
+        arrays = share, bind.T.ravel(), np.linalg.inv(bind).T.ravel()
+        numbers = [",".join(map(repr, values.tolist())) for values in arrays]
+        more += CLUSTER.format(number, *numbers)
+        links += 'C: "OO",{0},80\nC: "OO",{1},{0}\n'.format(number, number - 78)
+    if flags is not None:
+        keyed, more_links = animation(4, "Lcl Rotation", [20, 0, 0], flags)
+        more, links = more + keyed, links + more_links
+    body = measured(write(tmp_path / "t.fbx", models, more=more, more_links=links))
+    places = [matrix(files.turn([0, 20, 30]) @ np.diag(bone_scale), [0, 0, 0])] * 2
+    places[1] = places[0] @ matrix(files.turn([20, 0, 0]), [0, 10, 200])
+    points = BOX * [1.5, 1, 1] + [0, 0, 10]
+    whole = np.column_stack([points, np.ones(8)])
+    moved = np.einsum("vj,jab,vb->va", shares, np.array(places) @ binds, whole)
+    moved = moved[:, :3] / shares.sum(axis=1, keepdims=True) / 100.0
+    triangles = [(a, *pair) for a, b, c, d in QUADS for pair in ((b, c), (c, d))]
+    assert close(body["volume"], abs(np.linalg.det(moved[triangles]).sum() / 6.0), 1e-5)
+    assert "places_unchecked" not in codes(body)
