@@ -162,13 +162,6 @@ def _reverses_axis(operations: NDArray, axis: NDArray) -> Mask:
     return (operations @ axis) @ axis < 0.0
 
 
-def axis_rotation(axis: NDArray, angle: float) -> Array:
-    """Return the (3, 3) rotation about an axis, by Rodrigues' formula."""
-    x, y, z = axis
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross
-
-
 def _distinct_lines(vectors: NDArray) -> list[tuple[NDArray, NDArray]]:
     """Return each line once, with the mask of the (k, 3) unit vectors that lie along it."""
     same = np.abs(vectors @ vectors.T) > 1.0 - EQUAL_OPERATION_ATOL
