@@ -27,7 +27,7 @@ from .finite import check_numbers
 from .import_fbx import import_fbx
 from .import_gltf import import_gltf
 from .import_usd import import_usd
-from .importers import import_3mf, import_iges, import_mesh, import_obj
+from .importers import import_3mf, import_cad, import_mesh, import_obj
 from .placing import measure_at
 from .references import Opened
 from .suffixes import check_file, file_suffix
@@ -47,8 +47,10 @@ _IMPORTERS: dict[str, Callable[[str], object]] = {
     ".ply": import_mesh,
     ".obj": import_obj,
     ".3mf": import_3mf,
-    ".igs": import_iges,
-    ".iges": import_iges,
+    ".igs": import_cad,
+    ".iges": import_cad,
+    ".step": import_cad,
+    ".stp": import_cad,
 }
 
 

@@ -11,11 +11,11 @@ from __future__ import annotations
 
 import os
 from argparse import Namespace
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
-from typing import Any
+from typing import Any, TypeVar
 
 from ...blender.session.findings import NO_SUCH_NAME
 from ...blender.write.thumbnail import thumbnail
@@ -26,12 +26,19 @@ from ...core.bodies import (
     about_file,
     body_of_mesh,
     measure_array,
+    measure_faces,
     measure_labels,
     measure_mesh_file,
     measure_reading,
     read_mesh,
 )
-from ...core.cad import has_surfaces, read_meshes
+from ...core.cad import (
+    FACES_NOT_READ,
+    SurfaceBody,
+    has_surfaces,
+    read_meshes,
+    read_surfaces,
+)
 from ...core.files import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...core.floating import settle
 from ...core.measurement import Measurement, PrintSettings, Settings, record
@@ -59,9 +66,15 @@ from ..findings import (
     STREAM_OPTIONS,
     UNIT_ASSUMED,
 )
-from ..options.arguments import NEEDS_BLENDER, boolean_and_wire, options_of_blender, words
+from ..options.arguments import (
+    NEEDS_BLENDER,
+    boolean_and_wire,
+    options_of_blender,
+    options_of_polygons,
+    words,
+)
 from ..options.checks import OF_ARRAYS, body_findings, density_of, file_findings, unused
-from ..supervisor.listing import UNITLESS
+from ..supervisor.listing import CAD, UNITLESS
 from ..supervisor.processes import has_blender
 from .cuts import cut_entries, is_open_sheet
 from .entries import Contents, failure
@@ -80,6 +93,9 @@ _NOT_OF_STREAMS = (
     *("wall", "print", "polynomial", "density_from", "fourier"),
     *("below", "against", "float"),
 )
+
+
+Named = TypeVar("Named", FileMesh, SurfaceBody)
 
 
 class BareFile:
@@ -110,6 +126,9 @@ class BareFile:
         """Measure the bodies in the file. Raises MeasureError."""
         if self._is_scan or is_streamed(self._path, self.options, self._memory):
             self._measure_whole(contents)
+        elif file_suffix(self._path) in CAD:
+            check_file(self._path)
+            self._measure_cad(contents)
         else:
             check_file(self._path)
             self._measure_meshes(contents)
@@ -245,6 +264,26 @@ class BareFile:
         settings, findings = self._mesh_settings()
         return measure_mesh_file(self._path, name, settings, tuple(findings), progress)
 
+    def _measure_cad(self, contents: Contents) -> None:
+        """Measure the bodies of a CAD file, each with a name of its own."""
+        try:
+            file = read_surfaces(self._path, self.options.limits, for_blender=False)
+        except OSError as error:
+            raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
+        contents.errors += [failure(None, refused) for refused in file.refused]
+        settings, findings = self._mesh_settings()
+        settings = replace(settings, unit=file.unit or settings.unit)
+        findings += [finding(FACES_NOT_READ, count=file.unread)] * bool(file.unread)
+        bodies = _with_own_names(file.bodies)
+        chosen = self._chosen([body.name for body in bodies], contents)
+        for body in bodies:
+            if body.name in chosen:
+                try:
+                    measured = measure_faces(body.name, body.patches, body.rounding, settings)
+                    self._add(contents, measured, (*findings, *file.notes), {})
+                except MeasureError as refusal:
+                    contents.errors.append(failure(body.name, refusal.finding))
+
     def _measure_meshes(self, contents: Contents) -> None:
         """Measure the meshes of a file, each with a name of its own."""
         try:
@@ -321,8 +360,8 @@ class BareFile:
         contents.measured.append((measurement.name, None, measurement))
 
 
-def _with_own_names(meshes: list[FileMesh]) -> list[FileMesh]:
-    """Return the meshes, later ones of a name with numbers behind it, as Blender names objects."""
+def _with_own_names(meshes: Sequence[Named]) -> list[Named]:
+    """Return meshes or bodies, later ones of a name with numbers behind it, as in Blender."""
     names: set[str] = set()
     named = []
     for mesh in meshes:
@@ -343,6 +382,8 @@ def is_bare(path: str, options: Namespace, memory: int | None) -> bool:
     if scans.scan_suffix(path) or not has_blender():
         return True
     suffix = file_suffix(path)
+    if suffix in (".step", ".stp"):
+        return not options_of_polygons(options)
     if suffix not in UNITLESS:
         return False
     if is_streamed(path, options, memory):
