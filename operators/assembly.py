@@ -21,9 +21,8 @@ from ..blender.session import stored
 from ..blender.settings.assembly import Root, active_assembly, is_assembly
 from ..blender.write import properties, reports
 from ..core.verdict import EditRefusedError, MeasureError, Procedure, Severity, of_severity
-from . import selection
+from . import modal, selection
 from .findings import NO_ACTIVE_ASSEMBLY
-from .modal import ModalSteps
 from .snap.frames import turn_cursor
 
 if TYPE_CHECKING:
@@ -61,7 +60,7 @@ def measured_assembly(context: Context, target: str) -> "Assembly":
     return bodies.measure_assembly(target_of(context, target), depsgraph)
 
 
-class OBJECT_OT_body_moments_measure_assembly(ModalSteps, Operator):
+class OBJECT_OT_body_moments_measure_assembly(modal.ModalSteps, Operator):
     """Measure all members of a collection or all children of an empty, and store the total"""
 
     bl_idname = "object.body_moments_measure_assembly"

@@ -20,17 +20,14 @@ from ..blender.session.displayed import Displayed, Verdict, displayed, shown_obj
 from ..blender.session.live.following import Lag, current_numbers, is_live
 from ..blender.session.stored import outcome
 from ..blender.session.tracking import armatures
-from ..blender.settings.chosen import chosen_objects
-from ..blender.settings.preferences import draw_links
+from ..blender.settings import chosen, preferences
 from ..blender.write import properties
 from ..blender.write.translations import localized
-from ..core.inertia import PlainBody
+from ..core import inertia, wall
 from ..core.verdict import METHODS, Group, Source, method_key, truncate_list
-from ..core.wall import WALL_MEASURED
-from . import remedies, rows
+from . import places, remedies, rows
 from .density import material_row
 from .overlay.draw import header_switch
-from .places import in_both_places
 
 # by the frame
 CENTER_HEADINGS = {
@@ -66,7 +63,7 @@ class Answer(NamedTuple):
     name: str
     icon: str
     verdict: Verdict | None
-    numbers: PlainBody | None
+    numbers: inertia.PlainBody | None
     heading: str
     density: str
     size: tuple[str, str, float | None]
@@ -84,7 +81,7 @@ class BodyPanel:
         row = self.layout.row(align=True)
         header_switch(row, context)
         if not rows.is_narrow():  # the name would be below them
-            draw_links(row, icons_only=True)
+            preferences.draw_links(row, icons_only=True)
 
     def draw(self, context: Context) -> None:
         layout = self.layout
@@ -214,7 +211,7 @@ def _outstanding(template: str, names: Sequence[str], count: int) -> str:
     return localized(template).format(localized("{} of {}").format(len(names), count))
 
 
-def _density(numbers: PlainBody, length: float | None, template: str, *counts: int) -> str:
+def _density(numbers: inertia.PlainBody, length: float | None, template: str, *counts: int) -> str:
     """Return the density behind a mass, or that nobody has set it."""
     if length:
         text = "{:.4g} kg/m".format(numbers.mass / length)
@@ -254,7 +251,9 @@ def _buttons(layout: UILayout, context: Context) -> None:
 
 def _method(obj: Object, shown: Displayed) -> str:
     """Return the method; an unknown one, of another version of the add-on, by its stored text."""
-    key = method_key(shown.method, any(found.code == WALL_MEASURED for found in shown.findings))
+    key = method_key(
+        shown.method, any(found.code == wall.WALL_MEASURED for found in shown.findings)
+    )
     origin = (
         Source.POLYGONS if shown.method is None or key == str(shown.method) else shown.method.source
     )
@@ -280,7 +279,7 @@ class FindingsPanel:
             rows.remark(layout, "Mean density, from {cause}", icon="BLANK1", cause=source)
 
 
-def _questioned(context: Context) -> tuple[Object, PlainBody] | None:
+def _questioned(context: Context) -> tuple[Object, inertia.PlainBody] | None:
     """Return the object and its numbers if they raise the question of units."""
     objects = shown_objects(context)
     shown = displayed(objects[0], context.scene) if len(objects) == 1 else None
@@ -322,19 +321,19 @@ class ApplyPanel:
         passive = row.operator("object.body_moments_rigid_bodies", text="Passive")
         passive.type = "PASSIVE"
         button = rows.button(column, "object.body_moments_set_rigid_body_mass", "RIGID_BODY")
-        button.add = not any(obj.rigid_body for obj in chosen_objects(context))
+        button.add = not any(obj.rigid_body for obj in chosen.chosen_objects(context))
         rows.button(layout, "object.body_moments_add_nodes", "GEOMETRY_NODES")
         rows.button(layout, "object.body_moments_sculpt_balance", "SCULPTMODE_HLT")
 
 
-VIEW3D_PT_body_moments, OBJECT_PT_body_moments = in_both_places(
+VIEW3D_PT_body_moments, OBJECT_PT_body_moments = places.in_both_places(
     BodyPanel, shown_for=lambda obj: True, of_all=True
 )
 CLASSES = (
     *(VIEW3D_PT_body_moments, OBJECT_PT_body_moments),
-    *in_both_places(ApplyPanel, "apply", shown_for=measurable, of_all=True),
-    *in_both_places(
+    *places.in_both_places(ApplyPanel, "apply", shown_for=measurable, of_all=True),
+    *places.in_both_places(
         FindingsPanel, "findings", options=frozenset(), shown_for=lambda obj: True, of_all=True
     ),
-    *in_both_places(RefusedPanel, "refused", options={"HIDE_HEADER"}),
+    *places.in_both_places(RefusedPanel, "refused", options={"HIDE_HEADER"}),
 )

@@ -15,8 +15,7 @@ from collections.abc import Callable, Set
 
 from bpy.types import Context, Object, Panel
 
-from ..blender.session.displayed import shown_objects
-from ..blender.session.selected import subject
+from ..blender.session import displayed, selected
 from ..blender.settings.chosen import chosen_objects
 
 # posed objects first, then the order of CAD's mass property dialogs; panels whose height depends on
@@ -78,14 +77,16 @@ def in_both_places(
 
     def draw(panel: Panel, context: Context) -> None:
         panel.layout.use_property_decorate = False
-        if shown_for is not None and not of_all and len(shown_objects(context)) > 1:
-            panel.layout.label(text=subject(context).name, icon="OBJECT_DATA", translate=False)
+        if shown_for is not None and not of_all and len(displayed.shown_objects(context)) > 1:
+            panel.layout.label(
+                text=selected.subject(context).name, icon="OBJECT_DATA", translate=False
+            )
         contents.draw(panel, context)
 
     def poll(_cls: type[Panel], context: Context) -> bool:
         if of_all:
             return any(map(shown_for, chosen_objects(context)))
-        obj = subject(context)
+        obj = selected.subject(context)
         return obj is not None and shown_for(obj)
 
     shared: dict[str, object] = {

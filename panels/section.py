@@ -10,14 +10,11 @@ from bpy.types import Context, Object, UILayout
 
 from ..blender.read.visibility import SECTION_TYPES, measurable
 from ..blender.session.selected import subject
-from ..blender.session.tracking.staleness import stale_reason
-from ..blender.session.tracking.stamps import of_section
+from ..blender.session.tracking import staleness, stamps
 from ..blender.write import section as record
-from ..blender.write.translations import localized
-from ..blender.write.units import number
+from ..blender.write import translations, units
 from ..core.verdict import Group
-from . import remedies, rows
-from .places import in_both_places
+from . import places, remedies, rows
 
 FLAT_RTOL = (
     1e-5  # thickness of a flat shape by its width; other shapes have sections of selected faces
@@ -41,7 +38,7 @@ class SectionPanel:
         if stored is None:
             layout.label(text="Not Measured", icon="RADIOBUT_OFF")
             return
-        _verdict(layout, stored, stale_reason(obj, context.scene, of_section))
+        _verdict(layout, stored, staleness.stale_reason(obj, context.scene, stamps.of_section))
         groups = [Group(found) for found in stored.findings]
         remedies.lines(layout, context, groups, can_accept=False)
         _numbers(layout, stored.section)
@@ -67,13 +64,13 @@ def _verdict(layout: UILayout, stored: record.StoredSection, outdated: str | Non
     holes = stored.section.holes
     counts = ((outlines, "1 Outline", "{:d} Outlines"), (holes, "1 Hole", "{:d} Holes"))
     parts = [
-        localized(singular if count == 1 else plural).format(count)
+        translations.localized(singular if count == 1 else plural).format(count)
         for count, singular, plural in counts
         if count
     ]
     rows.sentence(
         column,
-        "{:s}: {:s}".format(localized(stored.description), ", ".join(parts)),
+        "{:s}: {:s}".format(translations.localized(stored.description), ", ".join(parts)),
         icon="CHECKMARK",
     )
     rows.stale_row(column, outdated)
@@ -94,7 +91,7 @@ def _numbers(layout: UILayout, section) -> None:
         column.label(text="Every Axis Is Principal", icon="INFO")
     else:
         angle = degrees(section.angle)
-        shown = "{:s}°".format(number(0.0 if abs(angle) < 1e-6 else angle))
+        shown = "{:s}°".format(units.number(0.0 if abs(angle) < 1e-6 else angle))
         rows.table(column, [("Angle from x to 1", shown, repr(section.angle), "rad")])
 
 
@@ -136,4 +133,4 @@ def _more_numbers(layout: UILayout, section) -> None:
         rows.error_bounds(body, sources, entries)
 
 
-CLASSES = in_both_places(SectionPanel, "section", shown_for=_may_be_cut)
+CLASSES = places.in_both_places(SectionPanel, "section", shown_for=_may_be_cut)

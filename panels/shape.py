@@ -10,13 +10,11 @@ from bpy.types import Context, Object, UILayout
 
 from ..blender.read.visibility import measurable
 from ..blender.session.selected import subject
-from ..blender.session.tracking.staleness import stale_reason
-from ..blender.session.tracking.stamps import of_symmetry
+from ..blender.session.tracking import staleness, stamps
 from ..blender.settings.preferences import shows_advanced
 from ..blender.write.translations import localized
 from ..core.verdict import SIMILARITY, truncate
-from . import rows
-from .places import in_both_places
+from . import places, rows
 
 MAX_SHOWN = 12  # elements of a symmetry, and similar shapes
 KINDS = {"AXIS": "{:d}-Fold Axis", "PLANE": "Mirror Plane", "ROUND": "Axis of Revolution"}
@@ -57,7 +55,7 @@ def _symmetry(layout: UILayout, context: Context, obj: Object | None) -> None:
     stored = obj.body_moments_symmetry
     column = layout.column(align=True)
     rows.filled(column, "Symmetry {:s}", stored.group, icon="CHECKMARK")
-    rows.stale_row(column, stale_reason(obj, context.scene, of_symmetry))
+    rows.stale_row(column, staleness.stale_reason(obj, context.scene, stamps.of_symmetry))
     if stored.compatible != stored.group:
         text = "Moments to order 6 alone allow {group}"
         rows.remark(column, text, icon="BLANK1", group=stored.compatible)
@@ -112,4 +110,4 @@ def _similar(layout: UILayout, context: Context) -> None:
         rows.right(row, "{:s}{:s}, {:.2g}".format(words, size, shape.distance))
 
 
-CLASSES = in_both_places(ShapePanel, "shape", shown_for=measurable, of_all=True)
+CLASSES = places.in_both_places(ShapePanel, "shape", shown_for=measurable, of_all=True)

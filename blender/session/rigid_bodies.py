@@ -24,30 +24,12 @@ from ..bodies.stack import Measured as MeasuredObject
 from ..read.mesh import mesh_surface
 from ..read.tracking import tracking_paused
 from ..scale import meters_per_unit
-from ..scene import reframe
-from ..scene.changes import require_storable_data
+from ..scene import changes, empties, findings, reframe, rigid_world, snap_targets, transforms
 from ..scene.colliders import apply_for_bullet, colliders_by_body
-from ..scene.empties import PLACE_RTOL
-from ..scene.findings import OPEN_OBJECT, RIGID_BODY_MASS_TOO_SMALL, RIGID_BODY_NEEDS_MESH
-from ..scene.rigid_world import (
-    MIN_MASS,
-    add_joint,
-    add_rigid_bodies,
-    remove_joint,
-    require_rigid_world,
-)
-from ..scene.snap_targets import (
-    SnapTarget,
-    matrix_along_axes,
-    matrix_for_bullet,
-    target_of,
-)
-from ..scene.transforms import world
 from ..settings.given import COLLIDER
 from ..write import reports
 from .colliders import colliders_kept_current
-from .stored import assembly
-from .stored.results import store_measured
+from .stored import assembly, results
 from .tracking import staleness
 
 # Blender's collision shapes of colliders that are primitives; all others are convex hulls.
@@ -71,7 +53,7 @@ class Measured:
     """A measured body. density: mean density, kg/m³. parts: its objects with their measurements."""
 
     body: Body
-    target: SnapTarget
+    target: snap_targets.SnapTarget
     density: float
     parts: tuple[tuple[Object, MeasuredObject], ...]
 
@@ -105,7 +87,7 @@ def make_rigid_bodies(
                 measured[body.obj] = _measured(context, body, ask)
             except Exception as error:
                 found = error.finding.code if isinstance(error, MeasureError) else None
-                if type == "PASSIVE" and found in {OPEN_OBJECT, NO_VOLUME}:
+                if type == "PASSIVE" and found in {findings.OPEN_OBJECT, NO_VOLUME}:
                     floors += body.obj, *body.members  # no engine asks for their mass
                     step(done)
                     continue
@@ -120,7 +102,7 @@ def make_rigid_bodies(
         failures += _place(context, measured, frame)
         new = _add(context, measured, type, shape)
         new_floors = [obj for obj in floors if obj.rigid_body is None]
-        add_rigid_bodies(context, new_floors, type)
+        rigid_world.add_rigid_bodies(context, new_floors, type)
         depsgraph = context.evaluated_depsgraph_get()
         for obj in floors:
             obj.rigid_body.type = "PASSIVE"
@@ -133,7 +115,7 @@ def make_rigid_bodies(
             )
         for obj, one in measured.items():
             obj.rigid_body.mass = one.target.mass
-        store_measured(context, [part for one in measured.values() for part in one.parts])
+        results.store_measured(context, [part for one in measured.values() for part in one.parts])
     return RigidBodies(measured, calculated, failures, floors)
 
 
@@ -144,7 +126,9 @@ def _place(context: Context, measured: dict[Object, Measured], frame: str) -> li
     failures: list[Finding] = []
     if frame == "KEEP":
         return failures
-    frame_of = matrix_for_bullet if frame == "ORIGIN" else matrix_along_axes
+    frame_of = (
+        snap_targets.matrix_for_bullet if frame == "ORIGIN" else snap_targets.matrix_along_axes
+    )
     for _ in range(2):  # a new scale may cut faces that are not flat into other triangles
         plans = []
         joints = {}
@@ -159,13 +143,13 @@ def _place(context: Context, measured: dict[Object, Measured], frame: str) -> li
                 failures.append(reports.failure(obj.name_full, error))
                 del measured[obj]
                 continue
-            move_only = np.array_equal(target[:3, :3], world(obj)[:3, :3])
+            move_only = np.array_equal(target[:3, :3], transforms.world(obj)[:3, :3])
             plans.append(reframe.Plan(obj, target, one.target.size, move_only=move_only))
         with reports.progress(len(plans)) as step:
             changed, refused = reframe.reframe(context, plans, step)
         for plan in changed:
             if joints[plan.obj] is not None:
-                remove_joint(context, plan.obj)
+                rigid_world.remove_joint(context, plan.obj)
         for obj, refusal in refused:
             failures.append(reports.failure(obj.name_full, refusal))
             del measured[obj]
@@ -189,7 +173,9 @@ def _add(context: Context, measured: dict[Object, Measured], type: str, shape: s
     new = [obj for obj in parts if obj.rigid_body is None]
     for collider in added:
         apply_for_bullet(collider)
-    add_rigid_bodies(context, [*new, *(obj for obj in added if obj.rigid_body is None)], type)
+    rigid_world.add_rigid_bodies(
+        context, [*new, *(obj for obj in added if obj.rigid_body is None)], type
+    )
     for collider in added:
         collider.rigid_body.collision_shape = COLLISION_SHAPES.get(
             collider[COLLIDER]["kind"], "CONVEX_HULL"
@@ -206,7 +192,7 @@ def _add(context: Context, measured: dict[Object, Measured], type: str, shape: s
                 part.rigid_body.collision_shape = shape
     for obj in (*new, *added):
         scale = (obj.parent if COLLIDER in obj else obj).matrix_world.to_scale()
-        is_scaled = max(abs(size - 1.0) for size in scale) > PLACE_RTOL
+        is_scaled = max(abs(size - 1.0) for size in scale) > empties.PLACE_RTOL
         if is_scaled and obj.rigid_body.collision_shape == "CONVEX_HULL":
             # Blender shrinks hulls by the margin, times the scale; Bullet adds it without the scale
             obj.rigid_body.use_margin = True
@@ -253,7 +239,9 @@ def _measure_in_turn(
 
 def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredObject]) -> Measured:
     """Measure a body as it is now; raise EditRefusedError if it cannot be a rigid body."""
-    require_rigid_world(context.scene, joints=body.obj.rigid_body_constraint is not None)
+    rigid_world.require_rigid_world(
+        context.scene, joints=body.obj.rigid_body_constraint is not None
+    )
     parts = [(body.obj, _measured_part(body.obj, ask))]
     for part in body.members:
         try:
@@ -265,11 +253,13 @@ def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredObje
         moments = [measurement.mass_moments for measurement in measurements]
         whole = combine(moments, preferred_axes=measurements[0].rotation)
         unit = meters_per_unit(context.scene)
-        target = SnapTarget.of_body(body.obj, whole, whole.principal, unit)
+        target = snap_targets.SnapTarget.of_body(body.obj, whole, whole.principal, unit)
     else:
-        target = target_of(context, *parts[0])
-    if target.mass < MIN_MASS:
-        raise EditRefusedError(RIGID_BODY_MASS_TOO_SMALL, mass=float(target.mass), limit=MIN_MASS)
+        target = snap_targets.target_of(context, *parts[0])
+    if target.mass < rigid_world.MIN_MASS:
+        raise EditRefusedError(
+            findings.RIGID_BODY_MASS_TOO_SMALL, mass=float(target.mass), limit=rigid_world.MIN_MASS
+        )
     volume = sum(measurement.volume for measurement in measurements)
     return Measured(body, target, target.mass / volume, tuple(parts))
 
@@ -278,12 +268,12 @@ def _measured_part(part: Object, ask: Callable[[Object], MeasuredObject]) -> Mea
     """Measure a part of a body as it is now; raise EditRefusedError if it cannot belong to a rigid
     body.
     """
-    require_storable_data(part)
+    changes.require_storable_data(part)
     if part.type != "MESH":
-        raise EditRefusedError(RIGID_BODY_NEEDS_MESH)
+        raise EditRefusedError(findings.RIGID_BODY_NEEDS_MESH)
     measured = ask(part)
     if measured.measurement.method.procedure == Procedure.OPEN:
-        raise EditRefusedError(OPEN_OBJECT)
+        raise EditRefusedError(findings.OPEN_OBJECT)
     return measured
 
 
@@ -313,7 +303,7 @@ def _joint_in_place(context: Context, obj: Object) -> Object | None:
     empty.rotation_mode = "QUATERNION"
     empty.location = location
     empty.rotation_quaternion = turn
-    copy = add_joint(context, empty, joint.type)
+    copy = rigid_world.add_joint(context, empty, joint.type)
     for prop in joint.bl_rna.properties:
         if not prop.is_readonly:
             setattr(copy, prop.identifier, getattr(joint, prop.identifier))

@@ -15,13 +15,12 @@ from bpy.props import StringProperty
 from bpy.types import Context, Object, PropertyGroup, Scene
 
 from ...core.density import DENSITY_UNITS
+from ..settings import given, properties
 from ..settings.chosen import chosen_objects, pinned_object
-from ..settings.given import COLLIDER, GivenPartProperties, has_density
-from ..settings.properties import COPIED_PROPERTIES, BodyMomentsObjectSettings, comparable
 from . import memory
 from .tracking import armatures
 
-NAMES = (*COPIED_PROPERTIES, *("density_" + unit.lower() for unit in DENSITY_UNITS))
+NAMES = (*properties.COPIED_PROPERTIES, *("density_" + unit.lower() for unit in DENSITY_UNITS))
 SHAPE = {"kind", "wall", "thickness", "overlap", "density_from"}  # settings without use for volumes
 
 
@@ -59,9 +58,9 @@ def require_subject(context: Context) -> Object:
 def objects_with_settings(objects: Iterable[Object]) -> list[Object]:
     """Return the objects that have a density, colliders only if nothing else does, else empties."""
     objects = list(objects)
-    bodies = [obj for obj in objects if has_density(obj)]
+    bodies = [obj for obj in objects if given.has_density(obj)]
     return (
-        [obj for obj in bodies if COLLIDER not in obj]
+        [obj for obj in bodies if given.COLLIDER not in obj]
         or bodies
         or [obj for obj in objects if obj.type == "EMPTY"]
     )
@@ -101,7 +100,7 @@ def is_mixed(settings: PropertyGroup, name: str) -> bool:
         return False
     objects, mixed = _owners(bpy.context)
     if name not in mixed:
-        values = {comparable(getattr(obj.body_moments, name)) for obj in objects}
+        values = {properties.comparable(getattr(obj.body_moments, name)) for obj in objects}
         mixed[name] = len(values) > 1
     return mixed[name]
 
@@ -140,7 +139,9 @@ class BodyMomentsSelectionSettings(PropertyGroup):
     """Settings of the selected objects: each shows the first object's, and sets that of all."""
 
 
-ANNOTATIONS = GivenPartProperties.__annotations__ | BodyMomentsObjectSettings.__annotations__
+ANNOTATIONS = (
+    given.GivenPartProperties.__annotations__ | properties.BodyMomentsObjectSettings.__annotations__
+)
 BodyMomentsSelectionSettings.__annotations__ = {
     name: _of_all(name, ANNOTATIONS[name].function, ANNOTATIONS[name].keywords)
     for name in NAMES

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import bpy
 
 from ...core import density as density_engine
+from ...core import numerics
 from ...core.measurement.findings import DENSITY_FROM_VALUE
-from ...core.numerics import shortest_decimal
 from ...core.verdict.finding import Finding, ReadError, finding
 from .findings import (
     DENSITY_FROM_POLYNOMIAL,
@@ -89,12 +89,12 @@ def object_density(settings: bpy.types.PropertyGroup, scene: bpy.types.Scene) ->
     the scene's.
     """
     default = None if settings.is_property_set("density") else default_density(scene)
-    return shortest_decimal(settings.density) if default is None else default
+    return numerics.shortest_decimal(settings.density) if default is None else default
 
 
 def material_density(material: bpy.types.Material | None) -> float | None:
     """Return a material's density in kg/m³; None if there is no material, or it has no density."""
-    density = 0.0 if material is None else shortest_decimal(material.body_moments.density)
+    density = 0.0 if material is None else numerics.shortest_decimal(material.body_moments.density)
     return density if density > 0.0 else None
 
 

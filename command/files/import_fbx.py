@@ -17,16 +17,15 @@ from ...core.files import MALFORMED, fbx_tree, map_file
 from ...core.numerics import Array
 from ...core.verdict.finding import Finding, finding
 from ..findings import FILE_HIDES, PLACES_UNCHECKED
+from . import placing, references
 from .fbx_models import FbxModel, fbx_models, fbx_to_scene
-from .placing import MOST_WEIGHT, is_at, measure_at, place_objects
-from .references import Opened
 
 # What the importer adds to the name of a model: for a mesh that others share, or a name is taken.
 _ADDED = re.compile(r"(_GeomAdjust)?(\.\d{3,})?$")
 _SAME_POINT = 1e-6  # relative to the largest coordinate; larger than the rounding of float32
 
 
-def import_fbx(path: str, frame: float | None) -> Opened:
+def import_fbx(path: str, frame: float | None) -> references.Opened:
     """Import an .fbx file at a frame, by default its first: each object at the place that the file
     states; hidden objects and coarser levels of detail are not rendered.
 
@@ -38,9 +37,11 @@ def import_fbx(path: str, frame: float | None) -> Opened:
         bpy.data.objects[name].hide_viewport = False
     moving = [shapes for shapes in bpy.data.shape_keys if shapes.animation_data is not None]
     for block in (block for shapes in moving for block in shapes.key_blocks):
-        block.slider_min = -MOST_WEIGHT  # The importer's 0 to 1 would clamp animated weights.
-        block.slider_max = MOST_WEIGHT
-    notes = measure_at(frame)
+        block.slider_min = (
+            -placing.MOST_WEIGHT
+        )  # The importer's 0 to 1 would clamp animated weights.
+        block.slider_max = placing.MOST_WEIGHT
+    notes = placing.measure_at(frame)
     findings: dict[str, tuple[Finding, ...]] = {}
     coarse: set[str] = set()
     try:
@@ -53,7 +54,7 @@ def import_fbx(path: str, frame: float | None) -> Opened:
         coarse = {obj.name for obj, model in pairs if model in levels}
         doubts = _correct(groups, fbx_to_scene(root), any(model.is_apart for model in models))
         for obj in (obj for obj, _ in pairs if obj.data.shape_keys in moving):
-            if any(abs(one.value) >= MOST_WEIGHT for one in obj.data.shape_keys.key_blocks):
+            if any(abs(one.value) >= placing.MOST_WEIGHT for one in obj.data.shape_keys.key_blocks):
                 doubts[obj.name] = "the weight of a shape key exceeds ±10"
         findings = {
             name: (finding(PLACES_UNCHECKED, cause=cause),) for name, cause in doubts.items()
@@ -65,7 +66,7 @@ def import_fbx(path: str, frame: float | None) -> Opened:
     hidden |= dict.fromkeys(coarse, finding(FILE_HIDES, cause="it is a coarser level of detail"))
     for name in hidden:
         bpy.data.objects[name].hide_render = True
-    return Opened(notes=notes, by_object=findings, hidden=hidden)
+    return references.Opened(notes=notes, by_object=findings, hidden=hidden)
 
 
 def _groups(models: list[FbxModel]) -> list[tuple[list[Object], list[FbxModel]]]:
@@ -103,14 +104,14 @@ def _correct(
                 continue
             place = _place(obj, model, to_scene)
             if place is not None and (
-                is_at(obj, place) or len(models) == 1 and model.place.doubt is None
+                placing.is_at(obj, place) or len(models) == 1 and model.place.doubt is None
             ):
                 places[obj.name] = place
             elif place is None:
                 doubts[obj.name] = "its points are not those of the file"
             else:
                 doubts[obj.name] = model.place.doubt or "names are not unique"
-    place_objects(places)
+    placing.place_objects(places)
     return doubts
 
 

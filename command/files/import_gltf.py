@@ -18,13 +18,11 @@ import bpy
 import numpy as np
 from bpy.types import Object
 
-from ...core.cad import UPRIGHT
-from ...core.files import FILE_UNREADABLE, MALFORMED, GltfFile, map_file, node_matrix
+from ...core import cad, files
 from ...core.numerics import Array
 from ...core.verdict.finding import FileError, Finding, finding
 from ..findings import FILE_HIDES, PLACES_UNCHECKED
-from .placing import MOST_WEIGHT, measure_at, place_objects
-from .references import Opened
+from . import placing, references
 
 ADD_ON = "io_scene_gltf2"  # It comes with Blender, and may be switched off.
 # Errors of the importer about a library, which the bpy module and some builds lack.
@@ -50,7 +48,7 @@ class _Shown(NamedTuple):
     is_skinned: bool
 
 
-def import_gltf(path: str, frame: float | None) -> Opened:
+def import_gltf(path: str, frame: float | None) -> references.Opened:
     """Import a .gltf or .glb file: each object at the place, and each morph target with the weight,
     that the file states at the frame, by default its first. Raise FileError, RuntimeError, and
     AttributeError without an importer.
@@ -84,17 +82,19 @@ def import_gltf(path: str, frame: float | None) -> Opened:
         if missing is None:
             raise
         name = (missing[1] or missing[2]).capitalize()
-        raise FileError(FILE_UNREADABLE, error=_NO_DECODER.format(name)) from error
+        raise FileError(files.FILE_UNREADABLE, error=_NO_DECODER.format(name)) from error
     finally:
         del module.glTF2ImportUserExtension
     for name in hidden:
         bpy.data.objects[name].hide_render = True
-    notes = measure_at(frame)
+    notes = placing.measure_at(frame)
     try:
-        _correct(_Pose(GltfFile(map_file(path), path), _seconds() if notes else 0.0), shown)
-    except MALFORMED:  # Such as compressed animations.
+        _correct(
+            _Pose(files.GltfFile(files.map_file(path), path), _seconds() if notes else 0.0), shown
+        )
+    except files.MALFORMED:  # Such as compressed animations.
         notes = (*notes, finding(PLACES_UNCHECKED, cause="its nodes or animations are unreadable"))
-    return Opened(notes=notes, hidden=hidden)
+    return references.Opened(notes=notes, hidden=hidden)
 
 
 def _seconds() -> float:
@@ -132,7 +132,7 @@ def _node_of(vnode: Any, gltf: Any) -> _Shown:
     if not is_instance:
         return _Shown(number, np.eye(4), keys, node.skin is not None)
     translation, rotation, scale = vnode.trs()
-    local = node_matrix(
+    local = files.node_matrix(
         {"translation": translation, "rotation": np.roll(rotation, -1), "scale": scale}
     )
     return _Shown(number, local, keys, False)
@@ -141,7 +141,7 @@ def _node_of(vnode: Any, gltf: Any) -> _Shown:
 class _Pose:
     """The nodes of a glTF file at a time of its first animation, the one that Blender shows."""
 
-    def __init__(self, file: GltfFile, seconds: float) -> None:
+    def __init__(self, file: files.GltfFile, seconds: float) -> None:
         self._document = file.document
         self._nodes = self._document.get("nodes", [])
         self._parents = {
@@ -164,7 +164,7 @@ class _Pose:
         matrix = np.eye(4)
         line: int | None = number
         while line is not None:
-            matrix = node_matrix(self._nodes[line] | self._animated.get(line, {})) @ matrix
+            matrix = files.node_matrix(self._nodes[line] | self._animated.get(line, {})) @ matrix
             line = self._parents.get(line)
         return matrix
 
@@ -186,7 +186,7 @@ def _target(target: dict[str, Any]) -> tuple[int, str] | None:
     return (number, part) if number is not None and part in _PARTS else None
 
 
-def _sampled(file: GltfFile, sampler: dict[str, Any], seconds: float, part: str) -> Array:
+def _sampled(file: files.GltfFile, sampler: dict[str, Any], seconds: float, part: str) -> Array:
     """Return the values of a sampler of an animation at a time: constant outside of its keys."""
     times = file.numbers(sampler["input"])[:, 0]
     values = file.numbers(sampler["output"])
@@ -229,9 +229,9 @@ def _correct(pose: _Pose, shown: dict[str, _Shown]) -> None:
             for key, weight in zip(node.keys, pose.weights(node.number)):
                 if key is not None:
                     _set_weight(shapes, shapes.key_blocks[key], float(weight))
-    place_objects(
+    placing.place_objects(
         {
-            name: UPRIGHT @ pose.place(node.number) @ np.linalg.inv(UPRIGHT) @ node.local
+            name: cad.UPRIGHT @ pose.place(node.number) @ np.linalg.inv(cad.UPRIGHT) @ node.local
             for name, node in shown.items()
             if not node.is_skinned
         }
@@ -243,12 +243,12 @@ def _set_weight(shapes: bpy.types.Key, block: bpy.types.ShapeKey, weight: float)
     if abs(block.value - weight) <= _SAME_WEIGHT * max(1.0, abs(weight)):
         return
     shapes.animation_data_clear()
-    growth = 2.0 ** max(0, math.ceil(math.log2(max(abs(weight), 1.0) / MOST_WEIGHT)))
+    growth = 2.0 ** max(0, math.ceil(math.log2(max(abs(weight), 1.0) / placing.MOST_WEIGHT)))
     if growth > 1.0:
         rest, offset = (np.empty(3 * len(one.data), np.float32) for one in (block, block))
         block.relative_key.data.foreach_get("co", rest)
         block.data.foreach_get("co", offset)
         block.data.foreach_set("co", rest + np.float32(growth) * (offset - rest))
-    block.slider_min = -MOST_WEIGHT
-    block.slider_max = MOST_WEIGHT
+    block.slider_min = -placing.MOST_WEIGHT
+    block.slider_max = placing.MOST_WEIGHT
     block.value = weight / growth

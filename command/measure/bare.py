@@ -18,26 +18,11 @@ from typing import Any
 
 from ...blender.session.findings import NO_SUCH_NAME
 from ...blender.write.thumbnail import thumbnail
-from ...core.bodies import (
-    DENSITY_DEFAULTED,
-    SHAPE_OF_GRID,
-    ArrayOptions,
-    about_file,
-    body_of_mesh,
-    measure_array,
-    measure_labels,
-    measure_mesh_file,
-    measure_reading,
-    read_mesh,
-)
-from ...core.cad import has_surfaces, read_meshes
+from ...core import bodies, cad, robots, streams, verdict
 from ...core.files import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...core.measurement import Measurement, PrintSettings, Settings, record
-from ...core.robots import FORMATS as ROBOT_FORMATS
 from ...core.scans import LABEL_ABSENT, Label, read_label_table
 from ...core.scans import formats as scans
-from ...core.streams import FileMesh
-from ...core.verdict import open_body_caveats
 from ...core.verdict.finding import (
     FileError,
     Finding,
@@ -57,10 +42,8 @@ from ..findings import (
     STREAM_OPTIONS,
     UNIT_ASSUMED,
 )
-from ..options.arguments import NEEDS_BLENDER, boolean_and_wire, options_of_blender, words
-from ..options.checks import OF_ARRAYS, body_findings, density_of, file_findings, unused
-from ..supervisor.listing import UNITLESS
-from ..supervisor.processes import has_blender
+from ..options import arguments, checks
+from ..supervisor import listing, processes
 from .cuts import cut_entries, is_open_sheet
 from .entries import Contents, failure
 from .floating import floating_entry
@@ -110,7 +93,7 @@ class BareFile:
         else:
             check_file(self._path)
             self._measure_meshes(contents)
-        contents.caveats += open_body_caveats(
+        contents.caveats += verdict.open_body_caveats(
             (label, one.method) for label, _, one in contents.measured
         )
 
@@ -121,7 +104,7 @@ class BareFile:
 
     def complete(self, document: dict[str, Any], contents: Contents) -> dict[str, Any]:
         """Return a document with its text as a robot, if one is requested, which needs Blender."""
-        if self.options.format not in ROBOT_FORMATS:
+        if self.options.format not in robots.FORMATS:
             return document
         wanted = measure.scene.measure_options(self.options, self._threads)
         return measure.robots.complete(
@@ -136,7 +119,7 @@ class BareFile:
         options = self.options
         return Settings(
             kind=options.kind or "solid",
-            density=density_of(options),
+            density=checks.density_of(options),
             mass=options.mass,
             thickness=options.thickness or 0.0,
             wall=options.wall or "thin",
@@ -149,10 +132,10 @@ class BareFile:
     def _mesh_settings(self) -> tuple[Settings, list[Finding]]:
         """Return the settings of meshes, and the findings about the file."""
         settings = replace(self._settings(), unit=self.options.unit_scale or 1.0)
-        findings = [*file_findings(self._path, self.options)]
+        findings = [*checks.file_findings(self._path, self.options)]
         if settings.density is None and settings.mass is None:
             settings = replace(settings, density=DEFAULT_DENSITY)
-            findings.append(finding(DENSITY_DEFAULTED, density="1000 kg/m³"))
+            findings.append(finding(bodies.DENSITY_DEFAULTED, density="1000 kg/m³"))
         return settings, findings
 
     def _chosen(self, names: Iterable[str], contents: Contents) -> list[str]:
@@ -183,13 +166,13 @@ class BareFile:
             self._measure_array(name, count) if is_scan else self._measure_stream(name, count)
         )
         requested = [more for more in ("pose", "signature") if getattr(self.options, more)]
-        shapeless = unused(requested)
+        shapeless = checks.unused(requested)
         if is_scan:
-            shapeless = [finding(SHAPE_OF_GRID)] * bool(requested)
+            shapeless = [finding(bodies.SHAPE_OF_GRID)] * bool(requested)
         floats = ["float"] if self.options.float else []
         more = dict.fromkeys([*requested, *["thumbnail"] * bool(self.options.thumbnails)])
         more |= dict.fromkeys(["floating"] * len(floats))
-        self._add(contents, measurement, [*shapeless, *unused(floats)], more)
+        self._add(contents, measurement, [*shapeless, *checks.unused(floats)], more)
 
     def _measure_labels(self, name: str, contents: Contents) -> None:
         """Measure the labels of a label map, each with a record of its own."""
@@ -197,11 +180,11 @@ class BareFile:
         settings, findings = self._mesh_settings()
         table = {}
         if options.label_table is not None:
-            with about_file(options.label_table.name):
+            with bodies.about_file(options.label_table.name):
                 table = read_label_table(options.label_table, options.limits)
         wanted = None if options.label == "all" else [options.label]
         array = self._array_options()
-        measured = measure_labels(
+        measured = bodies.measure_labels(
             self._path, name, array, replace(settings, unit=1.0), wanted, table
         )
         absent = [more["label"]["value"] for _, more in measured]
@@ -211,24 +194,32 @@ class BareFile:
             raise FileError(LABEL_ABSENT, file=options.label_table.name, **values)
         findings = [one for one in findings if one.code not in (UNIT_ASSUMED, OPTIONS_UNUSED)]
         requested = ("spline_order", "density_scale", "pose", "signature", "fourier")
-        findings += unused(one for one in requested if getattr(options, one))
+        findings += checks.unused(one for one in requested if getattr(options, one))
         chosen = self._chosen([one.name for one, _ in measured], contents)
         for one, more in measured:
             density = table.get(more["label"]["value"], Label()).density
-            own = [each for each in findings if density is None or each.code != DENSITY_DEFAULTED]
+            own = [
+                each
+                for each in findings
+                if density is None or each.code != bodies.DENSITY_DEFAULTED
+            ]
             if one.name in chosen:
                 self._add(contents, one, own, more)
 
     def _measure_array(self, name: str, progress: Callable[[int], None]) -> Measurement:
-        return measure_array(self._path, name, self._array_options(), self._settings(), progress)
+        return bodies.measure_array(
+            self._path, name, self._array_options(), self._settings(), progress
+        )
 
-    def _array_options(self) -> ArrayOptions:
+    def _array_options(self) -> bodies.ArrayOptions:
         taken = {
             one: getattr(self.options, one)
-            for one in (*OF_ARRAYS, "unit_scale", "limits", "threshold")
+            for one in (*checks.OF_ARRAYS, "unit_scale", "limits", "threshold")
         }
         taken["positions"] = dict(self.options.positions or ())
-        return ArrayOptions(**{one: value for one, value in taken.items() if value is not None})
+        return bodies.ArrayOptions(
+            **{one: value for one, value in taken.items() if value is not None}
+        )
 
     def _measure_stream(self, name: str, progress: Callable[[int], None]) -> Measurement:
         check_file(self._path)
@@ -236,18 +227,20 @@ class BareFile:
         given = [
             one for one in _NOT_OF_STREAMS if getattr(options, one) not in (None, "thin", "value")
         ]
-        given += [*boolean_and_wire(options), *["kind"] * (options.kind == "printed")]
+        given += [*arguments.boolean_and_wire(options), *["kind"] * (options.kind == "printed")]
         if given:
-            raise QueryError(STREAM_OPTIONS, options=words(given))
+            raise QueryError(STREAM_OPTIONS, options=arguments.words(given))
         settings, findings = self._mesh_settings()
-        return measure_mesh_file(self._path, name, settings, tuple(findings), progress)
+        return bodies.measure_mesh_file(self._path, name, settings, tuple(findings), progress)
 
     def _measure_meshes(self, contents: Contents) -> None:
         """Measure the meshes of a file, each with a name of its own."""
         try:
-            if file_suffix(self._path) == ".obj" and has_surfaces(self._path):
-                raise FileError(FILE_UNREADABLE, error=NEEDS_BLENDER.format("its surfaces need"))
-            meshes, upright = read_meshes(self._path)
+            if file_suffix(self._path) == ".obj" and cad.has_surfaces(self._path):
+                raise FileError(
+                    FILE_UNREADABLE, error=arguments.NEEDS_BLENDER.format("its surfaces need")
+                )
+            meshes, upright = cad.read_meshes(self._path)
         except OSError as error:
             raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
         if not meshes:
@@ -259,18 +252,18 @@ class BareFile:
             if mesh.name not in chosen:
                 continue
             try:
-                reading = read_mesh(mesh, upright)
+                reading = bodies.read_mesh(mesh, upright)
                 try:
-                    body = body_of_mesh(reading, settings)
-                    measurement = measure_reading(reading, body, settings)
+                    body = bodies.body_of_mesh(reading, settings)
+                    measurement = bodies.measure_reading(reading, body, settings)
                     sheet = []
                 except MeasureError as refusal:
                     if not is_open_sheet(refusal, self.options):
                         raise
                     thickness = self.options.thickness or DEFAULT_THICKNESS
                     shell = replace(settings, kind="shell", thickness=thickness)
-                    body = body_of_mesh(reading, shell)
-                    measurement = measure_reading(reading, body, shell)
+                    body = bodies.body_of_mesh(reading, shell)
+                    measurement = bodies.measure_reading(reading, body, shell)
                     sheet = [finding(MEASURED_AS_SHELL)]
                 more, of_liquid = {}, ()
                 if self.options.float:
@@ -299,7 +292,7 @@ class BareFile:
     ) -> None:
         """Add a measurement and its record. findings: about its file. more: parts of the record."""
         options = self.options
-        findings = (*measurement.findings, *findings, *body_findings(options, measurement))
+        findings = (*measurement.findings, *findings, *checks.body_findings(options, measurement))
         measurement = replace(measurement, findings=findings)
         surface = measurement.area_moments if options.surface_moments else None
         contents.objects.append(
@@ -308,7 +301,7 @@ class BareFile:
         contents.measured.append((measurement.name, None, measurement))
 
 
-def _with_own_names(meshes: list[FileMesh]) -> list[FileMesh]:
+def _with_own_names(meshes: list[streams.FileMesh]) -> list[streams.FileMesh]:
     """Return the meshes, later ones of a name with numbers behind it, as Blender names objects."""
     names: set[str] = set()
     named = []
@@ -327,17 +320,17 @@ def is_bare(path: str, options: Namespace, memory: int | None) -> bool:
     """Return whether a file is measured without Blender. memory: bytes that measuring it may take,
     None for any.
     """
-    if scans.scan_suffix(path) or not has_blender():
+    if scans.scan_suffix(path) or not processes.has_blender():
         return True
     suffix = file_suffix(path)
-    if suffix not in UNITLESS:
+    if suffix not in listing.UNITLESS:
         return False
     if is_streamed(path, options, memory):
         return True
-    if options_of_blender(options, False):
+    if arguments.options_of_blender(options, False):
         return False
     with suppress(OSError, ValueError):  # Reading reports the error.
-        return suffix != ".obj" or not has_surfaces(path)
+        return suffix != ".obj" or not cad.has_surfaces(path)
     return True
 
 

@@ -16,7 +16,6 @@ from ...core.measurement import FRAMES
 from ...core.robots import FORMATS as ROBOT_FORMATS
 from ..parser import COMMANDS, Parser
 from . import option_types as types
-from .option_types import FORMATS
 
 DEFAULT_ORDER = 2  # For --surface-moments without --order: the order that inertia needs.
 DEFAULT_TIMEOUT = 1800.0  # seconds for one file
@@ -270,7 +269,7 @@ def _add_results(parser: Parser) -> None:
         "--thumbnails", "add a small picture of each body with its principal axes, for `report`"
     )
     parser.value(
-        "--format", types.format_name, "{" + ",".join(FORMATS) + "}", "(json)", default="json"
+        "--format", types.format_name, "{" + ",".join(types.FORMATS) + "}", "(json)", default="json"
     )
     robots = ", ".join(ROBOT_FORMATS) + ": "
     parser.flag(

@@ -12,10 +12,8 @@ from argparse import ArgumentTypeError
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
-from ...core.density import BY_NAME
-from ...core.files import parse_number, parse_whole
+from ...core import density, files, robots
 from ...core.measurement import documents
-from ...core.robots import FORMATS as ROBOT_FORMATS
 from ..parser import COMMANDS
 
 # Equal to the values in the core, which needs numpy: the process that supervises others may have
@@ -41,7 +39,7 @@ def _to_robot(file_documents: Iterable[dict[str, Any]]) -> Iterator[str]:
 
 
 # Functions from documents, which may be iterated twice, to pieces of text.
-FORMATS = documents.FORMATS | dict.fromkeys(ROBOT_FORMATS, _to_robot)
+FORMATS = documents.FORMATS | dict.fromkeys(robots.FORMATS, _to_robot)
 
 
 def command(text: str) -> str:
@@ -54,7 +52,7 @@ def command(text: str) -> str:
 def _float(text: str) -> float:
     """Return the number, or NaN for other text."""
     try:
-        return parse_number(text.strip())
+        return files.parse_number(text.strip())
     except ValueError:
         return math.nan
 
@@ -66,7 +64,7 @@ def _bounded(name: str, least: int, most: int) -> Callable[[str], int]:
 
     def parse(text: str) -> int:
         try:
-            value = parse_whole(text.strip())
+            value = files.parse_whole(text.strip())
         except ValueError:
             value = least - 1
         if not least <= value <= most:
@@ -137,7 +135,7 @@ def print_settings(text: str) -> tuple[tuple[str, float], ...]:
 def label(text: str) -> int | str:
     """Return the number of a label, or “all”."""
     try:
-        return text if text == "all" else parse_whole(text.strip())
+        return text if text == "all" else files.parse_whole(text.strip())
     except ValueError:
         raise ArgumentTypeError("{!r} is not a whole number or all".format(text)) from None
 
@@ -199,7 +197,9 @@ def source(text: str) -> str:
 def liquid(text: str) -> float:
     """Return the density of a liquid, kg/m³, from its name or as a number."""
     liquids = {
-        one.casefold(): BY_NAME[one] for one in BY_NAME if BY_NAME[one].category == "Liquids"
+        one.casefold(): density.BY_NAME[one]
+        for one in density.BY_NAME
+        if density.BY_NAME[one].category == "Liquids"
     }
     name = "oil, hydraulic" if text.casefold() == "oil" else text.casefold()
     if name in liquids:

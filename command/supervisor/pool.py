@@ -21,8 +21,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO, Any
 
-from . import processes
-from .lifeline import MARK
+from . import lifeline, processes
 
 ATTEMPTS = 2  # for a file that ends its child; the second in a fresh child
 START_LIMIT = 300.0  # seconds in which a child must be ready
@@ -212,8 +211,8 @@ class Pool:
         # a child that answers nonsense counts as dead
         with suppress(ValueError, TypeError, AttributeError, OSError):
             while line := stream.readline():
-                if line.startswith(MARK):
-                    head = json.loads(line[len(MARK) :])
+                if line.startswith(lifeline.MARK):
+                    head = json.loads(line[len(lifeline.MARK) :])
                     size = head.get("bytes", 0)
                     data = stream.read(size)
                     if len(data) == size:

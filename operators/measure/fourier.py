@@ -22,10 +22,8 @@ from ...blender.read.visibility import measurable
 from ...blender.session.selected import require_subject, subject
 from ...blender.write import reports
 from ...blender.write.findings import FILE_NOT_WRITTEN
-from ...core.numerics import shortest_decimal
-from ...core.verdict import FileError, system_reason
-from .. import selection
-from ..modal import ModalSteps
+from ...core import numerics, verdict
+from .. import modal, selection
 
 if TYPE_CHECKING:
     from ...blender.bodies.fourier import ObjectTransform
@@ -34,7 +32,7 @@ if TYPE_CHECKING:
 SUFFIX = ".npz"
 
 
-class OBJECT_OT_body_moments_fourier(ModalSteps, Operator):
+class OBJECT_OT_body_moments_fourier(modal.ModalSteps, Operator):
     """Ask for a file and a grid, then write the Fourier transform of the active object."""
 
     bl_idname = "object.body_moments_fourier"
@@ -134,7 +132,9 @@ class OBJECT_OT_body_moments_fourier(ModalSteps, Operator):
         depsgraph = context.evaluated_depsgraph_get()
         self._path = Path(bpy.path.abspath(bpy.path.ensure_ext(self.filepath, SUFFIX)))
         if not self._path.parent.is_dir():
-            raise FileError(FILE_NOT_WRITTEN, file=self._path.name, error=os.strerror(ENOENT))
+            raise verdict.FileError(
+                FILE_NOT_WRITTEN, file=self._path.name, error=os.strerror(ENOENT)
+            )
         self._dimension, frame = 2 if self.of == "FLAT" else 3, self.frame.lower()
         self._work: ObjectTransform
         if self.of == "FLAT":
@@ -153,7 +153,7 @@ class OBJECT_OT_body_moments_fourier(ModalSteps, Operator):
 
         Without a given largest frequency, its step is π over the size.
         """
-        largest = shortest_decimal(self.largest) or pi / size * (self.count // 2)
+        largest = numerics.shortest_decimal(self.largest) or pi / size * (self.count // 2)
         return core.fourier.FrequencyGrid(self.count, largest, self._dimension)
 
     def _finish(self, context: Context) -> set[str]:
@@ -161,8 +161,8 @@ class OBJECT_OT_body_moments_fourier(ModalSteps, Operator):
         try:
             write.spectrum.save(self._path, transform, self.frame.lower(), plane=self._work.arrays)
         except OSError as error:
-            raise FileError(
-                FILE_NOT_WRITTEN, file=self._path.name, error=system_reason(error)
+            raise verdict.FileError(
+                FILE_NOT_WRITTEN, file=self._path.name, error=verdict.system_reason(error)
             ) from error
         name = "Fourier Transform of {:s}".format(self._work.name)
         image = write.spectrum.picture(name, transform.values, self.count, self._dimension)

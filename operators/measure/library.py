@@ -18,8 +18,7 @@ from bpy.types import Context, Event, Operator
 
 from ... import command
 from ...blender.write import reports
-from ...core import measurement
-from ...core.verdict import Severity, system_reason
+from ...core import measurement, verdict
 from .. import selection
 from ..modal import ModalSteps
 
@@ -99,7 +98,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
             return selection.reporting(self, self._run, context, in_window)
         except OSError as error:
             return selection.refuse(
-                self, "No process can be started: {error}.", error=system_reason(error)
+                self, "No process can be started: {error}.", error=verdict.system_reason(error)
             )
 
     def modal(self, context: Context, event: Event) -> set[str]:
@@ -158,7 +157,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
         counts = {"count": len(paths), "failed": failed, "file": str(self._folder / REPORT)}
         if failed:
             text = "Files measured: {count}, not or not fully: {failed}; report: {file}"
-            reports.report(self, reports.phrase(text, **counts), level=Severity.WARNING)
+            reports.report(self, reports.phrase(text, **counts), level=verdict.Severity.WARNING)
         else:
             texts = (
                 "{count} file measured; report: {file}",

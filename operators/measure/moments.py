@@ -14,8 +14,7 @@ from mathutils import Vector
 
 from ...blender import bodies
 from ...blender.read.visibility import SECTION_TYPES, measurable
-from ...blender.session import stored
-from ...blender.session.selected import require_subject, subject
+from ...blender.session import selected, stored
 from ...blender.write import properties, reports
 from ...core.inertia import tensor_rows
 from ...core.verdict import MeasureError, Severity, of_severity
@@ -41,12 +40,12 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        obj = subject(context)
+        obj = selected.subject(context)
         is_measurable = obj is not None and measurable(obj)
         return is_measurable or reports.unavailable(cls, "Make a measurable object active")
 
     def execute(self, context: Context) -> set[str]:
-        obj = require_subject(context)
+        obj = selected.require_subject(context)
         order: int = context.scene.body_moments.moments_order
         try:
             computed, findings = stored.compute_moments(context, obj, order)

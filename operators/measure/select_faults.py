@@ -17,8 +17,7 @@ from ...blender.session.tracking import staleness
 from ...blender.write import properties, reports
 from ...core.verdict import FLIPPED_FACES
 from ...core.verdict.finding import finding
-from .. import selection
-from ..findings import OBJECT_WARNINGS
+from .. import findings, selection
 
 if TYPE_CHECKING:
     from ...core.measurement import Measurement
@@ -106,7 +105,7 @@ class OBJECT_OT_body_moments_select_faults(Operator):
             texts = ("Measured {count} object: no defects", "Measured {count} objects: no defects")
             text = reports.phrase(*texts, count=len(done))
         defects = [
-            finding(OBJECT_WARNINGS, object=obj.name, causes=_counts(found))
+            finding(findings.OBJECT_WARNINGS, object=obj.name, causes=_counts(found))
             for obj, found in faults.items()
         ]
         return selection.summarize(self, len(done), len(objects), text, failures, defects)

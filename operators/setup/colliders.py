@@ -21,9 +21,7 @@ from ...blender import scene, session
 from ...blender.settings.given import COLLIDER, COLLIDERS
 from ...blender.write import reports
 from ...core.verdict.finding import EditRefusedError, Finding, finding
-from .. import selection
-from ..findings import COLLIDERS_BEYOND_TOLERANCE, PRIMITIVE_HAS_PARENT
-from ..modal import ModalSteps
+from .. import findings, modal, selection
 
 if TYPE_CHECKING:
     from ...blender.session.colliders import Plan
@@ -65,7 +63,7 @@ ENGINES = (
 MAX_SHOWN_NAMES = 4
 
 
-class _Making(selection.OnSelectionInObjectMode, ModalSteps):
+class _Making(selection.OnSelectionInObjectMode, modal.ModalSteps):
     """Base of operators that make colliders: `_wanted` returns the fields of `Wanted`."""
 
     PROGRESS = "Making colliders: {share:.0%}. Esc to cancel"
@@ -104,7 +102,7 @@ class _Making(selection.OnSelectionInObjectMode, ModalSteps):
             done += "; " + reports.phrase(text, share=self._plans[0].record["volume_ratio"])
         beyond = [
             finding(
-                COLLIDERS_BEYOND_TOLERANCE,
+                findings.COLLIDERS_BEYOND_TOLERANCE,
                 object=plan.obj.name,
                 outward=plan.record["outward"],
                 inward=plan.record["inward"],
@@ -253,7 +251,7 @@ class OBJECT_OT_body_moments_equal_inertia(_Making, Operator):
 
     def _check(self, obj: Object) -> None:
         if self.rigid_body and (not obj.is_editable or obj.parent is not None):
-            raise EditRefusedError(PRIMITIVE_HAS_PARENT)
+            raise EditRefusedError(findings.PRIMITIVE_HAS_PARENT)
         if self.rigid_body:
             scene.rigid_world.require_rigid_world(bpy.context.scene)
 

@@ -11,10 +11,8 @@ from bpy.types import Context, Object, Operator
 
 from ...blender.scene.changes import require_storable_data
 from ...blender.session.selected import objects_with_settings
+from ...blender.settings import given, preferences, properties
 from ...blender.settings.chosen import chosen_objects
-from ...blender.settings.given import has_density
-from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
-from ...blender.settings.properties import COPIED_PROPERTIES, copy_settings
 from ...blender.write import reports
 from ...core.density import BY_NAME
 from .. import selection
@@ -39,7 +37,7 @@ class OBJECT_OT_body_moments_set_material(Operator):
     material: EnumProperty(
         name="Material",
         description="Material to take the density from",
-        items=MATERIAL_ITEMS,
+        items=preferences.MATERIAL_ITEMS,
     )
     target: StringProperty(
         name="Object",
@@ -52,11 +50,11 @@ class OBJECT_OT_body_moments_set_material(Operator):
         return {"RUNNING_MODAL"}
 
     def execute(self, context: Context) -> set[str]:
-        copy_defaults(context.scene)
+        preferences.copy_defaults(context.scene)
         material = BY_NAME[self.material]
         named = [obj for obj in context.view_layer.objects if obj.name_full == self.target]
         objects = objects_with_settings(named or context.view_layer.objects.selected)
-        if not objects or not has_density(objects[0]):
+        if not objects or not given.has_density(objects[0]):
             return selection.refuse(self, "Select objects")
 
         def set_density(obj: Object) -> bool:
@@ -92,7 +90,7 @@ class MATERIAL_OT_body_moments_set_density(Operator):
     material: EnumProperty(
         name="Material",
         description="Entry of the material table to take the density from",
-        items=MATERIAL_ITEMS,
+        items=preferences.MATERIAL_ITEMS,
     )
     target: StringProperty(
         name="Blender Material",
@@ -144,7 +142,7 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
 
         def copy(obj: Object) -> bool:
             require_storable_data(obj)
-            return copy_settings(active.body_moments, obj.body_moments)
+            return properties.copy_settings(active.body_moments, obj.body_moments)
 
         copied, failures = selection.apply_to_all(objects, copy)
         texts = ("Copied the settings to {count} object", "Copied the settings to {count} objects")
@@ -162,7 +160,9 @@ class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):
     preset_subdir = PRESET_FOLDER
     preset_defines = ["settings = bpy.context.object.body_moments"]
     # an object
-    preset_values = ["settings." + name for name in COPIED_PROPERTIES if name != "density_volume"]
+    preset_values = [
+        "settings." + name for name in properties.COPIED_PROPERTIES if name != "density_volume"
+    ]
 
     def execute(self, context: Context) -> set[str]:
         chosen = objects_with_settings(chosen_objects(context))

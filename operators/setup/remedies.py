@@ -11,12 +11,11 @@ from bpy.types import Context, Object, Operator
 from ...blender import bodies, scene
 from ...blender.read.visibility import measurable
 from ...blender.scene.changes import require_storable_data
-from ...blender.session import displayed
-from ...blender.session.selected import require_subject, subject
+from ...blender.session import displayed, selected
 from ...blender.session.stored import outcome
 from ...blender.settings.accepted import accepted_codes, set_accepted, with_acceptance
 from ...blender.settings.preferences import copy_defaults
-from ...blender.write import properties, reports
+from ...blender.write import properties, reports, translations
 from ...blender.write.remedies import (
     DUPLICATES,
     EDITS,
@@ -28,13 +27,11 @@ from ...blender.write.remedies import (
     SHELL,
     UNION,
 )
-from ...blender.write.translations import localized
-from ...core.solid import INVERTED_COMPONENTS
-from ...core.verdict import FLIPPED_FACES, MeasureError, Severity, of_severity
+from ...core import solid, verdict
 from .. import selection
 
 # Findings that list the reversed faces; an empty list means all faces.
-REVERSED = (FLIPPED_FACES, INVERTED_COMPONENTS)
+REVERSED = (verdict.FLIPPED_FACES, solid.INVERTED_COMPONENTS)
 MILLIMETER = 0.001
 
 
@@ -51,15 +48,15 @@ class _OnSubject:
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        obj = subject(context)
+        obj = selected.subject(context)
         is_measurable = obj is not None and measurable(obj)
         return is_measurable or reports.unavailable(cls, "Make a measurable object active")
 
     def execute(self, context: Context) -> set[str]:
-        obj = require_subject(context)
+        obj = selected.require_subject(context)
         try:
             return self._change(context, obj)
-        except MeasureError as refusal:
+        except verdict.MeasureError as refusal:
             return selection.refuse(self, reports.failure(obj.name_full, refusal))
 
     def _change(self, context: Context, obj: Object) -> set[str]:
@@ -90,10 +87,10 @@ class OBJECT_OT_body_moments_remedy(_OnSubject, Operator):
 
     @classmethod
     def description(cls, _context: Context, values) -> str:
-        text = localized("{:s}, and measure the object again").format(
-            localized(REMEDIES[values.remedy].description)
+        text = translations.localized("{:s}, and measure the object again").format(
+            translations.localized(REMEDIES[values.remedy].description)
         )
-        others = ". " + localized("Other objects that use the mesh change too")
+        others = ". " + translations.localized("Other objects that use the mesh change too")
         return text + others if values.remedy in EDITS else text
 
     def draw(self, _context: Context) -> None:
@@ -194,7 +191,7 @@ class OBJECT_OT_body_moments_accept(_OnSubject, Operator):
         """Accept a code, or every warning without one, on the objects that the panel is about."""
         changed = False
         for shown in displayed.shown_objects(context):
-            own = of_severity(properties.findings(shown), Severity.WARNING)
+            own = verdict.of_severity(properties.findings(shown), verdict.Severity.WARNING)
             codes = {self.code} if self.code else {found.code for found in own}
             if shown != obj and not codes & {found.code for found in properties.findings(shown)}:
                 continue

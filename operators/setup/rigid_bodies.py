@@ -17,13 +17,11 @@ from ...blender.read.tracking import tracking_paused
 from ...blender.scale import meters_per_unit
 from ...blender.scene.changes import require_storable_data
 from ...blender.scene.findings import RIGID_BODY_MASS_TOO_SMALL, RIGID_BODY_NEEDS_MESH
-from ...blender.write import reports
-from ...blender.write.translations import localized
+from ...blender.write import reports, translations
 from ...blender.write.units import Units
 from ...core.verdict.finding import EditRefusedError, Finding, finding
-from .. import selection
+from .. import modal, selection
 from ..findings import NOT_A_RIGID_BODY, RIGID_BODY_CENTER_ELSEWHERE
-from ..modal import ModalSteps
 
 if TYPE_CHECKING:
     from ...blender.scene.snap_targets import SnapTarget
@@ -162,15 +160,15 @@ def _compare_masses(context: Context, made: "RigidBodies") -> str:
         line = "{:s}: {:s}".format(obj.name, units.text("mass", one.target.mass))
         if made.calculated[obj] > 0.0:  # of a compound, Blender weighs nothing
             calculated = units.text("mass", made.calculated[obj])
-            line += localized("; Calculate Mass: {:s}").format(calculated)
+            line += translations.localized("; Calculate Mass: {:s}").format(calculated)
         lines.append(line)
     if len(made.measured) > SHOWN:
-        lines.append(localized("And {:d} more").format(len(made.measured) - SHOWN))
+        lines.append(translations.localized("And {:d} more").format(len(made.measured) - SHOWN))
     return "\n".join(lines)
 
 
 class OBJECT_OT_body_moments_set_rigid_body_mass(
-    ModalSteps, selection.OnSelectionInObjectMode, Operator
+    modal.ModalSteps, selection.OnSelectionInObjectMode, Operator
 ):
     """Set the mass of rigid bodies to the measured mass in kilograms."""
 

@@ -21,8 +21,7 @@ from ...blender.read.visibility import measurable_objects
 from ...blender.session.selected import require_subject, subject
 from ...blender.write import reports
 from ...core.verdict import Finding, MeasureError, system_reason
-from .. import selection
-from ..modal import ModalSteps
+from .. import modal, selection
 
 if TYPE_CHECKING:
     from ...blender.session.similar import Match
@@ -113,7 +112,7 @@ class _SearchMixin:
         return selection.finish(self, done, failures)
 
 
-class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
+class OBJECT_OT_body_moments_find_similar(modal.ModalSteps, _SearchMixin, Operator):
     """Find the visible objects most similar in shape to the active object."""
 
     bl_idname = "object.body_moments_find_similar"

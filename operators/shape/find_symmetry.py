@@ -26,8 +26,7 @@ from ...blender.session import stored
 from ...blender.session.tracking import staleness, stamps
 from ...blender.write import reports
 from ...core.verdict import Finding
-from .. import selection
-from ..modal import ModalSteps
+from .. import modal, selection
 
 if TYPE_CHECKING:
     from ...blender.bodies.flat.flat_shape import FlatShape
@@ -70,7 +69,7 @@ class BodyMomentsSymmetry(PropertyGroup):
     elements: CollectionProperty(type=BodyMomentsElement)
 
 
-class OBJECT_OT_body_moments_find_symmetry(ModalSteps, selection.OnSelection, Operator):
+class OBJECT_OT_body_moments_find_symmetry(modal.ModalSteps, selection.OnSelection, Operator):
     """Find the rotation axes and mirror planes of the selected objects."""
 
     bl_idname = "object.body_moments_find_symmetry"

@@ -12,16 +12,14 @@ from bpy.types import Context, Object, Operator
 from ...blender import bodies, scene, session
 from ...blender.write import reports
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
-from .. import selection
-from ..findings import FLAT_AND_BODY, POSE_NOT_A_COPY
-from ..modal import ModalSteps
+from .. import findings, modal, selection
 
 if TYPE_CHECKING:
     from ...blender.scene.reframe_meshes import Plan
     from ...core.shape import RigidMatch
 
 
-class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
+class OBJECT_OT_body_moments_match_pose(modal.ModalSteps, Operator):
     """Move the other selected objects onto the active object."""
 
     bl_idname = "object.body_moments_match_pose"
@@ -71,7 +69,7 @@ class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
                 obj, context.evaluated_depsgraph_get(), isinstance(target, bodies.FlatShape)
             )
             if type(found) is not type(target):
-                raise EditRefusedError(FLAT_AND_BODY)
+                raise EditRefusedError(findings.FLAT_AND_BODY)
             yield 0.3
             source_skin = bodies.distance_from(found)
             yield 0.9
@@ -110,7 +108,7 @@ def _distance(name: str, match: "RigidMatch", size: float) -> Finding | str:
         "mean": float(match.mean_distance),
     }
     if not scene.is_copy(match, size):
-        return finding(POSE_NOT_A_COPY, **values)
+        return finding(findings.POSE_NOT_A_COPY, **values)
     return reports.phrase(
         "{object}: surfaces at most {maximum:length} apart, {mean:length} on average", **values
     )

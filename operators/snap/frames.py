@@ -22,8 +22,7 @@ from ...blender.scale import meters_per_unit
 from ...blender.scene.findings import OPEN_OBJECT
 from ...blender.session.selected import subject
 from ...blender.write import reports
-from ...core import inertia
-from ...core.verdict import EditRefusedError, MeasureError, Procedure, Severity
+from ...core import inertia, verdict
 from .. import selection
 
 STRICT_PROPERTY = BoolProperty(
@@ -180,8 +179,8 @@ class VIEW3D_OT_body_moments_cursor_to_center(selection.OnSelection, Operator):
 
         def add(obj: Object) -> None:
             measurement = measured(obj).measurement
-            if measurement.method.procedure == Procedure.OPEN:
-                raise EditRefusedError(OPEN_OBJECT)
+            if measurement.method.procedure == verdict.Procedure.OPEN:
+                raise verdict.EditRefusedError(OPEN_OBJECT)
             bodies_measured.append((measurement.mass_moments, measurement.mass_properties))
 
         added, failures = selection.apply_to_all(objects, add)
@@ -299,14 +298,14 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
         obj = context.view_layer.objects.active
         try:
             body = scene.snap_target(context, obj)
-        except MeasureError as error:
+        except verdict.MeasureError as error:
             return selection.refuse(self, reports.failure(obj.name_full, error))
         place = _view_3d(context)
         if place is None:
             reports.report(
                 self,
                 reports.phrase("A transform orientation needs an open 3D Viewport."),
-                level=Severity.WARNING,
+                level=verdict.Severity.WARNING,
             )
             return {"CANCELLED"}
         name = self.name or "{:s} Principal".format(obj.name)

@@ -18,13 +18,12 @@ from ...blender.session import character, memory
 from ...blender.session.character.weight import Weight
 from ...blender.session.stored import balance_groups, cuts, faults, floating, stability
 from ...blender.write import reports
+from ...core import rig, statics
 from ...core.cuts import cut_outline
 from ...core.numerics import Array
-from ...core.rig import ballistic_arc, find_flights
-from ...core.statics import Support
 from ..rig import standing
 from . import appearance as look
-from .draw import shows_weight
+from . import draw
 
 FILL = 0.25  # opacity of faces
 ARROW = 0.12  # length of the tipping arrow's head, relative to the support polygon's extent
@@ -69,7 +68,7 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
     for obj in objects:
         weight = (
             character.weight.weight(obj, context.view_layer.depsgraph)
-            if shows_weight(obj)
+            if draw.shows_weight(obj)
             else None
         )
         if weight is not None:
@@ -121,13 +120,13 @@ def _arcs(scene: Scene, path: balance_groups.Path) -> list[Detail]:
         return []
     details = []
     size = 0.02 * float(np.ptp(path.centers, axis=0).max())
-    for first, last in find_flights(path.contact):
+    for first, last in rig.find_flights(path.contact):
         if path.contact[first] and path.contact[last]:
             time = (path.frames[last] - path.frames[first]) / fcurves.time_scale(scene)
             time *= scene.render.fps_base / scene.render.fps
             ends = path.centers[[first, last]]
             shares = np.linspace(0.0, 1.0, last - first + 1)
-            arc = ballistic_arc(*ends, shares, time, scene.gravity)
+            arc = rig.ballistic_arc(*ends, shares, time, scene.gravity)
             crosses = ends[:, None, None] + size * np.stack([-np.eye(3), np.eye(3)], axis=1)
             lines = np.concatenate(
                 [np.stack([arc[:-1], arc[1:]], axis=1), crosses.reshape(-1, 2, 3)]
@@ -189,7 +188,7 @@ def _weight(context: Context, weight: Weight) -> list[Detail]:
     ]
 
 
-def support_detail(support: Support) -> Detail:
+def support_detail(support: statics.Support) -> Detail:
     """Return the support polygon, filled if the body stands, and an arrow from the foot to the
     tipping edge.
     """

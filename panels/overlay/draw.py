@@ -26,8 +26,7 @@ from bpy.types import (
 
 from ...blender.session import memory
 from ...blender.session.live.following import is_live
-from ...blender.session.tracking import handlers
-from ...blender.session.tracking.armatures import stands_for_meshes
+from ...blender.session.tracking import armatures, handlers
 from ...blender.settings.scene import BodyMomentsOverlaySettings
 from ...blender.write.properties import BALANCE_GROUP
 from .. import overlay
@@ -124,7 +123,7 @@ def drawn_objects(context: Context, show_all: bool) -> list[Object]:
             "body_mass" in obj
             or obj in memory.levels
             or is_live(obj)
-            or stands_for_meshes(obj)
+            or armatures.stands_for_meshes(obj)
             or shows_weight(obj)
         )
         and obj.visible_in_viewport_get(space)

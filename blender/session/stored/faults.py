@@ -11,15 +11,14 @@ from dataclasses import dataclass
 import numpy as np
 from bpy.types import Object
 
-from ....core.bodies import Reading
+from ....core import bodies, verdict
 from ....core.numerics import Array
-from ....core.verdict import FLIPPED_FACES
 from ...bodies.stack import Measured
 from .. import memory
 from ..tracking import updates
 
 PAIRS = "boundary_edges", "non_manifold_edges", "inconsistent_edges"
-FACES = FLIPPED_FACES, "duplicate_faces", "degenerate_faces"
+FACES = verdict.FLIPPED_FACES, "duplicate_faces", "degenerate_faces"
 MAX_DRAWN = 20000  # edges, and triangles, of an object
 OWN_PLACE = np.eye(4)
 
@@ -46,7 +45,11 @@ def remember(obj: Object, measured: Measured) -> None:
     place = OWN_PLACE
     if measured.stack is None:
         reading = measured.reading
-        if not isinstance(reading, Reading) or len(reading.parts) != 1 or reading.is_singular:
+        if (
+            not isinstance(reading, bodies.Reading)
+            or len(reading.parts) != 1
+            or reading.is_singular
+        ):
             return  # with several surfaces, the faulty one is unknown
         (part,) = reading.parts
         surface = part.surface

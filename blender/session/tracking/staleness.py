@@ -28,15 +28,7 @@ from bpy.types import Collection, Context, Depsgraph, Object, Scene
 
 from ....core import measurement
 from ... import read
-from ...read.fingerprint import (
-    colliders_digest,
-    has_scale,
-    has_transform,
-    matrix_hash,
-    scale_hash,
-    settings_hash,
-)
-from ...read.tracking import tracking_paused
+from ...read import fingerprint, tracking
 from ...scale import meters_per_unit
 from ...settings.given import COLLIDERS
 from ...write import properties
@@ -68,7 +60,7 @@ def stale_reason(
 
 
 def _has_settings(obj: Object, stamp: Stamp, scene: Scene) -> bool:
-    return stamp.settings == settings_hash(obj, scene)
+    return stamp.settings == fingerprint.settings_hash(obj, scene)
 
 
 def _has_geometry(obj: Object, stamp: Stamp, _scene: Scene | None = None) -> bool:
@@ -82,15 +74,15 @@ def _is_unedited(obj: Object, stamp: Stamp, _scene: Scene | None = None) -> bool
 
 
 def _has_transform(obj: Object, stamp: Stamp, _scene: Scene) -> bool:
-    return has_transform(obj, stamp.transform)
+    return fingerprint.has_transform(obj, stamp.transform)
 
 
 def _has_matrix(owner: Object | Collection, stamp: Stamp, _scene: Scene) -> bool:
-    return not isinstance(owner, Object) or stamp.transform == matrix_hash(owner)
+    return not isinstance(owner, Object) or stamp.transform == fingerprint.matrix_hash(owner)
 
 
 def _has_scale(obj: Object, stamp: Stamp, _scene: Scene) -> bool:
-    return stamp.transform == scale_hash(obj)
+    return stamp.transform == fingerprint.scale_hash(obj)
 
 
 def _has_unit(_obj: Object, stamp: Stamp, scene: Scene) -> bool:
@@ -98,11 +90,11 @@ def _has_unit(_obj: Object, stamp: Stamp, scene: Scene) -> bool:
 
 
 def _has_body_scale(obj: Object, stamp: Stamp, _scene: Scene) -> bool:
-    return has_scale(obj, stamp.transform, [*obj[COLLIDERS].get("scale", ())])
+    return fingerprint.has_scale(obj, stamp.transform, [*obj[COLLIDERS].get("scale", ())])
 
 
 def _has_colliders(obj: Object, _stamp: Stamp, _scene: Scene) -> bool:
-    return obj[COLLIDERS].get("digest") == colliders_digest(obj)
+    return obj[COLLIDERS].get("digest") == fingerprint.colliders_digest(obj)
 
 
 def _has_structure(root: Object | Collection, stamp: Stamp, scene: Scene) -> bool:
@@ -213,7 +205,9 @@ def is_edited(obj: Object) -> bool:
     results.
     """
     stamp = stamps.of_results(obj)
-    return stamp is None or not (_has_geometry(obj, stamp) and has_transform(obj, stamp.transform))
+    return stamp is None or not (
+        _has_geometry(obj, stamp) and fingerprint.has_transform(obj, stamp.transform)
+    )
 
 
 # ---------------------------------------------------------------- Marks after storing
@@ -239,7 +233,7 @@ def mark_stamps(context: Context, fresh: Iterable[tuple[Object, Stamp]]) -> None
     """Mark fresh data (objects and stamps), such as sections, as up to date, if nothing else was
     changed.
     """
-    with tracking_paused():
+    with tracking.tracking_paused():
         depsgraph = context.evaluated_depsgraph_get()
     for obj, stamp in fresh:
         mark_stamp(obj, stamp, depsgraph)
@@ -274,8 +268,8 @@ def pin(obj: Object) -> None:
     stored with them.
     """
     stamp = stamps.of_results(obj)
-    if stamp is not None and stamp.version and has_transform(obj, stamp.transform):
-        obj["body_fingerprint"] = stamp._replace(transform=matrix_hash(obj)).text
+    if stamp is not None and stamp.version and fingerprint.has_transform(obj, stamp.transform):
+        obj["body_fingerprint"] = stamp._replace(transform=fingerprint.matrix_hash(obj)).text
         replace_stamp(obj, stamp.text)
 
 
