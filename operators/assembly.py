@@ -15,9 +15,6 @@ from mathutils import Matrix
 
 from ..blender import bodies, read, scene, session
 from ..blender.scale import meters_per_unit
-from ..blender.scene.changes import require_editable
-from ..blender.scene.findings import OPEN_OBJECT
-from ..blender.session import stored
 from ..blender.settings.assembly import Root, active_assembly, is_assembly
 from ..blender.write import properties, reports
 from ..core.verdict import EditRefusedError, MeasureError, Procedure, Severity, of_severity
@@ -81,7 +78,7 @@ class OBJECT_OT_body_moments_measure_assembly(modal.ModalSteps, Operator):
 
     def _finish(self, context: Context) -> set[str]:
         assembly = bodies.assemble(self._member, self._results, context.evaluated_depsgraph_get())
-        failures = stored.assembly.store(context, assembly)
+        failures = session.stored.assembly.store(context, assembly)
         findings = [*of_severity(assembly.measurement.findings, Severity.WARNING, Severity.ERROR)]
         done = [
             reports.phrase(
@@ -109,7 +106,9 @@ class OBJECT_OT_body_moments_clear_assembly(Operator):
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
-        return report_cleared(self, context, stored.assembly.clear(target_of(context, self.target)))
+        return report_cleared(
+            self, context, session.stored.assembly.clear(target_of(context, self.target))
+        )
 
 
 def report_cleared(operator: Operator, context: Context, is_cleared: bool) -> set[str]:
@@ -140,7 +139,7 @@ class _SnapToAssembly:
         assembly = measured_assembly(context, self.target)
         for part in assembly.root.walk():
             if part.measurement is not None and part.measurement.method.procedure == Procedure.OPEN:
-                raise EditRefusedError(OPEN_OBJECT, subject=part.member.name)
+                raise EditRefusedError(scene.findings.OPEN_OBJECT, subject=part.member.name)
         unit = meters_per_unit(context.scene)
         center = (assembly.measurement.mass_properties.center / unit).tolist()
         return selection.report(self, self._place(context, assembly, center))
@@ -187,7 +186,7 @@ class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
             empty.rotation_mode = "QUATERNION"
             empty[FRAME_OF] = owner
             context.scene.collection.objects.link(empty)
-        require_editable(empty)
+        scene.changes.require_editable(empty)
         unit = meters_per_unit(context.scene)
         empty.empty_display_size = max(float(body.radii_of_gyration.max()) / unit, 1e-3)
         frame = Matrix(body.principal.axes.tolist()).to_4x4()
@@ -212,14 +211,14 @@ class OBJECT_OT_body_moments_assembly_origin(_SnapToAssembly, Operator):
     def _place(self, context: Context, assembly: "Assembly", center: list[float]) -> str:
         root = assembly.root.member.data
         if isinstance(root, bpy.types.Collection):
-            require_editable(root)
+            scene.changes.require_editable(root)
             root.instance_offset = center
             return reports.phrase(
                 "Instances of “{assembly}” are placed by its center of mass", assembly=root.name
             )
         scene.move_parent(context, root, center)
         if properties.is_stored(root):
-            stored.assembly.store(context, measured_assembly(context, "OBJECT"))
+            session.stored.assembly.store(context, measured_assembly(context, "OBJECT"))
         return reports.phrase(
             "Moved “{assembly}” to the center of mass; its children stay", assembly=root.name
         )

@@ -9,8 +9,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 from bpy.types import Context, Object, Operator
 
 from ..blender import session
-from ..blender.session import selected, stored
-from ..blender.session.tracking import staleness
+from ..blender.session import selected, stored, tracking
 from ..blender.write import reports, translations
 from ..core.verdict.finding import Finding, finding
 from . import findings, modal, selection
@@ -36,7 +35,7 @@ class OBJECT_OT_body_moments_stability(selection.OnSelection, Operator):
             notes.extend(session.check_stability(context, obj, measured))
 
         known, failures = selection.apply_to_all(objects, check)
-        staleness.mark_up_to_date(context, measured)
+        tracking.staleness.mark_up_to_date(context, measured)
         supports = {obj: stored.stability.support(obj, context.scene) for obj in objects}
         standing = [
             obj for obj, support in supports.items() if support is not None and support.stands

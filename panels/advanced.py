@@ -9,9 +9,8 @@ from __future__ import annotations
 
 from bpy.types import Context, Object, UILayout
 
-from ..blender.session import selected, stored
+from ..blender.session import selected, stored, tracking
 from ..blender.session.displayed import displayed
-from ..blender.session.tracking.staleness import stale_reason
 from ..blender.settings.preferences import shows_advanced
 from ..blender.write import properties
 from ..core import inertia, lazy
@@ -92,7 +91,7 @@ class MomentsPanel:
         computed = None if table is None else table.computed_moments(obj)
         if computed is None:
             return
-        rows.stale_row(layout, stale_reason(obj, context.scene, table.stamp_of))
+        rows.stale_row(layout, tracking.staleness.stale_reason(obj, context.scene, table.stamp_of))
         degrees, missing = table.current_numbers(obj, context.scene)
         if missing is not None:
             rows.message(layout, missing)

@@ -16,10 +16,9 @@ from typing import NamedTuple
 from bpy.types import Context, Object, UILayout
 
 from ..blender.read.visibility import measurable
+from ..blender.session import stored, tracking
 from ..blender.session.displayed import Displayed, Verdict, displayed, shown_objects, total
 from ..blender.session.live.following import Lag, current_numbers, is_live
-from ..blender.session.stored import outcome
-from ..blender.session.tracking import armatures
 from ..blender.settings import chosen, preferences
 from ..blender.write import properties
 from ..blender.write.translations import localized
@@ -114,7 +113,7 @@ class BodyPanel:
 def _answer(context: Context) -> Answer:
     objects = shown_objects(context)
     obj = context.object
-    is_sum = len(objects) > 1 or obj is not None and armatures.stands_for_meshes(obj)
+    is_sum = len(objects) > 1 or obj is not None and tracking.armatures.stands_for_meshes(obj)
     return _of_several(context) if is_sum else _of_one(context, objects[0])
 
 
@@ -136,7 +135,7 @@ def _of_one(context: Context, obj: Object) -> Answer:
         state = live, "REC"
     findings = () if shown is None else shown.findings
     now = current_numbers(obj)
-    if now is not None and now.refusal is not None and outcome.last() is None:
+    if now is not None and now.refusal is not None and stored.outcome.last() is None:
         findings = now.refusal, *findings
     return Answer(
         obj.name,
@@ -158,7 +157,7 @@ def _of_several(context: Context) -> Answer:
     active = context.object
     count = shown.count + len(shown.missing)
     posed = None
-    if active is not None and armatures.stands_for_meshes(active):
+    if active is not None and tracking.armatures.stands_for_meshes(active):
         posed = displayed(active, context.scene)
         name = localized("{:s}: {:d} Mesh" if count == 1 else "{:s}: {:d} Meshes")
         name = name.format(active.name, count)
@@ -236,7 +235,7 @@ def _buttons(layout: UILayout, context: Context) -> None:
     buttons.scale_y = 1.4
     shown = shown_objects(context)
     selected = context.view_layer.objects.selected
-    subjects = [obj for obj in armatures.subjects(selected) if measurable(obj)]
+    subjects = [obj for obj in tracking.armatures.subjects(selected) if measurable(obj)]
     text = "Measure" if not subjects or len(shown) == 1 and subjects == shown else "Measure {:s}"
     name = (
         subjects[0].name if len(subjects) == 1 else localized("{:d} Objects").format(len(subjects))
@@ -295,7 +294,7 @@ class RefusedPanel:
 
     @classmethod
     def poll(cls, _context: Context) -> bool:
-        return outcome.last() is not None
+        return stored.outcome.last() is not None
 
     def draw(self, context: Context) -> None:
         remedies.last_action(self.layout, context)

@@ -8,11 +8,9 @@ from __future__ import annotations
 
 from bpy.types import Context
 
-from ..blender.read.visibility import measurable
-from ..blender.session import selected, stored
+from ..blender import read, write
+from ..blender.session import selected, stored, tracking
 from ..blender.session.displayed import displayed, shown_objects, total
-from ..blender.session.tracking import armatures
-from ..blender.write.translations import localized
 from ..core import inertia, verdict
 from . import places, rows
 
@@ -46,7 +44,9 @@ class InertiaPanel:
             rows.heading(column, "Principal Axes", "", shown.axes)
         for place, label in enumerate(rows.PRINCIPAL_LABELS):
             rows.direction(column, label, None if shown is None else shown.axes[place])
-        rows.state(column, "" if shown is None else localized(_equal_moments(shown)))
+        rows.state(
+            column, "" if shown is None else write.translations.localized(_equal_moments(shown))
+        )
         gyration = None if shown is None else shown.gyration
         rows.group(layout, "Radii of Gyration", rows.PRINCIPAL_LABELS, "length", gyration)
         body = rows.fold(layout, "body_moments_tensor", "Inertia Tensor", closed=False)
@@ -70,7 +70,7 @@ def _equal_moments(shown: inertia.PlainBody) -> str:
 def _are_several(context: Context) -> bool:
     """Return whether the numbers are the sum of the selected objects, in the world frame."""
     obj = selected.subject(context)
-    is_posed = obj is not None and armatures.stands_for_meshes(obj)
+    is_posed = obj is not None and tracking.armatures.stands_for_meshes(obj)
     return not is_posed and len(shown_objects(context)) > 1
 
 
@@ -139,7 +139,7 @@ CLASSES = (
     *places.in_both_places(
         InertiaPanel,
         "inertia",
-        shown_for=lambda obj: measurable(obj) or obj.type in ("EMPTY", "ARMATURE"),
+        shown_for=lambda obj: read.visibility.measurable(obj) or obj.type in ("EMPTY", "ARMATURE"),
         of_all=True,
     ),
     *places.in_both_places(ReferencePanel, "reference", parent="inertia"),

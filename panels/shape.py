@@ -8,11 +8,9 @@ from __future__ import annotations
 
 from bpy.types import Context, Object, UILayout
 
+from ..blender import session, settings, write
 from ..blender.read.visibility import measurable
-from ..blender.session.selected import subject
 from ..blender.session.tracking import staleness, stamps
-from ..blender.settings.preferences import shows_advanced
-from ..blender.write.translations import localized
 from ..core.verdict import SIMILARITY, truncate
 from . import places, rows
 
@@ -42,10 +40,10 @@ class ShapePanel:
         rows.button(column, "object.body_moments_match_pose", "SNAP_ON")
         row = column.row(align=True)
         rows.button(row, "object.body_moments_find_similar", "VIEWZOOM", short="Similar")
-        if shows_advanced():
+        if settings.preferences.shows_advanced():
             row.operator("object.body_moments_find_in_library", text="", icon="FILEBROWSER")
         rows.button(column, "object.body_moments_link_copies", "LINKED")
-        _symmetry(layout, context, subject(context))
+        _symmetry(layout, context, session.selected.subject(context))
         _similar(layout, context)
 
 
@@ -105,7 +103,7 @@ def _similar(layout: UILayout, context: Context) -> None:
                 "object.body_moments_select_found", text=shape.name, icon=icon, translate=False
             )
             button.name = shape.name
-        words = localized(SIMILARITY.get(shape.verdict, shape.verdict))
+        words = write.translations.localized(SIMILARITY.get(shape.verdict, shape.verdict))
         size = " ×{:.4g}".format(shape.scale) if shape.verdict.startswith("scaled") else ""
         rows.right(row, "{:s}{:s}, {:.2g}".format(words, size, shape.distance))
 

@@ -13,8 +13,7 @@ from bpy.types import Context, UILayout
 
 from ..blender.read.visibility import measurable
 from ..blender.scale import meters_per_unit
-from ..blender.session import displayed, selected, stored
-from ..blender.session.tracking import armatures
+from ..blender.session import displayed, selected, stored, tracking
 from ..blender.write.translations import localized
 from ..core import lazy, verdict
 from . import places, rows
@@ -120,6 +119,6 @@ def _poses(layout: UILayout, poses: RestingPoses | verdict.Finding | None) -> No
 CLASSES = places.in_both_places(
     StabilityPanel,
     "stability",
-    shown_for=lambda obj: measurable(obj) or armatures.stands_for_meshes(obj),
+    shown_for=lambda obj: measurable(obj) or tracking.armatures.stands_for_meshes(obj),
     of_all=True,
 )

@@ -15,14 +15,13 @@ from bpy.types import Context, Depsgraph, Object
 from ...core import bodies, colliders, inertia, mesh, moments, robots, verdict
 from ...core.measurement import Measurement, digest, plain
 from ...core.numerics import Array, polar_rotation
+from .. import read, write
 from ..bodies.measure_body import MeasuredBody, measure_body
-from ..read.findings import OBJECT_WITHOUT_GEOMETRY, SCALE_ZERO_AXIS
 from ..read.fingerprint import colliders_digest, scale_products
 from ..scale import meters_per_unit
 from ..scene import changes
 from ..scene import colliders as scene
 from ..settings.given import COLLIDER, COLLIDERS
-from ..write import properties
 from .tracking import staleness, stamps
 
 SAME = 1e-5  # relative: float32 matrices of turned copies differ by less
@@ -64,7 +63,7 @@ def plan_colliders(
     surface = _surface(obj, measured)
     stretch = scene.stretch_of(obj, measurement.rotation)
     if moments.are_singular(stretch[None])[0]:
-        raise verdict.ReadError(SCALE_ZERO_AXIS)
+        raise verdict.ReadError(read.findings.SCALE_ZERO_AXIS)
     body = measurement.in_object_frame()
     key = _mesh_key(obj, measured)
     if key in known:
@@ -130,7 +129,7 @@ def _surface(obj: Object, measured: MeasuredBody) -> mesh.Surface:
     pieces = [*measured.body.surfaces(measurement.kind == "shell")]
     if not pieces:
         kind = obj.bl_rna.properties["type"].enum_items[obj.type].name
-        raise verdict.ReadError(OBJECT_WITHOUT_GEOMETRY, subject=obj.name, type=kind)
+        raise verdict.ReadError(read.findings.OBJECT_WITHOUT_GEOMETRY, subject=obj.name, type=kind)
     to_frame = robots.Pose(measurement.location, measurement.rotation).inverse()
     return mesh.join_surfaces(pieces).transform(to_frame.rotation, to_frame.position)
 
@@ -199,7 +198,7 @@ def colliders_kept_current(context: Context, objects: Iterable[Object]) -> Itera
         turn = polar_rotation(bodies.float64_matrix(obj.matrix_world)[None, :3, :3])[0][0].T
         turn = turn @ polar_rotation(before[None, :3, :3])[0][0]
         group["center_shift"] = (turn @ group["center_shift"]).tolist()
-        group["fingerprint"] = properties.fingerprint(obj) or group["fingerprint"]
+        group["fingerprint"] = write.properties.fingerprint(obj) or group["fingerprint"]
         group["digest"] = colliders_digest(obj)
         group["scale"] = scale_products(obj)
         staleness.note_edits(obj)

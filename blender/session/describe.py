@@ -14,9 +14,8 @@ from bpy.types import Object
 
 from ...core.measurement import FRAMES, record
 from ...core.verdict import internal_error
+from .. import settings, write
 from ..bodies import measure_object, stack
-from ..settings.options import MeasureOptions
-from ..write.remedies import REMEDIES, REPAIR, remedies_of
 from .stored import density, results
 
 WORDS = {
@@ -83,7 +82,9 @@ def describe(
     depsgraph = bpy.context.evaluated_depsgraph_get()
     found = [
         pair
-        for batch in measure_object.measure_many(chosen, depsgraph, MeasureOptions(**options))
+        for batch in measure_object.measure_many(
+            chosen, depsgraph, settings.options.MeasureOptions(**options)
+        )
         for pair in batch
     ]
     if store:
@@ -161,7 +162,9 @@ def _description(
             one
             | {
                 "elements": one.get("elements", [])[:MAX_ELEMENTS],
-                "remedies": [_call(remedy) for remedy in remedies_of(one["code"], obj.type)],
+                "remedies": [
+                    _call(remedy) for remedy in write.remedies.remedies_of(one["code"], obj.type)
+                ],
             }
         )
         for one in entry["findings"]
@@ -181,7 +184,7 @@ def _description(
 def _call(remedy: str) -> str:
     """Return the call of a remedy, a key of REMEDIES or the idname of an operator."""
     return (
-        "bpy.ops.{}(remedy={!r})".format(REPAIR, remedy)
-        if remedy in REMEDIES
+        "bpy.ops.{}(remedy={!r})".format(write.remedies.REPAIR, remedy)
+        if remedy in write.remedies.REMEDIES
         else CALL.format(remedy)
     )

@@ -30,12 +30,10 @@ from ...core.verdict import (
     grouped,
     open_body_caveats,
 )
-from .. import read
-from ..read.fingerprint import has_transform
+from .. import read, write
 from ..scale import meters_per_unit
 from ..settings.chosen import chosen_objects, pinned_object
 from ..write import properties
-from ..write.units import Units
 from . import character, live, memory, stored
 from .live import following
 from .tracking import armatures, handlers, staleness, stamps
@@ -184,7 +182,11 @@ def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | No
             shown = _as_one(obj, scene, [drawn_bone(bone, scene) for bone in obj.pose.bones])
     else:
         stamp = None if before is None or before.reason is not None else stamps.of_results(obj)
-        if before is not None and stamp is not None and has_transform(obj, stamp.transform):
+        if (
+            before is not None
+            and stamp is not None
+            and read.fingerprint.has_transform(obj, stamp.transform)
+        ):
             shown = before._replace(world=before.numbers.in_world(obj.matrix_world, before.unit))
         else:
             shown = displayed(obj, scene) if "body_mass" in obj or obj in memory.followed else None
@@ -394,7 +396,7 @@ def listed_masses(scene: Scene, view_layer: ViewLayer) -> dict[int, str]:
     """Return texts of the masses of a view layer's measured objects by session uid, with common
     unit and decimals.
     """
-    units = Units.from_settings(scene.unit_settings)
+    units = write.units.Units.from_settings(scene.unit_settings)
 
     def list_masses() -> dict[int, str]:
         objects = list(view_layer.objects)

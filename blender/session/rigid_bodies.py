@@ -19,18 +19,14 @@ from ...core.inertia import combine
 from ...core.measurement import NO_VOLUME
 from ...core.mesh import convex_hull, triangle_areas
 from ...core.verdict import EditRefusedError, Finding, MeasureError, Procedure
+from .. import read, scene, settings
 from ..bodies.measure_object import measured_in_turn
 from ..bodies.stack import Measured as MeasuredObject
-from ..read.mesh import mesh_surface
-from ..read.tracking import tracking_paused
 from ..scale import meters_per_unit
 from ..scene import changes, empties, findings, reframe, rigid_world, snap_targets, transforms
-from ..scene.colliders import apply_for_bullet, colliders_by_body
-from ..settings.given import COLLIDER
 from ..write import reports
+from . import stored, tracking
 from .colliders import colliders_kept_current
-from .stored import assembly, results
-from .tracking import staleness
 
 # Blender's collision shapes of colliders that are primitives; all others are convex hulls.
 COLLISION_SHAPES = {"box": "BOX", "sphere": "SPHERE", "capsule": "CAPSULE", "cylinder": "CYLINDER"}
@@ -95,9 +91,9 @@ def make_rigid_bodies(
             step(done)
     # Blender reports a rigid body as a change of the shape, and again when results are stored on it
     with (
-        assembly.kept_up_to_date(context),
+        stored.assembly.kept_up_to_date(context),
         colliders_kept_current(context, objects),
-        tracking_paused(),
+        read.tracking.tracking_paused(),
     ):
         failures += _place(context, measured, frame)
         new = _add(context, measured, type, shape)
@@ -115,7 +111,9 @@ def make_rigid_bodies(
             )
         for obj, one in measured.items():
             obj.rigid_body.mass = one.target.mass
-        results.store_measured(context, [part for one in measured.values() for part in one.parts])
+        stored.results.store_measured(
+            context, [part for one in measured.values() for part in one.parts]
+        )
     return RigidBodies(measured, calculated, failures, floors)
 
 
@@ -158,7 +156,7 @@ def _place(context: Context, measured: dict[Object, Measured], frame: str) -> li
         ask = _measure_in_turn(context, [measured[plan.obj].body for plan in changed])
         for plan in changed:
             measured[plan.obj] = _measured(context, measured[plan.obj].body, ask)
-        staleness.mark_axes_changed(plan.obj for plan in changed if not plan.move_only)
+        tracking.staleness.mark_axes_changed(plan.obj for plan in changed if not plan.move_only)
     return failures
 
 
@@ -168,17 +166,17 @@ def _add(context: Context, measured: dict[Object, Measured], type: str, shape: s
     Return the objects that had no rigid body before.
     """
     parts = [part for one in measured.values() for part in (one.body.obj, *one.body.members)]
-    colliders = colliders_by_body(context.scene.objects) if shape == "KEEP" else {}
+    colliders = scene.colliders.colliders_by_body(context.scene.objects) if shape == "KEEP" else {}
     added = [collider for part in parts for collider in colliders.get(part, ())]
     new = [obj for obj in parts if obj.rigid_body is None]
     for collider in added:
-        apply_for_bullet(collider)
+        scene.colliders.apply_for_bullet(collider)
     rigid_world.add_rigid_bodies(
         context, [*new, *(obj for obj in added if obj.rigid_body is None)], type
     )
     for collider in added:
         collider.rigid_body.collision_shape = COLLISION_SHAPES.get(
-            collider[COLLIDER]["kind"], "CONVEX_HULL"
+            collider[settings.given.COLLIDER]["kind"], "CONVEX_HULL"
         )
     fresh = set(new)
     for one in measured.values():
@@ -191,7 +189,7 @@ def _add(context: Context, measured: dict[Object, Measured], type: str, shape: s
             elif shape != "KEEP":
                 part.rigid_body.collision_shape = shape
     for obj in (*new, *added):
-        scale = (obj.parent if COLLIDER in obj else obj).matrix_world.to_scale()
+        scale = (obj.parent if settings.given.COLLIDER in obj else obj).matrix_world.to_scale()
         is_scaled = max(abs(size - 1.0) for size in scale) > empties.PLACE_RTOL
         if is_scaled and obj.rigid_body.collision_shape == "CONVEX_HULL":
             # Blender shrinks hulls by the margin, times the scale; Bullet adds it without the scale
@@ -204,7 +202,7 @@ def _is_convex_polygon(mesh: Mesh) -> bool:
     """Return whether a mesh is flat and fills its hull, on which compounds come to rest: on meshes
     Bullet rocks them for ever.
     """
-    surface = mesh_surface(mesh, edges=False)
+    surface = read.mesh.mesh_surface(mesh, edges=False)
     try:
         hull = convex_hull(surface.points, FLAT_RTOL)
     except MeasureError:

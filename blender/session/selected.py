@@ -17,8 +17,7 @@ from bpy.types import Context, Object, PropertyGroup, Scene
 from ...core.density import DENSITY_UNITS
 from ..settings import given, properties
 from ..settings.chosen import chosen_objects, pinned_object
-from . import memory
-from .tracking import armatures
+from . import memory, tracking
 
 NAMES = (*properties.COPIED_PROPERTIES, *("density_" + unit.lower() for unit in DENSITY_UNITS))
 SHAPE = {"kind", "wall", "thickness", "overlap", "density_from"}  # settings without use for volumes
@@ -31,7 +30,7 @@ def subject(context: Context) -> Object | None:
     active = context.object
     if active is not None and (active.mode != "OBJECT" or pinned_object(context) is not None):
         return active
-    shown = armatures.subjects(chosen_objects(context))
+    shown = tracking.armatures.subjects(chosen_objects(context))
     if active in shown:
         return active
     return shown[0] if len(shown) == 1 else None
@@ -43,7 +42,7 @@ def armature_of(context: Context) -> Object | None:
     """
     active = context.object
     chosen = [obj for obj in chosen_objects(context) if obj.type == "ARMATURE"]
-    if active in chosen or active is not None and armatures.stands_for_meshes(active):
+    if active in chosen or active is not None and tracking.armatures.stands_for_meshes(active):
         return active
     return chosen[0] if len(chosen) == 1 else None
 

@@ -17,9 +17,7 @@ import numpy as np
 from bpy.types import Object
 from numpy.typing import NDArray
 
-from ...blender.read.places import set_places
-from ...blender.scene.findings import SURFACES_ROUNDED
-from ...blender.scene.imports import surface_data
+from ...blender import read, scene
 from ...core import cad, files
 from ...core.numerics import Array
 from ...core.verdict.finding import FileError, Finding, finding
@@ -341,9 +339,11 @@ def _correct(
         patch = None if prim.solid is None else cad.revolved_solid(*prim.solid)
         if prim.solid is not None and patch is not None:
             if prim.solid not in surfaces:
-                surfaces[prim.solid] = surface_data(name, [patch], 1.0)[:2]
+                surfaces[prim.solid] = scene.imports.surface_data(name, [patch], 1.0)[:2]
             data, moved = surfaces[prim.solid]
-            findings[name] = (finding(SURFACES_ROUNDED, share=moved),) if moved else ()
+            findings[name] = (
+                (finding(scene.findings.SURFACES_ROUNDED, share=moved),) if moved else ()
+            )
             _replace(obj, data)
         elif prim.points is not None and len(prim.points) == len(obj.data.vertices):
             obj.modifiers.clear()
@@ -391,7 +391,7 @@ def _show_members(name: str, prim: _Prim) -> None:
         copy = bpy.data.objects[member].copy()
         copy.parent = None
         copy.hide_render = copy.hide_viewport = False
-        set_places(copy, matrices)
+        read.places.set_places(copy, matrices)
         collection.objects.link(copy)
     obj = bpy.data.objects.new(name, None)
     obj.instance_type, obj.instance_collection = "COLLECTION", collection

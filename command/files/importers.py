@@ -17,8 +17,7 @@ import numpy as np
 from mathutils import Matrix
 from numpy.typing import NDArray
 
-from ...blender.bodies.union import subtract
-from ...blender.scene.imports import show_bodies
+from ...blender import bodies, scene
 from ...blender.settings.properties import set_print
 from ...core import cad, files, polyhedron, streams, verdict
 from ...core.mesh import Surface
@@ -142,7 +141,9 @@ def _without_negative_parts(
         inverse = np.linalg.inv(one.matrix)
         surfaces = [_closed_surface(part, inverse @ part.matrix) for part in (one, *cutters)]
         closed = [surface for surface in surfaces if surface is not None]
-        left = subtract(closed[0], closed[1:]) if len(closed) == len(surfaces) else None
+        left = (
+            bodies.union.subtract(closed[0], closed[1:]) if len(closed) == len(surfaces) else None
+        )
         if left is not None and left.triangle_count:
             triangles = left.all_triangles()[0].astype(np.int64)
             yield replace(one, key=(number,), points=left.points, triangles=triangles), names
@@ -200,7 +201,7 @@ def import_obj(path: str) -> Opened:
 
 def _added(file: cad.SurfaceFile) -> Opened:
     unit = 1.0 if file.unit is None else file.unit
-    made = show_bodies(file.bodies, bpy.context.scene.collection, unit)
+    made = scene.imports.show_bodies(file.bodies, bpy.context.scene.collection, unit)
     bpy.context.view_layer.update()
     unread = (finding(cad.FACES_NOT_READ, count=file.unread),) if file.unread else ()
     by_object: dict[str, tuple[Finding, ...]] = {obj.name: unread for obj in made}

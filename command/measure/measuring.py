@@ -16,17 +16,15 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ...blender import read, session, write
 from ...blender.bodies import fourier, stack
 from ...blender.bodies.flat import flat, flat_shape
 from ...blender.bodies.measure_object import measure_object, measured_in_turn
 from ...blender.bodies.shape.shape import NoShapeError, shape_of
 from ...blender.read import assembly, visibility
-from ...blender.read.objects import read_object
 from ...blender.scale import meters_per_unit
-from ...blender.session.findings import NO_SUCH_NAME
 from ...blender.settings.given import shows_collection
 from ...blender.settings.options import MeasureOptions
-from ...blender.write import spectrum
 from ...blender.write.thumbnail import thumbnail
 from ...core import bodies, files, verdict
 from ...core.measurement import Measurement, flat_record
@@ -97,7 +95,7 @@ def thumbnail_of(obj: bpy.types.Object, measurement: Measurement, unit: float | 
     depsgraph = bpy.context.evaluated_depsgraph_get()
     unit = unit or meters_per_unit(depsgraph.scene)
     try:
-        surface = read_object(obj, depsgraph, edges=False).join()
+        surface = read.objects.read_object(obj, depsgraph, edges=False).join()
     except MeasureError:  # such as a grid of densities
         return None
     triangles = surface.all_triangles()[0]
@@ -132,7 +130,9 @@ def write_transform(
     for _ in under_way.steps():
         pass
     transform, findings = under_way.result()
-    spectrum.save(options.fourier, transform, options.frame, guard(options.force), under_way.arrays)
+    write.spectrum.save(
+        options.fourier, transform, options.frame, guard(options.force), under_way.arrays
+    )
     return findings
 
 
@@ -222,7 +222,9 @@ def objects_to_measure(
         matches = matches or [(label, obj) for obj, label in labels.items() if obj.name == name]
         chosen += [pair for pair in matches if pair not in chosen]
         if not matches:
-            errors.append(failure(name, finding(NO_SUCH_NAME, kind="object", name=name)))
+            errors.append(
+                failure(name, finding(session.findings.NO_SUCH_NAME, kind="object", name=name))
+            )
     return chosen, [], errors
 
 
@@ -277,5 +279,5 @@ def set_density(obj: bpy.types.Object, options: Namespace) -> None:
         elif source == "volume":
             volume = bpy.context.scene.objects.get(name)
             if volume is None or volume.type != "VOLUME":
-                raise QueryError(NO_SUCH_NAME, kind="Volume object", name=name)
+                raise QueryError(session.findings.NO_SUCH_NAME, kind="Volume object", name=name)
             settings.density_volume = volume

@@ -14,19 +14,17 @@ from typing import Any
 
 import bpy
 
-from ...blender import session
+from ...blender import session, write
 from ...blender.bodies import cuts, overlaps, stack
 from ...blender.bodies.flat.flat import NO_BODY
 from ...blender.bodies.measure_body import measure_body
 from ...blender.read import assembly, places, tracking
 from ...blender.scale import meters_per_unit
 from ...blender.scene.rigid_world import down, has_gravity
-from ...blender.session.findings import NO_SUCH_NAME
 from ...blender.session.tracking.staleness import mark_up_to_date
 from ...blender.settings import density, given
 from ...blender.settings import properties as settings
 from ...blender.settings.options import MeasureOptions
-from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...blender.write.properties import store
 from ...core import bodies, cad, mesh, verdict
 from ...core.cuts import CutFill
@@ -157,7 +155,9 @@ class Scene:
             contents.caveats += told
         if is_changed:
             if self._place is None:
-                raise FileError(FILE_NOT_WRITTEN, file=path or open_name(), error="it is gone")
+                raise FileError(
+                    write.findings.FILE_NOT_WRITTEN, file=path or open_name(), error="it is gone"
+                )
             self._place.save()
             self.has_saved = True
 
@@ -303,7 +303,7 @@ class Scene:
         def against_object(name: str, surface: mesh.Surface) -> CutFill:
             other = scene.objects.get(name)
             if other is None:
-                raise QueryError(NO_SUCH_NAME, kind="object", name=name)
+                raise QueryError(session.findings.NO_SUCH_NAME, kind="object", name=name)
             return cuts.cut_fill_against(other, surface, depsgraph, unit)
 
         entries, found = cut_entries(measurement, body, self.options, contents, against_object)
@@ -369,7 +369,10 @@ class Scene:
             yield failure(label, _unavailable("Fourier transform", refusal))
         except OSError as error:
             file = str(self.options.fourier)
-            yield failure(label, finding(FILE_NOT_WRITTEN, file=file, error=system_reason(error)))
+            yield failure(
+                label,
+                finding(write.findings.FILE_NOT_WRITTEN, file=file, error=system_reason(error)),
+            )
         except Exception as error:
             yield contents.internal(label, error)
 

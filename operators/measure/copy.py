@@ -15,8 +15,7 @@ from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 from bpy.types import Context, Event, Menu, Operator, OperatorProperties, Scene
 
 from ...blender import bodies, read, session, write
-from ...blender.session import selected, stored
-from ...blender.session.tracking import staleness, stamps
+from ...blender.session import selected, stored, tracking
 from ...blender.write import properties, reports, translations
 from ...core import measurement, robots, verdict
 from ...core.robots import write as robot_formats
@@ -66,7 +65,7 @@ def selected_document(context: Context) -> dict[str, Any]:
     doubtful ones.
     """
     objects = selection.selected_measurable(context)
-    outdated = {obj.name for obj in objects if staleness.stale_reason(obj, context.scene)}
+    outdated = {obj.name for obj in objects if tracking.staleness.stale_reason(obj, context.scene)}
     counted = [obj for obj in objects if properties.is_stored(obj)]
     caveats = verdict.open_body_caveats((obj.name, properties.method(obj)) for obj in counted)
     caveats += read.assembly.total_caveats(counted, context.view_layer)
@@ -132,7 +131,9 @@ def _section(context: Context) -> Copied | str:
     if obj is None or section is None:
         return "Measure a section first"
     text = write.section.text(
-        obj.name, section, staleness.stale_reason(obj, context.scene, stamps.of_section)
+        obj.name,
+        section,
+        tracking.staleness.stale_reason(obj, context.scene, tracking.stamps.of_section),
     )
     return text, reports.phrase("Copied the section of {object}", object=obj.name)
 

@@ -17,11 +17,8 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 from bpy.types import Context, Event, Operator
 
 from ... import core
-from ...blender import bodies, settings, write
-from ...blender.read.visibility import measurable
-from ...blender.session.selected import require_subject, subject
+from ...blender import bodies, read, session, settings, write
 from ...blender.write import reports
-from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...core import numerics, verdict
 from .. import modal, selection
 
@@ -91,13 +88,13 @@ class OBJECT_OT_body_moments_fourier(modal.ModalSteps, Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        obj = subject(context)
-        if obj is None or not measurable(obj):
+        obj = session.selected.subject(context)
+        if obj is None or not read.visibility.measurable(obj):
             return reports.unavailable(cls, "Make an object with a surface active")
         return True
 
     def invoke(self, context: Context, event: Event) -> set[str]:
-        obj = require_subject(context)
+        obj = session.selected.require_subject(context)
         if (
             not self.properties.is_property_set("of")
             and obj.body_moments.kind == "SOLID"
@@ -128,12 +125,12 @@ class OBJECT_OT_body_moments_fourier(modal.ModalSteps, Operator):
         return selection.reporting(self, self._run, context, in_window)
 
     def _begin(self, context: Context) -> float:
-        obj = require_subject(context)
+        obj = session.selected.require_subject(context)
         depsgraph = context.evaluated_depsgraph_get()
         self._path = Path(bpy.path.abspath(bpy.path.ensure_ext(self.filepath, SUFFIX)))
         if not self._path.parent.is_dir():
             raise verdict.FileError(
-                FILE_NOT_WRITTEN, file=self._path.name, error=os.strerror(ENOENT)
+                write.findings.FILE_NOT_WRITTEN, file=self._path.name, error=os.strerror(ENOENT)
             )
         self._dimension, frame = 2 if self.of == "FLAT" else 3, self.frame.lower()
         self._work: ObjectTransform
@@ -162,7 +159,9 @@ class OBJECT_OT_body_moments_fourier(modal.ModalSteps, Operator):
             write.spectrum.save(self._path, transform, self.frame.lower(), plane=self._work.arrays)
         except OSError as error:
             raise verdict.FileError(
-                FILE_NOT_WRITTEN, file=self._path.name, error=verdict.system_reason(error)
+                write.findings.FILE_NOT_WRITTEN,
+                file=self._path.name,
+                error=verdict.system_reason(error),
             ) from error
         name = "Fourier Transform of {:s}".format(self._work.name)
         image = write.spectrum.picture(name, transform.values, self.count, self._dimension)

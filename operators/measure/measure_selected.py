@@ -13,9 +13,8 @@ import bpy
 from bpy.props import EnumProperty
 from bpy.types import Context, Object, Operator
 
-from ...blender import bodies, session, write
+from ...blender import bodies, scene, session, write
 from ...blender.read.visibility import has_shape, measurable
-from ...blender.scene.changes import require_editable
 from ...blender.session import character, displayed, live, memory
 from ...blender.session.tracking import armatures, staleness, stamps
 from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
@@ -237,7 +236,7 @@ class OBJECT_OT_body_moments_clear(selection.OnSelection, Operator):
         ]
 
         def remove(obj: Object) -> bool:
-            require_editable(obj)
+            scene.changes.require_editable(obj)
             staleness.note_edits(obj)
             clear = session.stored.results.clear_rig if obj.type == "ARMATURE" else properties.clear
             removed = "MASS" in self.kinds and clear(obj)

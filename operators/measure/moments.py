@@ -12,8 +12,7 @@ import bmesh
 from bpy.types import Context, Object, Operator
 from mathutils import Vector
 
-from ...blender import bodies
-from ...blender.read.visibility import SECTION_TYPES, measurable
+from ...blender import bodies, read
 from ...blender.session import selected, stored
 from ...blender.write import properties, reports
 from ...core.inertia import tensor_rows
@@ -41,7 +40,7 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         obj = selected.subject(context)
-        is_measurable = obj is not None and measurable(obj)
+        is_measurable = obj is not None and read.visibility.measurable(obj)
         return is_measurable or reports.unavailable(cls, "Make a measurable object active")
 
     def execute(self, context: Context) -> set[str]:
@@ -124,7 +123,11 @@ def _objects_with_sections(context: Context) -> list[Object]:
     have a section.
     """
     if context.mode != "EDIT_MESH":
-        return [obj for obj in context.view_layer.objects.selected if obj.type in SECTION_TYPES]
+        return [
+            obj
+            for obj in context.view_layer.objects.selected
+            if obj.type in read.visibility.SECTION_TYPES
+        ]
     edited = [
         obj for obj in context.view_layer.objects if obj.type == "MESH" and obj.data.is_editmode
     ]

@@ -10,9 +10,7 @@ import bpy
 from bpy.props import EnumProperty
 from bpy.types import Context, Object, Operator
 
-from ...blender import bodies, scene
-from ...blender.read.findings import KIND_COUNT
-from ...blender.session import stored
+from ...blender import bodies, read, scene, session
 from ...blender.session.tracking import staleness
 from ...blender.write import properties, reports
 from ...core.verdict import FLIPPED_FACES
@@ -75,7 +73,9 @@ class OBJECT_OT_body_moments_select_faults(Operator):
 
         def store(obj: Object) -> None:
             staleness.note_edits(obj)
-            properties.store(obj, stored.density.noted(obj, measurements[obj], context.scene))
+            properties.store(
+                obj, session.stored.density.noted(obj, measurements[obj], context.scene)
+            )
             wrong = {
                 kind: found
                 for kind, found in scene.defects_by_kind(measurements[obj]).items()
@@ -114,7 +114,7 @@ class OBJECT_OT_body_moments_select_faults(Operator):
 def _counts(found: dict[str, Any]) -> list[dict]:
     names = {kind: name for kind, name, _ in KINDS}
     return [
-        finding(KIND_COUNT, kind=names[kind], count=len(indices)).as_record()
+        finding(read.findings.KIND_COUNT, kind=names[kind], count=len(indices)).as_record()
         for kind, indices in found.items()
     ]
 

@@ -17,8 +17,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 from bpy.types import Context, Object, Operator
 
 from ... import core
-from ...blender import scene, session
-from ...blender.settings.given import COLLIDER, COLLIDERS
+from ...blender import scene, session, settings
 from ...blender.write import reports
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from .. import findings, modal, selection
@@ -221,7 +220,9 @@ def bodies_of(context: Context) -> list[Object]:
     """Return the selected objects, each once, with the bodies in place of their colliders."""
     chosen = context.view_layer.objects.selected
     return list(
-        dict.fromkeys(obj.parent if COLLIDER in obj and obj.parent else obj for obj in chosen)
+        dict.fromkeys(
+            obj.parent if settings.given.COLLIDER in obj and obj.parent else obj for obj in chosen
+        )
     )
 
 
@@ -261,7 +262,7 @@ class OBJECT_OT_body_moments_equal_inertia(_Making, Operator):
         for new, plan in zip(self._made, self._plans) if self.rigid_body else ():
             matrix = new.matrix_world.copy()
             new.parent, new.matrix_world = None, matrix
-            del new[COLLIDER], plan.obj[COLLIDERS]
+            del new[settings.given.COLLIDER], plan.obj[settings.given.COLLIDERS]
             new.rigid_body.collision_shape = "BOX" if self.kind == "BOX" else "CONVEX_HULL"
             new.rigid_body.mass = plan.shapes[0].mass
             plan.obj.parent = new

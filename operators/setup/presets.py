@@ -9,8 +9,7 @@ from bl_operators.presets import AddPresetBase
 from bpy.props import EnumProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
-from ...blender.scene.changes import require_storable_data
-from ...blender.session.selected import objects_with_settings
+from ...blender import scene, session
 from ...blender.settings import given, preferences, properties
 from ...blender.settings.chosen import chosen_objects
 from ...blender.write import reports
@@ -53,12 +52,14 @@ class OBJECT_OT_body_moments_set_material(Operator):
         preferences.copy_defaults(context.scene)
         material = BY_NAME[self.material]
         named = [obj for obj in context.view_layer.objects if obj.name_full == self.target]
-        objects = objects_with_settings(named or context.view_layer.objects.selected)
+        objects = session.selected.objects_with_settings(
+            named or context.view_layer.objects.selected
+        )
         if not objects or not given.has_density(objects[0]):
             return selection.refuse(self, "Select objects")
 
         def set_density(obj: Object) -> bool:
-            require_storable_data(obj)
+            scene.changes.require_storable_data(obj)
             settings = obj.body_moments
             before = _density_of(settings)
             settings.mass_from = "DENSITY"
@@ -141,7 +142,7 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
         objects = [obj for obj in context.view_layer.objects.selected if obj != active]
 
         def copy(obj: Object) -> bool:
-            require_storable_data(obj)
+            scene.changes.require_storable_data(obj)
             return properties.copy_settings(active.body_moments, obj.body_moments)
 
         copied, failures = selection.apply_to_all(objects, copy)
@@ -165,7 +166,7 @@ class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):
     ]
 
     def execute(self, context: Context) -> set[str]:
-        chosen = objects_with_settings(chosen_objects(context))
+        chosen = session.selected.objects_with_settings(chosen_objects(context))
         if not chosen:
             return selection.refuse(self, "Select objects")
         active = context.object
@@ -186,11 +187,11 @@ class OBJECT_OT_body_moments_preset_apply(Operator):
 
     def execute(self, context: Context) -> set[str]:
         def apply(obj: Object) -> None:
-            require_storable_data(obj)
+            scene.changes.require_storable_data(obj)
             with context.temp_override(object=obj):
                 bpy.ops.script.execute_preset(filepath=self.filepath, menu_idname=PRESET_PANEL)
 
-        objects = objects_with_settings(chosen_objects(context))
+        objects = session.selected.objects_with_settings(chosen_objects(context))
         changed, failures = selection.apply_to_all(objects, apply)
         texts = ("Set {count} object", "Set {count} objects")
         done = reports.phrase(*texts, count=len(changed))

@@ -8,13 +8,8 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
-from ...blender import bodies, scene
-from ...blender.read.visibility import measurable
-from ...blender.scene.changes import require_storable_data
-from ...blender.session import displayed, selected
-from ...blender.session.stored import outcome
-from ...blender.settings.accepted import accepted_codes, set_accepted, with_acceptance
-from ...blender.settings.preferences import copy_defaults
+from ...blender import bodies, read, scene, settings
+from ...blender.session import displayed, selected, stored
 from ...blender.write import properties, reports, translations
 from ...blender.write.remedies import (
     DUPLICATES,
@@ -49,7 +44,7 @@ class _OnSubject:
     @classmethod
     def poll(cls, context: Context) -> bool:
         obj = selected.subject(context)
-        is_measurable = obj is not None and measurable(obj)
+        is_measurable = obj is not None and read.visibility.measurable(obj)
         return is_measurable or reports.unavailable(cls, "Make a measurable object active")
 
     def execute(self, context: Context) -> set[str]:
@@ -111,7 +106,7 @@ class OBJECT_OT_body_moments_remedy(_OnSubject, Operator):
                 return {"CANCELLED"}
             text = "{:s}: {:d}".format(text, count)
         else:
-            require_storable_data(obj)
+            scene.changes.require_storable_data(obj)
             if self.remedy == UNION:
                 obj.body_moments.overlap = "UNION"
             else:
@@ -155,7 +150,7 @@ class SCENE_OT_body_moments_set_millimeters(Operator):
     )
 
     def execute(self, context: Context) -> set[str]:
-        copy_defaults(context.scene)
+        settings.preferences.copy_defaults(context.scene)
         context.scene.body_moments.units_answered = True
         units = context.scene.unit_settings
         units.system = "METRIC"
@@ -195,12 +190,16 @@ class OBJECT_OT_body_moments_accept(_OnSubject, Operator):
             codes = {self.code} if self.code else {found.code for found in own}
             if shown != obj and not codes & {found.code for found in properties.findings(shown)}:
                 continue
-            require_storable_data(shown)
-            if not any([set_accepted(shown, code, self.accepted) for code in codes]):
+            scene.changes.require_storable_data(shown)
+            if not any(
+                [settings.accepted.set_accepted(shown, code, self.accepted) for code in codes]
+            ):
                 continue
             changed = True
             if properties.is_stored(shown):
-                kept = with_acceptance(properties.findings(shown), accepted_codes(shown))
+                kept = settings.accepted.with_acceptance(
+                    properties.findings(shown), settings.accepted.accepted_codes(shown)
+                )
                 properties.store_findings(shown, kept)
         return {"FINISHED"} if changed else {"CANCELLED"}
 
@@ -218,7 +217,7 @@ class OBJECT_OT_body_moments_select_refused(selection.InObjectMode, Operator):
     )
 
     def execute(self, context: Context) -> set[str]:
-        last = outcome.last()
+        last = stored.outcome.last()
         refused = last.groups if last is not None else ()
         groups = (*displayed.total(context).groups, *refused) if self.code else refused
         chosen = [
@@ -251,7 +250,7 @@ class WM_OT_body_moments_dismiss(Operator):
     bl_options = {"INTERNAL"}
 
     def execute(self, _context: Context) -> set[str]:
-        outcome.forget()
+        stored.outcome.forget()
         return {"FINISHED"}
 
 

@@ -12,13 +12,9 @@ from typing import TYPE_CHECKING
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
-from ...blender import scene, session
-from ...blender.read.tracking import tracking_paused
+from ...blender import read, scene, session, write
 from ...blender.scale import meters_per_unit
-from ...blender.scene.changes import require_storable_data
-from ...blender.scene.findings import RIGID_BODY_MASS_TOO_SMALL, RIGID_BODY_NEEDS_MESH
 from ...blender.write import reports, translations
-from ...blender.write.units import Units
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from .. import modal, selection
 from ..findings import NOT_A_RIGID_BODY, RIGID_BODY_CENTER_ELSEWHERE
@@ -154,7 +150,7 @@ def _compare_masses(context: Context, made: "RigidBodies") -> str:
     """Return a line for each of the first bodies: its exact mass, and its mass by Calculate
     Mass.
     """
-    units = Units.from_settings(context.scene.unit_settings)
+    units = write.units.Units.from_settings(context.scene.unit_settings)
     lines = []
     for obj, one in list(made.measured.items())[:SHOWN]:
         line = "{:s}: {:s}".format(obj.name, units.text("mass", one.target.mass))
@@ -201,17 +197,17 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(
         target_in_turn = scene.targets_in_turn(context, self._objects)
 
         def measure(obj: Object) -> None:
-            require_storable_data(obj)
+            scene.changes.require_storable_data(obj)
             if obj.rigid_body is None and not self.add:
                 raise EditRefusedError(NOT_A_RIGID_BODY)
             if obj.rigid_body is None and obj.type != "MESH":
-                raise EditRefusedError(RIGID_BODY_NEEDS_MESH)
+                raise EditRefusedError(scene.findings.RIGID_BODY_NEEDS_MESH)
             if obj.rigid_body is None:
                 scene.rigid_world.require_rigid_world(context.scene)
             body = target_in_turn(obj)
             if body.mass < scene.rigid_world.MIN_MASS:
                 raise EditRefusedError(
-                    RIGID_BODY_MASS_TOO_SMALL,
+                    scene.findings.RIGID_BODY_MASS_TOO_SMALL,
                     mass=float(body.mass),
                     limit=scene.rigid_world.MIN_MASS,
                 )
@@ -222,7 +218,9 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(
 
     def _finish(self, context: Context) -> set[str]:
         bodies, failures = self._bodies, self._failures
-        with tracking_paused():  # Blender reports a rigid body as a change of the shape
+        with (
+            read.tracking.tracking_paused()
+        ):  # Blender reports a rigid body as a change of the shape
             new = [body.obj for body in bodies if body.obj.rigid_body is None]
             scene.rigid_world.add_rigid_bodies(context, new)
             changed = set(new)

@@ -16,8 +16,7 @@ import bpy
 from bpy.props import BoolProperty, CollectionProperty, FloatProperty, StringProperty
 from bpy.types import Context, Event, Operator, PropertyGroup, Scene
 
-from ...blender import session
-from ...blender.read.visibility import measurable_objects
+from ...blender import read, session
 from ...blender.session.selected import require_subject, subject
 from ...blender.write import reports
 from ...core.verdict import Finding, MeasureError, system_reason
@@ -137,7 +136,7 @@ class OBJECT_OT_body_moments_find_similar(modal.ModalSteps, _SearchMixin, Operat
         wanted = require_subject(context)
         self._others = [
             obj
-            for obj in measurable_objects(context.view_layer)
+            for obj in read.visibility.measurable_objects(context.view_layer)
             if obj != wanted and obj.visible_get()
         ]
         self._failures: list[Finding] = []

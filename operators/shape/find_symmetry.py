@@ -20,9 +20,7 @@ from bpy.props import (
 )
 from bpy.types import Context, Object, Operator, PropertyGroup
 
-from ...blender import bodies
-from ...blender.scene.changes import require_storable_data
-from ...blender.session import stored
+from ...blender import bodies, scene, session
 from ...blender.session.tracking import staleness, stamps
 from ...blender.write import reports
 from ...core.verdict import Finding
@@ -98,7 +96,7 @@ class OBJECT_OT_body_moments_find_symmetry(modal.ModalSteps, selection.OnSelecti
         self._failures: list[Finding] = []
 
         def find(obj: Object) -> Iterator[float]:
-            require_storable_data(obj)
+            scene.changes.require_storable_data(obj)
             shape = bodies.comparable_shape_of(obj, context.evaluated_depsgraph_get())
             yield 0.3
             self._results.append((obj, shape, *shape.find_symmetries(self.tolerance)))
@@ -111,7 +109,9 @@ class OBJECT_OT_body_moments_find_symmetry(modal.ModalSteps, selection.OnSelecti
         behind.
         """
         for obj, shape, found_symmetry, allowed in self._results:
-            stored.results.store_symmetry(obj, shape, found_symmetry, allowed, self.tolerance)
+            session.stored.results.store_symmetry(
+                obj, shape, found_symmetry, allowed, self.tolerance
+            )
         # Blender reports the stored symmetry as a change of the object.
         staleness.mark_stamps(
             context,

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 from bpy.props import EnumProperty, FloatProperty
 from bpy.types import Context, Event, Operator
 
-from ...blender import scene, session
-from ...blender.read.tracking import tracking_paused
+from ...blender import read, scene, session
 from ...blender.scale import meters_per_unit
 from ...blender.write import reports
 from .. import selection
@@ -122,7 +121,7 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
         keeps_materials = "MATERIALS" in self.may_differ
         with session.stored.assembly.kept_up_to_date(context):
             with (
-                tracking_paused(),
+                read.tracking.tracking_paused(),
                 reports.progress(sum(len(kind.members) for kind in kinds)) as step,
             ):
                 linked = scene.copies.link_copies(

@@ -12,12 +12,11 @@ import numpy as np
 from bpy.types import Context, Object, Scene
 from numpy.typing import NDArray
 
+from ...blender import session, write
 from ...blender.scale import meters_per_unit
 from ...blender.scene import fcurves
-from ...blender.session import character, memory
 from ...blender.session.character.weight import Weight
 from ...blender.session.stored import balance_groups, cuts, faults, floating, stability
-from ...blender.write import reports
 from ...core import rig, statics
 from ...core.cuts import cut_outline
 from ...core.numerics import Array
@@ -67,7 +66,7 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
     details += [_faults(obj, shown) for obj, shown in zip(objects, found) if shown is not None]
     for obj in objects:
         weight = (
-            character.weight.weight(obj, context.view_layer.depsgraph)
+            session.character.weight.weight(obj, context.view_layer.depsgraph)
             if draw.shows_weight(obj)
             else None
         )
@@ -76,7 +75,7 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
     checked = [obj for obj in objects if stability.is_known(obj)] if settings.show_support else ()
     supports = [stability.support(obj, context.scene) for obj in checked]
     details += [support_detail(support) for support in supports if support is not None]
-    if settings.show_level and any(obj in memory.levels for obj in objects):
+    if settings.show_level and any(obj in session.memory.levels for obj in objects):
         unit = meters_per_unit(context.scene)
         levels = [cuts.level_of(obj, context.scene) for obj in objects]
         details += [_surface(level, unit) for level in levels if level is not None]
@@ -181,7 +180,7 @@ def _weight(context: Context, weight: Weight) -> list[Detail]:
     polygon = None if weight.support is None else support_detail(weight.support)
     color = look.TIPS if polygon is None else polygon.segments[1][0]
     plumb = _tinted(np.array([[weight.parts.center, weight.foot]]), color)
-    texts = ((weight.foot, reports.phrase(text, **lengths), color),)
+    texts = ((weight.foot, write.reports.phrase(text, **lengths), color),)
     return [
         Detail(plumb, _tinted(np.zeros((0, 3, 3)), color), texts),
         *([] if polygon is None else [polygon]),

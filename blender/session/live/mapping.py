@@ -9,9 +9,8 @@ from bpy.types import Object, Scene
 from numpy.typing import NDArray
 
 from ....core import bodies, inertia, measurement, moments, numerics
-from ...read.fingerprint import has_transform
+from ... import read, settings
 from ...scale import meters_per_unit
-from ...settings.options import object_settings
 from .. import memory
 from .following import Followed, Lag
 
@@ -29,7 +28,7 @@ def map_properties(
         measured.area,
         measured.error_bound,
     )
-    if current.first_order is None and has_transform(obj, current.transform):
+    if current.first_order is None and read.fingerprint.has_transform(obj, current.transform):
         return shown
     return _mapped(obj, current, measured, shown, scene)
 
@@ -39,7 +38,7 @@ def is_of_another_scale(obj: Object, current: Followed) -> bool:
     follow.
     """
     measured = None if current.result is None else current.result.measurement
-    if measured is None or has_transform(obj, current.transform):
+    if measured is None or read.fingerprint.has_transform(obj, current.transform):
         return False
     return _linear_map(obj, current, measured) is None
 
@@ -90,7 +89,7 @@ def _mapped(
     if not volume > 0.0:
         return shown
     mass = measured.mass_properties.mass
-    if object_settings(obj, scene).mass is None:
+    if settings.options.object_settings(obj, scene).mass is None:
         mass *= volume / measured.volume
     turn = numerics.rotation_matrix(obj.matrix_world.to_quaternion())
     image = inertia.affine_image(

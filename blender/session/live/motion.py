@@ -19,11 +19,10 @@ from numpy.typing import NDArray
 from ....core import bodies, mesh, statics, verdict
 from ....core.moments import Measure, Moments, are_similarities, are_singular
 from ....core.numerics import Array
+from ... import read, scene
 from ...bodies.measure_object import measure_object
 from ...bodies.mesh import object_hull
-from ...read.objects import read_object
 from ...scale import meters_per_unit
-from ...scene.findings import OPEN_OBJECT
 from ...settings.options import object_settings
 from ..tracking import updates
 
@@ -132,7 +131,7 @@ class Motion:
             name: _coordinates(blocks[name].data)
             for name in {*keys, *(blocks[k].relative_key.name for k in keys)}
         }
-        surface = read_object(obj, depsgraph, edges=False).parts[0].surface
+        surface = read.objects.read_object(obj, depsgraph, edges=False).parts[0].surface
         surface = replace(surface, points=_coordinates(obj.data.shape_keys.reference_key.data))
         offsets = [shapes[name] - shapes[blocks[name].relative_key.name] for name in keys]
         followed.mixes = statics.fit_mixes(surface, offsets)
@@ -184,7 +183,9 @@ def _mixed(
     flat or inside out.
     """
     assert followed.mixes is not None and followed.triangles is not None
-    triangles, _ = read_object(obj, depsgraph, edges=False).parts[0].surface.all_triangles()
+    triangles, _ = (
+        read.objects.read_object(obj, depsgraph, edges=False).parts[0].surface.all_triangles()
+    )
     if not np.array_equal(triangles, followed.triangles):
         return None
     blocks = obj.data.shape_keys.key_blocks
@@ -204,7 +205,7 @@ def _measured(
     """
     measurement = measure_object(obj, depsgraph)
     if measurement.method.procedure == verdict.Procedure.OPEN:
-        raise verdict.EditRefusedError(OPEN_OBJECT, subject=obj.name)
+        raise verdict.EditRefusedError(scene.findings.OPEN_OBJECT, subject=obj.name)
     moments, factor = measurement.mass_moments
     followed.given_mass = object_settings(obj, depsgraph.scene).mass
     mass = moments.truncate(2) * factor

@@ -14,8 +14,7 @@ from bpy.types import Object
 from ....core import bodies, verdict
 from ....core.numerics import Array
 from ...bodies.stack import Measured
-from .. import memory
-from ..tracking import updates
+from .. import memory, tracking
 
 PAIRS = "boundary_edges", "non_manifold_edges", "inconsistent_edges"
 FACES = verdict.FLIPPED_FACES, "duplicate_faces", "degenerate_faces"
@@ -71,13 +70,13 @@ def remember(obj: Object, measured: Measured) -> None:
         triangles, face = surface.all_triangles()
         triangles = triangles[np.isin(face, faces)][:MAX_DRAWN]
     memory.faults[obj] = Faults(
-        points[pairs[:MAX_DRAWN]], points[triangles], updates.last_change_of_geometry(obj)
+        points[pairs[:MAX_DRAWN]], points[triangles], tracking.updates.last_change_of_geometry(obj)
     )
 
 
 def of_object(obj: Object) -> Faults | None:
     """Return the faults of an object, None if there are none or its geometry has changed."""
     faults = memory.faults.get(obj)
-    if faults is None or faults.change != updates.last_change_of_geometry(obj):
+    if faults is None or faults.change != tracking.updates.last_change_of_geometry(obj):
         return None
     return faults

@@ -17,12 +17,10 @@ from bpy.types import Context, Depsgraph, Object, Scene
 from ....core import inertia, verdict
 from ....core.moments import Invariant
 from ....core.moments.moments import Measure, Moments, monomial_count, monomials
+from ... import bodies, read, write
 from ...bodies.flat.flat import area_findings, clearer_refusal, flat_region
-from ...bodies.measure_body import THREADS
 from ...bodies.measure_object import measure_object
-from ...read.fingerprint import matrix_hash, settings_hash
 from ...settings.options import MeasureOptions
-from ...write.units import number
 from .. import memory
 from ..tracking import staleness, stamps
 from .computed_moments import ComputedMoments, FlatMoments, in_frame, invariants
@@ -61,7 +59,9 @@ def compute_moments(
         not_flat = error
     try:
         measurement = measure_object(
-            obj, depsgraph, MeasureOptions(order=order, surface=True, threads=THREADS)
+            obj,
+            depsgraph,
+            MeasureOptions(order=order, surface=True, threads=bodies.measure_body.THREADS),
         )
     except verdict.MeasureError as refusal:
         if not_flat is not None:
@@ -88,8 +88,10 @@ def compute_moments(
 def cache_moments(obj: Object, computed: ComputedMoments, depsgraph: Depsgraph) -> None:
     """Cache an object's freshly computed moments."""
     memory.moments[obj] = computed
-    settings = settings_hash(obj, depsgraph.scene)
-    stamp = stamps.carry(obj, stamps.Kind.MOMENTS, memory.state.updates, matrix_hash(obj), settings)
+    settings = read.fingerprint.settings_hash(obj, depsgraph.scene)
+    stamp = stamps.carry(
+        obj, stamps.Kind.MOMENTS, memory.state.updates, read.fingerprint.matrix_hash(obj), settings
+    )
     staleness.mark_stamp(obj, stamp, depsgraph)
 
 
@@ -140,7 +142,7 @@ def _displayed_degrees(moments: Moments, of: str, about: str) -> Iterator[Degree
         values = moments.raw[part]
         noise = np.maximum(moments.rounding_error[part], ZERO_DISPLAY_RTOL * np.abs(values).max())
         texts = [
-            number(0.0 if abs(value) <= least else float(value))
+            write.units.number(0.0 if abs(value) <= least else float(value))
             for value, least in zip(values, noise)
         ]
         cells = zip(
@@ -159,7 +161,7 @@ def _displayed_invariants(found: list[Invariant], order: int) -> Iterator[Degree
             if one.degree == degree:
                 parts = (one.value.real, one.value.imag) if one.is_complex else (one.value.real,)
                 noise = one.rounding_error
-                texts = [number(0.0 if abs(part) <= noise else part) for part in parts]
+                texts = [write.units.number(0.0 if abs(part) <= noise else part) for part in parts]
                 text = " + ".join(texts).replace("+ −", "− ") + " i" * one.is_complex
                 rows.append((one.name, text, " ".join(map(repr, parts))))
         yield Degree(degree, "", tuple(rows))

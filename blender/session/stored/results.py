@@ -16,10 +16,9 @@ from bpy.types import Context, Object, Scene
 
 from ....core.measurement import fingerprint
 from ....core.verdict import internal_error
+from ... import read, settings
 from ...bodies.stack import Measured, MeasuredStack
-from ...read.fingerprint import matrix_hash, scale_hash, settings_hash
 from ...scale import meters_per_unit
-from ...settings.density import is_density_unset
 from ...write import properties, section
 from ..tracking import armatures, staleness, stamps
 from . import density, faults, reference, sliders
@@ -90,7 +89,7 @@ def _values_of_stack(part: MeasuredStack, scene: Scene) -> Iterator[dict[str, An
     """Return the properties of the members of a stack."""
     findings = list(part.findings)
     for i, (member, from_mass) in enumerate(zip(part.members, part.from_mass.tolist())):
-        if not from_mass and is_density_unset(member.obj.body_moments, scene):
+        if not from_mass and settings.density.is_density_unset(member.obj.body_moments, scene):
             findings[i] = density.with_default_note(findings[i], "density")
     methods = [part.shape(i).method for i in range(len(findings))]
     return properties.values_of_stack(
@@ -115,7 +114,9 @@ def store_symmetry(
     stored.tolerance = tolerance
     stored.of_display_mesh = shape.is_display_mesh
     stored.fingerprint = (
-        stamps.Stamp.parse(shape.fingerprint)._replace(transform=scale_hash(obj)).text
+        stamps.Stamp.parse(shape.fingerprint)
+        ._replace(transform=read.fingerprint.scale_hash(obj))
+        .text
     )
     stored.elements.clear()
     turn = shape.rotation.T
@@ -139,7 +140,11 @@ def store_sections(context: Context, sections: Sequence[tuple[Object, MeasuredSe
     for obj, (found, description, findings) in sections:
         parts = (found.plane.origin, found.plane.axes.ravel(), found.second, found.centroid)
         numbers = np.concatenate([*parts, [found.area, found.perimeter]])
-        mark = fingerprint(numbers.tobytes(), matrix_hash(obj), settings_hash(obj, context.scene))
+        mark = fingerprint(
+            numbers.tobytes(),
+            read.fingerprint.matrix_hash(obj),
+            read.fingerprint.settings_hash(obj, context.scene),
+        )
         section.store(obj, found, description, findings, mark, unit)
     staleness.mark_stamps(
         context, [(obj, stamp) for obj, _ in sections if (stamp := stamps.of_section(obj))]

@@ -18,11 +18,8 @@ from numpy.typing import NDArray
 
 from ....core import inertia, mesh, statics, verdict
 from ....core.numerics import Array, rotation_matrix
-from ...bodies.measure_object import measured_in_turn
-from ...bodies.mesh import MAX_CORNERS, object_hull
-from ...read.mesh import shape_digest
+from ... import bodies, read, write
 from ...scene import findings, reframe, rigid_world, transforms
-from ...write import properties, reports
 from .. import displayed, memory
 from ..tracking import handlers, staleness, stamps
 from . import results
@@ -57,10 +54,10 @@ MAX_EARLIER = 8  # hulls of earlier shapes that are kept
 
 def compute(obj: Object, depsgraph: Depsgraph) -> mesh.ConvexHull:
     """Compute and cache the hull of an evaluated object, or raise MeasureError if it has none."""
-    hull = object_hull(obj, depsgraph)
+    hull = bodies.mesh.object_hull(obj, depsgraph)
     last = memory.hulls.get(obj)
     earlier = () if last is None else (*last.earlier, last)[-MAX_EARLIER:]
-    _remember(obj, KnownHull(hull, shape_digest(obj, depsgraph), earlier), depsgraph)
+    _remember(obj, KnownHull(hull, read.mesh.shape_digest(obj, depsgraph), earlier), depsgraph)
     return hull
 
 
@@ -79,7 +76,7 @@ def _up_to_date(obj: Object, scene: Scene) -> KnownHull | None:
     if not last.earlier or last.sought_at == memory.state.generation or depsgraph is None:
         return None
     last.sought_at = memory.state.generation
-    digest = shape_digest(obj, depsgraph)
+    digest = read.mesh.shape_digest(obj, depsgraph)
     known = [one for one in last.earlier if digest is not None and one.digest == digest]
     if not known:
         return None
@@ -163,8 +160,8 @@ def check_stability(context: Context, obj: Object, measured: list[Object]) -> li
     decisions.
     """
     depsgraph = context.evaluated_depsgraph_get()
-    if properties.stored(obj) is None or staleness.stale_reason(obj, context.scene):
-        result = measured_in_turn([obj], depsgraph)(obj)
+    if write.properties.stored(obj) is None or staleness.stale_reason(obj, context.scene):
+        result = bodies.measure_object.measured_in_turn([obj], depsgraph)(obj)
         if result.method.procedure == verdict.Procedure.OPEN:
             raise verdict.EditRefusedError(findings.OPEN_OBJECT)
         for _, refusal in results.store_many([(obj, result)], context.scene):
@@ -173,14 +170,16 @@ def check_stability(context: Context, obj: Object, measured: list[Object]) -> li
         measured.append(obj)
     hull = compute(obj, depsgraph)
     extent = float(np.ptp(hull.points, axis=0).max())
-    if len(hull.points) >= MAX_CORNERS:
+    if len(hull.points) >= bodies.mesh.MAX_CORNERS:
         text = (
             "“{object}” is finely divided: its convex hull is taken with {corners} corners, to "
             "{share:percent} of its "
             "size"
         )
         return [
-            reports.phrase(text, object=obj.name, corners=len(hull.points), share=hull.gap / extent)
+            write.reports.phrase(
+                text, object=obj.name, corners=len(hull.points), share=hull.gap / extent
+            )
         ]
     return []
 

@@ -27,11 +27,9 @@ import bpy
 from bpy.types import Collection, Context, Depsgraph, Object, Scene
 
 from ....core import measurement
-from ... import read
+from ... import read, settings, write
 from ...read import fingerprint, tracking
 from ...scale import meters_per_unit
-from ...settings.given import COLLIDERS
-from ...write import properties
 from .. import memory
 from . import handlers, stamps, updates
 from .stamps import EDITED, Kind, Stale, Stamp
@@ -90,11 +88,13 @@ def _has_unit(_obj: Object, stamp: Stamp, scene: Scene) -> bool:
 
 
 def _has_body_scale(obj: Object, stamp: Stamp, _scene: Scene) -> bool:
-    return fingerprint.has_scale(obj, stamp.transform, [*obj[COLLIDERS].get("scale", ())])
+    return fingerprint.has_scale(
+        obj, stamp.transform, [*obj[settings.given.COLLIDERS].get("scale", ())]
+    )
 
 
 def _has_colliders(obj: Object, _stamp: Stamp, _scene: Scene) -> bool:
-    return obj[COLLIDERS].get("digest") == fingerprint.colliders_digest(obj)
+    return obj[settings.given.COLLIDERS].get("digest") == fingerprint.colliders_digest(obj)
 
 
 def _has_structure(root: Object | Collection, stamp: Stamp, scene: Scene) -> bool:
@@ -149,7 +149,7 @@ def _digest_parts(
         for part in member.walk()
         if part.kind == assembly.MemberKind.OBJECT and part.is_measured
     ]
-    texts = {obj: properties.fingerprint(obj) for obj in measured}
+    texts = {obj: write.properties.fingerprint(obj) for obj in measured}
     is_stale = any(stale_reason(obj, scene) not in current for obj in measured)
     key = assembly.members_key(member, texts)
     return assembly.structure_hash(member), "" if is_stale else measurement.settings.digest(
@@ -249,7 +249,7 @@ def mark_stamp(obj: Object, stamp: Stamp, depsgraph: Depsgraph) -> None:
 def mark_object(obj: Object) -> None:
     """Mark the stored results as up to date with an original object's current geometry."""
     memory.resolved[obj.session_uid] = memory.state.updates
-    set_edited(obj, properties.fingerprint(obj), False)
+    set_edited(obj, write.properties.fingerprint(obj), False)
     handlers.count_change(obj)
 
 
@@ -257,7 +257,7 @@ def replace_stamp(obj: Object, before: str) -> None:
     """Carry the notes on replaced results (`before`: their stamp) over, if the shape was not
     changed with them.
     """
-    text = properties.fingerprint(obj)
+    text = write.properties.fingerprint(obj)
     set_edited(obj, text, before in _edited_stamps(obj))
     if before in memory.shapes:
         memory.shapes[text] = memory.shapes[before]
