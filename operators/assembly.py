@@ -128,8 +128,6 @@ FRAME_OF = "principal_frame_of_assembly"
 
 
 class _SnapToAssembly:
-    """Base of the operators that place something at an assembly's center of mass."""
-
     bl_options = {"REGISTER", "UNDO"}
     target: TARGET
     _place: Callable[..., str]  # places the cursor, empty or origin, and returns the report

@@ -100,7 +100,6 @@ def _base_name(name: str) -> str:
 
 
 def _are_equal(row: PropertyGroup, other: PropertyGroup) -> bool:
-    """Return whether two neighboring rows show equal parts."""
     return (
         row.member == other.member == "OBJECT"
         and (row.depth, row.is_counted, row.findings)
@@ -111,7 +110,6 @@ def _are_equal(row: PropertyGroup, other: PropertyGroup) -> bool:
 
 
 def _count_equal(tree: bpy_prop_collection, first: int) -> int:
-    """Return the number of equal parts from a row on."""
     end = first + 1
     while end < len(tree) and _are_equal(tree[end - 1], tree[end]):
         end += 1
@@ -148,7 +146,6 @@ def draw_assembly(layout: UILayout, context: Context, root: assembly.Root, targe
 
 
 def _actions(column: UILayout, target: str, is_collection: bool) -> None:
-    """Draw the buttons for a measured assembly, always at the same place."""
     row = column.row(align=True)
     rows.button(
         row,
@@ -169,7 +166,6 @@ def _actions(column: UILayout, target: str, is_collection: bool) -> None:
 
 
 def _tree(layout: UILayout, settings: PropertyGroup) -> None:
-    """Draw the list of members, and the findings about the highlighted member."""
     layout.template_list(
         BODY_MOMENTS_UL_assembly.__name__,
         "",

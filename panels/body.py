@@ -152,7 +152,6 @@ def _of_one(context: Context, obj: Object) -> Answer:
 
 
 def _of_several(context: Context) -> Answer:
-    """Return the selected objects, or the meshes of a posed armature, as one body."""
     shown = total(context)
     active = context.object
     count = shown.count + len(shown.missing)

@@ -68,7 +68,6 @@ def _equal_moments(shown: inertia.PlainBody) -> str:
 
 
 def _are_several(context: Context) -> bool:
-    """Return whether the numbers are the sum of the selected objects, in the world frame."""
     obj = selected.subject(context)
     is_posed = obj is not None and tracking.armatures.stands_for_meshes(obj)
     return not is_posed and len(shown_objects(context)) > 1

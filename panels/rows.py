@@ -289,7 +289,6 @@ def _form(labels: Sequence[str], shown: Sequence[str]) -> tuple[float, bool]:
 
 
 def _title(layout: UILayout, text: str) -> None:
-    """Draw a label, already translated, in as many lines as it needs."""
     room = _room()
     if room is None or _length(text) <= room:
         layout.label(text=text, translate=False)

@@ -43,13 +43,6 @@ class SectionPanel:
         remedies.notes(layout, "body_moments_section_notes", groups)
 
 
-def _may_be_cut(obj: Object) -> bool:
-    """Return whether the sub-panel of levels, and of cut and fill, is for this object."""
-    return obj.type in read.visibility.SECTION_TYPES and (
-        read.visibility.measurable(obj) or _may_have_section(obj)
-    )
-
-
 def _may_have_section(obj: Object) -> bool:
     if obj.type not in read.visibility.SECTION_TYPES:
         return False
@@ -132,4 +125,11 @@ def _more_numbers(layout: UILayout, section) -> None:
         rows.error_bounds(body, sources, entries)
 
 
-CLASSES = places.in_both_places(SectionPanel, "section", shown_for=_may_be_cut)
+CLASSES = places.in_both_places(
+    SectionPanel,
+    "section",
+    shown_for=lambda obj: (
+        obj.type in read.visibility.SECTION_TYPES
+        and (read.visibility.measurable(obj) or _may_have_section(obj))
+    ),
+)

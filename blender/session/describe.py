@@ -182,7 +182,6 @@ def _description(
 
 
 def _call(remedy: str) -> str:
-    """Return the call of a remedy, a key of REMEDIES or the idname of an operator."""
     return (
         "bpy.ops.{}(remedy={!r})".format(write.remedies.REPAIR, remedy)
         if remedy in write.remedies.REMEDIES

@@ -263,9 +263,6 @@ def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredObje
 
 
 def _measured_part(part: Object, ask: Callable[[Object], MeasuredObject]) -> MeasuredObject:
-    """Measure a part of a body as it is now; raise EditRefusedError if it cannot belong to a rigid
-    body.
-    """
     changes.require_storable_data(part)
     if part.type != "MESH":
         raise EditRefusedError(findings.RIGID_BODY_NEEDS_MESH)

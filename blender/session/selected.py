@@ -130,10 +130,6 @@ def _of_all(name: str, function: Any, keywords: dict[str, Any]) -> Any:
     return function(**(kept | {"options": set(), "get": read, "set": write}))
 
 
-def _find_volumes(_settings: PropertyGroup, _context: Context, _text: str) -> list[str]:
-    return [obj.name for obj in bpy.data.objects if obj.type == "VOLUME"]
-
-
 class BodyMomentsSelectionSettings(PropertyGroup):
     """Settings of the selected objects: each shows the first object's, and sets that of all."""
 
@@ -151,7 +147,9 @@ BodyMomentsSelectionSettings.__annotations__["density_volume"] = StringProperty(
     description="Volume object whose grid is the density inside the solids",
     get=lambda _settings: getattr(owners(bpy.context)[0].body_moments.density_volume, "name", ""),
     set=lambda _settings, name: _set_all("density_volume", bpy.data.objects.get(name)),
-    search=_find_volumes,
+    search=lambda _settings, _context, _text: [
+        obj.name for obj in bpy.data.objects if obj.type == "VOLUME"
+    ],
 )
 CLASSES = (BodyMomentsSelectionSettings,)
 POINTERS = {(Scene, "body_moments_selection"): BodyMomentsSelectionSettings}

@@ -188,7 +188,6 @@ def values_of_stack(
 
 
 def _texts(method: Method, found: Iterable[Finding], mark: str) -> dict[str, str]:
-    """Return the texts stored beside the numbers."""
     return {
         "body_method": str(method),
         "body_warnings": warning_lines(found),
@@ -276,12 +275,8 @@ def _set(obj: Owner, key: str, value: object) -> None:
     is_new = key not in obj  # otherwise it has its description
     obj[key] = value
     if is_new and not isinstance(value, str):
-        obj.id_properties_ui(key).update(description=_description(key, type(obj)), precision=6)
-
-
-@lru_cache
-def _description(key: str, owner: type) -> str:
-    return DESCRIPTIONS[key].format(frame=FRAMES[owner])
+        description = DESCRIPTIONS[key].format(frame=FRAMES[type(obj)])
+        obj.id_properties_ui(key).update(description=description, precision=6)
 
 
 def store_reference(obj: Owner, values: dict) -> None:

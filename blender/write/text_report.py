@@ -83,7 +83,6 @@ def text(file_document: dict[str, Any]) -> str:
 
 
 def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
-    """Yield the lines of one object, or of a total."""
     if "method" in entry:
         walled = any(found["code"] == wall.WALL_MEASURED for found in entry.get("findings", ()))
         _, explanation = verdict.METHODS.get(

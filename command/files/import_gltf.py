@@ -220,7 +220,6 @@ def _sampled(file: files.GltfFile, sampler: dict[str, Any], seconds: float, part
 
 
 def _correct(pose: _Pose, shown: dict[str, _Shown]) -> None:
-    """Bring objects to the places, and shape keys to the weights, that a file states."""
     weighted: set[bpy.types.Key] = set()
     for name, node in shown.items():
         shapes = bpy.data.objects[name].data.shape_keys

@@ -69,7 +69,6 @@ def import_usd(path: str, frame: float | None) -> references.Opened:
 
 
 def _is_special(prim: _Prim) -> bool:
-    """Return whether an object of an instance cannot be shown as Blender's importer does."""
     axes = prim.place[:3, :3]
     lengths = np.linalg.norm(axes, axis=0)
     is_sheared = (
@@ -323,7 +322,6 @@ class _Stage:
 def _correct(
     prims: Mapping[str, _Prim], missing: tuple[Finding, ...], start: float | None
 ) -> references.Opened:
-    """Correct the objects by their prims, and return the findings."""
     bpy.context.view_layer.update()
     hidden: dict[str, Finding] = {}
     notes = () if start is None else (finding(FRAME_MEASURED, frame=start),)
@@ -369,7 +367,6 @@ def _correct(
 
 
 def _rendered() -> set[bpy.types.Collection]:
-    """Return the collections of the scene that are rendered."""
     waiting = [bpy.context.scene.collection]
     found = set()
     while waiting:

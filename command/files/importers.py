@@ -114,7 +114,6 @@ def import_3mf(path: str) -> Opened:
 
 
 def _set_print(settings: bpy.types.PropertyGroup, found: Mapping[str, float]) -> None:
-    """Set an object's settings to those of a slicer's project, if it has any."""
     if found:
         settings.kind = "PRINTED"
     if "density" in found:
@@ -165,7 +164,6 @@ def _closed_surface(part: streams.Placed, matrix: NDArray) -> Surface | None:
 
 
 def _mesh(one: streams.Placed) -> bpy.types.Mesh:
-    """Return the mesh as stored in the file, without repair."""
     return blender_mesh(
         streams.FileMesh(
             one.name, one.points, one.triangles.ravel(), np.full(len(one.triangles), 3)

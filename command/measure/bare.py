@@ -130,7 +130,6 @@ class BareFile:
         )
 
     def _mesh_settings(self) -> tuple[Settings, list[Finding]]:
-        """Return the settings of meshes, and the findings about the file."""
         settings = replace(self._settings(), unit=self.options.unit_scale or 1.0)
         findings = [*checks.file_findings(self._path, self.options)]
         if settings.density is None and settings.mass is None:
@@ -150,7 +149,6 @@ class BareFile:
         return [name for name in names if name in wanted]
 
     def _measure_whole(self, contents: Contents) -> None:
-        """Measure the samples of a file, or its faces in blocks."""
         is_scan = self._is_scan
         name = os.path.basename(self._path)[: -len(file_suffix(self._path))]
         if is_scan and self.options.label is not None:
@@ -163,7 +161,9 @@ class BareFile:
             return
         count = self._progress(self._path, "samples" if is_scan else "faces")
         measurement = (
-            self._measure_array(name, count) if is_scan else self._measure_stream(name, count)
+            bodies.measure_array(self._path, name, self._array_options(), self._settings(), count)
+            if is_scan
+            else self._measure_stream(name, count)
         )
         requested = [more for more in ("pose", "signature") if getattr(self.options, more)]
         shapeless = checks.unused(requested)
@@ -175,7 +175,6 @@ class BareFile:
         self._add(contents, measurement, [*shapeless, *checks.unused(floats)], more)
 
     def _measure_labels(self, name: str, contents: Contents) -> None:
-        """Measure the labels of a label map, each with a record of its own."""
         options = self.options
         settings, findings = self._mesh_settings()
         table = {}
@@ -206,11 +205,6 @@ class BareFile:
             if one.name in chosen:
                 self._add(contents, one, own, more)
 
-    def _measure_array(self, name: str, progress: Callable[[int], None]) -> Measurement:
-        return bodies.measure_array(
-            self._path, name, self._array_options(), self._settings(), progress
-        )
-
     def _array_options(self) -> bodies.ArrayOptions:
         taken = {
             one: getattr(self.options, one)
@@ -234,7 +228,6 @@ class BareFile:
         return bodies.measure_mesh_file(self._path, name, settings, tuple(findings), progress)
 
     def _measure_meshes(self, contents: Contents) -> None:
-        """Measure the meshes of a file, each with a name of its own."""
         try:
             if file_suffix(self._path) == ".obj" and cad.has_surfaces(self._path):
                 raise FileError(

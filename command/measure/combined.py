@@ -8,13 +8,11 @@ With asset metadata, collections that are assets are included.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 import bpy
-from bpy.types import Scene
 
 from ...blender import bodies, read, settings
 from ...blender.bodies.assembly.assembly import Assembly, measure_assembly
@@ -92,7 +90,10 @@ def measure_combined(
             measure_assembly(root, bpy.context.evaluated_depsgraph_get(), wanted)
         )
 
-    roots = dict.fromkeys(_roots(scene))
+    by_name = sorted(scene.objects, key=lambda obj: obj.name)
+    empties = [obj for obj in by_name if obj.type == "EMPTY" and is_assembly(obj)]
+    collections = scene.collection, *scene.collection.children_recursive
+    roots = dict.fromkeys((*collections, *empties))
     measured = [
         root
         for root in roots
@@ -105,18 +106,8 @@ def measure_combined(
         if root.asset_data is not None and root.library is None and root not in measured:
             with suppress(MeasureError):  # assemblies of lamps, or of objects that are left out
                 add_assembly(root)
-    for armature in sorted(scene.objects, key=lambda obj: obj.name):
+    for armature in by_name:
         if armature.type == "ARMATURE" and armature.get("body_method") == Procedure.ASSEMBLY:
             with contents.attempt(armature.name):
                 found.rigs.append(bodies.rig.measure_rig(bpy.context, armature))
     return found
-
-
-def _roots(scene: Scene) -> Iterator[Root]:
-    """Yield all collections of a scene, and the empties that are assemblies of their children."""
-    empties = (obj for obj in scene.objects if obj.type == "EMPTY" and is_assembly(obj))
-    yield from (
-        scene.collection,
-        *scene.collection.children_recursive,
-        *sorted(empties, key=lambda obj: obj.name),
-    )

@@ -166,7 +166,6 @@ def files_of_options(
 
 
 def _check_labels(options: argparse.Namespace) -> None:
-    """End with a message if the options of label maps do not go together."""
     if options.label is not None and options.threshold is not None:
         fail("arguments --label and --threshold exclude each other")
     if options.label_table is not None and options.label is None:
@@ -174,7 +173,6 @@ def _check_labels(options: argparse.Namespace) -> None:
 
 
 def _check_fourier(options: argparse.Namespace) -> None:
-    """End with a message if the options of the transform do not go together."""
     target = options.fourier
     if target is None:
         for name in ("q", "grid", "qmax"):

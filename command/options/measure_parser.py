@@ -54,7 +54,6 @@ def measure_parser() -> Parser:
 
 
 def _add_settings(parser: Parser) -> None:
-    """Add options for the choice of objects and their material."""
     parser.value(
         "--object",
         str,
@@ -120,7 +119,6 @@ def _add_settings(parser: Parser) -> None:
 
 
 def _add_of_files(parser: Parser) -> None:
-    """Add options for information missing in files."""
     text = "meters per unit in files that carry no unit: .stl, .obj, .ply, arrays (1)"
     parser.value("--unit-scale", types.positive, "S", text)
     parser.value(
@@ -191,7 +189,6 @@ def _add_of_files(parser: Parser) -> None:
 
 
 def _add_results(parser: Parser) -> None:
-    """Add options for the contents of results and their output."""
     parser.choice(
         "--frame", FRAMES, "of centers, tensors, axes and moments (world)", default="world"
     )
@@ -318,7 +315,6 @@ def _add_results(parser: Parser) -> None:
 
 
 def _add_supervision(parser: Parser) -> None:
-    """Add options for measuring many files."""
     parser.value("--manifest", Path, "LIST", "measure the files of a list that `manifest` has made")
     parser.value(
         "--range", types.file_range, "A:B", "of the files, only numbers A to B - 1, counted from 0"

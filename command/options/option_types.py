@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import math
 from argparse import ArgumentTypeError
-from collections.abc import Callable, Iterable, Iterator
-from typing import Any
+from collections.abc import Callable
 
 from ...core import density, files, robots
 from ...core.measurement import documents
@@ -33,13 +32,11 @@ _NAMED = {
 }
 
 
-def _to_robot(file_documents: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """Yield the robot description of each file, as written by the process that measured it."""
-    return (one.get("robot", "") for one in file_documents)
-
-
-# Functions from documents, which may be iterated twice, to pieces of text.
-FORMATS = documents.FORMATS | dict.fromkeys(robots.FORMATS, _to_robot)
+# Functions from documents, which may be iterated twice, to pieces of text. Robots are written by
+# the processes that measure the files.
+FORMATS = documents.FORMATS | dict.fromkeys(
+    robots.FORMATS, lambda of_files: (one.get("robot", "") for one in of_files)
+)
 
 
 def command(text: str) -> str:

@@ -249,7 +249,6 @@ class Pool:
         return [TaskOutcome(task, "answered", attempts + 1, seconds, head, data, said=said)]
 
     def _give(self, child: _Child) -> None:
-        """Send the next task to an idle child, if there is one."""
         child.deadline = float("inf")
         tasks = self._again if self._again and child.is_fresh else self._tasks
         if tasks:
@@ -317,7 +316,6 @@ class Pool:
             return ""
 
     def _close(self, child: _Child) -> None:
-        """Close the pipes of a child that has ended, and remove its files."""
         for stream in (child.requests, child.answers):
             with suppress(OSError):
                 stream.close()

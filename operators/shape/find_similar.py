@@ -69,8 +69,6 @@ COUNTS = {  # texts of the report, by similarity
 
 
 class _SearchMixin:
-    """The common part of both searches."""
-
     bl_label: str
     bl_options = {"REGISTER", "UNDO"}
     mirrored: bool

@@ -137,7 +137,6 @@ def _arcs(scene: Scene, path: balance_groups.Path) -> list[Detail]:
 
 
 def _surface(level: cuts.Level, unit: float) -> Detail:
-    """Return the surface of a liquid, and its outline on the vessel."""
     hollow = level.hollow
     outline = cut_outline(hollow.points, hollow.triangles, hollow.up, level.height) / unit
     triangles = level.triangles / unit
@@ -175,7 +174,6 @@ def _faults(obj: Object, found: faults.Faults) -> Detail:
 
 
 def _weight(context: Context, weight: Weight) -> list[Detail]:
-    """Return a character's plumb line with its margin at the foot, and its support polygon."""
     text, lengths, _ = standing(weight, meters_per_unit(context.scene))
     polygon = None if weight.support is None else support_detail(weight.support)
     color = look.TIPS if polygon is None else polygon.segments[1][0]

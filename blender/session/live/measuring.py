@@ -218,7 +218,6 @@ def _tick() -> float | None:
 
 
 def _is_stroking(obj: Object) -> bool:
-    """Return whether a sculpting stroke is being drawn on an object."""
     windows = bpy.context.window_manager.windows if obj.mode == "SCULPT" else ()
     return any(
         running.bl_idname.startswith("SCULPT_OT_")
@@ -228,7 +227,6 @@ def _is_stroking(obj: Object) -> bool:
 
 
 def _seconds(obj: Object) -> float:
-    """Return the duration of an object's last measurement in seconds, 0 if there is none."""
     result = memory.followed[obj].result
     return 0.0 if result is None else result.seconds
 

@@ -86,7 +86,6 @@ def store_measured(
 
 
 def _values_of_stack(part: MeasuredStack, scene: Scene) -> Iterator[dict[str, Any]]:
-    """Return the properties of the members of a stack."""
     findings = list(part.findings)
     for i, (member, from_mass) in enumerate(zip(part.members, part.from_mass.tolist())):
         if not from_mass and settings.density.is_density_unset(member.obj.body_moments, scene):

@@ -233,7 +233,6 @@ def _ground(context: Context, obj: Object, ground: str, center: NDArray, gravity
 
 
 def _shortest_turn(start: Array, end: Array) -> Array:
-    """Return the (3, 3) rotation by the smallest angle from one (3,) unit vector to another."""
     middle = start + end
     length = np.linalg.norm(middle)
     if length < 1e-8:

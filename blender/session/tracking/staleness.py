@@ -71,30 +71,8 @@ def _is_unedited(obj: Object, stamp: Stamp, _scene: Scene | None = None) -> bool
     return stamp.geometry != EDITED and not (edited and stamp.text in edited)
 
 
-def _has_transform(obj: Object, stamp: Stamp, _scene: Scene) -> bool:
-    return fingerprint.has_transform(obj, stamp.transform)
-
-
 def _has_matrix(owner: Object | Collection, stamp: Stamp, _scene: Scene) -> bool:
     return not isinstance(owner, Object) or stamp.transform == fingerprint.matrix_hash(owner)
-
-
-def _has_scale(obj: Object, stamp: Stamp, _scene: Scene) -> bool:
-    return stamp.transform == fingerprint.scale_hash(obj)
-
-
-def _has_unit(_obj: Object, stamp: Stamp, scene: Scene) -> bool:
-    return stamp.extra == meters_per_unit(scene)
-
-
-def _has_body_scale(obj: Object, stamp: Stamp, _scene: Scene) -> bool:
-    return fingerprint.has_scale(
-        obj, stamp.transform, [*obj[settings.given.COLLIDERS].get("scale", ())]
-    )
-
-
-def _has_colliders(obj: Object, _stamp: Stamp, _scene: Scene) -> bool:
-    return obj[settings.given.COLLIDERS].get("digest") == fingerprint.colliders_digest(obj)
 
 
 def _has_structure(root: Object | Collection, stamp: Stamp, scene: Scene) -> bool:
@@ -163,19 +141,28 @@ CHECKS = {
     Kind.RESULTS: (
         (Stale.SETTINGS, _has_settings),
         (Stale.GEOMETRY, _has_geometry),
-        (Stale.TRANSFORM, _has_transform),
+        (
+            Stale.TRANSFORM,
+            lambda obj, stamp, _scene: fingerprint.has_transform(obj, stamp.transform),
+        ),
     ),
     **dict.fromkeys(
         (Kind.SECTION, Kind.LEVEL, Kind.CUT_FILL),
         (
-            (Stale.UNIT_SCALE, _has_unit),
+            (
+                Stale.UNIT_SCALE,
+                lambda _obj, stamp, scene: stamp.extra == meters_per_unit(scene),
+            ),
             (Stale.GEOMETRY, _has_geometry),
             (Stale.TRANSFORM, _has_matrix),
         ),
     ),
     Kind.SYMMETRY: (
         (Stale.GEOMETRY, _has_geometry),
-        (Stale.SCALE, _has_scale),
+        (
+            Stale.SCALE,
+            lambda obj, stamp, _scene: stamp.transform == fingerprint.scale_hash(obj),
+        ),
     ),
     Kind.ASSEMBLY: (
         (Stale.MEMBERS, _has_structure),
@@ -194,8 +181,18 @@ CHECKS = {
     Kind.COLLIDERS: (
         (Stale.SETTINGS, _has_settings),
         (Stale.GEOMETRY, _has_geometry),
-        (Stale.TRANSFORM, _has_body_scale),
-        (Stale.COLLIDERS, _has_colliders),
+        (
+            Stale.TRANSFORM,
+            lambda obj, stamp, _scene: fingerprint.has_scale(
+                obj, stamp.transform, [*obj[settings.given.COLLIDERS].get("scale", ())]
+            ),
+        ),
+        (
+            Stale.COLLIDERS,
+            lambda obj, _stamp, _scene: (
+                obj[settings.given.COLLIDERS].get("digest") == fingerprint.colliders_digest(obj)
+            ),
+        ),
     ),
 }
 
