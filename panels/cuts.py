@@ -62,7 +62,9 @@ def _level(layout: UILayout, level: Level) -> None:
             ("Capacity", "volume", level.hollow.capacity),
         ],
     )
-    if level.tilt is not None and level.tilt < pi:
+    if level.tilt is None:
+        rows.remark(column, "Spills at Tilt: only up to 20,000 triangles")
+    elif level.tilt < pi:
         rows.table(column, [rows.angle_cell("Spills at Tilt", level.tilt)])
     row = layout.row(align=True)
     row.operator("object.body_moments_show_level", text="Show Level").what = "SURFACE"

@@ -7,14 +7,11 @@ Blender gives evaluated curves only without a surface; of beveled curves it give
 splines are read.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...core.numerics import Array, SplineSpace
+from ...core.numerics import Array, NDArray, SplineSpace
 from ...core.nurbs import CONTROL_POINTS_INVALID, NON_FINITE, Curve, blender_space
 from ...core.verdict.finding import Finding, ReadError, finding
 from .findings import (

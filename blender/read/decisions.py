@@ -6,8 +6,6 @@ Objects are read as the viewport shows them; a finding says if Blender's setting
 another body.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from ...core.bodies import DRAWN_AS_POLYGONS, attribute_to_source

@@ -141,8 +141,8 @@ VOLUME_WITHOUT_GRIDS = error(
 GRID_MISSING = error("grid_missing", "No grid “{grid}”; the volume has {grids}. Change Grid.")
 NO_SCALARS = "does not hold scalar numbers. Choose another grid"
 NEEDS_OPENVDB = (
-    "can only be read with the openvdb module, which this Blender lacks. Convert it to "
-    "floats, or a level set to a mesh by a Grid to Mesh node"
+    "can only be read with the openvdb module, which this Blender was built without. Use a "
+    "Blender of blender.org, or turn the grid into a mesh by a modifier"
 )
 IS_LEVEL_SET = (
     "is a level set of distances, not densities. Set Measure As to Solid, or choose another grid"

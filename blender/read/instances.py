@@ -9,15 +9,12 @@ in float64. It mirrors object_dupli.cc; the tests compare the two. Instancing on
 and by particles is left to Blender: `depsgraph.object_instances`, one by one.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Hashable, Iterator
 from dataclasses import replace
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.bodies import (
     NO_VALUES,
@@ -29,7 +26,7 @@ from ...core.bodies import (
 )
 from ...core.mesh import Surface
 from ...core.moments import affine_matrices
-from ...core.numerics import Array
+from ...core.numerics import Array, NDArray
 from ...core.verdict import ReadError
 from .findings import NON_FINITE_INSTANCES, NOT_SHOWN
 from .mesh import face_slots, from_edit_mesh, mesh_surface, read_array, vertex_values

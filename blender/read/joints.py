@@ -4,8 +4,6 @@
 both.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from math import inf, isfinite
 from types import MappingProxyType

@@ -9,8 +9,6 @@ sizes of the faces follow from the attribute `loop_triangle_polygons`. Only n-go
 `loop_triangles`; core/mesh/surface.py cuts quads as Blender does.
 """
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Callable
 from itertools import chain
@@ -20,11 +18,10 @@ import bmesh
 import bpy
 import numpy as np
 from bpy.types import Depsgraph, Object
-from numpy.typing import NDArray
 
 from ...core.bodies import Reading
 from ...core.mesh import Surface
-from ...core.numerics import Array
+from ...core.numerics import Array, NDArray
 from ...core.verdict import ReadError
 from .findings import ATTRIBUTE_MISSING
 from .visibility import evaluated_geometry

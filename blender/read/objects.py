@@ -6,14 +6,11 @@ Reading changes nothing. An object that Blender has not evaluated is refused, ne
 modifiers.
 """
 
-from __future__ import annotations
-
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.bodies import Part, Reading, attribute_to_source
 from ...core.mesh import Surface
-from ...core.numerics import rotation_matrix
+from ...core.numerics import NDArray, rotation_matrix
 from ...core.nurbs import CONTROL_POINTS_INVALID, NON_POSITIVE_WEIGHTS
 from ...core.solid import NON_FINITE_VERTICES
 from ...core.verdict.finding import ReadError, finding

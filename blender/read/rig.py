@@ -5,8 +5,6 @@
 Loads no numpy.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 

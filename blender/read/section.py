@@ -7,20 +7,17 @@ Blender fills outlines that touch, coincide or cross wrongly, without a warning,
 without fill are read. Only a text on a curve is read by its fill.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.bodies import DRAWN_AS_POLYGONS, Reading
 from ...core.flat import NO_SECTION_AREA
 from ...core.mesh import Surface
-from ...core.numerics import Array, Index, Mask, polar_rotation
+from ...core.numerics import Array, Index, Mask, NDArray, polar_rotation
 from ...core.nurbs import Curve
 from ...core.verdict.finding import Finding, ReadError, finding
 from .curves import read_curves, text_curves

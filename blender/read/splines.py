@@ -9,17 +9,14 @@ shape keys and hooks are applied by the formulas of key.cc and MOD_hook.cc in fl
 object read from a file are a picture of the file's faces, which `keep_faces` keeps.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
 from bpy.types import Curve
-from numpy.typing import NDArray
 
 from ...core.bodies import SplineReading, float64_matrix
 from ...core.moments import FLOAT32_HALF_ULP
-from ...core.numerics import Array, SplineSpace
+from ...core.numerics import Array, NDArray, SplineSpace
 from ...core.nurbs import Patch, blender_space, display_parameters, display_table
 from ...core.verdict.finding import ReadError, finding
 from .findings import CONTROL_POINTS_RECOVERED, SCALE_ZERO_AXIS, SPLINES_LEFT_OUT

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A pause in the tracking of edits, during readings and temporary changes."""
 
-from __future__ import annotations
-
 from contextlib import ContextDecorator
 
 

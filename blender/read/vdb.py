@@ -6,13 +6,10 @@ An OpenVDB tree has nodes of 4096, 128 and 8 voxels a side; the depth of a value
 of 128 exists.
 """
 
-from __future__ import annotations
-
 import importlib
 from collections.abc import Iterator
 from itertools import product
 from types import ModuleType
-from typing import cast
 
 import bpy
 import numpy as np
@@ -22,7 +19,7 @@ from ...core.bodies import GRID_TOO_LARGE
 from ...core.mesh import Surface
 from ...core.moments import affine_matrices
 from ...core.verdict import ReadError
-from .findings import GRID_UNREADABLE, GRID_UNSUPPORTED, NO_SCALARS
+from .findings import GRID_UNREADABLE, GRID_UNSUPPORTED, NEEDS_OPENVDB, NO_SCALARS
 
 NODE_VOXELS = 128  # voxels along a side of the blocks that are read
 ROOT_VOXELS = 4096  # along a side of the largest nodes
@@ -38,15 +35,12 @@ DTYPES = {
 
 
 def openvdb() -> ModuleType | None:
-    """Return the module, or None if this Blender has none."""
-    if hasattr(bpy.utils, "expose_bundled_modules"):
-        bpy.utils.expose_bundled_modules()
-    for name in ("openvdb", "pyopenvdb"):
-        try:
-            return importlib.import_module(name)
-        except ImportError:
-            continue
-    return None
+    """Return the module that comes with Blender, or None if this Blender was built without it."""
+    bpy.utils.expose_bundled_modules()
+    try:
+        return importlib.import_module("openvdb")
+    except ImportError:
+        return None
 
 
 class VdbGrid:
@@ -58,15 +52,16 @@ class VdbGrid:
     """
 
     def __init__(self, path: str, name: str) -> None:
-        module = cast("ModuleType", openvdb())  # callers have checked that there is a module
+        module = openvdb()
+        if module is None:
+            raise ReadError(GRID_UNSUPPORTED, fault=NEEDS_OPENVDB, grid=name)
         try:
             self._grid = module.read(path, name)
         except (RuntimeError, KeyError, TypeError, OSError) as error:
             raise ReadError(GRID_UNREADABLE, grid=name, error=str(error).rstrip(".")) from error
-        dtype = DTYPES.get(self._grid.valueTypeName)
-        if dtype is None:
+        if self._grid.valueTypeName not in DTYPES:
             raise ReadError(GRID_UNSUPPORTED, fault=NO_SCALARS, grid=name)
-        self._dtype = dtype
+        self._dtype = DTYPES[self._grid.valueTypeName]
         transform = self._grid.transform
         if not transform.isLinear:
             raise ReadError(

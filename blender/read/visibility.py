@@ -7,8 +7,6 @@ scene without its modifiers, as if nothing were wrong; `evaluated_geometry()` re
 hidden objects are read and reported.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import islice
 

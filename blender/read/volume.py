@@ -3,13 +3,9 @@
 """The grid of voxels that an object shows: a Volume object, or an object that nodes turn into a
 volume.
 
-With Blender's openvdb module, unchanged grids are read from their .vdb file and others from a
-temporary one; without it, the node Sample Grid stores the value of the nearest voxel at the
-vertices of a mesh, in a scene made for this reading only, so that nothing in the user's scene is
-changed or evaluated anew.
+Blender's openvdb module reads unchanged grids from their .vdb file, and others from a temporary
+file.
 """
-
-from __future__ import annotations
 
 import os
 import tempfile
@@ -19,13 +15,11 @@ from dataclasses import dataclass
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
-from ...core.bodies import GRID_TOO_LARGE, Reading, float64_matrix, name_subject
-from ...core.density import GRID_TRANSFORM_SINGULAR
+from ...core.bodies import Reading, name_subject
 from ...core.files import OTHERS_LEFT_OUT
 from ...core.mesh import Surface
-from ...core.numerics import Array, shortest_decimal
+from ...core.numerics import Array, NDArray, shortest_decimal
 from ...core.verdict.finding import Finding, ReadError, finding
 from .decisions import modifier_findings
 from .findings import (
@@ -36,7 +30,6 @@ from .findings import (
     GRID_UNSUPPORTED,
     HIDDEN_OBJECT_MEASURED,
     KIND_COUNT,
-    NEEDS_OPENVDB,
     NO_SCALAR_GRID,
     NO_SCALARS,
     SURFACELESS_LEFT_OUT,
@@ -44,19 +37,11 @@ from .findings import (
     VOLUME_WITHOUT_GRIDS,
 )
 from .objects import locate
-from .vdb import VdbGrid, openvdb
+from .vdb import VdbGrid
 from .visibility import hidden_reason, why_not_evaluated
 
 SCALARS = {"BOOLEAN", "MASK", "FLOAT", "DOUBLE", "INT", "INT64"}
 PREFERRED = "density"
-VOXELS_PER_BLOCK = 1 << 21  # voxels that are sampled at a time
-MAX_VOXELS = 1 << 29  # voxels that are sampled at all
-KINDS = {
-    "FLOAT": ("FLOAT", np.float32),
-    "INT": ("INT", np.int32),
-    "BOOLEAN": ("BOOLEAN", np.bool_),
-    "MASK": ("BOOLEAN", np.bool_),
-}
 
 
 @dataclass(kw_only=True)
@@ -101,7 +86,10 @@ def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | N
         count = len(geometry.instances_pointcloud().points)
         kinds = [finding(KIND_COUNT, kind="instances beside the volume", count=count).as_record()]
         findings.append(finding(SURFACELESS_LEFT_OUT, kinds=kinds))
-    with name_subject(obj.name), _open_grid(obj, volume, chosen, depsgraph, findings) as source:
+    with (
+        name_subject(obj.name),
+        _open_grid(obj, volume, chosen.name, depsgraph, findings) as source,
+    ):
         yield VolumeReading(
             **vars(place),
             grid=chosen.name,
@@ -169,174 +157,20 @@ def _choose_grid(obj, volume: bpy.types.Volume, name: str, findings: list[Findin
 
 @contextmanager
 def _open_grid(
-    obj, volume: bpy.types.Volume, grid, depsgraph, findings: list[Finding]
-) -> Iterator[VdbGrid | SampledGrid]:
-    path = None if openvdb() is None else _unchanged_file(obj, volume)
+    obj, volume: bpy.types.Volume, name: str, depsgraph, findings: list[Finding]
+) -> Iterator[VdbGrid]:
+    is_changed = any(modifier.show_viewport for modifier in obj.modifiers)
+    path = volume.grids.frame_filepath
+    if not is_changed and obj.data.packed_file is None and os.path.isfile(path):
+        yield VdbGrid(path, name)
+        return
     render = depsgraph.scene.render
-    if not path and render.use_simplify and render.simplify_volumes < 1.0:
+    if render.use_simplify and render.simplify_volumes < 1.0:
         findings.append(finding(GRID_SIMPLIFIED, share=shortest_decimal(render.simplify_volumes)))
-    if openvdb() is None:
-        yield SampledGrid(obj, depsgraph, grid, obj.evaluated_get(depsgraph).bound_box)
-        return
-    if path:
-        yield VdbGrid(path, grid.name)
-        return
     with tempfile.TemporaryDirectory(prefix="body_moments_", dir=bpy.app.tempdir) as folder:
         path = os.path.join(folder, "volume.vdb")
         try:
             volume.grids.save(filepath=path)
         except RuntimeError:
             raise ReadError(TEMPORARY_FOLDER_FULL) from None
-        yield VdbGrid(path, grid.name)
-
-
-def _unchanged_file(obj, volume: bpy.types.Volume) -> str | None:
-    """Return the file of the grids, if they were not changed after loading."""
-    if (
-        any(modifier.show_viewport for modifier in obj.modifiers)
-        or obj.data.packed_file is not None
-    ):
-        return None
-    path = volume.grids.frame_filepath
-    return path if os.path.isfile(path) else None
-
-
-class SampledGrid:
-    """A grid with the interface of `vdb.VdbGrid`; level sets are not recognized here."""
-
-    level_set = None
-
-    def __init__(self, obj, depsgraph, grid, bound_box) -> None:
-        if grid.data_type not in KINDS or (bpy.app.version < (5, 0) and grid.data_type != "FLOAT"):
-            raise ReadError(GRID_UNSUPPORTED, fault=NEEDS_OPENVDB, grid=grid.name)
-        self._obj = obj
-        self._depsgraph = depsgraph
-        self._name = grid.name
-        self._kind, self._dtype = KINDS[grid.data_type]
-        self.to_object = float64_matrix(grid.matrix_object)
-        if not abs(np.linalg.det(self.to_object[:3, :3])) > 0.0:
-            raise ReadError(GRID_TRANSFORM_SINGULAR)
-        corners = np.array([[*corner] for corner in bound_box], np.float64)
-        index = (corners - self.to_object[:3, 3]) @ np.linalg.inv(self.to_object[:3, :3]).T
-        low = np.floor(index.min(axis=0)).astype(np.int64) - 1
-        high = np.ceil(index.max(axis=0)).astype(np.int64) + 1
-        self.low = low
-        self.shape = high - low + 1
-        if np.prod(self.shape.astype(float)) > MAX_VOXELS:
-            raise ReadError(GRID_TOO_LARGE, grid=grid.name, samples=self.shape.tolist())
-        with self._sampler() as sample:
-            self.background = float(sample(low - 2, (1, 1, 1))[0, 0, 0])
-
-    def blocks(self) -> Iterator[tuple[tuple[int, int, int], NDArray]]:
-        """Yield the voxels of the box, as blocks, each with its offset in the box."""
-        planes = max(1, VOXELS_PER_BLOCK // int(np.prod(self.shape[1:])))
-        with self._sampler() as sample:
-            for start in range(0, int(self.shape[0]), planes):
-                shape = (min(planes, int(self.shape[0]) - start), *self.shape[1:].tolist())
-                yield (start, 0, 0), sample(self.low + (start, 0, 0), shape)
-
-    def polygons(self) -> Surface:
-        raise ReadError(GRID_UNSUPPORTED, fault=NEEDS_OPENVDB, grid=self._name)
-
-    @contextmanager
-    def _sampler(self) -> Iterator[Callable[[NDArray, tuple[int, int, int]], NDArray]]:
-        """Yield a function that takes the first voxel of a block and its shape, and returns the
-        values.
-        """
-        name = "Body Moments Reading"
-        made = []
-        try:
-            made.append(mesh := bpy.data.meshes.new(name))
-            made.append(tree := bpy.data.node_groups.new(name, "GeometryNodeTree"))
-            made.append(probe := bpy.data.objects.new(name, mesh))
-            made.append(scene := bpy.data.scenes.new(name))
-            layer = _layer_at_frame_of(self._depsgraph.scene, scene)
-            _fill(tree, self._obj, self._name, self._kind)
-            probe.modifiers.new(name, "NODES").node_group = tree
-            scene.collection.objects.link(probe)
-
-            def sample(first: NDArray, shape: tuple[int, int, int]) -> NDArray:
-                count = int(np.prod(shape))
-                positions = np.empty((*shape, 3), np.float32)
-                steps = np.ogrid[tuple(slice(a, a + n) for a, n in zip(first.tolist(), shape))]
-                for axis, (*row, offset) in enumerate(self.to_object[:3]):
-                    positions[..., axis] = (
-                        sum(factor * step for factor, step in zip(row, steps)) + offset
-                    )
-                if len(mesh.vertices) != count:
-                    mesh.clear_geometry()
-                    mesh.vertices.add(count)
-                mesh.attributes["position"].data.foreach_set("vector", positions.reshape(-1))
-                mesh.update_tag()
-                layer.update()
-                values = np.zeros(count, self._dtype)
-                evaluated = probe.evaluated_get(layer.depsgraph).data
-                if "value" not in evaluated.attributes:
-                    raise ReadError(GRID_UNREADABLE, grid=self._name, error="Sample Grid")
-                evaluated.attributes["value"].data.foreach_get("value", values)
-                return values.reshape(shape)
-
-            yield sample
-        finally:
-            bpy.data.batch_remove(made)
-
-
-def _layer_at_frame_of(shown, scene):
-    """Set an empty scene to the frame of the displayed scene; return a new view layer of the empty
-    scene.
-
-    Setting `frame_current` makes Blender evaluate the animation of every scene, and so revert
-    unkeyed changes; `frame_set` evaluates this scene alone, but calls handlers, so they are removed
-    meanwhile. The layer is new because the next content of an evaluated layer would be reported as
-    changed.
-    """
-    handlers = [
-        getattr(bpy.app.handlers, name) for name in ("frame_change_pre", "frame_change_post")
-    ]
-    kept = [functions[:] for functions in handlers]
-    try:
-        for functions in handlers:
-            functions.clear()
-        scene.frame_set(shown.frame_current, subframe=shown.frame_subframe)
-    finally:
-        for functions, before in zip(handlers, kept):
-            functions[:] = before
-    return scene.view_layers.new("Body Moments Reading")
-
-
-def _fill(tree, obj, name: str, kind: str) -> None:
-    """Add the nodes that store the values of the object's named grid at the vertices, as the
-    attribute "value".
-    """
-    for direction in ("INPUT", "OUTPUT"):
-        tree.interface.new_socket("Geometry", in_out=direction, socket_type="NodeSocketGeometry")
-    start, end, info, named, sample, place, store = (
-        tree.nodes.new(node)
-        for node in (
-            "NodeGroupInput",
-            "NodeGroupOutput",
-            "GeometryNodeObjectInfo",
-            "GeometryNodeGetNamedGrid",
-            "GeometryNodeSampleGrid",
-            "GeometryNodeInputPosition",
-            "GeometryNodeStoreNamedAttribute",
-        )
-    )
-    info.inputs["Object"].default_value = obj
-    named.data_type = sample.data_type = store.data_type = kind
-    store.domain = "POINT"
-    named.inputs["Name"].default_value = name
-    store.inputs["Name"].default_value = "value"
-    if hasattr(sample, "interpolation_mode"):
-        sample.interpolation_mode = "NEAREST"
-    else:
-        sample.inputs["Interpolation"].default_value = "Nearest Neighbor"
-    for source, target in (
-        (start.outputs[0], store.inputs["Geometry"]),
-        (info.outputs["Geometry"], named.inputs["Volume"]),
-        (named.outputs["Grid"], sample.inputs["Grid"]),
-        (place.outputs[0], sample.inputs["Position"]),
-        (sample.outputs[0], store.inputs["Value"]),
-        (store.outputs[0], end.inputs[0]),
-    ):
-        tree.links.new(source, target)
+        yield VdbGrid(path, name)

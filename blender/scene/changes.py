@@ -8,8 +8,6 @@ generator: it yields whenever it needs the scene evaluated, and gets the evaluat
 Unrelated changes go forward side by side, with one evaluation for all of them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Generator, Iterable, Iterator
 from typing import TypeVar
 
@@ -80,18 +78,14 @@ def run_together(changes: Iterable[SceneChange]) -> SceneChange:
             next(change)
         while waiting:
             depsgraph = yield
-            waiting = [change for change in waiting if _advance(change, depsgraph)]
+            for change in [*waiting]:
+                try:
+                    change.send(depsgraph)
+                except StopIteration:
+                    waiting.remove(change)
     finally:
         for change in waiting:  # if one fails, the others put back their changes
             change.close()
-
-
-def _advance(change: SceneChange, depsgraph: Depsgraph) -> bool:
-    try:
-        change.send(depsgraph)
-    except StopIteration:
-        return False
-    return True
 
 
 def independent_rounds(changes: Iterable[tuple[Planned, set[ID]]]) -> list[list[Planned]]:
@@ -164,9 +158,6 @@ class MadeCollection:
         self._collection = made_collection(
             context, key, armature, "{:s} {:s}".format(armature.name, name)
         )
-        self._clear()
-
-    def _clear(self) -> None:
         made = [obj for obj in self._collection.objects if obj.get(self._key) == self._armature]
         meshes = {obj.data for obj in made if obj.data is not None}
         bpy.data.batch_remove(made)

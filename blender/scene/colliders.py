@@ -9,8 +9,6 @@ follows its scale. A primitive has its pose in the body's frame; its parent inve
 body's scale.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from math import copysign
@@ -116,11 +114,10 @@ def place_colliders(
     """
     collection = made_collection(context, COLLECTION, True, "Colliders")
     kept = list(old[: len(shapes)])
-    unneeded = list(old[len(shapes) :])
     for collider in kept:
         collider.name = "Collider"  # no name stands in the way of another
     replaced = {collider.data for collider in old}
-    bpy.data.batch_remove(unneeded)
+    bpy.data.batch_remove(old[len(shapes) :])
     undo_scale = Matrix(np.linalg.inv(stretch).tolist()).to_4x4()
     for index, (shape, mesh) in enumerate(zip(shapes, meshes)):
         if index == len(kept):
@@ -226,10 +223,9 @@ def read_colliders(colliders: Iterable[Object], rotation: Array, unit: float) ->
     shapes = []
     for collider in colliders:
         stored = collider[COLLIDER]
-        relative = _in_body(collider)
-        place = unit * stretch_of(collider.parent, rotation) @ relative[:3]
-        to_frame = place[:, :3]
-        place = place[:, 3]
+        matrix = unit * stretch_of(collider.parent, rotation) @ _in_body(collider)[:3]
+        to_frame = matrix[:, :3]
+        place = matrix[:, 3]
         kind = str(stored["kind"])
         size = np.array(stored["size"])
         mass = float(stored["mass"])
@@ -254,7 +250,6 @@ def read_colliders(colliders: Iterable[Object], rotation: Array, unit: float) ->
 
 
 def _draw_primitive(mesh: Mesh, shape: Shape, unit: float) -> None:
-    """Fill a mesh with the faces of a primitive."""
     made = bmesh.new()
     size = [length / unit for length in shape.size]
     if shape.kind == "box":

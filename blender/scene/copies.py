@@ -13,8 +13,6 @@ compares the present frame, without shading: an object that would look different
 in a render, is left out before.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
@@ -26,10 +24,10 @@ from typing import NamedTuple
 import bpy
 import numpy as np
 from bpy.types import ID, Context, Mesh, Node, NodesModifier, NodeTree, Object, bpy_prop_collection
-from numpy.typing import NDArray
 
 from ...core.mesh import Correspondence, Elements, correspondences
-from ...core.numerics import Array
+from ...core.moments import affine_matrices
+from ...core.numerics import Array, NDArray
 from ...core.verdict import LINKED_OBJECT
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from . import reframe
@@ -211,9 +209,13 @@ def _differing_aspects(
             is_alike = not values.any()  # a layer that is missing has zeros
         else:
             data_type, domain, values = one
-            is_alike = (
-                one[:2] == other[:2] and domain in maps and _agree(values, other[2][maps[domain]])
-            )
+            is_alike = one[:2] == other[:2] and domain in maps
+            if is_alike and values.dtype == np.float32:
+                others = other[2][maps[domain]]
+                off = np.abs(values - others).max(initial=0.0)
+                is_alike = off <= 16.0 * FLOAT32 * np.abs(others).max(initial=1.0)
+            elif is_alike:
+                is_alike = np.array_equal(values, other[2][maps[domain]])
         if not is_alike:
             differing.add(_aspect(name, data_type, domain))
     if first.normals is not None and second.normals is not None:
@@ -237,13 +239,6 @@ def _aspect(name: str, data_type: str, domain: str) -> str:
     if name == "material_index":
         return "MATERIALS"
     return "UV" if (data_type, domain) == ("FLOAT2", "CORNER") else "ATTRIBUTES"
-
-
-def _agree(values: NDArray, others: NDArray) -> bool:
-    if values.dtype != np.float32:
-        return np.array_equal(values, others)
-    off = np.abs(values - others).max(initial=0.0)
-    return bool(off <= 16.0 * FLOAT32 * np.abs(others).max(initial=1.0))
 
 
 @dataclass(eq=False)
@@ -363,21 +358,19 @@ def link_copies(
                 left_out.append((obj, error.finding))
                 continue
             matrix = world(obj)
-            change = np.eye(4)
-            change[:3, :3] = found.linear
-            change[:3, 3] = found.offset
+            change = affine_matrices(found.linear, found.offset)
             points = data.elements.points[found.vertices] @ matrix[:3, :3].T + matrix[:3, 3]
             members[obj] = data, kind.data, points, [slot.material for slot in obj.material_slots]
             if not _is_mere_exchange(found):
-                size = (
-                    np.linalg.norm(points - points.mean(axis=0), axis=1).max()
-                    * tolerance
-                    / SAME_SHAPE_RTOL
-                )
-                order = None if found.is_ordered else found.vertices
+                radius = float(np.linalg.norm(points - points.mean(axis=0), axis=1).max())
                 plans.append(
                     reframe.Plan(
-                        obj, matrix @ change, float(size), False, mesh=kind.data.mesh, order=order
+                        obj,
+                        matrix @ change,
+                        radius * tolerance / SAME_SHAPE_RTOL,
+                        move_only=False,
+                        mesh=kind.data.mesh,
+                        order=None if found.is_ordered else found.vertices,
                     )
                 )
     refused = dict(reframe.reframe(context, plans, progress)[1])
@@ -488,12 +481,9 @@ def _check(obj: Object, found: Correspondence, follower: ID | None) -> None:
         raise EditRefusedError(MODIFIERS_CHANGE_SHAPE, modifiers=own)
     if any(not constraint.mute for constraint in obj.constraints):
         raise EditRefusedError(TRANSFORM_CONSTRAINED, channel="location")
-    channel = next(
-        (name for name in CHANNELS if any(path.startswith(name) for path in driven_channels(obj))),
-        None,
-    )
-    if channel is not None:
-        raise EditRefusedError(CHANNEL_LOCKED, channel=channel)
+    for channel in CHANNELS:
+        if any(path.startswith(channel) for path in driven_channels(obj)):
+            raise EditRefusedError(CHANNEL_LOCKED, channel=channel)
     if (
         obj.rigid_body
         or obj.rigid_body_constraint

@@ -7,14 +7,11 @@ Surfaces are compared as they are evaluated, point by point in the world, becaus
 modifiers could say how each of them depends on an origin.
 """
 
-from __future__ import annotations
-
 import numpy as np
-from bpy.types import ID, Constraint, Depsgraph, Object
+from bpy.types import ID, Depsgraph, Object
 from mathutils import Matrix
-from numpy.typing import NDArray
 
-from ...core.numerics import Array
+from ...core.numerics import Array, NDArray
 from ...core.verdict.finding import EditRefusedError, Finding, ReadError, finding
 from ..read.objects import read_object
 from ..read.visibility import measurable
@@ -72,12 +69,11 @@ def shape(obj: Object, depsgraph: Depsgraph) -> Shape | None:
 
 def transform_shape(before: Shape | None, was: Matrix4, now: Matrix4) -> Shape | None:
     """Return the shape after a rigid move of its object from one (4, 4) matrix to another."""
-    way = now @ np.linalg.pinv(was)
     if before is None:
         return None
+    way = now @ np.linalg.pinv(was)
     linear = way[:3, :3].T
-    offset = way[:3, 3]
-    return [(first @ linear + offset, rest @ linear + offset) for first, rest in before]
+    return [(first @ linear + way[:3, 3], rest @ linear + way[:3, 3]) for first, rest in before]
 
 
 def same_shape(before: Shape | None, after: Shape | None, size: float) -> bool:
@@ -138,29 +134,32 @@ class DependentsGuard:
             {user for obj in objects for user in users.get(obj, ())} - set(objects),
             key=lambda dependent: dependent.name_full,
         )
-        linked = [
-            dependent
-            for dependent in dependents
-            if dependent.library is not None and dependent.parent in self.changed
-        ]
-        if linked:
-            raise EditRefusedError(CHILD_NOT_HELD, object=linked[0].name)
+        for dependent in dependents:
+            if dependent.library is not None and dependent.parent in self.changed:
+                raise EditRefusedError(CHILD_NOT_HELD, object=dependent.name)
         self.children = {
             dependent: np.array(dependent.matrix_parent_inverse, np.float64)
             for dependent in dependents
             if dependent.parent in self.changed
         }
+        bones = [bone for each in dependents if each.pose is not None for bone in each.pose.bones]
         self.anchors = [
             (constraint, np.array(constraint.inverse_matrix, np.float64))
-            for dependent in dependents
-            for constraint in _child_of(dependent)
-            if constraint.target in self.changed
+            for owner in (*dependents, *bones)
+            for constraint in owner.constraints
+            if constraint.type == "CHILD_OF" and constraint.target in self.changed
         ]
         self.places = {dependent: world(dependent) for dependent in dependents}
         self.shapes = {
             dependent: shape(dependent, depsgraph)
             for dependent in dependents
-            if _has_derived_shape(dependent) and measurable(dependent)
+            # the others' shapes depend on no other object
+            if (
+                dependent.modifiers
+                or dependent.type in {"CURVE", "FONT"}
+                or getattr(dependent.data, "shape_keys", None)
+            )
+            and measurable(dependent)
         }
 
     def compensate(self) -> None:
@@ -203,19 +202,3 @@ class DependentsGuard:
             child.matrix_parent_inverse = Matrix(inverse)
         for constraint, inverse in self.anchors:
             constraint.inverse_matrix = Matrix(inverse)
-
-
-def _has_derived_shape(obj: Object) -> bool:
-    """Return whether an object's shape is more than its own data, so that it may depend on other
-    objects.
-    """
-    return bool(
-        obj.modifiers or obj.type in {"CURVE", "FONT"} or getattr(obj.data, "shape_keys", None)
-    )
-
-
-def _child_of(obj: Object) -> list[Constraint]:
-    constraints = list(obj.constraints)
-    if obj.pose is not None:
-        constraints += [constraint for bone in obj.pose.bones for constraint in bone.constraints]
-    return [constraint for constraint in constraints if constraint.type == "CHILD_OF"]

@@ -2,16 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Empties at the principal frames of objects, and the moving of empties whose children stay."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Generator, Sequence
 
 import bpy
 import numpy as np
 from bpy.types import Context, Depsgraph, Object
 from mathutils import Matrix
-from numpy.typing import NDArray
 
+from ...core.moments import affine_matrices
 from ...core.verdict import EditRefusedError
 from ..read.findings import SCALE_ZERO_AXIS
 from ..read.tracking import tracking_paused
@@ -125,16 +123,17 @@ def _moved(
 
     EditRefusedError if it cannot be there.
     """
-    if _follows(body.obj, empty):
-        raise EditRefusedError(FOLLOWS_MOVED, follower=body.obj.name, target=empty.name)
+    for ancestor in ancestors(body.obj):
+        targets = [getattr(each, "target", None) for each in ancestor.constraints]
+        if empty in (ancestor, *targets):
+            raise EditRefusedError(FOLLOWS_MOVED, follower=body.obj.name, target=empty.name)
     if _is_there(empty, body) and empty.parent == parent:
         return False
     saved = TransformChannels(empty)
     before = {name: getattr(empty, name) for name in RESTORED_PROPERTIES}
     before["matrix_parent_inverse"] = empty.matrix_parent_inverse.copy()
     was = world(body.obj)
-    frame = np.eye(4)
-    frame[:3, :3], frame[:3, 3] = body.axes, body.center
+    frame = affine_matrices(body.axes, body.center)
     try:
         empty.parent = parent
         if parent is not None:
@@ -150,11 +149,9 @@ def _moved(
             empty.matrix_parent_inverse = Matrix(inverse)
             empty.matrix_basis = Matrix(frame)
             yield
-        held = not _is_there(empty, body)
-        follows = (world(body.obj) != was).any()
-        if held or follows:
-            if follows:
-                raise EditRefusedError(FOLLOWS_MOVED, follower=body.obj.name, target=empty.name)
+        if (world(body.obj) != was).any():
+            raise EditRefusedError(FOLLOWS_MOVED, follower=body.obj.name, target=empty.name)
+        if not _is_there(empty, body):
             raise EditRefusedError(TRANSFORM_CONSTRAINED, channel="location", sources=[empty.name])
     except BaseException:
         for name, value in before.items():
@@ -162,14 +159,6 @@ def _moved(
         saved.restore()
         raise
     return True
-
-
-def _follows(obj: Object, empty: Object) -> bool:
-    return any(
-        ancestor == empty
-        or any(getattr(constraint, "target", None) == empty for constraint in ancestor.constraints)
-        for ancestor in ancestors(obj)
-    )
 
 
 def _is_there(empty: Object, body: SnapTarget) -> bool:
@@ -203,28 +192,18 @@ def move_parent(context: Context, empty: Object, center: Sequence[float]) -> Non
             for child in children:
                 child.matrix_parent_inverse = Matrix(change @ np.array(inverses[child], np.float64))
             context.view_layer.update()
-            moved = [
-                child for child, place in places.items() if not _is_at(child, place, tolerance)
-            ]
             if np.abs(world(empty)[:3, 3] - center).max() > tolerance:
                 raise EditRefusedError(
                     TRANSFORM_CONSTRAINED, channel="location", subject=empty.name
                 )
-            if moved:
-                raise EditRefusedError(CHILD_NOT_HELD, subject=empty.name, object=moved[0].name)
+            for child, place in places.items():
+                off = np.abs(world(child) - place)
+                turned = off[:, :3].max() > PLACE_RTOL * np.abs(place[:, :3]).max()
+                if turned or off[:, 3].max() > tolerance:
+                    raise EditRefusedError(CHILD_NOT_HELD, subject=empty.name, object=child.name)
         except BaseException:
             for child, inverse in inverses.items():
                 child.matrix_parent_inverse = inverse
             saved.restore()
             context.view_layer.update()
             raise
-
-
-def _is_at(obj: Object, place: NDArray, tolerance: float) -> bool:
-    """Return whether an object is at a place: within `tolerance`, and with equal rotation and scale
-    to rounding.
-    """
-    off = np.abs(world(obj) - place)
-    return bool(
-        off[:, 3].max() <= tolerance and off[:, :3].max() <= PLACE_RTOL * np.abs(place[:, :3]).max()
-    )

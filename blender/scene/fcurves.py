@@ -6,17 +6,14 @@ Keys are structured arrays with all that Blender keeps of them, so that the keys
 stay to the last bit. Times are those of F-curves, which a scene stretches from its frames.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from math import ceil, floor
 
 import bpy
 import numpy as np
 from bpy.types import FCurve, Object, Scene
-from numpy.typing import NDArray
 
-from ...core.numerics import Array
+from ...core.numerics import Array, NDArray
 from ...core.rig import handle_values
 from ...core.verdict import EditRefusedError
 from .findings import INTERPOLATION_UNCUT

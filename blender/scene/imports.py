@@ -9,8 +9,6 @@ get their points last. Nothing of the user's scene is selected, changed or evalu
 voxels from .vdb files only, so one is written beside the scan.
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -21,13 +19,12 @@ from typing import NamedTuple
 import bpy
 import numpy as np
 from bpy.types import Context, Curve, Object, Scene
-from numpy.typing import NDArray
 
 from ...core.bodies import SplineReading
 from ...core.cad import MAX_ORDER, SurfaceBody, is_storable, read_surfaces
 from ...core.density import positions_text
 from ...core.files import FILE_UNREADABLE, Limits
-from ...core.numerics import Array, shortest_decimal
+from ...core.numerics import Array, NDArray, shortest_decimal
 from ...core.nurbs import Face, FlatFace, Patch, bezier_space
 from ...core.scans import (
     Positions,
@@ -96,8 +93,7 @@ def _stored(patch: Patch, factor: float, origin: NDArray) -> tuple[NDArray[np.fl
         values[..., 3] = weights
         # The point is a mean of control points; its weights change by at most twice this share.
         share = float(np.abs(values[..., 3] / weights - 1.0).max())
-        spread = points - points[0, 0]
-        moved += 4.0 * share * float(np.linalg.norm(spread, axis=2).max())
+        moved += 4.0 * share * float(np.linalg.norm(points - points[0, 0], axis=2).max())
     return values.reshape(-1, 4), moved
 
 
@@ -114,7 +110,8 @@ def _grids(name: str, shapes: Sequence[tuple[int, int]]) -> Curve:
     """Return surface data with one spline, a grid of (count_v, count_u) points, for each of these
     pairs, in order.
     """
-    with _temporary_scene() as scene:
+    scene = bpy.data.scenes.new("Body Moments Import")
+    try:
         models = {shape: _grid(scene, shape) for shape in dict.fromkeys(shapes)}
         objects = [bpy.data.objects.new(name, models[shape]) for shape in shapes]
         for obj in objects:
@@ -128,18 +125,11 @@ def _grids(name: str, shapes: Sequence[tuple[int, int]]) -> Curve:
         bpy.data.objects.remove(first)
         for model in models.values():
             bpy.data.curves.remove(model)
+    finally:
+        bpy.data.batch_remove([*scene.collection.objects, scene])
     data.name = name
     data.dimensions = "3D"
     return data
-
-
-@contextmanager
-def _temporary_scene() -> Iterator[Scene]:
-    scene = bpy.data.scenes.new("Body Moments Import")
-    try:
-        yield scene
-    finally:
-        bpy.data.batch_remove([*scene.collection.objects, scene])
 
 
 @contextmanager
@@ -159,9 +149,8 @@ def _active(scene: Scene, obj: Object, selected: Sequence[Object]) -> Iterator[N
 def _grid(scene: Scene, shape: tuple[int, int]) -> Curve:
     """Return surface data with one spline of (count_v, count_u) points at arbitrary places."""
     rows = max(shape[0], MIN_LOFTED_POINTS)
-    columns = shape[1]
     data = bpy.data.curves.new("Body Moments Import", "SURFACE")
-    for _ in range(columns):
+    for _ in range(shape[1]):
         spline = data.splines.new("NURBS")
         spline.points.add(rows - 1)
         spline.points.foreach_set("select", np.ones(rows, np.bool_))
@@ -171,9 +160,8 @@ def _grid(scene: Scene, shape: tuple[int, int]) -> Curve:
         bpy.ops.object.mode_set(mode="EDIT")
         bpy.ops.curve.make_segment()
         if rows > shape[0]:
-            surplus = np.zeros((rows, columns), np.bool_)
-            surplus[shape[0] :] = True
-            data.splines[0].points.foreach_set("select", surplus.ravel())
+            surplus = np.arange(rows).repeat(shape[1]) >= shape[0]
+            data.splines[0].points.foreach_set("select", surplus)
             bpy.ops.curve.delete(type="VERT")
         bpy.ops.object.mode_set(mode="OBJECT")
     bpy.data.objects.remove(obj)
@@ -191,13 +179,14 @@ def import_bodies(
     """Add an object of each body, of patches alone, to a collection; return the pairs of
     `surface_object`.
     """
-    made = []
-    for body in bodies:
-        obj, moved = surface_object(
-            body.name, [patch for patch in body.patches if isinstance(patch, Patch)], factor
+    made = [
+        surface_object(
+            body.name, [face for face in body.patches if isinstance(face, Patch)], factor
         )
+        for body in bodies
+    ]
+    for obj, _ in made:
         collection.objects.link(obj)
-        made.append((obj, moved))
     return made
 
 
@@ -207,8 +196,8 @@ def show_bodies(
     """Add an object for each body to a collection; it shows the body's faces and is measured by
     them.
     """
-    made = []
     readings = {}
+    made = []
     for body in bodies:
         obj, _ = surface_object(body.name, list(map(_shown, body.patches)), factor)
         for spline in obj.data.splines:
@@ -262,8 +251,8 @@ def import_surfaces(path: Path, limits: Limits, unit: float, context: Context) -
         file = read_surfaces(path, limits)
     except OSError as error:
         raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
-    scale = meters_per_unit(context.scene)
-    factor = (shortest_decimal(unit) if file.unit is None else file.unit) / scale
+    stated = shortest_decimal(unit) if file.unit is None else file.unit
+    factor = stated / meters_per_unit(context.scene)
     made = import_bodies(file.bodies, context.collection, factor)
     patches = [patch for body in file.bodies for patch in body.patches]
     order = max(space.order for patch in patches for space in patch.spaces)
@@ -325,7 +314,6 @@ def write_volume(module: ModuleType, placed: PlacedScan, unit: float) -> float:
     least value.
     """
     scan = placed.scan
-    target = placed.target
     matrix = placed.matrix.copy()
     matrix[:3] /= unit
     least = np.inf
@@ -341,6 +329,7 @@ def write_volume(module: ModuleType, placed: PlacedScan, unit: float) -> float:
     grid.transform = module.createLinearTransform(matrix.T.tolist())
     for start, slab in _slabs(scan):
         grid.copyFromArray(np.ascontiguousarray(slab), ijk=(start, 0, 0))
+    target = placed.target
     partial = target.with_name("{:s}.{:d}.partial.vdb".format(target.stem, os.getpid()))
     try:
         module.write(str(partial), grid)
@@ -351,13 +340,10 @@ def write_volume(module: ModuleType, placed: PlacedScan, unit: float) -> float:
 
 
 def _slabs(scan: Scan) -> Iterator[tuple[int, Array]]:
-    samples = scan.samples
-    planes = max(1, SAMPLES_PER_SLAB // (samples.shape[1] * samples.shape[2]))
-    for start in range(0, samples.shape[0], planes):
-        yield (
-            start,
-            samples[start : start + planes].astype(np.float64) * scan.slope + scan.intercept,
-        )
+    planes = max(1, SAMPLES_PER_SLAB // scan.samples[0].size)
+    for start in range(0, len(scan.samples), planes):
+        slab = scan.samples[start : start + planes].astype(np.float64)
+        yield start, slab * scan.slope + scan.intercept
 
 
 def add_volume(context: Context, placed: PlacedScan) -> Object:

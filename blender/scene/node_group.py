@@ -10,8 +10,7 @@ their sign together in a mirrored object or one turned inside out: the volume is
 Nodes compute in single precision: five to six digits.
 """
 
-from __future__ import annotations
-
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import bpy
@@ -29,43 +28,55 @@ MARKER_SHARE = 0.04  # radius of the marker relative to the object's largest sid
 
 
 class _Builder(NamedTuple):
-    """A builder of nodes and links, which places nodes by column and row."""
+    """A builder of nodes and links, which places nodes by column and row.
+
+    Inputs are sockets to link, or values, by the name or number of a node's input.
+    """
 
     tree: GeometryNodeTree
 
-    def node(self, kind: str, column: float, row: float = 0.0, **settings: object) -> Node:
+    def node(
+        self,
+        kind: str,
+        column: float,
+        row: float = 0.0,
+        inputs: Mapping[str | int, object] | None = None,
+        **settings: object,
+    ) -> Node:
         node = self.tree.nodes.new(kind)
         node.location = (column * COLUMN, -row * COLUMN)
         for name, value in settings.items():
             setattr(node, name, value)
+        for key, value in (inputs or {}).items():
+            if isinstance(value, NodeSocket):
+                self.tree.links.new(value, node.inputs[key])
+            else:
+                node.inputs[key].default_value = value
         return node
 
-    def link(self, source: NodeSocket, target: NodeSocket) -> None:
-        self.tree.links.new(source, target)
+    def math(self, operation: str, column: float, row: float, *inputs: object) -> NodeSocket:
+        numbered = dict(enumerate(inputs))
+        node = self.node("ShaderNodeMath", column, row, numbered, operation=operation)
+        return node.outputs["Value"]
 
     def vector(
-        self,
-        operation: str,
-        column: float,
-        row: float,
-        *inputs: NodeSocket,
-        scale: NodeSocket | None = None,
-    ) -> Node:
-        node = self.node("ShaderNodeVectorMath", column, row, operation=operation)
-        for source, target in zip(inputs, node.inputs):
-            self.link(source, target)
-        if scale is not None:
-            self.link(scale, node.inputs["Scale"])
-        return node
+        self, operation: str, column: float, row: float, *inputs: NodeSocket, **named: object
+    ) -> NodeSocket:
+        numbered = dict(enumerate(inputs))
+        node = self.node("ShaderNodeVectorMath", column, row, numbered | named, operation=operation)
+        return node.outputs["Value" if operation == "DOT_PRODUCT" else "Vector"]
 
     def sum(
         self, kind: str, column: float, row: float, faces: NodeSocket, value: NodeSocket
     ) -> NodeSocket:
         node = self.node(
-            "GeometryNodeAttributeStatistic", column, row, data_type=kind, domain="FACE"
+            "GeometryNodeAttributeStatistic",
+            column,
+            row,
+            {"Geometry": faces, "Attribute": value},
+            data_type=kind,
+            domain="FACE",
         )
-        self.link(faces, node.inputs["Geometry"])
-        self.link(value, node.inputs["Attribute"])
         return node.outputs["Sum"]
 
 
@@ -94,66 +105,58 @@ def center_of_mass_group() -> GeometryNodeTree:
 
 
 def _build(make: _Builder) -> None:
-    inputs = make.node("NodeGroupInput", 0)
-    outputs = make.node("NodeGroupOutput", 12)
-    realized = make.node("GeometryNodeRealizeInstances", 1)
-    triangles = make.node("GeometryNodeTriangulate", 2)
+    inputs = make.node("NodeGroupInput", 0).outputs
+    realized = make.node("GeometryNodeRealizeInstances", 1, 0.0, {"Geometry": inputs["Geometry"]})
+    triangles = make.node("GeometryNodeTriangulate", 2, 0.0, {"Mesh": realized.outputs["Geometry"]})
     if hasattr(triangles, "quad_method"):  # Blender 4.5; later a socket
         triangles.quad_method = "FIXED"
     else:
         triangles.inputs["Quad Method"].default_value = "Fixed"
-    box = make.node("GeometryNodeBoundBox", 3, 1)
-    make.link(inputs.outputs["Geometry"], realized.inputs["Geometry"])
-    make.link(realized.outputs["Geometry"], triangles.inputs["Mesh"])
-    make.link(triangles.outputs["Mesh"], box.inputs["Geometry"])
-    both = make.vector("ADD", 4, 1, box.outputs["Min"], box.outputs["Max"])
-    middle = make.vector("SCALE", 5, 1, both.outputs["Vector"])
-    middle.inputs["Scale"].default_value = 0.5
-    position = make.node("GeometryNodeInputPosition", 3, 2)
+    faces = triangles.outputs["Mesh"]
+    box = make.node("GeometryNodeBoundBox", 3, 1, {"Geometry": faces}).outputs
+    both = make.vector("ADD", 4, 1, box["Min"], box["Max"])
+    middle = make.vector("SCALE", 5, 1, both, Scale=0.5)
+    position = make.node("GeometryNodeInputPosition", 3, 2).outputs["Position"]
     corners = [_corner(make, index, position, middle) for index in range(3)]
     cross = make.vector("CROSS_PRODUCT", 7, 2, *corners[1:])
-    determinant = make.vector("DOT_PRODUCT", 8, 2, corners[0], cross.outputs["Vector"]).outputs[
-        "Value"
-    ]
+    determinant = make.vector("DOT_PRODUCT", 8, 2, corners[0], cross)
     pair = make.vector("ADD", 7, 3, *corners[:2])
-    three = make.vector("ADD", 8, 3, pair.outputs["Vector"], corners[2])
-    weighed = make.vector("SCALE", 9, 3, three.outputs["Vector"], scale=determinant)
-    faces = triangles.outputs["Mesh"]
+    three = make.vector("ADD", 8, 3, pair, corners[2])
+    weighed = make.vector("SCALE", 9, 3, three, Scale=determinant)
     sixfold = make.sum("FLOAT", 10, 1, faces, determinant)
-    moment = make.sum("FLOAT_VECTOR", 10, 2.5, faces, weighed.outputs["Vector"])
-    inverse = make.node("ShaderNodeMath", 10.5, 1, operation="DIVIDE")
-    inverse.inputs[0].default_value = 0.25
-    make.link(sixfold, inverse.inputs[1])
-    relative = make.vector("SCALE", 11, 2, moment, scale=inverse.outputs["Value"])
-    center = make.vector("ADD", 11.5, 2, relative.outputs["Vector"], middle.outputs["Vector"])
-    magnitude = make.node("ShaderNodeMath", 10.5, 0.5, operation="ABSOLUTE")
-    make.link(sixfold, magnitude.inputs[0])
-    volume = make.node("ShaderNodeMath", 11, 0.5, operation="DIVIDE")
-    make.link(magnitude.outputs["Value"], volume.inputs[0])
-    volume.inputs[1].default_value = 6.0
-    mass = make.node("ShaderNodeMath", 11.5, 0.5, operation="MULTIPLY")
-    make.link(volume.outputs["Value"], mass.inputs[0])
-    make.link(inputs.outputs["Density"], mass.inputs[1])
-    make.link(center.outputs["Vector"], outputs.inputs["Center"])
-    make.link(volume.outputs["Value"], outputs.inputs["Volume"])
-    make.link(mass.outputs["Value"], outputs.inputs["Mass"])
+    moment = make.sum("FLOAT_VECTOR", 10, 2.5, faces, weighed)
+    inverse = make.math("DIVIDE", 10.5, 1, 0.25, sixfold)
+    relative = make.vector("SCALE", 11, 2, moment, Scale=inverse)
+    magnitude = make.math("ABSOLUTE", 10.5, 0.5, sixfold)
+    volume = make.math("DIVIDE", 11, 0.5, magnitude, 6.0)
+    make.node(
+        "NodeGroupOutput",
+        12,
+        0.0,
+        {
+            "Center": make.vector("ADD", 11.5, 2, relative, middle),
+            "Volume": volume,
+            "Mass": make.math("MULTIPLY", 11.5, 0.5, volume, inputs["Density"]),
+        },
+    )
 
 
-def _corner(make: _Builder, index: int, position: Node, middle: Node) -> NodeSocket:
+def _corner(make: _Builder, index: int, position: NodeSocket, middle: NodeSocket) -> NodeSocket:
     """Return the position of a corner of each triangle, relative to the middle of the box."""
     row = 2 + index
-    corner = make.node("GeometryNodeCornersOfFace", 4, row)
-    corner.inputs["Sort Index"].default_value = index
-    vertex = make.node("GeometryNodeVertexOfCorner", 5, row)
-    make.link(corner.outputs["Corner Index"], vertex.inputs["Corner Index"])
-    there = make.node(
-        "GeometryNodeFieldAtIndex", 5.5, row, domain="POINT", data_type="FLOAT_VECTOR"
+    corner = make.node("GeometryNodeCornersOfFace", 4, row, {"Sort Index": index})
+    vertex = make.node(
+        "GeometryNodeVertexOfCorner", 5, row, {"Corner Index": corner.outputs["Corner Index"]}
     )
-    make.link(position.outputs["Position"], there.inputs["Value"])
-    make.link(vertex.outputs["Vertex Index"], there.inputs["Index"])
-    return make.vector(
-        "SUBTRACT", 6, row, there.outputs["Value"], middle.outputs["Vector"]
-    ).outputs["Vector"]
+    there = make.node(
+        "GeometryNodeFieldAtIndex",
+        5.5,
+        row,
+        {"Value": position, "Index": vertex.outputs["Vertex Index"]},
+        domain="POINT",
+        data_type="FLOAT_VECTOR",
+    )
+    return make.vector("SUBTRACT", 6, row, there.outputs["Value"], middle)
 
 
 def add_marker(context: Context, obj: Object, group: GeometryNodeTree) -> Object:
@@ -165,27 +168,34 @@ def add_marker(context: Context, obj: Object, group: GeometryNodeTree) -> Object
     tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
     tree.is_modifier = True
     make = _Builder(tree)
-    outputs = make.node("NodeGroupOutput", 5)
-    source = make.node("GeometryNodeObjectInfo", 1, transform_space="RELATIVE")
-    source.inputs["Object"].default_value = obj
-    nodes = make.node("GeometryNodeGroup", 2, node_tree=group)
-    unit = meters_per_unit(context.scene)
-    nodes.inputs["Density"].default_value = (
-        object_density(obj.body_moments, context.scene) * unit**3
+    source = make.node(
+        "GeometryNodeObjectInfo", 1, 0.0, {"Object": obj}, transform_space="RELATIVE"
     )
-    make.link(source.outputs["Geometry"], nodes.inputs["Geometry"])
-    ball = make.node("GeometryNodeMeshIcoSphere", 2, 1)
-    ball.inputs["Radius"].default_value = MARKER_SHARE * max(obj.dimensions)
-    ball.inputs["Subdivisions"].default_value = 3
-    placed = make.node("GeometryNodeTransform", 4)
-    make.link(ball.outputs["Mesh"], placed.inputs["Geometry"])
-    make.link(nodes.outputs["Center"], placed.inputs["Translation"])
-    make.link(placed.outputs["Geometry"], outputs.inputs["Geometry"])
+    density = object_density(obj.body_moments, context.scene) * meters_per_unit(context.scene) ** 3
+    measured = make.node(
+        "GeometryNodeGroup",
+        2,
+        0.0,
+        {"Density": density, "Geometry": source.outputs["Geometry"]},
+        node_tree=group,
+    )
+    ball = make.node(
+        "GeometryNodeMeshIcoSphere",
+        2,
+        1,
+        {"Radius": MARKER_SHARE * max(obj.dimensions), "Subdivisions": 3},
+    )
+    placed = make.node(
+        "GeometryNodeTransform",
+        4,
+        0.0,
+        {"Geometry": ball.outputs["Mesh"], "Translation": measured.outputs["Center"]},
+    )
+    make.node("NodeGroupOutput", 5, 0.0, {"Geometry": placed.outputs["Geometry"]})
     made = bpy.data.objects.new(
         "{:s} {:s}".format(obj.name, GROUP_NAME), bpy.data.meshes.new(MARKER_NAME)
     )
-    modifier = made.modifiers.new(MARKER_NAME, "NODES")
-    modifier.node_group = tree
+    made.modifiers.new(MARKER_NAME, "NODES").node_group = tree
     made.show_in_front = True
     made.hide_render = True
     context.collection.objects.link(made)

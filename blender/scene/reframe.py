@@ -16,17 +16,14 @@ objects are changed side by side. An object that is refused is tried again alone
 of another object was the reason.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 
 import bpy
 import numpy as np
 from bpy.types import ID, Context, Object
 from mathutils import Matrix
-from numpy.typing import NDArray
 
-from ...core.numerics import Index
+from ...core.numerics import Index, NDArray
 from ...core.verdict import LINKED_OBJECT, internal_error
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from ..read.findings import SCALE_ZERO_AXIS

@@ -9,8 +9,6 @@ too, it is copied. Objects that miss their plan, and after an error all objects,
 left to `reframe`, which changes each by itself.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field
@@ -19,9 +17,8 @@ import bpy
 import numpy as np
 from bpy.types import Context, Mesh, Object
 from mathutils import Matrix
-from numpy.typing import NDArray
 
-from ...core.numerics import Array, Index, Mask, PerBody
+from ...core.numerics import Array, Index, Mask, NDArray, PerBody
 from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, finding
 from .changes import ancestors

@@ -8,8 +8,6 @@ Location constraints put one more empty at the weighted mean of these: the influ
 part's share of the mass so far.
 """
 
-from __future__ import annotations
-
 import bpy
 import numpy as np
 from bpy.types import Context, Object, PoseBone

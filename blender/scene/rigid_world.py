@@ -5,8 +5,6 @@
 Blender adds joints to the view layer's active object alone.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 

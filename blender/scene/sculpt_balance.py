@@ -10,20 +10,17 @@ for these. Of a body that counts as a union, the changes are solved for its shel
 the center of the union is there. A change that misses the point is undone.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import bmesh
 import numpy as np
 from bpy.types import Context, Object
-from numpy.typing import NDArray
 
 from ...core.bodies import Part
 from ...core.measurement import Measurement
 from ...core.moments import Measure
-from ...core.numerics import Array
+from ...core.numerics import Array, NDArray
 from ...core.statics import BALANCE_NO_EFFECT, BALANCE_SHORT, balance
 from ...core.verdict import (
     LINKED_OBJECT,

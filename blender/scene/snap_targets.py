@@ -17,10 +17,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from bpy.types import Context, Object
-from numpy.typing import NDArray
 
 from ...core.inertia import EQUAL_AXES, MassProperties, PrincipalFrame, zhang_chen_frame
-from ...core.numerics import Array, polar_rotation
+from ...core.numerics import Array, NDArray, polar_rotation
 from ...core.shape import MAX_FIT_RTOL, RigidMatch
 from ...core.verdict import EditRefusedError, Finding, Procedure
 from ..bodies.measure_body import MeasuredBody, measure_body

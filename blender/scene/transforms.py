@@ -11,16 +11,13 @@ The basis of an object is T(location + delta) · R(delta) R(rotation) · S(scale
 parents and constraints.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import atan2, cos, pi, sin
 
 import numpy as np
 from bpy.types import Object, PoseBone
-from numpy.typing import NDArray
 
-from ...core.numerics import Array, Mask, quaternion, rotation_matrix
+from ...core.numerics import Array, Mask, NDArray, quaternion, rotation_matrix
 from ...core.verdict import EditRefusedError
 from ..read.findings import SCALE_ZERO_AXIS
 from .fcurves import all_curves

@@ -22,6 +22,9 @@ _ORDERS = ("XYZ", "XZY", "YZX", "YXZ", "ZXY", "ZYX")  # the first letter's rotat
 _SAME = 1e-9  # larger than the rounding of products in float64
 _RSRS = 1  # InheritType: the product of the matrices
 _RRS = 2  # InheritType: without the parent's own scale
+_TICKS = 46186158000.0  # of a file's clock in a second
+_SAME_TIME = 1e-6  # seconds
+_LINEAR = 4  # a flag of keys
 
 
 class Place(NamedTuple):
@@ -40,7 +43,8 @@ class Place(NamedTuple):
 class FbxModel:
     """A model, with its properties, those of its kind included.
 
-    moves: it is animated. geometry: its mesh, None without one. is_skinned: bones place the mesh.
+    moves: it is animated, and its place at the time to measure is not known. geometry: its mesh,
+    None without one. clusters: of the mesh, each with the bone that moves its points.
     """
 
     name: str
@@ -49,7 +53,7 @@ class FbxModel:
     children: list[FbxModel] = field(default_factory=list)
     geometry: FbxNode | None = None
     moves: bool = False
-    is_skinned: bool = False
+    clusters: list[tuple[FbxNode, FbxModel]] = field(default_factory=list)
     is_lod_group: bool = False
 
     def vector(self, name: str, rest: float = 0.0) -> Array:
@@ -93,6 +97,25 @@ class FbxModel:
     def is_apart(self) -> bool:
         """Whether it does not inherit the scale of its parent."""
         return self.whole("InheritType") == _RRS
+
+    def skinned(self, points: Array) -> Array:
+        """Return the places, in the file's axes and unit, of (n, 3) points of its mesh that bones
+        move. ValueError if their weights are unknown.
+        """
+        whole = np.column_stack([points, np.ones(len(points))]) @ self.geometric.T
+        moved = np.zeros_like(whole)
+        for cluster, bone in self.clusters:
+            rows, shares, to_bone = (
+                node.numbers()
+                for node in map(cluster.child, ("Indexes", "Weights", "Transform"))
+                if node is not None
+            )
+            matrix = bone.place.matrix @ to_bone.reshape(4, 4).T
+            index = rows.astype(int)
+            np.add.at(moved, index, shares[:, None] * (whole[index] @ matrix.T))
+        free = moved[:, 3] == 0.0
+        moved[free] = whole[free] @ self.place.matrix.T
+        return moved[:, :3] / moved[:, 3:]
 
     def coarse_levels(self) -> list[FbxModel]:
         """Return all models of the levels of detail in it that follow the first, finest one."""
@@ -175,8 +198,8 @@ def fbx_to_scene(root: FbxNode) -> Array:
     return _matrix(axes * settings.get("UnitScaleFactor", (1.0,))[0] / 100.0, np.zeros(3))
 
 
-def fbx_models(root: FbxNode) -> list[FbxModel]:
-    """Return the models of a file, connected, those with meshes in the order of these.
+def fbx_models(root: FbxNode, seconds: float) -> list[FbxModel]:
+    """Return the models of a file at a time, connected, those with meshes in the order of these.
 
     ValueError if its format is older than 7.0.
     """
@@ -195,7 +218,10 @@ def fbx_models(root: FbxNode) -> list[FbxModel]:
         for number, node in nodes.items()
         if node.name == "Model"
     }
-    skinned = set()
+    below_of: dict[int, list[int]] = {}  # the clusters of a skin, the skins of a mesh
+    bones: dict[int, FbxModel] = {}
+    channels: dict[int, dict[str, FbxNode]] = {}
+    animated = []
     ordered = []
     for link in connections.children:
         child, parent = (nodes.get(number) for number in link.values[1:3])
@@ -207,16 +233,55 @@ def fbx_models(root: FbxNode) -> list[FbxModel]:
             above.geometry = child
             ordered.append((link.values[1], above))
         elif above is not None and child is not None and child.name == "AnimationCurveNode":
-            above.moves = True
+            animated.append((above, link.values[3], link.values[1]))
+        elif child is not None and parent is not None and child.name == "AnimationCurve":
+            channels.setdefault(link.values[2], {})[link.values[3]] = child
         elif above is not None and child is not None and "LodGroup" in child.values[2:]:
             above.is_lod_group = True
-        elif child is not None and parent is not None and "Skin" in child.values[2:]:
-            skinned.add(link.values[2])
+        elif child is not None and parent is not None and child.name == "Deformer":
+            below_of.setdefault(link.values[2], []).append(link.values[1])
+        elif below is not None and parent is not None and "Cluster" in parent.values[2:]:
+            bones[link.values[2]] = below
+    is_single = sum(node.name == "AnimationLayer" for node in nodes.values()) == 1
+    for model, name, number in animated:
+        values = [
+            _value_at(channels.get(number, {}).get(channel), rest[0], seconds)
+            for channel, rest in _properties(nodes[number]).items()
+            if channel.startswith("d|")
+        ]
+        if is_single and None not in values:
+            model.properties[name] = values
+        else:
+            model.moves = True
     for number, model in ordered:
-        model.is_skinned = number in skinned
+        model.clusters = [
+            (nodes[cluster], bones[cluster])
+            for skin in below_of.get(number, ())
+            for cluster in below_of.get(skin, ())
+            if cluster in bones
+        ]
     place = {number: index for index, number in enumerate(nodes)}
     ordered.sort(key=lambda pair: place[pair[0]])
     return [*dict.fromkeys([model for _, model in ordered] + [*models.values()])]
+
+
+def _value_at(curve: FbxNode | None, rest: float, seconds: float) -> float | None:
+    """Return the value of an animated channel at a time; None between keys that are not linear."""
+    times, values, flags = (
+        np.empty(0) if node is None else node.numbers()
+        for node in map(
+            FbxNode("").child if curve is None else curve.child,
+            ("KeyTime", "KeyValueFloat", "KeyAttrFlags"),
+        )
+    )
+    if not len(times):
+        return rest
+    times = times / _TICKS
+    near = np.abs(times - np.clip(seconds, times[0], times[-1])) <= _SAME_TIME
+    if near.any():
+        return values[near.argmax()]
+    is_linear = (flags.astype(int) & _LINEAR).all()
+    return float(np.interp(seconds, times, values)) if is_linear else None
 
 
 def _properties(node: FbxNode | None) -> dict[str, Any]:

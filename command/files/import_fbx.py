@@ -17,15 +17,16 @@ from ...core.files import MALFORMED, fbx_tree, map_file
 from ...core.numerics import Array
 from ...core.verdict.finding import Finding, finding
 from ..findings import FILE_HIDES, PLACES_UNCHECKED
-from . import placing, references
 from .fbx_models import FbxModel, fbx_models, fbx_to_scene
+from .placing import MOST_WEIGHT, is_at, measure_at, place_objects, show_points, shown_seconds
+from .references import Opened
 
 # What the importer adds to the name of a model: for a mesh that others share, or a name is taken.
 _ADDED = re.compile(r"(_GeomAdjust)?(\.\d{3,})?$")
 _SAME_POINT = 1e-6  # relative to the largest coordinate; larger than the rounding of float32
 
 
-def import_fbx(path: str, frame: float | None) -> references.Opened:
+def import_fbx(path: str, frame: float | None) -> Opened:
     """Import an .fbx file at a frame, by default its first: each object at the place that the file
     states; hidden objects and coarser levels of detail are not rendered.
 
@@ -37,25 +38,29 @@ def import_fbx(path: str, frame: float | None) -> references.Opened:
         bpy.data.objects[name].hide_viewport = False
     moving = [shapes for shapes in bpy.data.shape_keys if shapes.animation_data is not None]
     for block in (block for shapes in moving for block in shapes.key_blocks):
-        block.slider_min = (
-            -placing.MOST_WEIGHT
-        )  # The importer's 0 to 1 would clamp animated weights.
-        block.slider_max = placing.MOST_WEIGHT
-    notes = placing.measure_at(frame)
+        block.slider_min = -MOST_WEIGHT  # The importer's 0 to 1 would clamp animated weights.
+        block.slider_max = MOST_WEIGHT
+    notes = measure_at(frame)
     findings: dict[str, tuple[Finding, ...]] = {}
     coarse: set[str] = set()
     try:
         root = fbx_tree(map_file(path))
-        models = fbx_models(root)
+        # The importer shows the file's first moment in frame 1.
+        models = fbx_models(root, shown_seconds(first=1.0))
         groups = _groups(models)
         pairs = [(obj, model) for group in groups for obj, model in zip(*group)]
         unseen |= {obj.name for obj, model in pairs if model.is_hidden}
         levels = {level for model in models for level in model.coarse_levels()}
         coarse = {obj.name for obj, model in pairs if model in levels}
-        doubts = _correct(groups, fbx_to_scene(root), any(model.is_apart for model in models))
-        for obj in (obj for obj, _ in pairs if obj.data.shape_keys in moving):
-            if any(abs(one.value) >= placing.MOST_WEIGHT for one in obj.data.shape_keys.key_blocks):
-                doubts[obj.name] = "the weight of a shape key exceeds ±10"
+        clamped = [
+            shapes
+            for shapes in moving
+            if any(abs(block.value) >= MOST_WEIGHT for block in shapes.key_blocks)
+        ]
+        cause = "the weight of a shape key exceeds ±10"
+        exceeding = {obj.name: cause for obj, _ in pairs if obj.data.shape_keys in clamped}
+        is_apart = any(model.is_apart for model in models)
+        doubts = _correct(groups, fbx_to_scene(root), is_apart) | exceeding
         findings = {
             name: (finding(PLACES_UNCHECKED, cause=cause),) for name, cause in doubts.items()
         }
@@ -66,7 +71,7 @@ def import_fbx(path: str, frame: float | None) -> references.Opened:
     hidden |= dict.fromkeys(coarse, finding(FILE_HIDES, cause="it is a coarser level of detail"))
     for name in hidden:
         bpy.data.objects[name].hide_render = True
-    return references.Opened(notes=notes, by_object=findings, hidden=hidden)
+    return Opened(notes=notes, by_object=findings, hidden=hidden)
 
 
 def _groups(models: list[FbxModel]) -> list[tuple[list[Object], list[FbxModel]]]:
@@ -93,30 +98,40 @@ def _correct(
     """
     doubts: dict[str, str] = {}
     places: dict[str, Array] = {}
+    skinned: list[tuple[Object, Array]] = []
     for objects, models in groups:
         if len(objects) != len(models):
             doubts |= dict.fromkeys([obj.name for obj in objects], "names are not unique")
             continue
         for obj, model in zip(objects, models):
-            if model.is_skinned or model.is_animated:
+            bones = [bone for _, bone in model.clusters]
+            if any(one.is_animated for one in (model, *bones)):
                 if are_apart:
                     doubts[obj.name] = "nodes do not inherit the scale of their parents"
                 continue
-            place = _place(obj, model, to_scene)
-            if place is not None and (
-                placing.is_at(obj, place) or len(models) == 1 and model.place.doubt is None
-            ):
-                places[obj.name] = place
-            elif place is None:
+            found = _place(obj, model, to_scene, is_mixed=bool(bones))
+            unsure = [one.place.doubt for one in (model, *bones) if one.place.doubt is not None]
+            if found is None:
                 doubts[obj.name] = "its points are not those of the file"
+            elif not bones and is_at(obj, found[1]) or len(models) == 1 and not unsure:
+                places[obj.name] = found[1]
+                if bones:
+                    points = model.skinned(found[0]) @ to_scene[:3, :3].T
+                    skinned.append((obj, points))
             else:
-                doubts[obj.name] = model.place.doubt or "names are not unique"
-    placing.place_objects(places)
+                doubts[obj.name] = "".join(unsure[:1]) or "names are not unique"
+    place_objects(places)
+    for obj, points in skinned:
+        show_points(obj, points)
     return doubts
 
 
-def _place(obj: Object, model: FbxModel, to_scene: Array) -> Array | None:
-    """Return the (4, 4) place of an object by its model; None if its points are not the file's."""
+def _place(
+    obj: Object, model: FbxModel, to_scene: Array, is_mixed: bool
+) -> tuple[Array, Array] | None:
+    """Return the (n, 3) points of a model's mesh, with the shape keys of the object if they are
+    mixed, and the (4, 4) place of the object; None if its points are not the file's.
+    """
     vertices = None if model.geometry is None else model.geometry.child("Vertices")
     points = np.empty(0) if vertices is None else vertices.numbers()
     own = np.empty(3 * len(obj.data.vertices))
@@ -137,5 +152,10 @@ def _place(obj: Object, model: FbxModel, to_scene: Array) -> Array | None:
         moved = (whole @ inner.T)[:, :3]
         size = max(np.abs(moved).max(initial=0.0), np.abs(inner[:3, 3]).max())
         if np.abs(moved - own).max(initial=0.0) <= _SAME_POINT * size:
-            return outer
+            if is_mixed and obj.data.shape_keys is not None:
+                mixed = np.empty_like(own)
+                key = obj.shape_key_add(from_mix=True)
+                key.data.foreach_get("co", mixed.ravel())
+                whole[:, :3] += (mixed - own) @ np.linalg.inv(inner[:3, :3]).T
+            return whole[:, :3], outer
     return None

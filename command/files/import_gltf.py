@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """glTF files as objects of the open scene, corrected by the file's nodes.
 
-Blender's importer ignores KHR_node_visibility and MSFT_lod, drops the shear of a matrix, and
-clamps the weights of morph targets. Its hook tells the object of each node.
+Blender's importer ignores KHR_node_visibility and MSFT_lod, drops the shear of a matrix and of
+joints, and clamps the weights of morph targets. Its hook tells the object of each node.
 """
 
 from __future__ import annotations
@@ -18,11 +18,13 @@ import bpy
 import numpy as np
 from bpy.types import Object
 
-from ...core import cad, files
+from ...core.cad import UPRIGHT
+from ...core.files import FILE_UNREADABLE, MALFORMED, GltfFile, map_file, node_matrix
 from ...core.numerics import Array
 from ...core.verdict.finding import FileError, Finding, finding
 from ..findings import FILE_HIDES, PLACES_UNCHECKED
-from . import placing, references
+from .placing import MOST_WEIGHT, measure_at, place_objects, show_points, shown_seconds
+from .references import Opened
 
 ADD_ON = "io_scene_gltf2"  # It comes with Blender, and may be switched off.
 # Errors of the importer about a library, which the bpy module and some builds lack.
@@ -48,7 +50,7 @@ class _Shown(NamedTuple):
     is_skinned: bool
 
 
-def import_gltf(path: str, frame: float | None) -> references.Opened:
+def import_gltf(path: str, frame: float | None) -> Opened:
     """Import a .gltf or .glb file: each object at the place, and each morph target with the weight,
     that the file states at the frame, by default its first. Raise FileError, RuntimeError, and
     AttributeError without an importer.
@@ -82,24 +84,18 @@ def import_gltf(path: str, frame: float | None) -> references.Opened:
         if missing is None:
             raise
         name = (missing[1] or missing[2]).capitalize()
-        raise FileError(files.FILE_UNREADABLE, error=_NO_DECODER.format(name)) from error
+        raise FileError(FILE_UNREADABLE, error=_NO_DECODER.format(name)) from error
     finally:
         del module.glTF2ImportUserExtension
     for name in hidden:
         bpy.data.objects[name].hide_render = True
-    notes = placing.measure_at(frame)
+    notes = measure_at(frame)
     try:
-        _correct(
-            _Pose(files.GltfFile(files.map_file(path), path), _seconds() if notes else 0.0), shown
-        )
-    except files.MALFORMED:  # Such as compressed animations.
-        notes = (*notes, finding(PLACES_UNCHECKED, cause="its nodes or animations are unreadable"))
-    return references.Opened(notes=notes, hidden=hidden)
-
-
-def _seconds() -> float:
-    scene = bpy.context.scene
-    return scene.frame_current_final / (scene.render.fps * scene.render.fps_base)
+        _correct(_Pose(GltfFile(map_file(path), path), shown_seconds() if notes else 0.0), shown)
+    except MALFORMED:
+        cause = "its animations, joints or nodes are compressed, or unreadable"
+        notes = (*notes, finding(PLACES_UNCHECKED, cause=cause))
+    return Opened(notes=notes, hidden=hidden)
 
 
 def _line_of(vnode: Any, gltf: Any) -> list[int]:
@@ -132,7 +128,7 @@ def _node_of(vnode: Any, gltf: Any) -> _Shown:
     if not is_instance:
         return _Shown(number, np.eye(4), keys, node.skin is not None)
     translation, rotation, scale = vnode.trs()
-    local = files.node_matrix(
+    local = node_matrix(
         {"translation": translation, "rotation": np.roll(rotation, -1), "scale": scale}
     )
     return _Shown(number, local, keys, False)
@@ -141,7 +137,8 @@ def _node_of(vnode: Any, gltf: Any) -> _Shown:
 class _Pose:
     """The nodes of a glTF file at a time of its first animation, the one that Blender shows."""
 
-    def __init__(self, file: files.GltfFile, seconds: float) -> None:
+    def __init__(self, file: GltfFile, seconds: float) -> None:
+        self._file = file
         self._document = file.document
         self._nodes = self._document.get("nodes", [])
         self._parents = {
@@ -164,7 +161,7 @@ class _Pose:
         matrix = np.eye(4)
         line: int | None = number
         while line is not None:
-            matrix = files.node_matrix(self._nodes[line] | self._animated.get(line, {})) @ matrix
+            matrix = node_matrix(self._nodes[line] | self._animated.get(line, {})) @ matrix
             line = self._parents.get(line)
         return matrix
 
@@ -173,6 +170,37 @@ class _Pose:
         node = self._nodes[number]
         rest = node.get("weights") or self._document["meshes"][node["mesh"]].get("weights", ())
         return np.array(self._animated.get(number, {}).get("weights", rest), np.float64)
+
+    def skinned(self, number: int) -> Array:
+        """Return the (n, 3) points of a node with joints in the world, in the file's axes, in the
+        order of Blender's vertices.
+        """
+        node = self._nodes[number]
+        skin = self._document["skins"][node["skin"]]
+        joints = np.array([self.place(joint) for joint in skin["joints"]])
+        if "inverseBindMatrices" in skin:
+            inverse = self._file.numbers(skin["inverseBindMatrices"]).reshape(-1, 4, 4)
+            joints = joints @ inverse.transpose(0, 2, 1)
+        blocks = [np.empty((0, 3))]
+        for part in self._document["meshes"][node["mesh"]]["primitives"]:
+            arrays = {name: self._file.numbers(one) for name, one in part["attributes"].items()}
+            points = np.ones((len(arrays["POSITION"]), 4))
+            points[:, :3] = arrays["POSITION"]
+            for weight, target in zip(self.weights(number), part.get("targets", ())):
+                if weight and "POSITION" in target:
+                    points[:, :3] += weight * self._file.numbers(target["POSITION"])
+            moved = np.zeros_like(points)
+            for name in (name for name in arrays if name.startswith("JOINTS_")):
+                shares = arrays["WEIGHTS" + name[6:]]
+                for joint, share in zip(arrays[name].T.astype(int), shares.T):
+                    moved += share[:, None] * (joints[joint] @ points[..., None])[..., 0]
+            used = np.arange(len(points))
+            if "indices" in part:
+                used = np.unique(self._file.numbers(part["indices"])).astype(int)
+            if not moved[used, 3].all():
+                raise ValueError("WEIGHTS")
+            blocks.append(moved[used, :3] / moved[used, 3:])
+        return np.concatenate(blocks)
 
 
 def _target(target: dict[str, Any]) -> tuple[int, str] | None:
@@ -186,7 +214,7 @@ def _target(target: dict[str, Any]) -> tuple[int, str] | None:
     return (number, part) if number is not None and part in _PARTS else None
 
 
-def _sampled(file: files.GltfFile, sampler: dict[str, Any], seconds: float, part: str) -> Array:
+def _sampled(file: GltfFile, sampler: dict[str, Any], seconds: float, part: str) -> Array:
     """Return the values of a sampler of an animation at a time: constant outside of its keys."""
     times = file.numbers(sampler["input"])[:, 0]
     values = file.numbers(sampler["output"])
@@ -220,6 +248,9 @@ def _sampled(file: files.GltfFile, sampler: dict[str, Any], seconds: float, part
 
 
 def _correct(pose: _Pose, shown: dict[str, _Shown]) -> None:
+    """Bring objects to the places, shape keys to the weights, and vertices that joints move to the
+    points, that a file states.
+    """
     weighted: set[bpy.types.Key] = set()
     for name, node in shown.items():
         shapes = bpy.data.objects[name].data.shape_keys
@@ -228,13 +259,16 @@ def _correct(pose: _Pose, shown: dict[str, _Shown]) -> None:
             for key, weight in zip(node.keys, pose.weights(node.number)):
                 if key is not None:
                     _set_weight(shapes, shapes.key_blocks[key], float(weight))
-    placing.place_objects(
+    place_objects(
         {
-            name: cad.UPRIGHT @ pose.place(node.number) @ np.linalg.inv(cad.UPRIGHT) @ node.local
+            name: UPRIGHT @ pose.place(node.number) @ np.linalg.inv(UPRIGHT) @ node.local
             for name, node in shown.items()
             if not node.is_skinned
         }
     )
+    for name, node in shown.items():
+        if node.is_skinned:
+            show_points(bpy.data.objects[name], pose.skinned(node.number) @ UPRIGHT[:3, :3].T)
 
 
 def _set_weight(shapes: bpy.types.Key, block: bpy.types.ShapeKey, weight: float) -> None:
@@ -242,12 +276,12 @@ def _set_weight(shapes: bpy.types.Key, block: bpy.types.ShapeKey, weight: float)
     if abs(block.value - weight) <= _SAME_WEIGHT * max(1.0, abs(weight)):
         return
     shapes.animation_data_clear()
-    growth = 2.0 ** max(0, math.ceil(math.log2(max(abs(weight), 1.0) / placing.MOST_WEIGHT)))
+    growth = 2.0 ** max(0, math.ceil(math.log2(max(abs(weight), 1.0) / MOST_WEIGHT)))
     if growth > 1.0:
         rest, offset = (np.empty(3 * len(one.data), np.float32) for one in (block, block))
         block.relative_key.data.foreach_get("co", rest)
         block.data.foreach_get("co", offset)
         block.data.foreach_set("co", rest + np.float32(growth) * (offset - rest))
-    block.slider_min = -placing.MOST_WEIGHT
-    block.slider_max = placing.MOST_WEIGHT
+    block.slider_min = -MOST_WEIGHT
+    block.slider_max = MOST_WEIGHT
     block.value = weight / growth

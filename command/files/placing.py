@@ -28,6 +28,12 @@ def set_frame(frame: float) -> None:
     bpy.context.scene.frame_set(whole, subframe=frame - whole)
 
 
+def shown_seconds(first: float = 0.0) -> float:
+    """Return the time of the evaluated frame, in seconds from the first one."""
+    scene = bpy.context.scene
+    return (scene.frame_current_final - first) / (scene.render.fps * scene.render.fps_base)
+
+
 def measure_at(frame: float | None) -> tuple[Finding, ...]:
     """Evaluate the scene at a frame, or else the first one of its animations; return a note if
     there are any.
@@ -74,3 +80,20 @@ def place_objects(places: Mapping[str, Array]) -> None:
             obj.matrix_basis = Matrix()
             obj.matrix_parent_inverse = Matrix(places[obj.name])  # unlike channels, it holds shear
     bpy.context.view_layer.update()
+
+
+def show_points(obj: bpy.types.Object, points: Array) -> None:
+    """Move the vertices of a mesh object to (n, 3) points in the world, without modifiers and keys.
+
+    ValueError if their counts differ.
+    """
+    obj.data = obj.data.copy()
+    if len(points) != len(obj.data.vertices):
+        raise ValueError("points")
+    obj.modifiers.clear()
+    obj.shape_key_clear()
+    place = np.eye(4)
+    place[:3, 3] = points.mean(axis=0)
+    local = (points - place[:3, 3]).astype(np.float32)
+    obj.data.attributes["position"].data.foreach_set("vector", local.ravel())
+    place_objects({obj.name: place})

@@ -8,10 +8,10 @@ from argparse import Namespace
 from collections.abc import Callable
 from typing import Any
 
+from ...core.bodies import vessel_surface
 from ...core.cuts import (
     CUT_FILL_UNAVAILABLE,
     LEVEL_UNAVAILABLE,
-    SHARED_SPACE,
     SURFACE_NEEDED,
     CutFill,
     below_record,
@@ -24,7 +24,6 @@ from ...core.inertia import NO_CERTAIN_VOLUME
 from ...core.measurement import NO_VOLUME, Body, Measurement
 from ...core.mesh import Surface, join_surfaces
 from ...core.polyhedron import BOUNDARY_OPEN
-from ...core.solid import COMPONENTS_OVERLAP
 from ...core.verdict import MeasureError, Procedure
 from ...core.verdict.finding import Finding
 from ..options.arguments import RIM
@@ -67,16 +66,12 @@ def cut_entries(
 
 
 def _below(measurement: Measurement, body: Body, level: float) -> dict[str, Any]:
-    if not body.has_surface or measurement.kind != "solid":
+    if measurement.kind != "solid" and body.wall is None:
         raise MeasureError(LEVEL_UNAVAILABLE, fault=SURFACE_NEEDED)
     if body.method.procedure is Procedure.OPEN:
         raise MeasureError(BOUNDARY_OPEN)
-    if any(found.code == COMPONENTS_OVERLAP for found in measurement.findings):
-        raise MeasureError(LEVEL_UNAVAILABLE, fault=SHARED_SPACE)
+    vessel = vessel_surface(body)
     entry = below_record(join_surfaces([*body.surfaces(False)]), level)
-    # The opening of a cup of one surface is not to be capped.
-    is_capped = body.method.procedure is Procedure.CAPPED
-    vessel = join_surfaces([*body.surfaces(is_capped)])
     return entry | {"contents": contents_record(vessel, level)}
 
 

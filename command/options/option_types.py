@@ -193,17 +193,13 @@ def source(text: str) -> str:
 
 def liquid(text: str) -> float:
     """Return the density of a liquid, kg/m³, from its name or as a number."""
-    liquids = {
-        one.casefold(): density.BY_NAME[one]
-        for one in density.BY_NAME
-        if density.BY_NAME[one].category == "Liquids"
-    }
-    name = "oil, hydraulic" if text.casefold() == "oil" else text.casefold()
-    if name in liquids:
-        return liquids[name].density
+    liquids = {name: one for name, one in density.BY_NAME.items() if one.category == "Liquids"}
+    for name, material in liquids.items():
+        if text.casefold() in (name.casefold(), name.partition(",")[0].casefold()):
+            return material.density
     value = _float(text)
     if not (1e-3 <= value <= 1e6):
-        names = "; ".join(material.name for material in liquids.values())
+        names = "; ".join(liquids)
         raise ArgumentTypeError(
             f"{text!r} is neither a density from 1e-3 to 1e6 nor one of {names}"
         )

@@ -62,6 +62,7 @@ from .reading import to_si as to_si
 from .wall import WallBody as WallBody
 from .wall import Walls as Walls
 from .wall import find_walls as find_walls
+from .wall import vessel_surface as vessel_surface
 
 __all__ = []
 

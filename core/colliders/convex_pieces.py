@@ -8,14 +8,11 @@ edge, or divide the piece evenly; all of them are compared at once on a coarse c
 More pieces than wanted are made; those whose common hull costs least are merged afterwards.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Generator, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh import (
     ConvexHull,
@@ -25,7 +22,7 @@ from ..mesh import (
     triangle_areas,
     triangle_distances,
 )
-from ..numerics import Array, Index, Mask, connected_components, spread_directions
+from ..numerics import Array, Index, Mask, NDArray, connected_components, spread_directions
 from ..verdict import MeasureError
 from .plane_cuts import ON_PLANE_RTOL, Piece, connected_parts, cut, piece_from_surface
 

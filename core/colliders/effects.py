@@ -21,20 +21,17 @@ face that folds one way has other derivatives than if it folds the other way, so
 the mean of both is tried.
 """
 
-from __future__ import annotations
-
 from collections.abc import Generator, Sequence
 from dataclasses import replace
 from math import sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..inertia import MassProperties
 from ..mesh import ConvexHull, Surface, convex_hull, triangle_areas
 from ..moments import SECOND_MOMENT_INDEX, Moments
 from ..moments.exponents import monomial_count, monomials
-from ..numerics import Array, sums_by_index
+from ..numerics import Array, NDArray, sums_by_index
 from ..polyhedron import polyhedron_moments
 from ..robots import Effect, Inertial, Pose, Shape, compare, moments_of, ratio
 from ..statics import volume_gradient

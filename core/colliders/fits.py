@@ -6,8 +6,6 @@ The largest distances between a body and its colliders come from samples of both
 their bound.
 """
 
-from __future__ import annotations
-
 from collections.abc import Generator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
@@ -15,11 +13,10 @@ from itertools import combinations
 from math import inf, pi
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..inertia import MassProperties
 from ..mesh import Bvh, ConvexHull, Surface, convex_hull, normals, tree_of_all, triangle_areas
-from ..numerics import Array, spread_directions
+from ..numerics import Array, NDArray, spread_directions
 from ..polyhedron import volume_and_center
 from ..robots import Inertial, Pose, Shape, equal_inertia_shape, primitive_moments
 from .convex_pieces import cut_into_pieces, distances_from_triangles

@@ -12,10 +12,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh import Surface, normals
-from ..numerics import Array, Index, Mask, connected_components
+from ..numerics import Array, Index, Mask, NDArray, connected_components
 
 ON_PLANE_RTOL = 1e-9  # relative to the size: points nearer to a plane are on it
 

@@ -22,7 +22,16 @@ from ..inertia import frame_about
 from ..mesh import first_at_equal_position, uncancelled_sides
 from ..moments import Moments, U
 from ..moments.moments import TINY
-from ..numerics import Array, Index, connected_components, float_array, index_array, lengths
+from ..numerics import (
+    Array,
+    Index,
+    connected_components,
+    first_occurrence,
+    float_array,
+    index_array,
+    lengths,
+    unit_vector,
+)
 from ..verdict import MeasureError
 from .findings import LEVEL_UNAVAILABLE, LIQUID_ABSENT, NO_HOLLOW, VESSEL_OVERFLOWS
 from .part_below import PartBelow, measure_below
@@ -147,8 +156,7 @@ def find_hollow(points: ArrayLike, triangles: ArrayLike, up: ArrayLike = (0.0, 0
     """
     points = float_array("points", points, "n", 3, finite=True)
     triangles = index_array("triangles", triangles, "m", 3, count=len(points))
-    up = float_array("up", up, 3, finite=True)
-    up = up / float(np.linalg.norm(up))
+    up = unit_vector("up", up)
     used, triangles = np.unique(first_at_equal_position(points)[triangles], return_inverse=True)
     points = points[used]
     heights = points @ up
@@ -159,6 +167,7 @@ def find_hollow(points: ArrayLike, triangles: ArrayLike, up: ArrayLike = (0.0, 0
     triangles = rank[triangles.reshape(-1, 3)]
     # A side without a length bounds nothing.
     triangles = triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
+    triangles = _without_copies(triangles)
     _, start, stop = uncancelled_sides(triangles, np.zeros(len(triangles), np.intp))
     rim = np.union1d(start, stop)
     best = _largest(points, heights, triangles, up, rim)
@@ -169,6 +178,28 @@ def find_hollow(points: ArrayLike, triangles: ArrayLike, up: ArrayLike = (0.0, 0
     if best is None:
         raise MeasureError(LEVEL_UNAVAILABLE, fault=NO_HOLLOW)
     return best
+
+
+def _without_copies(triangles: Index) -> Index:
+    """Return each triangle once, facing as most of its copies; of two that face opposite ways, the
+    one that continues its neighbors, both if both or neither do.
+    """
+    count = len(triangles)
+    first = first_occurrence(*np.sort(triangles, axis=1).T)
+    if (first == np.arange(count)).all():
+        return triangles
+    following = np.roll(triangles, -1, axis=1)
+    side = 2 * (following > triangles).sum(axis=1) - 3
+    facing = np.bincount(first, side, count)[first]
+    rest = triangles[facing != 0.0]
+    _, start, stop = uncancelled_sides(rest, np.zeros(len(rest), np.intp))
+    size = int(triangles.max()) + 1
+    fits = np.isin(following * size + triangles, start * size + stop).any(axis=1)
+    fits &= np.bincount(first, fits, count)[first] == 1.0
+    wanted = np.flatnonzero(np.where(facing != 0.0, side * facing > 0.0, fits))
+    _, rows = np.unique(first[wanted], return_index=True)
+    undecided = np.flatnonzero(~np.isin(first, first[wanted]))
+    return triangles[np.union1d(wanted[rows], undecided)]
 
 
 def _largest(

@@ -40,6 +40,7 @@ from ..numerics import (
     index_array,
     segment_ranges,
     sums_by_index,
+    unit_vector,
 )
 from ..verdict import MAX_COORDINATE, MeasureError
 from .findings import (
@@ -173,7 +174,7 @@ def fit_rim(
     """
     points = float_array("points", points, "n", 3, finite=True)
     triangles = index_array("triangles", triangles, "m", 3, count=len(points))
-    up = float_array("up", up, 3, finite=True)
+    up = unit_vector("up", up)
     triangles = first_at_equal_position(points)[triangles]
     _, start, stop = uncancelled_sides(triangles, np.zeros(len(triangles), np.intp))
     if not len(start):
@@ -299,10 +300,7 @@ def _open_surface(
     """
     points = float_array("points", points, "n", 3, finite=True)
     triangles = index_array("triangles", triangles, "m", 3, count=len(points))
-    normal = float_array("normal", normal, 3, finite=True)
-    size = float(np.linalg.norm(normal))
-    if not size > 0.0:
-        raise ValueError("normal must not be zero")
+    normal = unit_vector("normal", normal)
     if not len(triangles):
         raise MeasureError(CUT_FILL_UNAVAILABLE, fault=NO_FACES_TO_CUT)
     welded = first_at_equal_position(points)[triangles]
@@ -319,7 +317,7 @@ def _open_surface(
     part, _ = connected_components(len(triangles), first, second)
     facing = np.where(flipped, -1.0, 1.0) * (vectors @ normal)
     flipped ^= (sums_by_index(part, facing) < 0.0)[part]
-    return points, np.where(flipped[:, None], triangles[:, ::-1], triangles), normal / size
+    return points, np.where(flipped[:, None], triangles[:, ::-1], triangles), normal
 
 
 def _doubled_area(corners: NDArray) -> Array:

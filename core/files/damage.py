@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Refusals of damaged files."""
 
-from __future__ import annotations
-
 import os
 import struct
 import zlib

@@ -12,9 +12,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics import Array
+from ..numerics import Array, NDArray
 from .text_fields import BLOCK, Data
 
 FBX_MAGIC = b"Kaydara FBX Binary  \0\x1a\0"

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """glTF files: the JSON document, text or first chunk of a binary file, and the buffers."""
 
-from __future__ import annotations
-
 import base64
 import json
 import os
@@ -13,9 +11,8 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics import rotation_matrix
+from ..numerics import NDArray, rotation_matrix
 from ..verdict.finding import FileError, finding
 from .findings import DAMAGE_SIZE, FILE_DAMAGED, MISSING_REFERENCES
 from .text_fields import Data, map_file

@@ -8,8 +8,6 @@ Python's `float` and `int` also accept underscores and the digits of every scrip
 written in C stop at the first letter that does not fit and take the digits before it.
 """
 
-from __future__ import annotations
-
 import re
 
 _DECIMAL = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"

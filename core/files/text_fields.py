@@ -7,8 +7,6 @@ Most lines match a regular expression that allows only short numbers; all others
 word.
 """
 
-from __future__ import annotations
-
 import mmap
 import re
 from pathlib import Path

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A parser of untrusted XML."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from xml.parsers import expat
 

@@ -14,8 +14,6 @@ bounds, a region's points may be off: an edge of length l whose ends move by at 
 at most d (l + 2 d), and there |x| and |y| exceed those of the ends by at most d.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache

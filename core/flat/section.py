@@ -4,8 +4,6 @@
 region on it.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -12,8 +12,6 @@ is farther out.
 Measured sections hold arrays, sections of a saved file tuples: panels draw them without numpy.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import atan2, hypot, pi, sqrt
 

@@ -27,7 +27,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..cuts import measure_below
 from ..inertia import frame_about
 from ..moments import U
-from ..numerics import Array, float_array, index_array, rotation_matrix
+from ..numerics import Array, float_array, index_array, rotation_matrix, unit_vector
 from ..verdict import Finding, MeasureError
 from ..verdict.finding import finding
 from .findings import (
@@ -259,8 +259,7 @@ class FloatingBody:
 
     def at(self, up: ArrayLike, near: Flotation | None = None) -> Flotation:
         """Return the body held at a direction against gravity; `near`: a position not far away."""
-        up = float_array("up", up, 3, finite=True)
-        up = up / float(np.linalg.norm(up))
+        up = unit_vector("up", up)
 
         vessels = [self.hull, *(vessel for vessel, _ in self.liquids)]
         guesses: list[float | None] = [None] * len(vessels)
@@ -283,8 +282,7 @@ class FloatingBody:
         MeasureError
             If none is found, or liquid runs in.
         """
-        up = float_array("up", up, 3, finite=True)
-        up = up / float(np.linalg.norm(up))
+        up = unit_vector("up", up)
         fitted = self.fitted or (lambda _: self)
         body = fitted(up)
         try:
@@ -559,7 +557,7 @@ class Flotation:
         """Return the (4, 4) map that turns it by the smallest angle about its center of mass and
         lifts it to a level of the liquid along a unit vector.
         """
-        up = float_array("up", up, 3)
+        up = unit_vector("up", up)
         turn = turn_between(self.up, up)
         center = self.body.center
         height = float(self.up @ center) - self.level + level

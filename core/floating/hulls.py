@@ -14,12 +14,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..bodies import MeshBody, WallBody
+from ..bodies import MeshBody
 from ..cuts import Hollow, find_hollow
 from ..measurement import Body
 from ..mesh import (
     Bvh,
-    Surface,
     first_at_equal_position,
     intersecting_pairs,
     sort_components,
@@ -34,7 +33,6 @@ from ..solid import (
     measure_solid,
 )
 from ..verdict import MeasureError, Procedure, welding_tolerance
-from ..wall import split_thickness
 from .findings import FLOAT_UNAVAILABLE, FLOODED_OUTSIDE, NO_BODY, OPEN_HULL, SHARED_SPACE
 
 NOT_UNITED = {COMPONENTS_OVERLAP, SELF_INTERSECTING}
@@ -57,15 +55,9 @@ class Hull:
 
 def outer_surface(body: Body) -> Iterator[tuple[SolidIntegrals, Array]]:
     """Yield the closed solids that a body displaces, and the (k, 4, 4) maps to their places, m."""
-    if isinstance(body, WallBody):
-        for piece in body.walls.pieces:
-            outward = split_thickness(body.walls.side, body.thickness / piece.scale)[1]
-            offset = piece.offset
-            points = offset.points + outward * offset.vectors
-            yield measure_solid(Surface(points, offset.triangles)), piece.matrices
-    elif isinstance(body, MeshBody):
+    if isinstance(body, MeshBody):
         yield from body.solids
-    elif body.has_surface:
+    else:
         for surface in body.surfaces(False):
             yield measure_solid(surface), np.eye(4)[None]
 

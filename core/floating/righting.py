@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..numerics import Array, Index, check_filled, float_array
+from ..numerics import Array, Index, check_filled, float_array, unit_vector
 from .flotation import Flotation
 
 MAX_STEPS = 30
@@ -107,9 +107,8 @@ def righting_curve(
     is_new = np.abs(grid[:, None] - wanted).min(axis=1) > ANGLE_ATOL
     angles = np.union1d(wanted, grid[is_new])
     is_wanted = np.isin(angles, wanted)
-    axis = rest.heel_axis if forward is None else float_array("forward", forward, 3)
-    axis = axis - rest.up * float(rest.up @ axis)
-    axis = axis / float(np.linalg.norm(axis))
+    axis = rest.heel_axis if forward is None else unit_vector("forward", forward)
+    axis = unit_vector("forward across the water", axis - rest.up * float(rest.up @ axis))
     frame = np.stack([axis, np.cross(rest.up, axis), rest.up])
     heeled: dict[float, tuple[float, Flotation]] = {}
     for side in (angles[angles >= 0.0], angles[angles < 0.0][::-1]):

@@ -25,11 +25,18 @@ from dataclasses import replace
 from math import factorial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh import Surface
 from ..moments import Measure
-from ..numerics import Array, Index, check_type, compensated_normals, gauss_legendre, triangle_rule
+from ..numerics import (
+    Array,
+    Index,
+    NDArray,
+    check_type,
+    compensated_normals,
+    gauss_legendre,
+    triangle_rule,
+)
 from .transform import Transform
 from .triangle_kernel import PAIRS_PER_BLOCK, PhaseMeans, TriangleBlock
 from .wave_vectors import APPROXIMATE, FrequencyGrid, ListWaves, Spectrum

@@ -7,8 +7,6 @@ transformed once for every different A, and all its places with that A are one f
 A acts on the surface, not on q: a regular grid stays one.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from typing import cast
 

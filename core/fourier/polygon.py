@@ -8,8 +8,6 @@ normals n of the same length, the phases m in their middles and half the phase t
     ∫ exp(-i q·x) dA = i/q² Σ (q·n) (exp(-i m) sinc(t) - 1).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from math import factorial
 

@@ -21,10 +21,17 @@ from copy import copy
 from math import factorial, hypot
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh import Surface
-from ..numerics import Array, Index, check_type, compensated_normals, indices_in_range, spread_bits
+from ..numerics import (
+    Array,
+    Index,
+    NDArray,
+    check_type,
+    compensated_normals,
+    indices_in_range,
+    spread_bits,
+)
 from ..verdict import MAX_COORDINATE, MeasureError, check_size
 from ..verdict.findings import NO_FACES, OBJECT_SIZE, TOO_LARGE
 from .wave_vectors import GridWaves, ListWaves

@@ -9,8 +9,6 @@ Otherwise it is zero by a chance below 2^-50, whatever the faces, because each p
 keys. (A sum of normals is zero for many surfaces that are open.)
 """
 
-from __future__ import annotations
-
 import os
 
 import numpy as np

@@ -10,15 +10,12 @@ Both searches walk down the trees with all pairs and points at once, in bounded 
 Pairs of single boxes that meet are found by a sweep along the best axis.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics import Array, Index, Mask, following_pairs, segment_ranges, spread_bits
+from ..numerics import Array, Index, Mask, NDArray, following_pairs, segment_ranges, spread_bits
 from .point_triangle import triangle_distances
 
 RAY_SLOPES = (0.08173, 0.05311)  # the ray is (0.08173, 0.05311, 1)

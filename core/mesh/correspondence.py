@@ -9,15 +9,12 @@ found. Each candidate is proven on all vertices, edges and faces, which may be n
 order.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics import Array, Index
+from ..numerics import Array, Index, NDArray
 
 # hardly any mesh has points that coincide along this direction
 DIRECTION = np.array([0.7071, 0.5477, 0.4472])

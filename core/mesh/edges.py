@@ -17,13 +17,10 @@ Orientation is decided by connected parts on the double cover: each face becomes
 each orientation. A part is orientable if its two covers stay apart.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..numerics import (
     EDGES_PER_BLOCK,
@@ -31,6 +28,7 @@ from ..numerics import (
     Array,
     Index,
     Mask,
+    NDArray,
     connected_components,
     first_occurrence,
     sums_by_index,

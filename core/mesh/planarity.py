@@ -13,15 +13,22 @@ quad's normal is the sum of its triangles' normals. Faces that may have no area,
 classified one by one.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property, partial
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics import Array, Index, Mask, cross, dot, segment_ranges, segment_starts, sums_by_index
+from ..numerics import (
+    Array,
+    Index,
+    Mask,
+    NDArray,
+    cross,
+    dot,
+    segment_ranges,
+    segment_starts,
+    sums_by_index,
+)
 from .edges import ring_sizes
 from .surface import Surface, face_of_each
 from .surface_stack import SurfaceStack

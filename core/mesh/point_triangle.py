@@ -10,8 +10,6 @@ Winding numbers are sums of solid angles, which open surfaces have, too, unlike 
 `bvh.Bvh`.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

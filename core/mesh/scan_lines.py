@@ -18,9 +18,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics import Array, Index, Mask, batches, segment_ranges, sums_by_index
+from ..numerics import Array, Index, Mask, NDArray, batches, segment_ranges, sums_by_index
 from .surface import Surface, flipped_quads
 
 LINE_SLOPES = 0.08173, 0.05311  # direction of the lines: across, for each length along

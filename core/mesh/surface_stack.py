@@ -11,9 +11,16 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics import Array, Index, Mask, as_unsigned, connected_components, segment_starts
+from ..numerics import (
+    Array,
+    Index,
+    Mask,
+    NDArray,
+    as_unsigned,
+    connected_components,
+    segment_starts,
+)
 from .edges import ring_sizes
 from .surface import HALVES, Surface, face_of_each, half_ulp, turned_quads
 

@@ -10,16 +10,14 @@ line enter grids: most meshes have none. Faces are copies if the sums of two has
 vertices agree.
 """
 
-from __future__ import annotations
-
 import numpy as np
-from numpy.typing import NDArray
 
 from ..numerics import (
     NEXT_AXIS,
     Array,
     Index,
     Mask,
+    NDArray,
     connected_components,
     first_occurrence,
     hash_uint64,

@@ -11,9 +11,11 @@ from .arguments import has_form as has_form
 from .arguments import index_array as index_array
 from .arguments import number_array as number_array
 from .arguments import shape_error as shape_error
+from .arguments import unit_vector as unit_vector
 from .array_types import Array as Array
 from .array_types import Index as Index
 from .array_types import Mask as Mask
+from .array_types import NDArray as NDArray
 from .arrays import NEXT_AXIS as NEXT_AXIS
 from .arrays import PREVIOUS_AXIS as PREVIOUS_AXIS
 from .arrays import PerBody as PerBody

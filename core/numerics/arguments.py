@@ -44,6 +44,16 @@ def float_array(name: str, values: ArrayLike, *shape: Length, finite: bool = Fal
     return number_array(name, values, *shape, finite=finite).astype(np.float64, copy=False)
 
 
+def unit_vector(name: str, values: ArrayLike) -> Array:
+    """Return a (3,) parameter, which must not be zero, as a unit vector."""
+    vector = float_array(name, values, 3, finite=True)
+    largest = float(np.abs(vector).max())
+    if not largest > 0.0:
+        raise ValueError("{} must not be zero".format(name))
+    vector = vector / largest
+    return vector / float(np.linalg.norm(vector))
+
+
 def index_array(
     name: str, values: ArrayLike, *shape: Length, count: int | None = None
 ) -> NDArray[np.integer]:

@@ -24,16 +24,13 @@ References, generic over the number type: `fractions.Fraction` in, exact rationa
 enters squared only.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import product
 from math import factorial
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics import Number, Vector, cross, dot
+from ..numerics import NDArray, Number, Vector, cross, dot
 from .sheynin_tuzikov_2001 import _exponents_to, sigma
 
 # (divisor of the sum of c_j (p⊥·n) times these products; the products: a is p_j, b is p_{j+1}, p is

@@ -13,8 +13,6 @@ ones, numpy arrays those of many triangles at once. The formulae are about the o
 subtract a point of the body first (`about`), else only noise is left after cancellation.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from itertools import accumulate, repeat
 from math import comb, factorial, sqrt

@@ -12,12 +12,9 @@ are (n n')^(3 + order) of them: this is good for patches of some nine control po
 `core/nurbs/tracked_solid.py` is for any patch.
 """
 
-from __future__ import annotations
-
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics import Array, SplineSpace, gauss_legendre
+from ..numerics import Array, NDArray, SplineSpace, gauss_legendre
 from .sheynin_tuzikov_2001 import _exponents_to
 
 MAX_ENTRIES = 2e6

@@ -12,8 +12,6 @@ The theorem is right, but costs l nested sums, so only tests use it. The arithme
 arguments: exact with `fractions.Fraction`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from ..numerics import Number

@@ -20,8 +20,6 @@ paper's pose (eq. 11) is `zhang_chen_frame` in `core/inertia/principal_frames.py
 transform `core/fourier/transform.py`.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Sequence
 from fractions import Fraction

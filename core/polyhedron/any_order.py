@@ -16,8 +16,6 @@ point of the body, and scaled by a power of two to at most about 1 if they are f
 high powers stay in range.
 """
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -28,7 +26,6 @@ from math import frexp
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..inertia import MOMENTS_OVERFLOW
 from ..mesh import Surface
@@ -41,7 +38,7 @@ from ..moments.exponents import (
     monomials,
     quotient_indices,
 )
-from ..numerics import Array, batches, cross, dot, indices_in_range
+from ..numerics import Array, NDArray, batches, cross, dot, indices_in_range
 from ..verdict import MeasureError, check_size
 from .any_order_kernel import SLICES, UNDERFLOW_BOUND, absolute_sums, coefficient_sums
 from .third_order import NO_VERTEX, Faces, box_center, finite_box, nothing, paired_corners

@@ -14,8 +14,6 @@ y or z moves rows to the next run. All sums are of positive terms if the coordin
 so a computed S_α is off by at most (6 n + 8) u S_α(|a|, |b|, |c|).
 """
 
-from __future__ import annotations
-
 from functools import lru_cache
 from math import factorial
 

@@ -7,8 +7,6 @@ To third order a kernel of its own is several times as fast (`third_order`); hig
 the recursion (`any_order`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 from math import isfinite
 from typing import Any

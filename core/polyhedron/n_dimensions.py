@@ -15,8 +15,6 @@ and sums, rounding is relative to the same expression in absolute values, which 
 bound.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import lru_cache, reduce
 from itertools import combinations

@@ -27,20 +27,17 @@ Triangles a, b, c and a, c, d with a common base a, c and determinants v and w s
 u = v + w, Z = u q + 2 (v b + w d) and H = u (a a' + c c') + 2 (v b b' + w d d').
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from math import isfinite
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh import PlanarityAccumulator, Surface, has_flipped_corners
 from ..moments import PAIRWISE_SUM_ROUNDINGS, Measure, Moments, U, unchecked_moments
 from ..moments.exponents import monomial_count, monomials
-from ..numerics import Array, Index, batches, indices_in_range
+from ..numerics import Array, Index, NDArray, batches, indices_in_range
 from ..verdict import check_size
 
 # Up to this number of triangles the third order is always exact, which takes half as long again.

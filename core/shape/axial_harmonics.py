@@ -22,11 +22,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..inertia import NOISE_LEVEL
 from ..mesh import Surface
-from ..numerics import Array, cross, dot
+from ..numerics import Array, NDArray, cross, dot
 from .canonical_frame import EquivalentFrames, lexicographic_maximum
 
 MAX_AXIAL_ORDER = 30

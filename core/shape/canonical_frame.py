@@ -15,18 +15,15 @@ of these frames, and the frames with the largest moments, compared entry by entr
 that differ by noise are equal. In all remaining frames the body is the same.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..inertia import MOMENTS_OVERFLOW, NOISE_LEVEL, SecondMomentAxes, frame_about
 from ..moments import Measure, Moments
 from ..moments.exponents import monomial_index, monomials, tensor_index
-from ..numerics import Array, distinct_arrays, spread_directions
+from ..numerics import Array, NDArray, distinct_arrays, spread_directions
 from ..verdict import MeasureError
 
 MAX_ORDER = 6  # enough for the axes of prisms up to hexagonal, of a cube and of an icosahedron

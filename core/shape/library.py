@@ -5,8 +5,6 @@
 `measure --signature --format jsonl` writes such lines.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass

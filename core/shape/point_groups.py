@@ -13,15 +13,12 @@ point whose image is far from the surface. Candidates that neither hold nor are 
 choice of groups.
 """
 
-from __future__ import annotations
-
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh import Bvh, tree_of_all
-from ..numerics import Array, Index, Mask, cross_rows, lengths
+from ..numerics import Array, Index, Mask, NDArray, cross_rows, lengths
 from .symmetries import Symmetry, axis_rotation
 
 MAX_CORNERS = 4096  # farthest corners that are compared with each other

@@ -15,18 +15,15 @@ trigonometric polynomial of θ, Re Σ conj(B_nm) A_nm exp(-imθ). Its maxima are
 lay one onto the other; the outlines decide. With conj(A_nm) the mirror image is turned instead.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import count
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..inertia import HALF_TURN_SIGNS, complete_free_axes
 from ..moments import Moments, invert_through_point
-from ..numerics import Array, distinct_arrays
+from ..numerics import Array, NDArray, distinct_arrays
 from .canonical_frame import EquivalentFrames
 from .symmetries import Symmetry
 from .unique_frames import equivalent_frames, undetermined_axes

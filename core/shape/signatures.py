@@ -31,11 +31,10 @@ from itertools import combinations, combinations_with_replacement
 from math import hypot, log, pi, sqrt, tanh
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..moments import Measure, Moments, U, along_first, complex_moments, couple, harmonic_moments
 from ..moments.exponents import monomial_count, monomials
-from ..numerics import Array, Mask, PerBody, check_type
+from ..numerics import Array, Mask, NDArray, PerBody, check_type
 from ..verdict import FileError
 from .findings import SIGNATURE_INVALID
 from .zernike import (

@@ -10,17 +10,14 @@ The group is named by its Schoenflies symbol: C1 has no symmetry, D2h is a box, 
 body of revolution, K a ball.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..inertia import NOISE_LEVEL
 from ..moments import Moments, invert_through_point
-from ..numerics import Array, Mask, check_type, distinct_arrays
+from ..numerics import Array, Mask, NDArray, check_type, distinct_arrays
 from .axial_harmonics import MAX_TILT, AxialHarmonics, axis_last, turn_by_harmonics
 from .unique_frames import equivalent_frames
 

@@ -8,8 +8,6 @@ that follow the shape: `canonical_frame` searches them among the moments to sixt
 freedom is the body's own; there the frame nearest to the preferred axes is taken.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 

@@ -24,8 +24,6 @@ Every frequency within the ball's resolution follows too, for ∫ R_nl j_l(qr) r
 sqrt(2n+3) j_{n+1}(q)/q.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from fractions import Fraction
 from functools import lru_cache
@@ -33,7 +31,6 @@ from itertools import count
 from math import ceil, factorial, pi, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..moments import (
     Moments,
@@ -45,7 +42,7 @@ from ..moments import (
     monomials,
     with_negative_orders,
 )
-from ..numerics import Array, triangle_rule
+from ..numerics import Array, NDArray, triangle_rule
 
 MAX_ORDER_BY_MOMENTS = 20  # the highest order that raw moments in float64 give
 MAX_DESCRIPTOR_ERROR = 1e-9  # the error of a descriptor that raw moments may have

@@ -20,8 +20,6 @@ About the body's own center, first moments vanish, so that the derivative of the
 ∂first / volume.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from functools import partial
 

@@ -4,8 +4,6 @@
 that each edge of the support polygon allows a range of it.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..numerics import Array

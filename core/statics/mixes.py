@@ -8,8 +8,6 @@ times a polynomial of degree n of them. So the moments of as many mixes as the p
 coefficients give the moments of all mixes, inside the range of the samples and beyond it.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import product
 from math import comb

@@ -18,8 +18,6 @@ probability is its solid angle, seen from the center. A face that is not stable 
 to the face that the body tips onto.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import atan2
 
@@ -37,6 +35,7 @@ from ..numerics import (
     connected_components,
     float_array,
     sums_by_index,
+    unit_vector,
 )
 from ..verdict import MeasureError
 from .findings import CENTER_OUTSIDE_HULL, NO_STABLE_POSE
@@ -102,8 +101,7 @@ def ground_axes(down: ArrayLike) -> Array:
     """Return a (3, 3) rotation with two columns along the ground and the third up; down: direction
     of gravity.
     """
-    up = -float_array("down", down, 3)
-    return np.transpose(frame_about((up / float(np.linalg.norm(up))).tolist()))
+    return np.transpose(frame_about((-unit_vector("down", down)).tolist()))
 
 
 def find_support(

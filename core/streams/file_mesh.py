@@ -4,18 +4,15 @@
 blocks.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..files import refuse_non_finite
 from ..mesh import Surface, first_at_equal_position
-from ..numerics import Array, Index, Mask
+from ..numerics import Array, Index, Mask, NDArray
 
 CORNERS_PER_BLOCK = 1 << 18
 

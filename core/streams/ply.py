@@ -6,15 +6,12 @@ line of fields.
 Blender reads a missing or wrong number as 0, and leaves out faces with a wrong index.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from functools import cached_property
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..files import (
     BLOCK,
@@ -36,7 +33,7 @@ from ..files import (
     shorten,
 )
 from ..mesh import Surface
-from ..numerics import Index
+from ..numerics import Index, NDArray
 from ..verdict import FileError
 from .file_mesh import (
     Box,

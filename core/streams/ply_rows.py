@@ -12,10 +12,9 @@ from dataclasses import dataclass
 from typing import BinaryIO, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..files import parse_decimals
-from ..numerics import Array, Index
+from ..numerics import Array, Index, NDArray
 
 BYTES_PER_BLOCK = 1 << 22  # of a text a quarter
 FEW_ROWS = 64  # Rows of equal lengths: after so many, a run of them is looked for.

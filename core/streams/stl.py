@@ -5,8 +5,6 @@
 A file is binary if its size is exactly that of its number of triangles, else text.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from itertools import islice

@@ -19,7 +19,6 @@ from pathlib import Path
 from xml.parsers import expat
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..files import (
     BLOCK,
@@ -40,7 +39,7 @@ from ..files import (
     parse_xml,
     xml_parser,
 )
-from ..numerics import Array
+from ..numerics import Array, NDArray
 from ..verdict import FileError, system_reason
 from .findings import THREEMF_EXTENSION
 from .slicer_parts import NEGATIVE, SlicerPart, SlicerProject

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The declared code of a stored finding, found by its name."""
 
-from __future__ import annotations
-
 from functools import cache
 from importlib import import_module
 

@@ -7,8 +7,6 @@ Both end only the work on their object. An unforeseen error is reported, and its
 the console.
 """
 
-from __future__ import annotations
-
 import traceback
 
 from .finding import Finding, MeasureError, finding

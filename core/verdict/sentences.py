@@ -18,8 +18,6 @@ object itself) puts “A”, “B”: before any message. `accepted` says that a
 finding, `slight` that its effect is negligible: a warning is a note then.
 """
 
-from __future__ import annotations
-
 import string
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace

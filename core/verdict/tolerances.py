@@ -4,8 +4,6 @@
 size.
 """
 
-from __future__ import annotations
-
 from math import hypot
 
 from .finding import MeasureError

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The verdict on numbers, which panel, overlay, list, report and record show. It loads no numpy."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from enum import StrEnum
 

@@ -56,10 +56,9 @@ def wall_moments(wall: OffsetSolid, inward: float, outward: float, order: int) -
     if order <= ORDER:
         return known.truncate(order)
     count = len(wall.points)
-    points = np.concatenate(
-        [wall.points - inward * wall.vectors, wall.points + outward * wall.vectors]
-    )
-    sides = Surface(points, np.concatenate([wall.triangles[:, ::-1], wall.triangles + count]))
+    closed = wall.surface(inward, outward)
+    points = closed.points
+    sides = Surface(points, closed.triangles[: 2 * len(wall.triangles)])
     moments = polyhedron_moments(sides, order, about=wall.about, allow_open=True)[0]
     start, stop = find_edges(wall.triangles).boundary_ends(wall.triangles)
     if len(start):

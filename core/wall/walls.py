@@ -126,43 +126,49 @@ class OffsetSolid:
         parts overlap.
         """
         count = len(self.points)
-        points = np.concatenate(
-            [self.points - inward * self.vectors, self.points + outward * self.vectors]
-        )
-        triangles = np.concatenate([self.triangles, self.triangles + count])
+        wall = self.surface(inward, outward)
         shell = np.repeat([0, 1], len(self.triangles))
         tolerance = min(
-            TOUCHING_RTOL * float(np.ptp(points, axis=0).max()), 1e-3 * (inward + outward)
+            TOUCHING_RTOL * float(np.ptp(wall.points, axis=0).max()), 1e-3 * (inward + outward)
         )
         pairs = [(0, 1), *((k, k) for k, moved in enumerate((inward, outward)) if moved)]
         return surfaces_intersect(
-            points, triangles, shell, np.array(pairs), np.tile(np.arange(count), 2), tolerance
-        ) or self._overlaps(points, tolerance)
+            wall.points,
+            wall.triangles[: len(shell)],
+            shell,
+            np.array(pairs),
+            np.tile(np.arange(count), 2),
+            tolerance,
+        ) or self._overlaps(wall, tolerance)
 
-    def _overlaps(self, points: NDArray, tolerance: float) -> bool:
+    def surface(self, inward: float, outward: float) -> Surface:
+        """Return the closed surface of a wall: its inner side, its outer side, and the strips
+        along the boundary.
+        """
+        count = len(self.points)
+        start, stop = find_edges(self.triangles).boundary_ends(self.triangles)
+        triangles = [
+            self.triangles[:, ::-1],
+            self.triangles + count,
+            np.stack([start, stop, stop + count], axis=1),
+            np.stack([start, stop + count, start + count], axis=1),
+        ]
+        points = [self.points - inward * self.vectors, self.points + outward * self.vectors]
+        return Surface(np.concatenate(points), np.concatenate(triangles))
+
+    def _overlaps(self, wall: Surface, tolerance: float) -> bool:
         """Return whether walls of connected parts overlap each other or themselves, even without
         crossing edges.
         """
         part, number = connected_components(
             len(self.points), self.triangles.ravel(), np.roll(self.triangles, 1, axis=1).ravel()
         )
-        count = len(self.points)
-        (start, stop) = find_edges(self.triangles).boundary_ends(self.triangles)
-        triangles = np.concatenate(
-            [
-                self.triangles[:, ::-1],
-                self.triangles + count,
-                np.stack([start, stop, stop + count], axis=1),
-                np.stack([start, stop + count, start + count], axis=1),
-            ]
-        )
-        shells = sort_components(
-            points, triangles, part[triangles[:, 0] % count].astype(np.intp), number
-        )
+        owner = part[wall.triangles[:, 0] % len(self.points)].astype(np.intp)
+        shells = sort_components(wall.points, wall.triangles, owner, number)
         solid = shells.volume > 0.0
-        if self_overlaps(points, shells, solid, tolerance):
+        if self_overlaps(wall.points, shells, solid, tolerance):
             return True
-        relations = classify_pairs(points, shells, solid, tolerance)
+        relations = classify_pairs(wall.points, shells, solid, tolerance)
         return len(relations.contained_in) + len(relations.intersecting) > 0
 
     def drop_arrays(self) -> OffsetSolid:

@@ -77,7 +77,8 @@ def test_mesh_file_floats_as_its_object(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "name, density", [("Sea Water", 1023.343), ("sea water", 1023.343), ("oil", 871.0)]
+    "name, density",
+    [("Sea Water", 1023.343), ("sea water", 1023.343), ("Oil", 871.0), ("oil, hydraulic", 871.0)],
 )
 def test_liquid_is_named_in_any_case(name, density):
     files.add_box()

@@ -141,6 +141,11 @@ def test_show_level_adds_meshes_and_nothing_else_moves():
 
 def test_changed_vessel_forgets_its_level():
     trough = add_trough()
+    trough.body_moments.overlap = "UNION"
+    LEVEL(by="VOLUME", volume=0.5)
+    assert level_of(trough)
+    trough.body_moments.overlap = "SIGNED"
+    assert level_of(trough) is None
     LEVEL(by="VOLUME", volume=0.5)
     trough.location.z += 1
     bpy.context.view_layer.update()
@@ -221,6 +226,25 @@ def test_mug_with_a_handle_holds_liquid_as_a_union():
     assert level.hollow.capacity == pytest.approx(0.64 * 0.9, rel=1e-6)
     contents = document("--below", "0.5")["objects"][0]["below"]["contents"]
     assert contents["volume"] == pytest.approx(0.64 * 0.4, rel=1e-6)
+
+
+@pytest.mark.parametrize("wall", ["INWARD", "OUTWARD"])
+def test_vessel_with_real_walls_holds_liquid_within_them(wall):
+    trough = add_trough()
+    settings = trough.body_moments
+    settings.kind, settings.wall, settings.thickness = "SHELL", wall, 0.1
+    wide = 0.0 if wall == "OUTWARD" else 0.1
+    area, bottom = (2 - 2 * wide) * (1 - 2 * wide), 3 + wide
+    assert LEVEL(by="LEVEL", level=3.5) == {"FINISHED"}
+    level = level_of(trough)
+    assert level.volume == pytest.approx(area * (3.5 - bottom), rel=1e-6)
+    assert level.hollow.spill == pytest.approx(4.0)
+    below = document("--below", "3.5")["objects"][0]["below"]
+    outer = (2.2 - 2 * wide) * (1.2 - 2 * wide)
+    assert below["contents"]["volume"] == pytest.approx(level.volume, rel=1e-6)
+    assert below["face"]["area"] == pytest.approx(outer - area, rel=1e-6)
+    volume = outer * (3.6 - bottom) - area * (3.5 - bottom)
+    assert below["volume"] == pytest.approx(volume, rel=1e-6)
 
 
 def test_cut_and_fill_of_a_slope():

@@ -16,9 +16,8 @@ from bpy.types import Context, Mesh, Object, Scene
 from mathutils import Vector
 from numpy.typing import NDArray
 
+from ....core.bodies import vessel_surface
 from ....core.cuts import (
-    LEVEL_UNAVAILABLE,
-    SHARED_SPACE,
     TABLE_ROWS,
     CutFill,
     Hollow,
@@ -28,14 +27,12 @@ from ....core.cuts import (
     spill_tilt,
     surface_cut_fill,
 )
-from ....core.mesh import join_surfaces
 from ....core.numerics import Array
-from ....core.solid import COMPONENTS_OVERLAP, measure_solid
-from ....core.verdict import Finding, MeasureError, Procedure, QueryError
+from ....core.verdict import Finding, MeasureError, QueryError
 from ...bodies.cuts import cut_fill_against, world_surface
-from ...bodies.measure_body import THREADS
+from ...bodies.measure_body import THREADS, measure_body
 from ...bodies.mesh import mesh_body
-from ...read.fingerprint import matrix_hash
+from ...read.fingerprint import matrix_hash, settings_hash
 from ...read.objects import read_object
 from ...scale import meters_per_unit
 from ...scene.rigid_world import down
@@ -129,18 +126,19 @@ class KnownCutFill:
 def _vessel(obj: Object, context: Context) -> tuple[Array, NDArray[np.integer], Array]:
     """Return points (m, world) and triangles of a vessel, and the direction against gravity."""
     depsgraph = context.evaluated_depsgraph_get()
-    unit = meters_per_unit(context.scene)
-    surface = world_surface(obj, depsgraph, unit)
-    solid = measure_solid(surface)
-    if any(found.code == COMPONENTS_OVERLAP for found in solid.findings):
-        if object_settings(obj, context.scene).overlap != "union":
-            raise MeasureError(LEVEL_UNAVAILABLE, fault=SHARED_SPACE)
+    settings = object_settings(obj, context.scene)
+    if settings.kind == "shell" and settings.wall != "thin":
+        surface = vessel_surface(measure_body(obj, depsgraph).body)
+    else:
         reading = read_object(obj, depsgraph, edges=False)
-        body = mesh_body(reading, unit, shell=False, union=True, threads=THREADS)
-        surface = join_surfaces([*body.surfaces(False)])
-    # The hole of an open cup is not to be capped.
-    elif solid.method in (Procedure.EXACT, Procedure.REORIENTED):
-        surface = solid.repaired_surface
+        unit = meters_per_unit(context.scene)
+        body = partial(mesh_body, reading, unit, shell=False, threads=THREADS)
+        try:
+            surface = vessel_surface(body(union=False))
+        except MeasureError:
+            if settings.overlap != "union":
+                raise
+            surface = vessel_surface(body(union=True))
     points = surface.points.astype(np.float64)
     return points, surface.all_triangles()[0], -down(context.scene)
 
@@ -186,8 +184,15 @@ def measure_cut_fill(
 
 
 def _remember(obj: Object, kind: Kind, context: Context) -> None:
-    unit = meters_per_unit(context.scene)
-    stamp = stamps.carry(obj, kind, memory.state.updates, transform=matrix_hash(obj), extra=unit)
+    scene = context.scene
+    stamp = stamps.carry(
+        obj,
+        kind,
+        memory.state.updates,
+        matrix_hash(obj),
+        settings_hash(obj, scene),
+        meters_per_unit(scene),
+    )
     staleness.mark_stamp(obj, stamp, context.evaluated_depsgraph_get())
     handlers.count_change(obj)
 

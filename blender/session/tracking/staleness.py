@@ -147,7 +147,7 @@ CHECKS = {
         ),
     ),
     **dict.fromkeys(
-        (Kind.SECTION, Kind.LEVEL, Kind.CUT_FILL),
+        (Kind.SECTION, Kind.CUT_FILL),
         (
             (
                 Stale.UNIT_SCALE,
@@ -170,10 +170,13 @@ CHECKS = {
         (Stale.TRANSFORM, _has_matrix),
     ),
     Kind.BONES: ((Stale.GEOMETRY, _is_unedited), (Stale.BONES, _has_structure)),
-    Kind.MOMENTS: (
-        (Stale.SETTINGS, _has_settings),
-        (Stale.GEOMETRY, _has_geometry),
-        (Stale.TRANSFORM, _has_matrix),
+    **dict.fromkeys(
+        (Kind.MOMENTS, Kind.LEVEL),
+        (
+            (Stale.SETTINGS, _has_settings),
+            (Stale.GEOMETRY, _has_geometry),
+            (Stale.TRANSFORM, _has_matrix),
+        ),
     ),
     Kind.HULL: ((Stale.GEOMETRY, _has_geometry),),
     Kind.FLOATING: ((Stale.SETTINGS, _has_settings), (Stale.GEOMETRY, _has_geometry)),

@@ -108,10 +108,8 @@ class _Model:
             self.is_set("balanceinertia"),
         )
 
-    def mesh(self, node: Node) -> Shape | None:
-        """Return the mesh of an asset, which MuJoCo moves and turns before it scales it; None if it
-        bounds no volume.
-        """
+    def mesh(self, node: Node) -> Shape:
+        """Return the mesh of an asset, which MuJoCo moves and turns before it scales it."""
         if node not in self._shapes:
             values = self.attributes(node)
             scaled = _Frame(self, scale=numbers(values.get("scale", ""), 3, (1.0, 1.0, 1.0)))
@@ -121,8 +119,6 @@ class _Model:
             surface = _surface(values) if "vertex" in values else None
             if "builtin" in values:
                 surface = builtin_surface(values["builtin"], values.get("params", ""))
-                if surface is None:
-                    return None
             path = values.get("file", "")
             if self.is_set("strippath"):
                 path = path.replace("\\", "/").rpartition("/")[2]

@@ -26,7 +26,6 @@ from ..model import Pose, Shape
 from ..primitives import primitive_moments, second_moments
 from .xml import check_size
 
-SHEETS = ("wedge", "plate", "square", "disc")
 LEGACY = "legacy"
 CLOSED = "closed"  # the kind of meshes whose volume counts only if it is certain
 THOMSEN = 1.6075  # the exponent of Thomsen's formula for the area of an ellipsoid
@@ -39,21 +38,22 @@ WATER = 1000.0  # kg/m³, of shapes that state neither mass nor density
 LEAST_MASS = 1e-15  # mjMINVAL, kg
 
 
-def builtin_surface(kind: str, text: str) -> Surface | None:
-    """Return the surface that MuJoCo makes of parameters, None if it bounds no volume.
+def builtin_surface(kind: str, text: str) -> Surface:
+    """Return the surface that MuJoCo makes of parameters.
 
-    ValueError, with the text, if the parameters are wrong.
+    ValueError, with the kind and the text, if the parameters are wrong, or it bounds no volume: a
+    wedge, plate, square or disc, and other kinds whose dim is 2.
     """
     values = parse_numbers(text)
     try:
-        if kind in SHEETS or values[6:] == [2.0]:
-            return None
+        if values[6:] == [2.0]:
+            raise ValueError(text)
         made = _BUILTIN[kind](*values)
         if isinstance(made, Surface):
             return made
         hull = convex_hull(made)
     except (KeyError, TypeError, ValueError, MeasureError) as error:
-        raise ValueError(text or kind) from error
+        raise ValueError("{} {}".format(kind, text).strip()) from error
     return Surface.from_triangles(hull.points, hull.triangles)
 
 

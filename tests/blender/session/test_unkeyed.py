@@ -14,7 +14,6 @@ from body_moments.blender.session.live import following
 from body_moments.blender.session.live import measuring as live
 from body_moments.blender.session.tracking import staleness
 
-from tests.blender.grids import linked, mesh_to_volume
 from tests.blender.objects import add, measured, mesh_body, only
 from tests.blender.operator_calls import OPERATORS
 
@@ -190,35 +189,3 @@ def test_wall_slider_keeps_unkeyed_values():
     bpy.context.view_layer.update()
     assert obj["body_mass"] > 1.5 * before and value(obj, "rotation") == CHANGED
     assert staleness.stale_reason(obj, bpy.context.scene) is None and is_right(obj)
-
-
-@pytest.mark.parametrize("frame, subframe", [(7, 0.25), (-3, 0.0)])
-def test_voxel_sampling_keeps_unkeyed_values_and_frame(monkeypatch, frame, subframe):
-    monkeypatch.setattr("body_moments.blender.read.volume.openvdb", lambda: None)
-    bpy.context.scene.frame_set(frame, subframe=subframe)
-    cube = linked(bpy.data.objects.new("Cube", mesh_body()))
-    cube.modifiers.new("Solidify", "SOLIDIFY").thickness = 0.01
-    cube.keyframe_insert('modifiers["Solidify"].thickness', frame=1)
-    cube.driver_add("scale", 0).driver.expression = "2 + frame / 10"
-    fog = mesh_to_volume(cube)
-    fog.modifiers[0].density = 1.0
-    fog.keyframe_insert("modifiers[0].density", frame=1)
-    fog.modifiers[0].density = 2.0
-    cube.modifiers["Solidify"].thickness = 0.02
-    bpy.context.view_layer.update()
-    calls = []
-    bpy.app.handlers.frame_change_post.append(lambda *_: calls.append(1))
-    try:
-        mass = measured(fog).mass_properties.mass
-        assert measured(fog).mass_properties.mass == mass
-        assert len(bpy.app.handlers.frame_change_post) and not calls
-    finally:
-        bpy.app.handlers.frame_change_post.pop()
-    bpy.context.view_layer.update()
-    assert fog.modifiers[0].density == 2.0 and cube.modifiers["Solidify"].thickness == np.float32(
-        0.02
-    )
-    assert (bpy.context.scene.frame_current, bpy.context.scene.frame_subframe) == (frame, subframe)
-    assert cube.scale.x == pytest.approx(2.0 + (frame + subframe) / 10.0, rel=1e-6)
-    fog.modifiers[0].density = 1.0
-    assert measured(fog).mass_properties.mass == pytest.approx(mass / 2.0, rel=1e-5)

@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.cuts import find_hollow, spill_tilt
+from body_moments.core.cuts import find_hollow, fit_rim, spill_tilt
 from body_moments.core.verdict import MeasureError
 
 from tests.core.bodies import box, inverted, joined
@@ -98,6 +98,20 @@ def test_triangle_with_a_corner_twice_changes_nothing():
     np.testing.assert_array_equal(found.triangles, whole.triangles)
 
 
+@pytest.mark.parametrize("way", [1, -1])
+@pytest.mark.parametrize("vessel", [SHEET, inverted(SHEET)])
+def test_face_of_a_sheet_that_is_there_twice_counts_once(vessel, way):
+    points, triangles = vessel
+    doubled = np.concatenate([triangles[-5:, ::way], triangles])
+    assert abs(find_hollow(points, doubled).capacity - find_hollow(*vessel).capacity) < 1e-12
+
+
+def test_boxes_that_share_a_face_are_no_vessel():
+    points, triangles = joined(box(), box((0, 0, 1), (1, 1, 2)))
+    with pytest.raises(MeasureError, match="neither a cavity nor a hollow"):
+        find_hollow(points, triangles)
+
+
 def test_level_without_volume_is_below_the_bottom():
     with pytest.raises(MeasureError, match="below the bottom"):
         find_hollow(*lathed((0, 0), (1, 1))).contents(1e-300)
@@ -123,6 +137,16 @@ def test_open_vessel_spills_at_its_lowest_hole():
     points[triangles[hole, 2], 2] = 2
     with pytest.raises(MeasureError, match="No level"):
         find_hollow(points, np.delete(triangles, hole, axis=0))
+
+
+@pytest.mark.parametrize("up", [(0, 0, 0), (0, 0, 1e-320), (0, 0, 1e300)])
+def test_direction_without_length_is_refused(up):
+    if any(up):
+        assert abs(find_hollow(*CUP, up).capacity - CIRCLE * 2.5) < 1e-9
+        return
+    for call in (find_hollow, fit_rim, lambda *body: spill_tilt(*body[:2], 1.0, up)):
+        with pytest.raises(ValueError, match="up must not be zero"):
+            call(*SHEET, up)
 
 
 @pytest.mark.parametrize("solid", [box(), (CUP[0] * [1, 1, -1], CUP[1][:, ::-1])])

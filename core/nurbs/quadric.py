@@ -1,0 +1,100 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cylinders, cones, spheres and tori, by the angle about their axis and a second coordinate."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..numerics import Array
+
+TURN = 2.0 * math.pi
+
+
+@dataclass(frozen=True, eq=False)
+class Quadric:
+    """A whole surface of revolution of a line or a circle; its normal points away from them.
+
+    frame: (4, 4), third axis: that of the surface. radius: of a cylinder, of a cone at the origin,
+    or from a torus' axis to its tube; 0 for a sphere. minor: radius of a sphere or a tube, 0 for a
+    line, whose radius grows by `slope` along the axis.
+
+    Coordinates are the angle about the axis, and the height along it or the angle along the circle.
+    """
+
+    frame: Array
+    radius: float = 0.0
+    minor: float = 0.0
+    slope: float = 0.0
+
+    @property
+    def periods(self) -> tuple[float, float]:
+        """Periods of both coordinates, 0 if there is none."""
+        return TURN, TURN if self.minor and self.radius else 0.0
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Ends of the second coordinate on a closed surface, or the apex of a cone, or infinite."""
+        if self.minor:
+            half = TURN / (2.0 if self.radius else 4.0)
+            return -half, half
+        apex = -self.radius / self.slope if self.slope else math.inf
+        return (apex, math.inf) if self.slope > 0.0 else (-math.inf, apex)
+
+    def transform(self, matrix: NDArray) -> Quadric:
+        """Return the image of the surface under a (4, 4) affine map."""
+        return Quadric(np.asarray(matrix) @ self.frame, self.radius, self.minor, self.slope)
+
+    def evaluate(self, u: NDArray, v: NDArray, most: int = 1) -> list[Array]:
+        """Return (3, ...) points at coordinates, derivatives by u and v, and if most = 2 by uu, uv
+        and vv.
+        """
+        cosine, sine = np.cos(u), np.sin(u)
+        if self.minor:
+            height, inward = self.minor * np.sin(v), self.minor * np.cos(v)
+            profile = [(self.radius + inward, height), (-height, inward), (-inward, -height)]
+        else:
+            zero = np.zeros_like(v)
+            profile = [(self.radius + self.slope * v, v), (zero + self.slope, zero + 1.0)]
+            profile.append((zero, zero))
+        (r, z), (r_v, z_v), (r_vv, z_vv) = profile
+        flat = np.zeros_like(z)
+        rows = [
+            (r * cosine, r * sine, z),
+            (-r * sine, r * cosine, flat),
+            (r_v * cosine, r_v * sine, z_v),
+        ]
+        if most > 1:
+            rows += [
+                (-r * cosine, -r * sine, flat),
+                (-r_v * sine, r_v * cosine, flat),
+                (r_vv * cosine, r_vv * sine, z_vv),
+            ]
+        matrix = self.frame[:3, :3]
+        found = [np.tensordot(matrix, np.stack(row), 1) for row in rows]
+        found[0] += self.frame[:3, 3].reshape(3, *[1] * r.ndim)
+        return found
+
+    def project(self, points: NDArray, guess: NDArray | None = None) -> Array:
+        """Return (n, 2) coordinates of the points of the surface nearest to points, in its frame;
+        angles nearest to a guess (n, 2).
+        """
+        x, y, z = self._inverse[:, :3] @ points.T + self._inverse[:, 3:]
+        away = np.hypot(x, y)
+        found = np.stack([np.arctan2(y, x), np.arctan2(z, away - self.radius)], axis=1)
+        if not self.minor:
+            found[:, 1] = (z + self.slope * (away - self.radius)) / (1.0 + self.slope**2)
+        if guess is not None:
+            for axis, period in enumerate(self.periods):
+                if period:
+                    found[:, axis] += period * np.round((guess[:, axis] - found[:, axis]) / period)
+        return found
+
+    @cached_property
+    def _inverse(self) -> Array:
+        return np.linalg.inv(self.frame)[:3]
