@@ -22,7 +22,7 @@ from bpy.types import Context, Curve, Object, Scene
 
 from ...core.bodies import SplineReading
 from ...core.cad import MAX_ORDER, SurfaceBody, is_storable, read_surfaces
-from ...core.density import positions_text
+from ...core.density import DENSITY_NON_FINITE, positions_text
 from ...core.files import FILE_UNREADABLE, Limits
 from ...core.numerics import Array, NDArray, shortest_decimal
 from ...core.nurbs import Face, FlatFace, Patch, bezier_space
@@ -39,7 +39,7 @@ from ...core.scans import (
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..read.splines import keep_faces
 from ..scale import meters_per_unit
-from .findings import SCAN_NON_FINITE, SURFACES_ROUNDED
+from .findings import SURFACES_ROUNDED
 
 MAX_DISTANCE = 16.0  # from the origin, in sizes: farther away float32 would lose more than a digit
 SHOWN_SAMPLES = 16  # per span, of surfaces that Blender's splines cannot be
@@ -320,7 +320,7 @@ def write_volume(module: ModuleType, placed: PlacedScan, unit: float) -> float:
     exact = True
     for _, slab in _slabs(scan):
         if not np.isfinite(slab.min()) or not np.isfinite(slab.max()):
-            raise FileError(SCAN_NON_FINITE)
+            raise FileError(DENSITY_NON_FINITE)
         least = min(least, float(slab.min()))
         exact = exact and np.array_equal(slab.astype(np.float32), slab)
     kind, grid_of = (np.float32, module.FloatGrid) if exact else (np.float64, module.DoubleGrid)

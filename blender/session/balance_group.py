@@ -20,7 +20,7 @@ from ..read import assembly, rig, visibility
 from ..scale import meters_per_unit
 from ..scene import fcurves, rigid_world
 from ..write import properties, reports
-from .findings import BALANCE_GROUP_EMPTY_GROUP, BALANCE_GROUP_WITHOUT_CONTACTS, NO_SUCH_NAME
+from .findings import BALANCE_GROUP_EMPTY, NO_SUCH_NAME
 from .live.motion import Motion
 from .stored import balance_groups
 
@@ -53,7 +53,7 @@ class BalanceGroup:
             else []
         )
         if contacts and not self.feet:
-            raise EditRefusedError(BALANCE_GROUP_WITHOUT_CONTACTS, collection=contacts)
+            raise EditRefusedError(BALANCE_GROUP_EMPTY, place=[contacts])
         self.centers: list[NDArray] = []
         self.supports: list[Support | None] = []
 
@@ -86,7 +86,7 @@ class BalanceGroup:
                 members |= {one for one in layer if one.parent == obj and one.parent_type == "BONE"}
         followed = [obj for obj in members & layer if visibility.measurable(obj)]
         if not followed:
-            raise EditRefusedError(BALANCE_GROUP_EMPTY_GROUP)
+            raise EditRefusedError(BALANCE_GROUP_EMPTY, place="the selection")
         return sorted(followed, key=lambda obj: obj.name_full)
 
     def follow(self, scene: Scene, frames: Sequence[float]) -> Generator[int, None, None]:

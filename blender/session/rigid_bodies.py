@@ -265,7 +265,7 @@ def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredObje
 def _measured_part(part: Object, ask: Callable[[Object], MeasuredObject]) -> MeasuredObject:
     changes.require_storable_data(part)
     if part.type != "MESH":
-        raise EditRefusedError(findings.RIGID_BODY_NEEDS_MESH)
+        raise EditRefusedError(findings.RIGID_BODY_UNFIT, fault=findings.RIGID_BODY_NEEDS_MESH)
     measured = ask(part)
     if measured.measurement.method.procedure == Procedure.OPEN:
         raise EditRefusedError(findings.OPEN_OBJECT)

@@ -13,13 +13,12 @@ import bpy
 
 from ...core import density as density_engine
 from ...core import numerics
-from ...core.measurement.findings import DENSITY_FROM_VALUE
+from ...core.measurement.measurement import DENSITY_FROM_VALUE
 from ...core.verdict.finding import Finding, ReadError, finding
 from .findings import (
     DENSITY_FROM_POLYNOMIAL,
     DENSITY_SOURCE_MISSING,
     OBJECT_DENSITY_USED,
-    OBJECT_DENSITY_USED_FOR_MATERIALS,
 )
 from .given import GivenPart
 from .preferences import default_density
@@ -27,9 +26,6 @@ from .preferences import default_density
 if TYPE_CHECKING:
     from ...core.density import Polynomial
     from ...core.measurement import Measurement
-
-# Sources of density from the one value of an object, for all or some of its faces.
-_BY_OBJECT = {DENSITY_FROM_VALUE, OBJECT_DENSITY_USED, OBJECT_DENSITY_USED_FOR_MATERIALS}
 
 
 class DensityField(NamedTuple):
@@ -103,8 +99,8 @@ def unset_density(
 ) -> str | None:
     """Return the density setting that a measurement uses and nobody has set, or None."""
     settings = obj.body_moments
-    used = {measurement.density_from.code, *(one.code for one in measurement.findings)}
-    if not used & _BY_OBJECT:
+    used_for_some = any(one.code == OBJECT_DENSITY_USED for one in measurement.findings)
+    if measurement.density_from != DENSITY_FROM_VALUE and not used_for_some:
         return None
     if measurement.kind == "wire":
         return None if settings.is_property_set("linear_density") else "linear_density"

@@ -20,7 +20,7 @@ import bpy
 from ... import core
 from ...core.inertia import BOUND_KEYS, COLUMNS, ROWS, PlainBody, rotation_axes
 from ...core.measurement import plain
-from ...core.measurement.findings import DENSITY_FROM_MASS, DENSITY_FROM_VALUE
+from ...core.measurement.measurement import UNIFORM_DENSITIES
 from ...core.verdict import (
     LINKED_OBJECT,
     EditRefusedError,
@@ -141,7 +141,7 @@ def values_of(measurement: Measurement) -> dict[str, Any]:
     values: dict[str, Any] = {
         key: getattr(measurement, key.removeprefix("body_")) for key in OPTIONAL
     }
-    if measurement.density_from.code not in (DENSITY_FROM_VALUE, DENSITY_FROM_MASS):
+    if measurement.density_from not in UNIFORM_DENSITIES:
         values["body_density_from"] = str(measurement.density_from)
         values["body_materials"] = "\n".join(measurement.materials) or None
     if measurement.printed is not None:

@@ -21,7 +21,7 @@ from ...blender.write.thumbnail import thumbnail
 from ...core import bodies, cad, robots, streams, verdict
 from ...core.files import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...core.measurement import Measurement, PrintSettings, Settings, record
-from ...core.scans import LABEL_ABSENT, Label, read_label_table
+from ...core.scans import LABEL_ABSENT, UNIT_ASSUMED, Label, read_label_table
 from ...core.scans import formats as scans
 from ...core.verdict.finding import (
     FileError,
@@ -40,7 +40,6 @@ from ..findings import (
     OPTIONS_UNUSED,
     RESULTS_NOT_STORED,
     STREAM_OPTIONS,
-    UNIT_ASSUMED,
 )
 from ..options import arguments, checks
 from ..supervisor import listing, processes

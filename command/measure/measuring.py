@@ -31,7 +31,7 @@ from ...core.measurement import Measurement, flat_record
 from ...core.moments import flusser_invariants, hu_invariants, normalize
 from ...core.verdict.finding import Finding, MeasureError, QueryError, finding
 from ..files.output import guard
-from ..findings import NO_MEASURABLE_OBJECT, NOTHING_RENDERED, SIGNATURE_OF_DISPLAY_MESH
+from ..findings import NO_SHAPES, NOTHING_MEASURED, NOTHING_RENDERED, SIGNATURE_OF_DISPLAY_MESH
 from ..options import checks, option_types
 from .entries import failure
 
@@ -182,7 +182,7 @@ def record_of_flat(
 
 def why_nothing(left_out: int) -> Finding:
     """Return the reason why a file without errors has no records."""
-    return finding(NOTHING_RENDERED, count=left_out) if left_out else finding(NO_MEASURABLE_OBJECT)
+    return finding(NOTHING_MEASURED, cause=NOTHING_RENDERED if left_out else NO_SHAPES)
 
 
 def objects_to_measure(

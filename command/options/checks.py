@@ -19,7 +19,7 @@ from ...core.measurement import Measurement
 from ...core.numerics import Array
 from ...core.verdict.finding import Finding, MeasureError, finding, system_reason
 from ..files.suffixes import file_suffix
-from ..findings import OPTIONS_UNUSED, UNIT_ASSUMED
+from ..findings import OPTIONS_UNUSED
 from ..parser import UsageError
 from ..supervisor.listing import UNITLESS
 from . import arguments, option_types
@@ -94,7 +94,7 @@ def file_findings(path: str | None, options: Namespace) -> Iterator[Finding]:
     """
     names = [*OF_ARRAYS, "label_table", *([] if is_unitless(path) else ["unit_scale"])]
     if is_unitless(path) and options.unit_scale is None:
-        yield finding(UNIT_ASSUMED)
+        yield finding(scans.UNIT_ASSUMED, unit="m")
     yield from unused(name for name in names if getattr(options, name) is not None)
 
 

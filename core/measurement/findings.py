@@ -4,8 +4,6 @@
 
 from ..verdict import error, note, warning
 
-DENSITY_FROM_VALUE = note("density_from_value", "one value")
-DENSITY_FROM_MASS = note("density_from_mass", "given mass")
 NO_VOLUME = error(
     "no_volume",
     "The faces enclose no volume. Set Kind to Shell, close the mesh, or use Measure Section for a "

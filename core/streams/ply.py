@@ -15,7 +15,7 @@ import numpy as np
 
 from ..files import (
     BLOCK,
-    DAMAGE_INDEX,
+    DAMAGE_INCOMPLETE,
     FILE_UNRECOGNIZED,
     FILE_WITHOUT_OBJECTS,
     SHORT,
@@ -44,7 +44,6 @@ from .file_mesh import (
     polygon_surface,
     strip_triangles,
 )
-from .findings import DAMAGE_PLY_ROWS
 from .ply_rows import (
     INDICES,
     MAX_HEADER,
@@ -82,7 +81,10 @@ class PlyFile:
             for element in header.elements:
                 if element.rows * _least_bytes(element, header.order) > path.stat().st_size:
                     raise damaged(
-                        self._path, DAMAGE_PLY_ROWS, name=element.name, count=element.rows
+                        self._path,
+                        DAMAGE_INCOMPLETE,
+                        kind="table of numbers",
+                        error="{}, {} rows".format(element.name, element.rows),
                     )
             (self._vertices, *_) = (
                 element for element in header.elements if element.name == "vertex"
@@ -178,7 +180,9 @@ class PlyFile:
         first, last = (int(corners.min()), int(corners.max()) + 1) if corners.size else (0, 1)
         whole = given.dtype.kind != "f" or np.array_equal(corners, given)
         if corners.size and not (whole and 0 <= first < last <= count):
-            raise damaged(self._path, DAMAGE_INDEX, vertices=count)
+            raise damaged(
+                self._path, DAMAGE_INCOMPLETE, kind="mesh", error="a vertex beyond {}".format(count)
+            )
         return corners, first, last
 
     def _piece(self, corners: NDArray[np.integer], first: int, last: int) -> Surface:
@@ -215,7 +219,10 @@ class PlyFile:
                             yield element, rows, columns
                 except RowsError as error:
                     raise damaged(
-                        self._path, DAMAGE_PLY_ROWS, name=element.name, count=element.rows
+                        self._path,
+                        DAMAGE_INCOMPLETE,
+                        kind="table of numbers",
+                        error="{}, {} rows".format(element.name, element.rows),
                     ) from error
                 if element is wanted:
                     return

@@ -252,7 +252,9 @@ class OBJECT_OT_body_moments_equal_inertia(_Making, Operator):
 
     def _check(self, obj: Object) -> None:
         if self.rigid_body and (not obj.is_editable or obj.parent is not None):
-            raise EditRefusedError(findings.PRIMITIVE_HAS_PARENT)
+            raise EditRefusedError(
+                scene.findings.RIGID_BODY_UNFIT, fault=findings.PRIMITIVE_HAS_PARENT
+            )
         if self.rigid_body:
             scene.rigid_world.require_rigid_world(bpy.context.scene)
 

@@ -199,9 +199,11 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(
         def measure(obj: Object) -> None:
             scene.changes.require_storable_data(obj)
             if obj.rigid_body is None and not self.add:
-                raise EditRefusedError(NOT_A_RIGID_BODY)
+                raise EditRefusedError(scene.findings.RIGID_BODY_UNFIT, fault=NOT_A_RIGID_BODY)
             if obj.rigid_body is None and obj.type != "MESH":
-                raise EditRefusedError(scene.findings.RIGID_BODY_NEEDS_MESH)
+                raise EditRefusedError(
+                    scene.findings.RIGID_BODY_UNFIT, fault=scene.findings.RIGID_BODY_NEEDS_MESH
+                )
             if obj.rigid_body is None:
                 scene.rigid_world.require_rigid_world(context.scene)
             body = target_in_turn(obj)

@@ -15,7 +15,12 @@ from ....core.moments import Invariant, flusser_invariants, hu_invariants, norma
 from ....core.moments.moments import Moments, monomials
 from ....core.numerics import Array
 from ....core.verdict import Finding, ReadError
-from ..findings import INVARIANTS_ORDER, MASS_MOMENTS_UNKNOWN, MOMENTS_OF_AREA_ONLY
+from ..findings import (
+    INVARIANTS_ORDER,
+    MASS_MOMENTS_UNKNOWN,
+    MOMENTS_OF_AREA_ONLY,
+    MOMENTS_UNAVAILABLE,
+)
 
 HU_ORDER = 3  # order of Hu's invariants
 
@@ -72,9 +77,9 @@ def invariants(computed: ComputedMoments, of: str, order: int) -> list[Invariant
     and lower orders.
     """
     if of != "FLAT":
-        raise ReadError(MOMENTS_OF_AREA_ONLY)
+        raise ReadError(MOMENTS_UNAVAILABLE, fault=MOMENTS_OF_AREA_ONLY)
     if order < HU_ORDER:
-        raise ReadError(INVARIANTS_ORDER, order=HU_ORDER)
+        raise ReadError(MOMENTS_UNAVAILABLE, fault=INVARIANTS_ORDER)
     moments = normalize(_select_moments(computed, of).truncate(order))
     with np.errstate(over="ignore", invalid="ignore"):
         found = [
@@ -128,8 +133,8 @@ def _select_moments(computed: ComputedMoments, of: str) -> Moments:
             assert computed.not_flat is not None
             raise ReadError(computed.not_flat)
         if computed.volume is None:
-            raise ReadError(MOMENTS_OF_AREA_ONLY)
-        raise ReadError(MASS_MOMENTS_UNKNOWN, order=computed.order)
+            raise ReadError(MOMENTS_UNAVAILABLE, fault=MOMENTS_OF_AREA_ONLY)
+        raise ReadError(MOMENTS_UNAVAILABLE, fault=MASS_MOMENTS_UNKNOWN)
     return moments
 
 
