@@ -16,7 +16,7 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 import numpy as np
-from body_moments.command.files import files as opening
+from body_moments.command.files import suffixes
 from body_moments.command.findings import NO_SHAPES
 from body_moments.core.files import NOT_REGULAR
 from body_moments.core.streams.stl import BY_WORD
@@ -452,7 +452,7 @@ def test_usdz_contents_may_not_exceed_the_file(tmp_path, size):
     assert path.stat().st_size == size + 162
     told = ""
     try:
-        opening.check_file(str(path))
+        suffixes.check_file(str(path))
     except FileError as error:  # also by newer Pythons themselves, in other words
         told = str(error.finding)
     assert ("(overlapping entries)" in told) == (size > 162)
