@@ -16,6 +16,7 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 import numpy as np
+from body_moments.command.files import files as opening
 from body_moments.command.files import suffixes
 from body_moments.command.findings import NO_SHAPES
 from body_moments.core.files import NOT_REGULAR
