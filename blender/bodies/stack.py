@@ -17,8 +17,15 @@ from numpy.typing import NDArray
 
 from ...core.inertia import MassProperties, has_certain_total
 from ...core.inertia.third_moment_frames import third_moment_frames
-from ...core.measurement import Settings, build_measurement, find_large_bounds, fingerprint
-from ...core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
+from ...core.measurement import (
+    DENSITY_FROM_MASS,
+    DENSITY_FROM_VALUE,
+    Settings,
+    build_measurement,
+    find_large_bounds,
+    fingerprint,
+)
+from ...core.measurement.measurement import Measurement
 from ...core.mesh import Surface
 from ...core.moments import Moments, are_similarities, are_singular, image, join_moments
 from ...core.numerics import Array, Mask, rotation_matrix

@@ -13,7 +13,7 @@ import bpy
 
 from ...core import density as density_engine
 from ...core import numerics
-from ...core.measurement.measurement import DENSITY_FROM_VALUE
+from ...core.measurement import DENSITY_FROM_VALUE
 from ...core.verdict.finding import Finding, ReadError, finding
 from .findings import (
     DENSITY_FROM_POLYNOMIAL,

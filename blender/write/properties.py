@@ -19,8 +19,7 @@ import bpy
 
 from ... import core
 from ...core.inertia import BOUND_KEYS, COLUMNS, ROWS, PlainBody, rotation_axes
-from ...core.measurement import plain
-from ...core.measurement.measurement import UNIFORM_DENSITIES
+from ...core.measurement import UNIFORM_DENSITIES, plain
 from ...core.verdict import (
     LINKED_OBJECT,
     EditRefusedError,

@@ -3,6 +3,7 @@
 """Findings of `core/measurement`."""
 
 from ..verdict import error, note, warning
+from ..verdict.finding import finding
 
 NO_VOLUME = error(
     "no_volume",
@@ -21,3 +22,7 @@ LARGE_BOUND = warning(
     "vertices nearer to the object's origin.",
 )
 DENSITY_FROM = note("density_from", "{source:word}")
+# Sources of a density that is the same everywhere.
+DENSITY_FROM_VALUE = finding(DENSITY_FROM, source="one value")
+DENSITY_FROM_MASS = finding(DENSITY_FROM, source="given mass")
+UNIFORM_DENSITIES = DENSITY_FROM_VALUE, DENSITY_FROM_MASS
