@@ -35,9 +35,6 @@ from ...core.verdict import (
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ...core.inertia import MassProperties
-    from ...core.measurement import Measurement
-
 DESCRIPTIONS = {
     "body_mass": "Mass in kg",
     "body_density": "Mean density in kg/m³",
@@ -114,7 +111,7 @@ OPTIONAL = (
 ROUNDING = 2.0**-52  # relative, for a product of two rounded numbers
 
 
-def store(obj: Owner, measurement: Measurement) -> None:
+def store(obj: Owner, measurement: core.measurement.Measurement) -> None:
     """Write all results on an object, a collection or a pose bone.
 
     Raises EditRefusedError if it cannot hold them.
@@ -122,7 +119,7 @@ def store(obj: Owner, measurement: Measurement) -> None:
     store_values(obj, values_of(measurement))
 
 
-def values_of(measurement: Measurement) -> dict[str, Any]:
+def values_of(measurement: core.measurement.Measurement) -> dict[str, Any]:
     """Return the properties that hold a measurement."""
     body = measurement.in_object_frame()
     bound = measurement.error_bound
@@ -153,7 +150,7 @@ def values_of(measurement: Measurement) -> dict[str, Any]:
 
 
 def values_of_stack(
-    body: MassProperties,
+    body: core.inertia.MassProperties,
     density: NDArray,
     volume: NDArray,
     area: NDArray,

@@ -10,7 +10,6 @@ import os
 from errno import ENOENT
 from math import pi
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
@@ -21,10 +20,6 @@ from ...blender import bodies, read, session, settings, write
 from ...blender.write import reports
 from ...core import numerics, verdict
 from .. import modal, selection
-
-if TYPE_CHECKING:
-    from ...blender.bodies.fourier import ObjectTransform
-    from ...core.fourier import FrequencyGrid
 
 SUFFIX = ".npz"
 
@@ -133,7 +128,7 @@ class OBJECT_OT_body_moments_fourier(modal.ModalSteps, Operator):
                 write.findings.FILE_NOT_WRITTEN, file=self._path.name, error=os.strerror(ENOENT)
             )
         self._dimension, frame = 2 if self.of == "FLAT" else 3, self.frame.lower()
-        self._work: ObjectTransform
+        self._work: bodies.fourier.ObjectTransform
         if self.of == "FLAT":
             self._work = bodies.flat_transform(obj, depsgraph, self._grid, frame=frame)
         else:
@@ -145,7 +140,7 @@ class OBJECT_OT_body_moments_fourier(modal.ModalSteps, Operator):
         self._steps = (done for done in self._work.steps())
         return 1.0
 
-    def _grid(self, size: float) -> FrequencyGrid:
+    def _grid(self, size: float) -> core.fourier.FrequencyGrid:
         """Return the grid for a body of this size in m.
 
         Without a given largest frequency, its step is π over the size.

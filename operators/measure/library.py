@@ -10,7 +10,6 @@ import os
 import time
 from collections.abc import Generator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
@@ -21,10 +20,6 @@ from ...blender.write import reports
 from ...core import measurement, verdict
 from .. import selection
 from ..modal import ModalSteps
-
-if TYPE_CHECKING:
-    from ...command.supervisor.journal import Journal
-    from ...command.supervisor.processes import WholeRun
 
 RESULT, REPORT = "body_moments.jsonl", "body_moments.html"
 JOURNAL = RESULT + ".journal"
@@ -129,7 +124,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
         )
         return count
 
-    def _watch(self, run: WholeRun) -> Generator[float, None, None]:
+    def _watch(self, run: command.supervisor.WholeRun) -> Generator[float, None, None]:
         try:
             while run.exit_code is None:
                 time.sleep(_PAUSE)
@@ -170,7 +165,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
 class _Documents:
     """The documents of a journal, read again at each iteration."""
 
-    def __init__(self, journal: Journal, paths: list[str]) -> None:
+    def __init__(self, journal: command.supervisor.Journal, paths: list[str]) -> None:
         self._journal, self._paths = journal, paths
 
     def __iter__(self) -> Generator[dict, None, None]:

@@ -6,22 +6,17 @@ reference.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import bmesh
 from bpy.types import Context, Object, Operator
 from mathutils import Vector
 
+from ... import core
 from ...blender import bodies, read
 from ...blender.session import selected, stored
 from ...blender.write import properties, reports
 from ...core.inertia import tensor_rows
 from ...core.verdict import MeasureError, Severity, of_severity
 from .. import selection
-
-if TYPE_CHECKING:
-    from ...blender.session.stored.reference import ReferenceChoice
-    from ...core.inertia import ReferredInertia
 
 
 class OBJECT_OT_body_moments_compute_moments(Operator):
@@ -165,7 +160,9 @@ class OBJECT_OT_body_moments_store_reference(selection.OnSelection, Operator):
         )
 
 
-def reference_text(name: str, choice: ReferenceChoice, result: ReferredInertia) -> str:
+def reference_text(
+    name: str, choice: stored.reference.ReferenceChoice, result: core.inertia.ReferredInertia
+) -> str:
     """Return the text of an object's inertia about a reference, with its bounds."""
     axes, inertia = (
         list(map(list, rows)) for rows in (zip(*result.reference.axes), tensor_rows(result.inertia))

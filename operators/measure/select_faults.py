@@ -4,21 +4,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import bpy
 from bpy.props import EnumProperty
 from bpy.types import Context, Object, Operator
 
+from ... import core
 from ...blender import bodies, read, scene, session
 from ...blender.session.tracking import staleness
 from ...blender.write import properties, reports
 from ...core.verdict import FLIPPED_FACES
 from ...core.verdict.finding import finding
 from .. import findings, selection
-
-if TYPE_CHECKING:
-    from ...core.measurement import Measurement
 
 KINDS = (
     (FLIPPED_FACES, "Flipped Faces", "Faces that were measured as reversed"),
@@ -64,7 +62,7 @@ class OBJECT_OT_body_moments_select_faults(Operator):
             bpy.ops.object.mode_set(mode="OBJECT")
         objects = [obj for obj in context.view_layer.objects.selected if obj.type == "MESH"]
         depsgraph = context.evaluated_depsgraph_get()
-        measurements: dict[Object, Measurement] = {}
+        measurements: dict[Object, core.measurement.Measurement] = {}
         faults: dict[Object, dict[str, Any]] = {}
 
         def measure(obj: Object) -> None:

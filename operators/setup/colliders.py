@@ -10,7 +10,6 @@ the object as its child falls as the object does.
 from __future__ import annotations
 
 from collections.abc import Callable, Generator
-from typing import TYPE_CHECKING
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
@@ -21,9 +20,6 @@ from ...blender import scene, session, settings
 from ...blender.write import reports
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from .. import findings, modal, selection
-
-if TYPE_CHECKING:
-    from ...blender.session.colliders import Plan
 
 SHAPES = (
     ("AUTOMATIC", "Automatic", "The simplest shape within the tolerances, else convex pieces"),
@@ -76,10 +72,10 @@ class _Making(selection.OnSelectionInObjectMode, modal.ModalSteps):
         """Raise MeasureError for an object that cannot have the colliders."""
 
     def _begin(self, context: Context) -> float:
-        self._plans: list[Plan] = []
+        self._plans: list[session.colliders.Plan] = []
         self._failures: list[Finding] = []
         self._objects = bodies_of(context)
-        known: dict[str, Plan] = {}
+        known: dict[str, session.colliders.Plan] = {}
         depsgraph = context.evaluated_depsgraph_get()
         wanted = core.colliders.fits.Wanted(*self._wanted())
 

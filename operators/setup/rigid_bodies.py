@@ -7,8 +7,6 @@ the exact mass. Bullet, Blender's physics engine, takes the object's origin as t
 and a diagonal inertia along the object's axes; after Axes to Principal Axes both are true.
 """
 
-from typing import TYPE_CHECKING
-
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
@@ -18,10 +16,6 @@ from ...blender.write import reports, translations
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from .. import modal, selection
 from ..findings import NOT_A_RIGID_BODY, RIGID_BODY_CENTER_ELSEWHERE
-
-if TYPE_CHECKING:
-    from ...blender.scene.snap_targets import SnapTarget
-    from ...blender.session.rigid_bodies import RigidBodies
 
 SHOWN = 12  # bodies in the redo panel
 
@@ -146,7 +140,7 @@ class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Ope
         )
 
 
-def _compare_masses(context: Context, made: "RigidBodies") -> str:
+def _compare_masses(context: Context, made: "session.rigid_bodies.RigidBodies") -> str:
     """Return a line for each of the first bodies: its exact mass, and its mass by Calculate
     Mass.
     """
@@ -192,7 +186,7 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(
 
     def _begin(self, context: Context) -> int:
         self._objects = selection.selected_measurable(context)
-        self._bodies: list[SnapTarget] = []
+        self._bodies: list[scene.snap_targets.SnapTarget] = []
         self._failures: list[Finding] = []
         target_in_turn = scene.targets_in_turn(context, self._objects)
 
@@ -255,7 +249,7 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(
         return selection.summarize(self, count, len(self._objects), done, failures, findings, idle)
 
 
-def _centers_elsewhere(bodies: "list[SnapTarget]") -> list[Finding]:
+def _centers_elsewhere(bodies: "list[scene.snap_targets.SnapTarget]") -> list[Finding]:
     """Return the warning that names the bodies whose center of mass is not their origin, if any."""
     names = [body.obj.name for body in bodies if scene.matrix_at_center(body.obj, body) is not None]
     return [finding(RIGID_BODY_CENTER_ELSEWHERE, objects=names)] if names else []

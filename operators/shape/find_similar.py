@@ -10,7 +10,6 @@ selection.
 from collections import Counter
 from collections.abc import Generator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, FloatProperty, StringProperty
@@ -21,9 +20,6 @@ from ...blender.session.selected import require_subject, subject
 from ...blender.write import reports
 from ...core.verdict import Finding, MeasureError, system_reason
 from .. import modal, selection
-
-if TYPE_CHECKING:
-    from ...blender.session.similar import Match
 
 MAX_LISTED_BODIES = 20
 MIRRORED = BoolProperty(name="Ignore Mirroring", description="Rank mirror images like copies")
@@ -81,7 +77,11 @@ class _SearchMixin:
         return selection.poll_object_mode(cls, context)
 
     def store_and_report(
-        self, context: Context, matches: list["Match"], looked_at: str, failures: list[Finding]
+        self,
+        context: Context,
+        matches: list["session.similar.Match"],
+        looked_at: str,
+        failures: list[Finding],
     ) -> set[str]:
         """Keep the nearest matches with the scene, and report the number of matches by
         similarity.

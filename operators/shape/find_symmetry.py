@@ -7,7 +7,6 @@ axes, for the panel.
 """
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from bpy.props import (
     BoolProperty,
@@ -20,16 +19,12 @@ from bpy.props import (
 )
 from bpy.types import Context, Object, Operator, PropertyGroup
 
+from ... import core
 from ...blender import bodies, scene, session
 from ...blender.session.tracking import staleness, stamps
 from ...blender.write import reports
 from ...core.verdict import Finding
 from .. import modal, selection
-
-if TYPE_CHECKING:
-    from ...blender.bodies.flat.flat_shape import FlatShape
-    from ...blender.bodies.shape.shape import Shape
-    from ...core.shape import Symmetry
 
 
 class BodyMomentsElement(PropertyGroup):
@@ -50,7 +45,8 @@ class BodyMomentsSymmetry(PropertyGroup):
     """The symmetry that was found of an object."""
 
     group: StringProperty(
-        name="Symmetry", description="Schoenflies symbol of the symmetry that the surface confirms"
+        name="core.shape.Symmetry",
+        description="Schoenflies symbol of the symmetry that the surface confirms",
     )
     compatible: StringProperty(
         name="By Moments", description="Schoenflies symbol of the symmetry that the moments allow"
@@ -92,7 +88,14 @@ class OBJECT_OT_body_moments_find_symmetry(modal.ModalSteps, selection.OnSelecti
 
     def _begin(self, context: Context) -> int:
         self._objects = selection.selected_measurable(context)
-        self._results: list[tuple[Object, Shape | FlatShape, Symmetry, Symmetry]] = []
+        self._results: list[
+            tuple[
+                Object,
+                bodies.shape.shape.Shape | bodies.FlatShape,
+                core.shape.Symmetry,
+                core.shape.Symmetry,
+            ]
+        ] = []
         self._failures: list[Finding] = []
 
         def find(obj: Object) -> Iterator[float]:
@@ -142,7 +145,7 @@ class OBJECT_OT_body_moments_find_symmetry(modal.ModalSteps, selection.OnSelecti
         return reports.report(self, *reports.first(symmetries))
 
 
-def describe(symmetry: "Symmetry") -> list[str]:
+def describe(symmetry: "core.shape.Symmetry") -> list[str]:
     """Return translated descriptions of the elements of a symmetry."""
     phrase = reports.phrase
     if len(symmetry.revolution_axes) == 3:

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Link Copies: equal objects come to share one mesh."""
 
-from typing import TYPE_CHECKING
-
 from bpy.props import EnumProperty, FloatProperty
 from bpy.types import Context, Event, Operator
 
@@ -11,9 +9,6 @@ from ...blender import read, scene, session
 from ...blender.scale import meters_per_unit
 from ...blender.write import reports
 from .. import selection
-
-if TYPE_CHECKING:
-    from ...blender.scene.copies import Copies
 
 MAX_LISTED = 10  # groups that the dialog lists
 NOTHING = "There are no copies."
@@ -38,18 +33,26 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
         description="What the copies may have of their own; the shared mesh has that of the first "
         "one",
         items=(
-            ("UV", "UV Maps", "Copies get the UV maps of the shared mesh"),
+            ("UV", "UV Maps", "scene.copies.Copies get the UV maps of the shared mesh"),
             (
                 "ATTRIBUTES",
                 "Attributes",
-                "Copies get colors, normals and other attributes of the shared mesh",
+                "scene.copies.Copies get colors, normals and other attributes of the shared mesh",
             ),
-            ("MATERIALS", "Materials", "Copies keep their materials, linked to the object"),
-            ("GROUPS", "Vertex Groups", "Copies get the vertex groups of the shared mesh"),
+            (
+                "MATERIALS",
+                "Materials",
+                "scene.copies.Copies keep their materials, linked to the object",
+            ),
+            (
+                "GROUPS",
+                "Vertex Groups",
+                "scene.copies.Copies get the vertex groups of the shared mesh",
+            ),
             (
                 "PROPERTIES",
                 "Custom Properties",
-                "Copies get the custom properties of the shared mesh",
+                "scene.copies.Copies get the custom properties of the shared mesh",
             ),
         ),
         options={"ENUM_FLAG"},
@@ -57,7 +60,7 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
     _objects = None  # the dialog's, while it is open
     _found: tuple | None = None  # the settings of the last search, and its kinds of meshes
 
-    def _kinds(self, context: Context) -> list["Copies"]:
+    def _kinds(self, context: Context) -> list["scene.copies.Copies"]:
         """Return the kinds of meshes among the selected objects, or all visible ones if none is
         selected.
         """

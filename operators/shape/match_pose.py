@@ -5,18 +5,14 @@ axes.
 """
 
 from collections.abc import Generator, Iterator
-from typing import TYPE_CHECKING
 
 from bpy.types import Context, Object, Operator
 
+from ... import core
 from ...blender import bodies, scene, session
 from ...blender.write import reports
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from .. import findings, modal, selection
-
-if TYPE_CHECKING:
-    from ...blender.scene.reframe_meshes import Plan
-    from ...core.shape import RigidMatch
 
 
 class OBJECT_OT_body_moments_match_pose(modal.ModalSteps, Operator):
@@ -46,7 +42,7 @@ class OBJECT_OT_body_moments_match_pose(modal.ModalSteps, Operator):
             obj for obj in selection.selected_measurable(context) if obj != context.object
         ]
         self._size = 0.0  # size of the active object, once it is measured
-        self._plans: list[tuple[Plan, RigidMatch]] = []
+        self._plans: list[tuple[scene.reframe_meshes.Plan, core.shape.RigidMatch]] = []
         self._failures: list[Finding] = []
         self._steps = self._compare(context)
         return len(self._others)
@@ -101,7 +97,7 @@ class OBJECT_OT_body_moments_match_pose(modal.ModalSteps, Operator):
         )
 
 
-def _distance(name: str, match: "RigidMatch", size: float) -> Finding | str:
+def _distance(name: str, match: "core.shape.RigidMatch", size: float) -> Finding | str:
     values = {
         "object": name,
         "maximum": float(match.max_distance),

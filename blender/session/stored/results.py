@@ -9,27 +9,20 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import groupby, repeat
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from bpy.types import Context, Object, Scene
 
+from .... import core
 from ....core.measurement import fingerprint
-from ....core.verdict import internal_error
-from ... import read, settings
+from ....core.verdict import Finding, internal_error
+from ... import bodies, read, settings
 from ...bodies.stack import Measured, MeasuredStack
 from ...scale import meters_per_unit
 from ...write import properties, section
 from ..tracking import armatures, staleness, stamps
 from . import density, faults, reference, sliders
-
-if TYPE_CHECKING:
-    from ....core.shape import Symmetry
-    from ....core.verdict import Finding
-    from ...bodies.flat.flat import MeasuredSection
-    from ...bodies.flat.flat_shape import FlatShape
-    from ...bodies.rig import Rig
-    from ...bodies.shape.shape import Shape
 
 MAX_STORED_ELEMENTS = 32  # of a symmetry: nobody reads more for a ball or a fine prism
 
@@ -102,7 +95,11 @@ def _values_of_stack(part: MeasuredStack, scene: Scene) -> Iterator[dict[str, An
 
 
 def store_symmetry(
-    obj: Object, shape: Shape | FlatShape, confirmed: Symmetry, allowed: Symmetry, tolerance: float
+    obj: Object,
+    shape: bodies.shape.shape.Shape | bodies.FlatShape,
+    confirmed: core.shape.Symmetry,
+    allowed: core.shape.Symmetry,
+    tolerance: float,
 ) -> None:
     """Store the symmetry that the surface confirms, and the group that the moments allow, on an
     object.
@@ -126,14 +123,16 @@ def store_symmetry(
         element.direction = local if local[np.argmax(np.abs(local))] > 0.0 else -local
 
 
-def _elements(found: Symmetry) -> list[tuple[str, int, np.ndarray]]:
+def _elements(found: core.shape.Symmetry) -> list[tuple[str, int, np.ndarray]]:
     axes = [("AXIS", order, axis) for axis, order in found.axes]
     if len(found.revolution_axes) == 1:
         axes = [("ROUND", 0, found.revolution_axes[0])]
     return [*axes, *(("PLANE", 0, normal) for normal in found.planes)]
 
 
-def store_sections(context: Context, sections: Sequence[tuple[Object, MeasuredSection]]) -> None:
+def store_sections(
+    context: Context, sections: Sequence[tuple[Object, bodies.flat.flat.MeasuredSection]]
+) -> None:
     """Store sections on their objects."""
     unit = meters_per_unit(context.scene)
     for obj, (found, description, findings) in sections:
@@ -150,7 +149,7 @@ def store_sections(context: Context, sections: Sequence[tuple[Object, MeasuredSe
     )
 
 
-def store_rig(rig: Rig) -> list[tuple[str, Finding]]:
+def store_rig(rig: bodies.rig.Rig) -> list[tuple[str, Finding]]:
     """Store the results of all bones and the whole, or raise EditRefusedError; return bones
     without, and reasons.
     """
