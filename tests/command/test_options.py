@@ -221,7 +221,7 @@ def test_a_density_that_nobody_set_is_a_finding():
     assert codes(measured()) == ["object_density_used", "density_defaulted"]
     material = bpy.data.materials.new("Steel")
     box.data.materials.append(material)
-    assert codes(measured()) == ["object_density_used_for_materials", "density_defaulted"]
+    assert codes(measured()) == ["object_density_used", "density_defaulted"]
     material.body_moments.density = 7850.0
     assert measured()["findings"] == []
     box.body_moments.density_from, box.body_moments.density = "VALUE", 1000.0
