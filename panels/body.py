@@ -95,8 +95,11 @@ class BodyPanel:
         material_row(layout, context)
         _buttons(layout, context)
         column = layout.column(align=True)
-        rows.state(column, *answer.state)
-        remedies.summary(column, context, answer.groups, _questioned(context) is not None)
+        state = answer.state
+        if not state[0] and _questioned(context) is not None:
+            state = localized("Is a unit of this scene a millimeter?"), "QUESTION"
+        rows.state(column, *state)
+        remedies.summary(column, context, answer.groups)
         area = None
         density = None
         if answer.numbers is not None:

@@ -48,21 +48,17 @@ def lines(
         _accept(layout, "", "CHECKMARK", text="Accept All")
 
 
-def summary(
-    layout: UILayout, context: Context, groups: Sequence[Group], is_unit_asked: bool
-) -> None:
+def summary(layout: UILayout, context: Context, groups: Sequence[Group]) -> None:
     """Draw one row, always: the worst of errors and warnings with its first remedy, and the number
     of the others.
     """
     ranks = tuple(rows.ICONS)
     warnings = [group for group in groups if severity(group.finding) != Severity.NOTE]
     worst = max(warnings, key=lambda group: ranks.index(severity(group.finding)), default=None)
-    if worst is not None:
-        _line(layout.row(align=True), context, worst, more=len(warnings) - 1)
-    elif is_unit_asked:
-        rows.state(layout, localized("Is a unit of this scene a millimeter?"), "QUESTION")
-    else:
+    if worst is None:
         rows.state(layout, "")
+    else:
+        _line(layout.row(align=True), context, worst, more=len(warnings) - 1)
 
 
 def _line(

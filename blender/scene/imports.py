@@ -25,7 +25,7 @@ from ...core.cad import MAX_ORDER, SurfaceBody, is_storable, read_surfaces
 from ...core.density import DENSITY_NON_FINITE, positions_text
 from ...core.files import FILE_UNREADABLE, Limits
 from ...core.numerics import Array, NDArray, shortest_decimal
-from ...core.nurbs import Face, FlatFace, Patch, bezier_space
+from ...core.nurbs import Face, Patch, bezier_space
 from ...core.scans import (
     Positions,
     Scan,
@@ -217,14 +217,13 @@ def _shown(face: Face) -> Patch:
     """Return a patch that Blender can hold and that looks like a face: the patch itself, or one
     through samples.
     """
-    if isinstance(face, FlatFace):
+    if not isinstance(face, Patch):
         a, b, c, d = np.moveaxis(face.quads(SHOWN_SAMPLES), 1, 0)
         # A band along all trapezoids, with folds of no width between them.
         points = np.stack(
             [np.stack([a, b, c, d], axis=1), np.stack([a, a, d, d], axis=1)], axis=2
         ).reshape(-1, 2, 3)
     else:
-        assert isinstance(face, Patch)
         if max(space.order for space in face.spaces) <= MAX_ORDER and is_storable(face):
             return face
         points = face.samples(SHOWN_SAMPLES)

@@ -279,7 +279,7 @@ def _value_at(curve: FbxNode | None, rest: float, seconds: float) -> float | Non
     times = times / _TICKS
     near = np.abs(times - np.clip(seconds, times[0], times[-1])) <= _SAME_TIME
     if near.any():
-        return values[near.argmax()]
+        return float(values[near.argmax()])
     is_linear = (flags.astype(int) & _LINEAR).all()
     return float(np.interp(seconds, times, values)) if is_linear else None
 

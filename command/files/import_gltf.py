@@ -67,9 +67,16 @@ def import_gltf(path: str, frame: float | None) -> Opened:
             if obj.type == "MESH":
                 shown[obj.name] = _node_of(vnode, gltf)
             line = _line_of(vnode, gltf)
-            if any(_is_invisible(gltf.data.nodes[number]) for number in line):
+            if any(
+                _extension(gltf.data.nodes[number], "KHR_node_visibility").get("visible") is False
+                for number in line
+            ):
                 hidden[obj.name] = finding(FILE_HIDES, cause="it is invisible")
-            elif not _coarse_levels(gltf.data.nodes).isdisjoint(line):
+            elif any(
+                number in _extension(node, "MSFT_lod").get("ids", ())
+                for node in gltf.data.nodes
+                for number in line
+            ):
                 hidden[obj.name] = finding(FILE_HIDES, cause="it is a coarser level of detail")
 
     # The importer looks for extensions in add-ons of the preferences, of which it is one itself.
@@ -109,15 +116,9 @@ def _line_of(vnode: Any, gltf: Any) -> list[int]:
     return [number for number in line if isinstance(number, int)]
 
 
-def _is_invisible(node: Any) -> bool:
-    extension = (node.extensions or {}).get("KHR_node_visibility", {})
-    return isinstance(extension, dict) and extension.get("visible", True) is False
-
-
-def _coarse_levels(nodes: list[Any]) -> set[int]:
-    """Return the numbers of the nodes that others name as their coarser levels of detail."""
-    named = [(node.extensions or {}).get("MSFT_lod", {}) for node in nodes]
-    return {number for one in named if isinstance(one, dict) for number in one.get("ids", ())}
+def _extension(node: Any, name: str) -> dict[str, Any]:
+    extension = (node.extensions or {}).get(name)
+    return extension if isinstance(extension, dict) else {}
 
 
 def _node_of(vnode: Any, gltf: Any) -> _Shown:

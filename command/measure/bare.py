@@ -14,12 +14,14 @@ from argparse import Namespace
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from ...blender.session.findings import NO_SUCH_NAME
 from ...blender.write.thumbnail import thumbnail
 from ...core import bodies, cad, robots, streams, verdict
 from ...core.files import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
+from ...core.floating import settle
 from ...core.measurement import Measurement, PrintSettings, Settings, record
 from ...core.scans import LABEL_ABSENT, UNIT_ASSUMED, Label, read_label_table
 from ...core.scans import formats as scans
@@ -53,6 +55,7 @@ BYTES_OF_FILE = {
     ".stl": 50,
     ".ply": 19,
 }
+UP = (0.0, 0.0, 1.0)
 DEFAULT_DENSITY = 1000.0  # kg/m³
 DEFAULT_THICKNESS = 0.001  # m, as of an object
 _NOT_OF_STREAMS = (
@@ -259,7 +262,17 @@ class BareFile:
                     sheet = [finding(MEASURED_AS_SHELL)]
                 more, of_liquid = {}, ()
                 if self.options.float:
-                    more, of_liquid = floating_entry(body, measurement, self.options, contents)
+                    of_mass = measurement.mass_properties
+                    settled = partial(
+                        settle,
+                        [body],
+                        of_mass.mass,
+                        of_mass.center,
+                        self.options.float,
+                        UP,
+                        center_error=measurement.center_bounds,
+                    )
+                    more, of_liquid = floating_entry(settled, measurement, self.options, contents)
                 if self.options.thumbnails:
                     surface = reading.join()
                     properties = measurement.mass_properties

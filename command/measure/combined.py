@@ -25,11 +25,14 @@ from .entries import Contents
 
 @dataclass(frozen=True, eq=False)
 class Combined:
-    """Measurements of assemblies and rigs; unit: meters per Blender unit."""
+    """Measurements of assemblies and rigs; unit: meters per Blender unit; more: entries of the
+    assemblies' records.
+    """
 
     unit: float = 1.0
     assemblies: list[Assembly] = field(default_factory=list)
     rigs: list[bodies.rig.Rig] = field(default_factory=list)
+    more: dict[Root, dict[str, Any]] = field(default_factory=dict)
 
     def measurements(self) -> dict[Root, Measurement]:
         """Return the measurements of the assemblies by their objects or collections."""
@@ -44,6 +47,7 @@ class Combined:
                     place_error=self.unit * read.places.member_error(assembly.root.member)[0],
                 ),
                 frame,
+                more=self.more.get(assembly.root.member.data),
             )
             for assembly in self.assemblies
         ]

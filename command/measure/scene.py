@@ -8,19 +8,18 @@ from __future__ import annotations
 
 import os
 from argparse import Namespace
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
 import bpy
 
-from ...blender import session, write
+from ...blender import read, session, write
 from ...blender.bodies import cuts, overlaps, stack
 from ...blender.bodies.flat.flat import NO_BODY
 from ...blender.bodies.measure_body import measure_body
-from ...blender.read import assembly, places, tracking
 from ...blender.scale import meters_per_unit
-from ...blender.scene.rigid_world import down, has_gravity
+from ...blender.session.stored import floating
 from ...blender.session.tracking.staleness import mark_up_to_date
 from ...blender.settings import density, given
 from ...blender.settings import properties as settings
@@ -29,6 +28,7 @@ from ...blender.write.properties import store
 from ...core import bodies, cad, mesh, verdict
 from ...core.cuts import CutFill
 from ...core.files import FILE_UNREADABLE
+from ...core.floating import Flotation
 from ...core.measurement import Measurement, record
 from ...core.verdict.finding import (
     FileError,
@@ -100,6 +100,7 @@ class Scene:
         self._path, self.options = path, options
         self._wanted = measure_options(options, threads)
         self._combined = combined.Combined()
+        self._afloat: dict[bpy.types.Object, list[bpy.types.Object]] = {}
         self._is_open = self.has_opened = self.has_saved = False
 
     def measure(self, contents: Contents) -> None:
@@ -124,7 +125,7 @@ class Scene:
             (label, one.method) for label, _, one in contents.measured
         )
         if options.object is None:  # A user who names objects knows what their total means.
-            contents.caveats += assembly.total_caveats(
+            contents.caveats += read.assembly.total_caveats(
                 [obj for _, obj, _ in contents.measured], bpy.context.view_layer
             )
             contents.caveats += overlaps.overlap_caveats(
@@ -134,6 +135,8 @@ class Scene:
             self._combined = combined.measure_combined(
                 self._wanted, contents, options.asset_metadata is not None
             )
+            if options.float:
+                self._float_assemblies(contents)
         if options.fourier:
             contents.errors.extend(self._fourier(chosen, contents))
         if not contents.objects and not contents.flats and not contents.errors:
@@ -195,6 +198,7 @@ class Scene:
         opened: references.Opened,
         contents: Contents,
     ) -> None:
+        """Add the records and measurements of bodies, and the records of flat shapes."""
         of_file = (
             *opened.notes,
             *file_findings(self._path, self.options),
@@ -202,8 +206,16 @@ class Scene:
             *newer_version(),
         )
         operands = (
-            assembly.operands_of(bpy.context.scene.objects) if self.options.object is None else {}
+            read.assembly.operands_of(bpy.context.scene.objects)
+            if self.options.object is None
+            else {}
         )
+        left_out = {entry["name"] for entry in contents.left_out}
+        objects = [obj for _, obj in chosen]
+        for body in floating.bodies_of(objects, False) if self.options.float else ():
+            members = [obj for obj in body if obj.name not in left_out]
+            first = next(obj for obj in members if obj in objects)
+            self._afloat[first] = members
         in_turn = measured_together([obj for _, obj in chosen], self.options, self._wanted)
         for label, obj in chosen:
             user = operands.get(obj)
@@ -266,7 +278,7 @@ class Scene:
             *(*measurement.findings, *of_shape, *findings),
             *(*self._default_density(obj, measurement), *body_findings(self.options, measurement)),
         )
-        moved = places.place_error(obj) * (
+        moved = read.places.place_error(obj) * (
             self._wanted.unit_scale or meters_per_unit(bpy.context.scene)
         )
         named = replace(measurement, name=label, findings=findings, place_error=moved)
@@ -292,12 +304,13 @@ class Scene:
         measurement: Measurement,
         wanted: MeasureOptions,
         contents: Contents,
-    ) -> tuple[dict[str, Any], list[Finding]]:
+    ) -> tuple[dict[str, Any], tuple[Finding, ...]]:
         """Return the entries of cuts and of floating, if requested, and findings about them."""
         scene = bpy.context.scene
         depsgraph = bpy.context.evaluated_depsgraph_get()
         unit = wanted.unit_scale or meters_per_unit(scene)
-        body = measure_body(obj, depsgraph, wanted).body
+        entries: dict[str, Any] = {}
+        findings: tuple[Finding, ...] = ()
 
         def against_object(name: str, surface: mesh.Surface) -> CutFill:
             other = scene.objects.get(name)
@@ -305,14 +318,47 @@ class Scene:
                 raise QueryError(session.findings.NO_SUCH_NAME, kind="object", name=name)
             return cuts.cut_fill_against(other, surface, depsgraph, unit)
 
-        entries, found = cut_entries(measurement, body, self.options, contents, against_object)
-        findings = [*found]
-        if self.options.float:
-            up = -down(scene) if has_gravity(scene) else None
-            floating, of_liquid = floating_entry(body, measurement, self.options, contents, up)
-            entries |= floating
-            findings += of_liquid
+        if self.options.below is not None or self.options.against is not None:
+            body = measure_body(obj, depsgraph, wanted).body
+            entries, findings = cut_entries(
+                measurement, body, self.options, contents, against_object
+            )
+        if obj in self._afloat:
+            entry, of_liquid = self._floating(self._afloat[obj], measurement, contents)
+            entries, findings = entries | entry, (*findings, *of_liquid)
         return entries, findings
+
+    def _float_assemblies(self, contents: Contents) -> None:
+        """Add where each assembly floats as one body to its record."""
+        left_out = {entry["name"] for entry in contents.left_out}
+        for assembly in self._combined.assemblies:
+            root = assembly.root.member.data
+            objects = [root, *root.children_recursive]
+            if isinstance(root, bpy.types.Collection):
+                objects = root.all_objects
+            members = [
+                obj
+                for obj in objects
+                if read.visibility.measurable(obj) and obj.name not in left_out
+            ]
+            self._combined.more[root] = self._floating(members, assembly.measurement, contents)[0]
+
+    def _floating(
+        self, members: Sequence[bpy.types.Object], measurement: Measurement, contents: Contents
+    ) -> tuple[dict[str, Any], tuple[Finding, ...]]:
+        """Return the entry of objects that float as one body, and findings about it."""
+        wanted = replace(self._wanted, order=None, surface=False)
+
+        def settle() -> Flotation:
+            for member in members:
+                set_density(member, self.options)
+            depsgraph = bpy.context.evaluated_depsgraph_get()
+            return floating.read(depsgraph, members, wanted, self.options.float).rest
+
+        entry, findings = floating_entry(settle, measurement, self.options, contents)
+        if entry["floating"] and len(members) > 1:
+            entry["floating"]["parts"] = [member.name for member in members]
+        return entry, findings
 
     def _default_density(
         self, obj: bpy.types.Object, measurement: Measurement
@@ -391,11 +437,12 @@ class Scene:
             with contents.attempt(label):
                 store(obj, one)
                 with (
-                    tracking.tracking_paused()
+                    read.tracking.tracking_paused()
                 ):  # the stored results already belong to these settings
                     settings.apply_options(obj.body_moments, self._wanted, bpy.context.scene)
         mark_up_to_date(bpy.context, [obj for _, obj, _ in contents.measured])
 
 
 def _unavailable(part: str, refusal: MeasureError) -> Finding:
+    """Return the finding that a part of a record is missing, with the cause."""
     return finding(PART_UNAVAILABLE, part=part, cause=refusal.finding.as_record())

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from ..files import FILE_TOO_LARGE
 from ..numerics import Array, lengths
-from ..nurbs import Curve, Face, FlatFace, Patch, patches_size
+from ..nurbs import TURN, Curve, Face, Patch, Quadric, patches_size
 from ..verdict.finding import FileError, finding
 from .findings import (
     CURVES_LEFT_OUT,
@@ -41,7 +41,7 @@ from .iges_entities import (
     numbers,
     padded,
 )
-from .iges_sweeps import TURN, join_pieces, revolve, rule, spanned_quadric
+from .iges_sweeps import join_pieces, revolve, revolved_quadric, rule
 from .surfaces import (
     MAX_SURFACES,
     Refusals,
@@ -51,7 +51,7 @@ from .surfaces import (
     bezier_surface,
     placed_surface,
 )
-from .trimmed import Boundary, first_region, trimmed_faces
+from .trimmed import Boundary, first_region, trimmed_faces, within
 
 MATRIX = 124
 SURFACE = 128
@@ -378,14 +378,21 @@ class IgesReader:
         if base.type in (PLANE, PLANE_SURFACE):
             loops = [boundary.curves for boundary in boundaries] if has_outer else []
             faces: list[Face] = [first_region([loops], self._plane_normal(base, matrix))]
-        elif base.type in SWEPT or base.type in ANALYTIC and boundaries:
-            surface = self._swept(base, matrix, boundaries)
+        elif base.type in ANALYTIC:
+            quadric = self._quadric(base, self._text.fields(base), matrix)
+            faces = within(
+                quadric, boundaries, rounding=self._rounding, only_patches=self._for_blender
+            )
+        elif base.type in SWEPT:
+            surface, quadric = self._swept(base, matrix)
             # Parameters of other surfaces than splines are those of no exact form.
             in_space = [replace(one, parameters=None) if one.curves else one for one in boundaries]
             domain = surface.spaces[0].domain, surface.spaces[1].domain
             patches = bezier_surface(surface, (None, None), self._for_blender)
             rounding = self._rounding
-            faces = trimmed_faces(surface, domain, patches, in_space, has_outer, rounding)
+            faces = trimmed_faces(
+                surface, domain, patches, in_space, has_outer, rounding, quadric, self._for_blender
+            )
         elif base.type != SURFACE:
             raise SurfaceRefusedError(
                 SURFACE_UNSUPPORTED, base=NAMES.get(base.type, str(base.type))
@@ -402,19 +409,20 @@ class IgesReader:
                 boundaries,
                 has_outer,
                 rounding,
+                None,
+                self._for_blender,
             )
-        if self._for_blender and any(isinstance(face, FlatFace) for face in faces):
-            raise SurfaceRefusedError(SURFACE_TRIMMED)
+        if self._for_blender and not all(isinstance(face, Patch) for face in faces):
+            raise SurfaceRefusedError(SURFACE_TRIMMED)  # a flat face
         return faces
 
-    def _swept(self, base: Entry, matrix: NDArray, boundaries: Sequence[Boundary]) -> Patch:
-        """Return a surface of revolution, a tabulated cylinder or a ruled surface, or the part of
-        an analytic surface within boundaries.
+    def _swept(self, base: Entry, matrix: NDArray) -> tuple[Patch, Quadric | None]:
+        """Return a surface of revolution, a tabulated cylinder or a ruled surface, and the quadric
+        that it is a part of.
         """
         fields = self._text.fields(base)
-        if base.type in ANALYTIC:
-            return self._spanned(base, fields, matrix, boundaries)
         first = integers(fields, 1)[0]
+        quadric = None
         if base.type == REVOLVED:
             begin, end = self._curve(first).evaluate([0.0, 1.0])
             start, stop = numbers(fields[2:4]).tolist()
@@ -426,6 +434,7 @@ class IgesReader:
                 arms = np.cross(profile.points - begin, end - begin) / np.linalg.norm(end - begin)
                 self._rounding = max(self._rounding, unsure * float(lengths(arms).max()))
             patch = revolve(profile, begin, end - begin, start, stop)
+            quadric = revolved_quadric(profile, begin, end - begin)
         elif base.type == EXTRUDED:
             profile = self._curve(first)
             self._rounding = max(self._rounding, decimal_rounding(fields[1:4]))
@@ -435,7 +444,7 @@ class IgesReader:
             _, second, is_backward = integers(fields, 3)
             other = self._curve(second)
             patch = rule(self._curve(first), other.reverse() if is_backward else other)
-        return patch.transform(matrix)
+        return patch.transform(matrix), quadric and quadric.transform(matrix)
 
     def _note_turning(self, fields: list[str]) -> None:
         """Note the decimals of directions."""
@@ -448,10 +457,8 @@ class IgesReader:
             raise ValueError("a curve of another kind")
         return join_pieces(pieces)
 
-    def _spanned(
-        self, base: Entry, fields: list[str], matrix: NDArray, boundaries: Sequence[Boundary]
-    ) -> Patch:
-        """Return the part of a cylinder, cone, sphere or torus that boundaries in space span."""
+    def _quadric(self, base: Entry, fields: list[str], matrix: NDArray) -> Quadric:
+        """Return a cylinder, cone, sphere or torus."""
         radii = 1 if base.type in (CYLINDER, BALL) else 2
         if base.type == BALL:
             location, axis, toward = integers([fields[0], *padded(fields[2:], 2)], 3)
@@ -460,7 +467,7 @@ class IgesReader:
             location, axis = integers(fields, 2)
             values = numbers(fields[2 : 2 + radii])
             (toward,) = integers(padded(fields[2 + radii :], 1), 1)
-        if not (axis and toward) or any(one.curves is None for one in boundaries):
+        if not (axis and toward):
             raise SurfaceRefusedError(SURFACE_UNSUPPORTED, base=NAMES[base.type])
         frame = np.eye(4)
         place = self._text.fields(self._entry(location, POINT))[:3]
@@ -477,14 +484,13 @@ class IgesReader:
         side = side - (side @ frame[:3, 2]) * frame[:3, 2]
         frame[:3, 0] = side / np.linalg.norm(side)
         frame[:3, 1] = np.cross(frame[:3, 2], frame[:3, 0])
-        curves = [curve for one in boundaries for curve in one.curves or ()]
         radius, last = float(values[0]), float(values[-1])
         if base.type == BALL:
             radius, minor, slope = 0.0, last, 0.0
         else:
             minor = last if base.type == TORUS else 0.0
             slope = math.tan(math.radians(last)) if base.type == CONE else 0.0
-        return spanned_quadric(matrix @ frame, curves, radius, minor, slope)
+        return Quadric(matrix @ frame, radius, minor, slope)
 
     def _note_rounding(self, fields: list[str], surface: Patch, matrix: NDArray) -> float:
         """Note and return the uncertainty of a surface's points by the decimals of its points and

@@ -12,11 +12,11 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics import Array, SplineSpace, clamped_space
-from ..nurbs import Curve, Patch
+from ..numerics import Array, SplineSpace, clamped_space, lengths
+from ..nurbs import TURN, Curve, Patch, Quadric
 from .iges_entities import MAX_ARC
 
-TURN = 2.0 * math.pi
+SAME_RTOL = 1e-12  # relative to the size: lines and circles by rounding
 SAMPLES = 257  # points of a boundary curve that show which part of a surface it spans
 MIN_GAP = 0.1  # radians; more than any step between samples of a circle, in rational form too
 
@@ -43,6 +43,42 @@ def revolve(curve: Curve, begin: NDArray, axis: NDArray, start: float, end: floa
     knots = np.repeat(angles[::2], 2)
     space = SplineSpace((start, *knots.tolist(), end), 3, len(angles))
     return Patch((curve.space, space), begin + heights[:, None] + around, weights[:, None] * ring)
+
+
+def revolved_quadric(curve: Curve, begin: NDArray, axis: NDArray) -> Quadric | None:
+    """Return the whole surface that a line or an arc of a circle sweeps about an axis through a
+    point, or None for other curves.
+    """
+    axis = axis / np.linalg.norm(axis)
+    arms = curve.evaluate(np.linspace(*curve.space.domain, 9)) - begin
+    z = arms @ axis
+    across = arms - np.outer(z, axis)
+    r = lengths(across)
+    side = across[r.argmax()] / max(r.max(), 1e-300)
+    size = float(np.abs(arms).max())
+    if np.abs(across @ np.cross(axis, side)).max() > SAME_RTOL * size:
+        return None
+    frame = np.eye(4)
+    frame[:3, :3] = np.stack([side, np.cross(axis, side), axis], axis=1)
+    frame[:3, 3] = begin
+    r = across @ side
+    run = np.array([r[-1] - r[0], z[-1] - z[0]])
+    off = np.abs((r - r[0]) * run[1] - (z - z[0]) * run[0]).max()
+    if off <= SAME_RTOL * size * np.linalg.norm(run) and r.min() >= -SAME_RTOL * size:
+        slope = float(run[0] / run[1]) if abs(run[1]) > SAME_RTOL * size else math.inf
+        slope = 0.0 if abs(run[0]) <= SAME_RTOL * size else slope
+        if math.isinf(slope):  # a plane
+            return None
+        return Quadric(frame, float(r[0] - slope * z[0]), 0.0, slope)
+    rows = np.stack([2.0 * r, 2.0 * z, np.ones(len(r))], axis=1)
+    center_r, center_z, rest = np.linalg.lstsq(rows, r**2 + z**2, rcond=None)[0]
+    minor = math.sqrt(max(rest + center_r**2 + center_z**2, 0.0))
+    if np.abs(np.hypot(r - center_r, z - center_z) - minor).max() > SAME_RTOL * size:
+        return None
+    frame[:3, 3] += center_z * axis
+    if abs(center_r) <= SAME_RTOL * size:
+        return Quadric(frame, 0.0, minor)
+    return Quadric(frame, float(center_r), minor) if center_r > minor else None
 
 
 def rule(first: Curve, second: Curve) -> Patch:
@@ -76,20 +112,21 @@ def join_pieces(curves: Sequence[Curve]) -> Curve:
     return Curve(SplineSpace((0.0, *breaks, 1.0), order, len(points)), points, weight)
 
 
-def spanned_quadric(
-    frame: NDArray, curves: Sequence[Curve], radius: float, minor: float, slope: float
-) -> Patch:
-    """Return the part of a surface of revolution that its boundary curves span.
-
-    frame: (4, 4), third axis: that of the surface. minor: radius of the circle that rotates at the
-    distance `radius`, 0 for a line, whose radius grows by `slope` along the axis.
+def spanned_quadric(quadric: Quadric, curves: Sequence[Curve]) -> Patch:
+    """Return the part of a surface that its boundary curves span, all of a closed one if there are
+    none.
     """
-    local = np.concatenate(
-        [one.evaluate(np.linspace(*one.space.domain, SAMPLES)) for one in curves]
-    )
-    x, y, z = np.linalg.solve(frame, np.column_stack([local, np.ones(len(local))]).T)[:3]
+    frame, radius, minor, slope = quadric.frame, quadric.radius, quadric.minor, quadric.slope
+    if not curves and not minor:
+        raise ValueError("no boundary")
+    start, end = 0.0, TURN
+    low, high = (0.0, TURN) if radius else (-TURN / 4.0, TURN / 4.0)
+    local = [one.evaluate(np.linspace(*one.space.domain, SAMPLES)) for one in curves]
+    points = np.concatenate([frame[:0, :3], *local]) - frame[:3, 3]
+    x, y, z = np.linalg.solve(frame[:3, :3], points.T)
     away = np.hypot(x, y)
-    start, end = _spanned_angles(np.arctan2(y, x)[away > 1e-9 * (away.max() + radius)])
+    if curves:
+        start, end = _spanned_angles(np.arctan2(y, x)[away > 1e-9 * (away.max() + radius)])
     if not minor:
         heights = np.array([z.min(), z.max()])
         ends = np.stack([radius + slope * heights, np.zeros(2), heights], axis=1)
@@ -100,11 +137,12 @@ def spanned_quadric(
         profile = Curve(clamped_space(2), ends)
     else:
         tube = np.arctan2(z, away - radius)
-        low, high = _spanned_angles(tube) if radius else (tube.min(), tube.max())
-        if not radius:
+        if curves and radius:
+            low, high = _spanned_angles(tube)
+        elif curves:
             low, high = (
                 math.copysign(TURN / 4.0, end) if abs(abs(end) - TURN / 4.0) < 1e-7 else end
-                for end in (low, high)
+                for end in (tube.min(), tube.max())
             )
         circle = Curve(clamped_space(2), np.array([[minor, 0.0, 0.0]] * 2))
         arc = revolve(circle, np.zeros(3), np.array([0.0, -1.0, 0.0]), low, high)

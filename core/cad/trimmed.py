@@ -9,31 +9,38 @@ it. Other surfaces cannot be trimmed.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics import Array
+from ..numerics import Array, clamped_space, cross, dot
 from ..nurbs import (
     Curve,
     Face,
     FlatFace,
     Patch,
     Quadric,
+    SplineChart,
     nearest_parameters,
     patches_size,
     vector_area,
 )
 from ..verdict import WELDING_RTOL, MeasureError
 from .findings import SURFACE_TRIMMED
+from .iges_sweeps import spanned_quadric
+from .regions import curved_region
 from .surfaces import SurfaceRefusedError
 
 FLAT_RTOL = 1e-8  # Relative to the size: a surface that is farther from a plane is curved.
 END_TOLERANCE = (
     1e-5  # A curve that ends so near to the end of a side, as a share of it, ends there.
 )
+LIFTED_ORDER = 10  # of curves through points of a surface
+LIFTED_RTOL = 1e-12  # relative to the size of a piece, which is halved until it is so near
+LIFTED_DEPTH = 8
 SAMPLES = 33  # points at which a curve is compared with the sides of a surface
+_UNIT = (0.0, 1.0), (0.0, 1.0)
 TRIM_RTOL = 1e-7  # float32 rounding: distance of the curve from the sides, relative to the domain
 
 
@@ -54,14 +61,64 @@ def within(
     *,
     rounding: float = 0.0,
     directed: bool = True,
+    only_patches: bool = False,
 ) -> list[Face]:
     """Return the faces of a surface within boundaries, facing as the surface does;
     SurfaceRefusedError if they bound none.
 
     rounding: largest effect of the file's decimals on a point. directed: whether boundaries run
-    with the face on their left, seen from the side of the surface's normal.
+    with the face on their left, seen from the side of the surface's normal. only_patches: refuse a
+    trimmed surface.
     """
-    raise SurfaceRefusedError(SURFACE_TRIMMED)
+    loops = [one.curves or _lifted(surface, one.parameters or ()) for one in boundaries]
+    if not all(loops):
+        raise SurfaceRefusedError(SURFACE_TRIMMED)
+    if isinstance(surface, Quadric):
+        try:
+            patch = spanned_quadric(surface, [curve for loop in loops for curve in loop])
+        except ValueError:
+            patch = None
+        spanned = [Boundary(loop) for loop in loops]
+        if patch is not None and (not loops or _follow_sides(patch, _UNIT, spanned)):
+            return [patch]
+        if only_patches:
+            raise SurfaceRefusedError(SURFACE_TRIMMED)
+        return [curved_region(surface, loops, rounding, directed)]
+    if _is_flat(surface, FLAT_RTOL * patches_size([surface]) + 4.0 * rounding):
+        return [first_region([loops], vector_area([surface]))]
+    chart = SplineChart(surface)
+    if chart.periods[1] and not chart.periods[0]:
+        # Strips end at the sides of the direction that does not close.
+        turned = SplineChart(surface.reverse_orientation())
+        loops = [[curve.reverse() for curve in reversed(loop)] for loop in loops]
+        return [curved_region(turned, loops, rounding, directed).reverse_orientation()]
+    return [curved_region(chart, loops, rounding, directed)]
+
+
+def _lifted(surface: Patch | Quadric, parameters: Sequence[Curve]) -> list[Curve]:
+    """Return curves in space through the points of a surface at curves of its parameters."""
+    chart = surface if isinstance(surface, Quadric) else SplineChart(surface)
+    nodes = (1.0 - np.cos(np.pi * np.arange(LIFTED_ORDER) / (LIFTED_ORDER - 1.0))) / 2.0
+    space = clamped_space(LIFTED_ORDER)
+    between = (nodes[1:] + nodes[:-1]) / 2.0
+    tables = space.collocation_matrix(nodes), space.collocation_matrix(between)
+    found = []
+    for curve in parameters:
+        work = [(low, high, 0) for low, high in curve.space.intervals[::-1].tolist()]
+        while work:
+            low, high, depth = work.pop()
+            truth, check = (
+                chart.evaluate(*curve.evaluate(low + (high - low) * at).T[:2])[0].T
+                for at in (nodes, between)
+            )
+            points = np.asarray(np.linalg.solve(tables[0], truth), np.float64)
+            miss = np.abs(tables[1] @ points - check).max()
+            if miss <= LIFTED_RTOL * np.ptp(truth, axis=0).max() or depth == LIFTED_DEPTH:
+                found.append(Curve(space, points))
+            else:
+                middle = (low + high) / 2.0
+                work += [(middle, high, depth + 1), (low, middle, depth + 1)]
+    return found
 
 
 def trimmed_faces(
@@ -71,13 +128,15 @@ def trimmed_faces(
     boundaries: Sequence[Boundary],
     has_outer: bool,
     rounding: float = 0.0,
+    quadric: Quadric | None = None,
+    only_patches: bool = False,
 ) -> list[Face]:
-    """Return the faces of a surface within boundaries; SurfaceRefusedError if a curved surface is
-    trimmed.
+    """Return the faces of a surface within boundaries.
 
     domain: the used part of the surface. patches: that part, in one piece unless the surface may be
     torn. has_outer: False if the outer boundary is that of the surface. rounding: largest effect of
-    the file's decimals on a point.
+    the file's decimals on a point. quadric: the whole surface, if it is one.
+    only_patches: refuse a trimmed surface.
     """
     if not boundaries:
         return [*patches]
@@ -85,12 +144,26 @@ def trimmed_faces(
         (patch,) = patches
         if has_outer and _follow_sides(patch, domain, boundaries):
             return [patch]
+        if only_patches:
+            raise SurfaceRefusedError(SURFACE_TRIMMED)
         tolerance = FLAT_RTOL * patches_size([surface]) + 4.0 * rounding
+        around = [curve if ahead else curve.reverse() for curve, ahead in patch.sides]
+        around = [curve for curve in around if np.ptp(curve.points, axis=0).any()]
+        outer = [] if has_outer else [Boundary(around)]
         if _is_flat(patch, tolerance):
-            around = [curve if ahead else curve.reverse() for curve, ahead in patch.sides]
-            around = [curve for curve in around if np.ptp(curve.points, axis=0).any()]
-            outer = [] if has_outer else [Boundary(around, None)]
             return [_flat_face(surface, domain, [*outer, *boundaries], tolerance)]
+        lifted = [
+            replace(one, curves=one.curves or _lifted(surface, one.parameters or ()))
+            for one in boundaries
+        ]
+        if quadric is None:
+            return within(patch, [*outer, *lifted], rounding=rounding, directed=False)
+        middle = np.array([[np.mean(space.domain)] for space in patch.spaces])
+        place, along, across = SplineChart(patch).evaluate(*middle)
+        _, own_along, own_across = quadric.evaluate(*quadric.project(place.T).T)
+        faces = within(quadric, [*outer, *lifted], rounding=rounding, directed=False)
+        is_turned = float(dot(cross(along, across), cross(own_along, own_across))[0]) < 0.0
+        return [face.reverse_orientation() for face in faces] if is_turned else faces
     raise SurfaceRefusedError(SURFACE_TRIMMED)
 
 
@@ -195,7 +268,7 @@ def _follow_sides(
         for curve in [curve for boundary in boundaries for curve in boundary.parameters or ()]:
             pieces.append(Piece(curve.points[:, :2], curve.space.order == 2))
     else:
-        domain = (0.0, 1.0), (0.0, 1.0)
+        domain = _UNIT
         for boundary in boundaries:
             if boundary.curves is None:
                 return False

@@ -49,6 +49,7 @@ FULL_RTOL = 1e-12  # a tank without less has no free surface
 AT_REST = 1e-12  # relative to the size: smaller righting arms count as none
 ACCEPTED = 1e-9
 FLAT = 1e-9  # relative to the size: metacentric heights that may be zero
+SHIFT = 1e-6  # of the height: between levels whose surfaces are compared
 SAME_ATTITUDE = 1e-5
 PROBE = 0.03  # rad
 FIRST_RADIUS = 0.3  # of the trust region, rad
@@ -83,11 +84,14 @@ class Vessel:
         Counter-clockwise from outside; spaces that the liquid floods are turned inside out.
     volume : float
         Of the liquid.
+    displacement : (3,) array
+        Largest shift of the points by storing.
     """
 
     points: Array
     triangles: NDArray[np.integer]
     volume: float
+    displacement: Array = field(default_factory=lambda: np.zeros(3))
 
     @cached_property
     def whole(self) -> tuple[float, Array]:
@@ -140,6 +144,29 @@ class Vessel:
             level - excess / area, (part.first[0] + slab) / self.volume, area, middle, second
         )
 
+    def errors_at(self, up: Array, plane: Waterplane) -> Array:
+        """Return (3, 2) bounds by rounding and by storing: of the level, of the center's height,
+        and of the surface's second moments.
+        """
+        step = SHIFT * float(np.ptp(self.points @ up))
+        levels = plane.level + step * np.arange(-1.0, 2.0)
+        ups = np.broadcast_to(up, (3, 3))
+        found = measure_below(self.points, self.triangles, ups, levels, self.displacement)
+        part = found.part.at(1)
+        off = np.stack([part.rounding_error, part.input_error], axis=1)
+        height = float(up @ (part.center - part.about))
+        reach = 2.0 * abs(height) + abs(plane.level - float(up @ part.about))
+        bounds = np.zeros((3, 2))
+        bounds[1] = (np.abs(up) @ off[1:4] + reach * off[0]) / self.volume
+        if plane.area > 0.0:
+            faces = found.face.about_point(np.broadcast_to(plane.middle, (3, 3)))
+            face = faces.at(1)
+            bounds[0] = off[0] / plane.area
+            bounds[2] = 2.0 * face.rounding_error[4:].sum(), 2.0 * face.input_error[4:].sum()
+            growth = float(np.abs(np.diff(faces.second(), axis=0)).sum(axis=(1, 2)).max()) / step
+            bounds[2] += growth * bounds[0]
+        return bounds
+
 
 @dataclass(frozen=True, eq=False)
 class Tank:
@@ -174,6 +201,10 @@ class FloatingBody:
     fitted : callable, optional
         Returns the body for a direction against gravity, with the hollows filled that are open
         upward, or with its hollows full of the liquid for None; the same one for the same hull.
+    displacement : (3,) array
+        Largest shift of the points by storing.
+    center_error : (2,) array
+        Bounds of the center of mass by rounding and by storing.
 
     Raises
     ------
@@ -206,6 +237,8 @@ class FloatingBody:
     openings: Array = field(default_factory=lambda: np.empty((0, 3)))
     tanks: tuple[Tank, ...] = ()
     fitted: Callable[[Array | None], FloatingBody] | None = None
+    displacement: Array = field(default_factory=lambda: np.zeros(3))
+    center_error: Array = field(default_factory=lambda: np.zeros(2))
 
     def __post_init__(self) -> None:
         set_field = object.__setattr__
@@ -241,7 +274,8 @@ class FloatingBody:
     @cached_property
     def hull(self) -> Vessel:
         """The displaced liquid, in coordinates from the center of mass."""
-        return Vessel(self.points - self.center, self.triangles, self.total_mass / self.density)
+        volume = self.total_mass / self.density
+        return Vessel(self.points - self.center, self.triangles, volume, self.displacement)
 
     @cached_property
     def liquids(self) -> list[tuple[Vessel, float]]:
@@ -250,7 +284,7 @@ class FloatingBody:
         """
         return [
             (
-                Vessel(tank.liquid.points - self.center, tank.liquid.triangles, tank.liquid.volume),
+                replace(tank.liquid, points=tank.liquid.points - self.center),
                 tank.mass / self.total_mass,
             )
             for tank in self.tanks
@@ -530,6 +564,26 @@ class Flotation:
     def residual(self) -> float:
         """The righting arm over the size; 0 at rest."""
         return float(np.linalg.norm(self.slope)) / self.body.size
+
+    @cached_property
+    def error_bounds(self) -> dict[str, Array]:
+        """(2,) bounds of draught, KB, KG and GM in this attitude: by rounding and by storing."""
+        level, buoyancy, second = self.body.hull.errors_at(self.up, self.plane)
+        gravity = self.body.center_error
+        for (tank, share), plane in zip(self.body.liquids, self.tank_planes):
+            _, height, own_second = tank.errors_at(self.up, plane)
+            gravity = gravity + share * height
+            second = second + own_second * share * self.displacement / tank.volume
+        reach = float(np.abs(self.body.points).max())
+        keel = np.array([8.0 * U * reach, float(np.linalg.norm(self.body.displacement))])
+        height = second / self.displacement
+        height[0] += 8.0 * U * self.metacentric_radii[1]
+        return {
+            "draught": level + keel,
+            "kb": buoyancy + keel,
+            "kg": gravity + keel,
+            "gm": height + buoyancy + gravity,
+        }
 
     @property
     def depth_of_openings(self) -> float:

@@ -43,14 +43,15 @@ MAX_HOLLOWS = 8
 
 @dataclass(frozen=True, eq=False)
 class Hull:
-    """A closed surface, (n, 3) points and (m, 3) triangles, the (k, 3) points of its rims, and the
-    (m,) part of each triangle.
+    """A closed surface, (n, 3) points and (m, 3) triangles, the (k, 3) points of its rims, the
+    (m,) part of each triangle, and the (3,) largest shift of the points by storing.
     """
 
     points: Array
     triangles: NDArray[np.integer]
     openings: Array
     part: Index
+    displacement: Array
 
 
 def outer_surface(body: Body) -> Iterator[tuple[SolidIntegrals, Array]]:
@@ -66,6 +67,7 @@ def find_hull(bodies: Iterable[Body]) -> Hull:
     """Return the outer side of bodies with their holes closed, or raise MeasureError."""
     points, triangles, caps, part, rims = [], [], [], [], []
     start = number = 0
+    displacement = np.zeros(3)
     for body in bodies:
         for solid, matrices in outer_surface(body):
             if solid.method is Procedure.OPEN:
@@ -83,6 +85,8 @@ def find_hull(bodies: Iterable[Body]) -> Hull:
                 caps.append(closed.face < 0)
                 part.append(closed.part + number)
                 rims.append(rim @ linear + matrix[:3, 3])
+                moved = solid.given_surface.coordinate_error @ np.abs(linear)
+                displacement = np.maximum(displacement, moved)
                 start += len(closed.points)
                 number += closed.number
     if not points:
@@ -92,7 +96,7 @@ def find_hull(bodies: Iterable[Body]) -> Hull:
     owner = np.concatenate(part)
     kept = _outer_parts(joined, faces, owner, np.concatenate(caps), number)
     is_kept = kept[owner]
-    return Hull(joined, faces[is_kept], np.concatenate(rims), owner[is_kept])
+    return Hull(joined, faces[is_kept], np.concatenate(rims), owner[is_kept], displacement)
 
 
 def _outer_parts(
@@ -193,7 +197,9 @@ def fill_hollows(hull: Hull, up: Array) -> Hull:
         triangles = np.concatenate([triangles, added])
         part = np.concatenate([part, np.full(len(added), number)])
         openings = np.concatenate([openings, rim])
-    return hull if triangles is hull.triangles else Hull(points, triangles, openings, part)
+    if triangles is hull.triangles:
+        return hull
+    return Hull(points, triangles, openings, part, hull.displacement)
 
 
 def _same_triangles(points: Array, triangles: NDArray[np.integer], hollow: Hollow) -> Mask:

@@ -15,7 +15,7 @@ from ..measurement import Body, Measurement
 from ..numerics import Array
 from ..verdict import MeasureError
 from .findings import FLOAT_UNAVAILABLE, FLOODED_OUTSIDE
-from .flotation import FloatingBody, Flotation, Tank, Vessel
+from .flotation import STARTS, FloatingBody, Flotation, Tank, Vessel
 from .hulls import Hull, are_inside, fill_hollows, find_hull
 from .righting import RightingCurve, righting_curve
 
@@ -30,6 +30,7 @@ def settle(
     up: ArrayLike,
     tanks: Iterable[tuple[Body, float, float]] = (),
     flooded: Iterable[Body] = (),
+    center_error: ArrayLike = (0.0, 0.0),
 ) -> Flotation:
     """Return the position in which measured bodies rest as one, downhill from where they are.
 
@@ -48,6 +49,8 @@ def settle(
         Tanks, each with the filled share of its volume and the density of its liquid.
     flooded : iterable of Body
         Spaces that the liquid around the body fills, too.
+    center_error : (2,) array_like
+        Bounds of the center of mass by rounding and by storing, m.
 
     Returns
     -------
@@ -64,9 +67,15 @@ def settle(
     for tank, fill, tank_density in tanks:
         hull = find_hull([tank])
         closed.append(hull)
-        vessel = Vessel(hull.points, hull.triangles, 1.0)
+        vessel = Vessel(hull.points, hull.triangles, 1.0, hull.displacement)
         liquids.append(Tank(replace(vessel, volume=fill * vessel.whole[0]), tank_density))
 
+    start = np.asarray(up, np.float64)
+    if lost:
+        are_inside(wet, lost, closed)  # refuses those that overlap
+    for space in lost:
+        if not any(_holds(fill_hollows(wet, way), space, False) for way in (start, *STARTS)):
+            raise MeasureError(FLOAT_UNAVAILABLE, fault=FLOODED_OUTSIDE)
     made: list[tuple[Hull, FloatingBody]] = []
 
     def fitted(up: Array | None) -> FloatingBody:
@@ -77,24 +86,37 @@ def settle(
             ):
                 return body
         points, triangles = hull.points, hull.triangles
-        inside = are_inside(hull, lost, closed) if lost else ()
-        if not made and not all(inside):
-            raise MeasureError(FLOAT_UNAVAILABLE, fault=FLOODED_OUTSIDE)
-        for space, is_inside in zip(lost, inside):
-            if not is_inside:  # in a flooded hollow
+        for space in lost:
+            if not _holds(hull, space, True):  # it is in a flooded hollow
                 continue
             triangles = np.concatenate([triangles, space.triangles[:, ::-1] + len(points)])
             points = np.concatenate([points, space.points])
         body = FloatingBody(
-            points, triangles, mass, center, density, hull.openings, tuple(liquids), fitted
+            points,
+            triangles,
+            mass,
+            center,
+            density,
+            hull.openings,
+            tuple(liquids),
+            fitted,
+            hull.displacement,
+            np.asarray(center_error, np.float64),
         )
         if len(made) > MAX_HULLS:
             del made[int(made[0][0] is wet)]
         made.insert(0 if hull is wet else len(made), (hull, body))
         return body
 
-    start = np.asarray(up, np.float64)
     return fitted(start).settle(start)
+
+
+def _holds(hull: Hull, space: Hull, through: bool) -> bool:
+    """Return whether a flooded space lies in a hull; `through` if it goes through a lid of it."""
+    try:
+        return bool(are_inside(hull, [space], ())[0])
+    except MeasureError:
+        return through
 
 
 def heel_and_trim(up: Array, axes: Array) -> tuple[float, float]:
@@ -126,6 +148,7 @@ def float_record(
         return float(rest.up @ point) - rest.keel
 
     heel, trim = heel_and_trim(rest.up, measurement.rotation)
+    bounds = rest.error_bounds
     entry: dict[str, Any] = {
         "liquid_density": rest.body.density,
         "displacement": rest.displacement,
@@ -140,6 +163,10 @@ def float_record(
         "waterplane_moments": rest.waterplane_moments,
         "center_of_buoyancy": axes.T @ (rest.center_of_buoyancy - origin),
         "center_of_flotation": axes.T @ (rest.center_of_flotation - origin),
+        "error_bound": {
+            **{name: bound[0] for name, bound in bounds.items()},
+            "input": {name: bound[1] for name, bound in bounds.items()},
+        },
         "residual": rest.residual,
         "matrix": rest.matrix(),
         "rests": [

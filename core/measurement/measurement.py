@@ -142,6 +142,12 @@ class Measurement:
             return None
         return replace(extent.truncate(order), measure=Measure.MASS) * factor
 
+    @property
+    def center_bounds(self) -> tuple[float, float]:
+        """Bounds of the center of mass by rounding and by storing, m."""
+        bound = self.error_bound
+        return bound["center_of_mass"], bound["input"]["center_of_mass"]
+
     def in_object_frame(self) -> MassProperties:
         """Return the mass properties in the object's own frame."""
         return self.mass_properties.in_frame(self.rotation, self.location)

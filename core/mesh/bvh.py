@@ -23,6 +23,9 @@ TRIANGLES_PER_LEAF = 4  # triangles
 PAIRS_PER_BATCH = 1 << 17  # pairs looked at together
 TRIANGLES_PER_BLOCK = 1 << 14  # triangles whose scratch stays in the cache
 MAX_BOX_PAIRS = 10_000_000  # pairs of boxes looked at
+LEAST_SLOPE = 1e-30  # of rays: those along a plane count as this steep
+RAY_RTOL = 1e-9  # of the reach: nearer hits are the ray's own triangle
+CORNER_ATOL = 1e-6  # barycentric: rays through an edge hit
 ROUNDING = 1e-6  # relative to a box's sides
 
 
@@ -312,6 +315,47 @@ class Bvh:
             place, child = place[~leaf], child[~leaf]
             pieces += _batches(np.concatenate([place, place]), np.concatenate([child, child + 1]))
         return np.where(nearest <= within, nearest, np.inf)
+
+    def first_hits(self, starts: Array, rays: Array, reach: float) -> tuple[Array, Index]:
+        """Return the distances from (k, 3) places (about `origin`) along unit rays to the first
+        triangle of the first component, and its sorted row; inf and 0 if none is within `reach`.
+        """
+        depth = np.full(len(starts), np.inf)
+        hit = np.zeros(len(starts), np.intp)
+        inverse = 1.0 / np.where(np.abs(rays) > LEAST_SLOPE, rays, LEAST_SLOPE)
+        slack = RAY_RTOL * reach
+        pieces = _batches(np.arange(len(starts)), np.full(len(starts), self.root[0]))
+        while pieces:
+            line, node = pieces.pop()
+            low, high = self.low[node], self.high[node]
+            ends = (np.stack([low, high]) - starts[line]) * inverse[line]
+            last = np.minimum(ends.max(axis=0).min(axis=1), np.minimum(depth[line], reach))
+            crossed = (ends.min(axis=0).max(axis=1) <= last + slack) & (last >= -slack)
+            crossed &= high[:, 0] >= low[:, 0]
+            line, node = line[crossed], node[crossed]
+            child = self.child[node]
+            leaf = child == -1
+            size = self.last[node[leaf]] - self.first[node[leaf]]
+            triangle = np.repeat(self.first[node[leaf]], size) + segment_ranges(size)
+            at = np.repeat(line[leaf], size)
+            a, b, c = self.corners(triangle).transpose(1, 2, 0)
+            across = np.cross(rays[at], c - a)
+            volume = np.einsum("ri,ri->r", across, b - a)
+            share = 1.0 / np.where(volume != 0.0, volume, np.inf)
+            away = starts[at] - a
+            turned = np.cross(away, b - a)
+            u = np.einsum("ri,ri->r", away, across) * share
+            v = np.einsum("ri,ri->r", rays[at], turned) * share
+            distance = np.einsum("ri,ri->r", c - a, turned) * share
+            is_hit = np.minimum(np.minimum(u, v), 1.0 - u - v) >= -CORNER_ATOL
+            is_hit &= (volume != 0.0) & (distance > slack) & (distance < depth[at])
+            at, triangle, distance = at[is_hit], triangle[is_hit], distance[is_hit]
+            order = np.argsort(-distance, kind="stable")  # the last of equal indices wins
+            depth[at[order]] = distance[order]
+            hit[at[order]] = triangle[order]
+            line, child = line[~leaf], child[~leaf]
+            pieces += _batches(np.concatenate([line, line]), np.concatenate([child, child + 1]))
+        return depth, hit
 
 
 def intersecting_pairs(

@@ -21,17 +21,21 @@ from .patch_moments import area_moments as area_moments
 from .patch_moments import stored_area_moments as stored_area_moments
 from .patch_moments import vector_area as vector_area
 from .patch_moments import volume_moments as volume_moments
+from .quadric import TURN as TURN
 from .quadric import Quadric as Quadric
 from .seams import nearest_parameters as nearest_parameters
 from .seams import sharpest_crease as sharpest_crease
 from .solid import PatchIntegrals as PatchIntegrals
 from .solid import measure_patches as measure_patches
 from .solid import measure_sheet as measure_sheet
+from .spline_chart import SplineChart as SplineChart
 from .splines import Curve as Curve
 from .splines import Face as Face
 from .splines import Patch as Patch
 from .splines import patches_size as patches_size
 from .tracked_solid import TrackedSolid as TrackedSolid
+from .trimmed_face import TrimmedFace as TrimmedFace
+from .trimmed_face import sample_pieces as sample_pieces
 
 __all__ = [
     "Curve",

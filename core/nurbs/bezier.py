@@ -122,7 +122,7 @@ class BezierCells:
         ]
         derivatives = [blocks[j][:, i] for i, j in DERIVATIVES[most]]
         if d == 4:
-            derivatives = _quotient_derivatives(derivatives)
+            derivatives = quotient_derivatives(derivatives)
         derivatives[0] += self.anchor[:, None, :, None]
         return derivatives, (s_weights, t_weights)
 
@@ -256,7 +256,7 @@ def halves(order: int) -> tuple[Array, Array]:
     return first, first[::-1, ::-1].copy()
 
 
-def _quotient_derivatives(derivatives: list[NDArray]) -> list[Array]:
+def quotient_derivatives(derivatives: list[NDArray]) -> list[Array]:
     """Return derivatives of a quotient in place, from those of numerator (rows 0 to 2) and
     denominator (row 3).
     """

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,6 +24,9 @@ from ..verdict import WELDING_RTOL, MeasureError
 from .curve_moments import curves_center, plane_moments
 from .findings import CURVES_BOUND_NOTHING
 from .splines import Curve, Face, Patch
+
+if TYPE_CHECKING:
+    from .trimmed_face import TrimmedFace
 
 SAME_HEIGHT_RTOL = (
     1e-9  # Relative to the extent: corners whose heights differ by less share a row of trapezoids.
@@ -79,13 +83,16 @@ class FlatFace:
         return self.points.mean(axis=(0, 1))
 
     @property
-    def deviation(self) -> float:
-        """The largest distance, by rounding, of a control point from the plane."""
-        return float(np.abs((self.points - self.center) @ self.normal).max())
+    def uneven(self) -> float:
+        """A bound of the volume between the plane and control points beside it, by rounding."""
+        deviation = float(np.abs((self.points - self.center) @ self.normal).max())
+        return deviation * self.area_moments(0, self.center).total
 
     @property
-    def perimeter(self) -> float:
-        """An upper bound of the length of the boundary."""
+    def slope(self) -> float:
+        """An upper bound of the change of the area per unit of displacement: the boundary's
+        length.
+        """
         return sum(
             float(np.linalg.norm(np.diff(curve.points, axis=0), axis=1).sum())
             for curve in self.curves
@@ -181,11 +188,10 @@ class FlatFace:
         return np.array([along, np.cross(self.normal, along)], np.float64).T
 
 
-def split_faces(faces: Sequence[Face]) -> tuple[list[Patch], list[FlatFace]]:
-    """Return the patches and the flat faces."""
-    return [one for one in faces if isinstance(one, Patch)], [
-        one for one in faces if isinstance(one, FlatFace)
-    ]
+def split_faces(faces: Sequence[Face]) -> tuple[list[Patch], list[FlatFace | TrimmedFace]]:
+    """Return the patches, and the faces within loops of curves."""
+    patches = [one for one in faces if isinstance(one, Patch)]
+    return patches, [one for one in faces if not isinstance(one, Patch)]
 
 
 def planar_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Curve], Array]:

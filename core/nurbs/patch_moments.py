@@ -123,14 +123,28 @@ def volume_moments(
 
 
 def flux_sums(cells: BezierCells, rule: Rule, order: int, area: bool = False) -> Array:
-    """Return (rules, K + 1, c) fluxes of monomials times position; the last row: area or its bound
-    ∫ |S_s| |S_t|.
+    """Return (rules, K + 1, c) sums of `flux_terms`."""
+    derivatives, weights = cells.evaluate(rule)
+    return sum_over_points(flux_terms(derivatives, order, area), weights)
+
+
+def flux_terms(derivatives: Sequence[NDArray], order: int, area: bool = False) -> Array:
+    """Return (K + 1, ...) fluxes of monomials times position at points with their slopes, (3, ...)
+    each; the last row: area or its bound |S_s| |S_t|.
     """
-    (s, along, across), weights = cells.evaluate(rule)
+    s, along, across = derivatives
     normal = cross(along, across)
     terms = weighted_monomials(s, dot(s, normal), order, 1)
     np.sqrt(dot(normal, normal) if area else dot(along, along) * dot(across, across), out=terms[-1])
-    return sum_over_points(terms, weights)
+    return terms
+
+
+def area_terms(derivatives: Sequence[NDArray], order: int) -> Array:
+    """Return (K + 1, ...) monomials times the element of area, whose last row is the element."""
+    s, along, across = derivatives
+    terms = weighted_monomials(s, _length(np.stack(cross(along, across))), order, 1)
+    terms[-1] = terms[0]
+    return terms
 
 
 def area_moments(
@@ -152,12 +166,11 @@ def area_moments(
     unit = max(part.reach for part in parts) ** _degrees(order)
 
     def area(cells: BezierCells, rule: Rule) -> NDArray:
-        (s, along, across), weights = cells.evaluate(rule, ends=True)
-        normal = np.stack(cross(along, across))
-        terms = weighted_monomials(s, _length(normal), order, 1)
-        terms[-1] = terms[0]
-        lost = _reversed_areas(normal, weights, rule)[None, None]
-        return np.concatenate([sum_over_points(terms, weights), lost], axis=1)
+        derivatives, weights = cells.evaluate(rule, ends=True)
+        lost = _reversed_areas(np.stack(cross(*derivatives[1:])), weights, rule)[None, None]
+        return np.concatenate(
+            [sum_over_points(area_terms(derivatives, order), weights), lost], axis=1
+        )
 
     integral = integrate_adaptively(parts, area, unit, AREA_RTOL)
     orders = max(sum(part.orders) for part in parts)
@@ -190,7 +203,7 @@ def area_slope(faces: Sequence[Face]) -> float:
     control points.
     """
     patches, flat = split_faces(faces)
-    total = sum(face.perimeter for face in flat)
+    total = sum(face.slope for face in flat)
     for patch in patches:
         net = np.moveaxis(patch.points - patch.points[0, 0], -1, 0)
         if patch.weights is not None:
@@ -289,34 +302,46 @@ def sheet_moments(
     unit = (max(part.reach for part in parts) + max(abs(inner), abs(outer))) ** _degrees(order)
 
     def sheet(cells: BezierCells, rule: Rule) -> NDArray:
-        (s, along, across, *second), weights = cells.evaluate(rule, 2)
-        normal = np.stack(cross(along, across))
-        length = _length(normal)
-        divisor = np.where(length > 0.0, length, 1.0)
-        unit = normal / divisor
-        turning = []
-        for k in (0, 1):
-            slope = np.stack(cross(second[k], across)) + np.stack(cross(along, second[k + 1]))
-            turning.append((slope - dot(slope, unit) * unit) / divisor)
-        # (1 - k h) and (1 - k' h), k and k' the curvatures, must both be positive: their product,
-        # and their sum too.
-        bend = dot(np.stack(cross(along, turning[1])) + np.stack(cross(turning[0], across)), unit)
-        for height in (inner, outer):
-            product = _offset_jacobian(along, across, turning, unit, height)
-            if ((product < 0.0) | (2.0 * length + height * bend < 0.0)).any():
-                raise MeasureError(WALL_THICKER_THAN_CURVATURE)
-        terms = np.zeros(())
-        for height, step in zip(heights, steps):
-            element = step * _offset_jacobian(along, across, turning, unit, height)
-            terms = terms + weighted_monomials(s + height * unit, element, order, 1)
-        terms[-1] = length * (outer - inner)
-        return sum_over_points(terms, weights)
+        derivatives, weights = cells.evaluate(rule, 2)
+        return sum_over_points(sheet_terms(derivatives, heights, steps, order), weights)
 
     integral = integrate_adaptively(parts, sheet, unit, AREA_RTOL, thickness=outer - inner)
     orders = max(sum(part.orders) for part in parts)
     error = (integral.estimate + ROUNDING * U * orders * integral.size) * unit
     curved = Moments(integral.values, about, Measure.VOLUME, error)
     return sum_moments([curved, *of_flat]), integral.converged
+
+
+def sheet_terms(
+    derivatives: Sequence[NDArray], heights: NDArray, steps: NDArray, order: int
+) -> Array:
+    """Return (K + 1, ...) monomials times the element of volume of a sheet, by a rule across it;
+    the last row: the same of its middle. MeasureError if the sheet runs through itself.
+    """
+    s, along, across, *second = derivatives
+    normal = np.stack(cross(along, across))
+    length = _length(normal)
+    divisor = np.where(length > 0.0, length, 1.0)
+    unit = normal / divisor
+    turning = []
+    for k in (0, 1):
+        slope = np.stack(cross(second[k], across)) + np.stack(cross(along, second[k + 1]))
+        turning.append((slope - dot(slope, unit) * unit) / divisor)
+    # (1 - k h) and (1 - k' h), k and k' the curvatures, must both be positive: their product, and
+    # their sum too.
+    bend = dot(np.stack(cross(along, turning[1])) + np.stack(cross(turning[0], across)), unit)
+    middle = heights.mean()
+    half = steps.sum() / 2.0
+    for height in (middle - half, middle + half):
+        product = _offset_jacobian(along, across, turning, unit, height)
+        if ((product < 0.0) | (2.0 * length + height * bend < 0.0)).any():
+            raise MeasureError(WALL_THICKER_THAN_CURVATURE)
+    terms = np.zeros(())
+    for height, step in zip(heights, steps):
+        element = step * _offset_jacobian(along, across, turning, unit, height)
+        terms = terms + weighted_monomials(s + height * unit, element, order, 1)
+    terms[-1] = length * abs(steps.sum())
+    return terms
 
 
 def vector_area(patches: Sequence[Patch]) -> Array:

@@ -38,6 +38,11 @@ class Quadric:
         return TURN, TURN if self.minor and self.radius else 0.0
 
     @property
+    def is_closed(self) -> bool:
+        """Whether the surface is a sphere or a torus."""
+        return self.minor > 0.0
+
+    @property
     def limits(self) -> tuple[float, float]:
         """Ends of the second coordinate on a closed surface, or the apex of a cone, or infinite."""
         if self.minor:
@@ -45,6 +50,15 @@ class Quadric:
             return -half, half
         apex = -self.radius / self.slope if self.slope else math.inf
         return (apex, math.inf) if self.slope > 0.0 else (-math.inf, apex)
+
+    def knots(self, axis: int, low: float, high: float) -> Array:
+        """Return no knots: the surface is smooth."""
+        return np.zeros(0)
+
+    def step(self, each: int) -> tuple[float, float]:
+        """Return the widths of tiles, `each` to a quarter of a turn."""
+        width = TURN / 4.0 / each
+        return width, width if self.minor else math.inf
 
     def transform(self, matrix: NDArray) -> Quadric:
         """Return the image of the surface under a (4, 4) affine map."""
@@ -95,6 +109,20 @@ class Quadric:
                     found[:, axis] += period * np.round((guess[:, axis] - found[:, axis]) / period)
         return found
 
+    def follow(self, points: NDArray, velocity: NDArray, at: NDArray) -> Array:
+        """Return (n, 2) velocities of the coordinates that `project` gives, as points move."""
+        x, y, z = self._inverse[:, :3] @ points.T + self._inverse[:, 3:]
+        x_slope, y_slope, z_slope = self._inverse[:, :3] @ velocity.T
+        away = np.maximum(np.hypot(x, y), 1e-300)
+        turn = (x * y_slope - y * x_slope) / away**2
+        outward = (x * x_slope + y * y_slope) / away
+        if not self.minor:
+            climb = (z_slope + self.slope * outward) / (1.0 + self.slope**2)
+            return np.stack([turn, climb], axis=1)
+        arm = away - self.radius
+        tilt = (arm * z_slope - z * outward) / np.maximum(arm**2 + z**2, 1e-300)
+        return np.stack([turn, tilt], axis=1)
+
     @cached_property
     def _inverse(self) -> Array:
-        return np.linalg.inv(self.frame)[:3]
+        return np.asarray(np.linalg.inv(self.frame)[:3], np.float64)

@@ -23,6 +23,7 @@ from ..numerics import Array, Index, Mask, SplineSpace, connected_components, cr
 from .blender_knots import bezier_curves
 from .flat_face import FlatFace, split_faces
 from .splines import SIDES, Curve, Face, Patch
+from .trimmed_face import TrimmedFace
 
 if TYPE_CHECKING:
     from .patch_topology import PatchTopology
@@ -353,7 +354,8 @@ def _along_side(patch: Face, number: int) -> Array:
         return np.tile(
             patch.normal, (len(patch.sides[number][0].space.uniform_parameters(CREASE_SAMPLES)), 1)
         )
-    assert isinstance(patch, Patch)
+    if isinstance(patch, TrimmedFace):
+        return patch.normals(number, CREASE_SAMPLES)
     axis, end, _ = SIDES[number]
     held = patch.spaces[axis]
     run = patch.spaces[1 - axis]

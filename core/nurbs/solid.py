@@ -60,6 +60,7 @@ from .patch_moments import (
 )
 from .patch_topology import PatchTopology, find_topology
 from .splines import Face, Patch, patches_center, patches_size
+from .trimmed_face import TrimmedFace
 
 # For comparing parts, and for parts that seem to cross.
 SAMPLES_PER_SPAN = 8
@@ -188,10 +189,10 @@ def assess(
     reach = size + 4.0 * stored
     # Caps move with their boundaries: their area counts too.
     skin = area.total + sum(loop.area for loop in topology.loops)
-    uneven = sum(
-        face.deviation * face.area_moments(0, face.center).total for face in split_faces(patches)[1]
-    )
-    volume = with_swept_error(volume, stored * skin + topology.seam_gap + uneven, reach)
+    uneven = sum(face.uneven for face in split_faces(patches)[1])
+    # A gap lets through at most its area times a third of the distance from the reference point.
+    gaps = topology.seam_gap * reach / 3.0
+    volume = with_swept_error(volume, stored * skin + gaps + uneven, reach)
     area = with_area_error(area, slope, stored, reach)
     misoriented = np.flatnonzero(topology.flipped).tolist()
     further = list(findings)
@@ -359,6 +360,9 @@ def _sampled(face: Face, each: int) -> tuple[NDArray, Index, float]:
     """Return points (n, 3) of a face, quads (f, 4) between them, and a bound of the face's distance
     from the quads.
     """
+    if isinstance(face, TrimmedFace):
+        quads = face.quads(each)
+        return quads.reshape(-1, 3), np.arange(4 * len(quads)).reshape(-1, 4), face.sagitta(each)
     if isinstance(face, FlatFace):
         quads = face.quads(each)
         sagitta = max(_sagitta(curve.samples(each)[:, None], each) for curve in face.curves)

@@ -20,7 +20,7 @@ from ..numerics import Array, SplineSpace, check_type, float_array
 from ..verdict import MeasureError, check_size
 from .findings import CONTROL_POINTS_INVALID, NON_FINITE, NON_POSITIVE_WEIGHTS
 
-Face: TypeAlias = "Patch | FlatFace"
+Face: TypeAlias = "Patch | FlatFace | TrimmedFace"
 # (fixed axis, end, run forward), counter-clockwise
 SIDES = (
     (1, 0, True),
@@ -141,6 +141,7 @@ class Curve:
 
 if TYPE_CHECKING:
     from .flat_face import FlatFace
+    from .trimmed_face import TrimmedFace
 
 
 @dataclass(frozen=True, eq=False)

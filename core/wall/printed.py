@@ -17,8 +17,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh import Surface, overlapping_box_pairs, triangle_areas
-from ..numerics import Array, Index
+from ..mesh import Surface, tree_of_all, triangle_areas
+from ..numerics import Array
 from ..verdict import ReadError
 from .directions import (
     LEAST_SQUARES_RTOL,
@@ -30,8 +30,6 @@ from .directions import (
 from .findings import PRINT_UNFIT
 
 MAX_SAMPLED = 20_000  # triangles with several samples of their thickness; of others, the middle
-MAX_PAIRS = 50_000_000  # boxes of rays and triangles that meet
-PAIRS = 1 << 18  # rays and triangles at a time
 SAMPLES = np.array([[1, 1, 1], [4, 1, 1], [1, 4, 1], [1, 1, 4]]) / [[3.0], [6.0], [6.0], [6.0]]
 SAME_PLANE = 1e-6  # difference of the normals, and relative of the heights, of one plane
 
@@ -124,7 +122,9 @@ def _meeting(corners: Array, normals: Array, moves: Array) -> Array:
     reach = 2.0 * float(moves.max())
     if not reach > 0.0:
         return moves
-    depth, hit = _depths(starts, -np.repeat(normals, count, axis=0), corners, reach)
+    tree = tree_of_all(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
+    depth, hit = tree.first_hits(starts - tree.origin, -np.repeat(normals, count, axis=0), reach)
+    hit = tree.ids[0, hit] // 3
     triangle = np.repeat(np.arange(len(corners)), count)
     own = plane[triangle]
     sampled = np.repeat(moves, count)
@@ -144,39 +144,3 @@ def _meeting(corners: Array, normals: Array, moves: Array) -> Array:
             PRINT_UNFIT, fault="a thin place lies between planes of thick ones. Cut it there"
         )
     return moved
-
-
-def _depths(starts: Array, rays: Array, corners: Array, reach: float) -> tuple[Array, Index]:
-    """Return the distance from each start along its ray to the first triangle, and its index;
-    infinity and 0 if there is none within `reach`.
-    """
-    count = len(starts)
-    ends = starts + reach * rays
-    low = np.concatenate([np.minimum(starts, ends), corners.min(axis=1)])
-    high = np.concatenate([np.maximum(starts, ends), corners.max(axis=1)])
-    left, right, untested = overlapping_box_pairs(low, high, -1e-9 * reach, MAX_PAIRS)
-    if untested:
-        raise ReadError(PRINT_UNFIT, fault="its mesh is too fine for its walls. Decimate it")
-    left, right = np.minimum(left, right), np.maximum(left, right)
-    mixed = (left < count) & (right >= count)
-    left, right = left[mixed], right[mixed] - count
-    depth = np.full(count, np.inf)
-    hit = np.zeros(count, np.intp)
-    for first in range(0, len(left), PAIRS):
-        line, triangle = left[first : first + PAIRS], right[first : first + PAIRS]
-        a, b, c = corners[triangle].swapaxes(0, 1)
-        across = np.cross(rays[line], c - a)
-        volume = np.einsum("ri,ri->r", across, b - a)
-        inverse = 1.0 / np.where(volume != 0.0, volume, np.inf)
-        away = starts[line] - a
-        turned = np.cross(away, b - a)
-        u = np.einsum("ri,ri->r", away, across) * inverse
-        v = np.einsum("ri,ri->r", rays[line], turned) * inverse
-        distance = np.einsum("ri,ri->r", c - a, turned) * inverse
-        is_hit = np.minimum(np.minimum(u, v), 1.0 - u - v) >= -UNEVEN_RTOL
-        is_hit &= (volume != 0.0) & (distance > 1e-9 * reach) & (distance < depth[line])
-        line, triangle, distance = line[is_hit], triangle[is_hit], distance[is_hit]
-        order = np.argsort(-distance, kind="stable")  # the last of equal indices wins
-        depth[line[order]] = distance[order]
-        hit[line[order]] = triangle[order]
-    return depth, hit

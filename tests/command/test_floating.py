@@ -32,6 +32,7 @@ def test_floating_box_has_closed_form_record(frame):
     assert entry["displacement"] == pytest.approx(3.0, rel=1e-12)
     assert entry["center_of_buoyancy"] == pytest.approx(center - [0.0, 0.0, 0.25], abs=1e-12)
     assert entry["gm"] == pytest.approx([2.0 / 3.0 - 0.25, 1.5 - 0.25], rel=1e-12)
+    assert 0.0 < entry["error_bound"]["draught"] < 1e-12 < entry["error_bound"]["input"]["gm"]
     assert np.array(entry["matrix"])[2] == pytest.approx([0.0, 0.0, 1.0, -7.0], abs=1e-12)
     assert entry["rests"][0]["energy"] == pytest.approx(0.0, abs=1e-12)
     curve = entry["gz"]
@@ -39,6 +40,39 @@ def test_floating_box_has_closed_form_record(frame):
     sine, tangent = np.sin(curve["angles"][2]), np.tan(curve["angles"][2])
     arm = sine * (entry["gm"][0] + entry["bm"][0] * tangent**2 / 2.0)
     assert curve["arms"][2] == pytest.approx(arm, rel=1e-12)
+
+
+def test_children_and_tanks_of_a_file_float_as_one_body():
+    boat, tank, cargo = (
+        files.add_box(name, (0.0, 0.0, z), size)
+        for name, z, size in (
+            ("Boat", 0.0, (6.0, 2.0, 1.0)),
+            ("Tank", 0.0, (2.0, 1.6, 0.8)),
+            ("Cargo", 0.75, (1.0, 1.0, 0.5)),
+        )
+    )
+    tank.parent = cargo.parent = boat
+    tank.body_moments_tank.role = "TANK"
+    tank.body_moments.density = 800.0
+    found = document("--float", "1000", "--density", "300")
+    assert not found["errors"]
+    entries = {one["name"]: one for one in found["objects"]}
+    entry = entries["Boat"]["floating"]
+    assert entry["parts"] == ["Boat", "Cargo", "Tank"]
+    volume = 3.6 + 0.15 + 0.8 * 1.28
+    depth = volume / 12.0
+    assert entry["draught"] == pytest.approx(depth, rel=1e-6)
+    gravity = (3.6 * 0.5 + 0.15 * 1.25 + 1.024 * 0.3) / volume
+    second = 6.0 * 8.0 / 12.0 - 0.8 * 2.0 * 1.6**3 / 12.0
+    assert entry["kg"] == pytest.approx(gravity, rel=1e-6)
+    assert entry["gm"][0] == pytest.approx(depth / 2.0 + second / volume - gravity, rel=1e-6)
+    assert "floating" not in entries["Cargo"]
+    bpy.context.scene.collection.body_moments.mass_from = "MASS"
+    bpy.context.scene.collection.body_moments.mass = 3750.0
+    (whole,) = document("--float", "1000", "--density", "300")["assemblies"]
+    assert whole["floating"]["gm"] == pytest.approx(entry["gm"], rel=1e-6)
+    alone = document("--float", "1000", "--density", "300", "--object", "Cargo")["objects"]
+    assert alone[0]["floating"]["draught"] == pytest.approx(0.15, rel=1e-6)
 
 
 def test_floating_record_becomes_columns_and_plot():

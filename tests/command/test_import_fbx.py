@@ -28,6 +28,75 @@ Y_UP = {"Up": (1, 1), "Front": (2, 1), "Coord": (0, 1)}
 TURNS = "Lcl Rotation", "PreRotation", "PostRotation"
 MOVES = "Lcl Translation", "RotationOffset", "RotationPivot", "ScalingOffset", "ScalingPivot"
 ACTIVE = {"RotationActive": 1, "InheritType": 1}
+SKIN = 'Deformer: 80, "Deformer::", "Skin" {\nVersion: 101\n}\n'
+CLUSTER = """\
+Deformer: {}, "SubDeformer::", "Cluster" {{
+Indexes: *8 {{
+a: 0,1,2,3,4,5,6,7
+}}
+Weights: *8 {{
+a: {}
+}}
+Transform: *16 {{
+a: {}
+}}
+TransformLink: *16 {{
+a: {}
+}}
+}}
+"""
+# an animation of a property, keyed at 0 and 1 s
+ANIMATION = """\
+AnimationStack: 93, "AnimStack::a", "" {{
+}}
+AnimationLayer: 94, "AnimLayer::l", "" {{
+}}
+AnimationCurveNode: 95, "AnimCurveNode::{}", "" {{
+Properties70: {{
+{}}}
+}}
+"""
+CURVE = """\
+AnimationCurve: {}, "AnimCurve::", "" {{
+KeyTime: *2 {{
+a: 0,46186158000
+}}
+KeyValueFloat: *2 {{
+a: {},0
+}}
+KeyAttrFlags: *1 {{
+a: {}
+}}
+KeyAttrDataFloat: *4 {{
+a: 0,0,0,0
+}}
+KeyAttrRefCount: *1 {{
+a: 2
+}}
+}}
+"""
+SHAPE = """\
+Geometry: 90, "Geometry::s", "Shape" {{
+Version: 100
+Indexes: *4 {{
+a: 4,5,6,7
+}}
+Vertices: *12 {{
+a: 100,0,0,100,0,0,100,0,0,100,0,0
+}}
+}}
+Deformer: 91, "Deformer::b", "BlendShape" {{
+Version: 100
+}}
+Deformer: 92, "SubDeformer::s", "BlendShapeChannel" {{
+Version: 100
+FullWeights: *1 {{
+a: 100
+}}
+Properties70: {{
+{}}}
+}}
+"""
 
 
 def property_line(name, value):
@@ -61,34 +130,24 @@ def write(path, models, axes=AXES, unit=1.0, more="", more_links=""):
 
 def with_shape(text, links, weight):
     """Add a shape that makes the box 1 m longer per weight."""
-    text += 'Geometry: 90, "Geometry::s", "Shape" {\nVersion: 100\nIndexes: *4 {\na: 4,5,6,7\n}\n'
-    text += "Vertices: *12 {\na: " + ",".join(["100,0,0"] * 4) + "\n}\n}\n"
-    text += 'Deformer: 91, "Deformer::b", "BlendShape" {\nVersion: 100\n}\n'
-    text += 'Deformer: 92, "SubDeformer::s", "BlendShapeChannel" {\nVersion: 100\n'
-    text += "FullWeights: *1 {\na: 100\n}\nProperties70: {\n"
-    text += property_line("DeformPercent", 100 * weight) + "}\n}\n"
-    links += "".join('C: "OO",{},{}\n'.format(*pair) for pair in ((91, 1), (92, 91), (90, 92)))
-    return text, links
+    links += 'C: "OO",91,1\nC: "OO",92,91\nC: "OO",90,92\n'
+    return text + SHAPE.format(property_line("DeformPercent", 100 * weight)), links
 
 
 def animation(target, name, values, flags=260):
     """Key the numbers of a property at 0 s, and 0 at 1 s."""
-    text = 'AnimationStack: 93, "AnimStack::a", "" {\n}\n'
-    text += 'AnimationLayer: 94, "AnimLayer::l", "" {\n}\n'
-    node = {"Lcl Rotation": "R"}.get(name, name)
-    text += 'AnimationCurveNode: 95, "AnimCurveNode::{}", "" {{\n'.format(node)
-    text += "Properties70: {\n"
+    channels = ["d|" + axis for axis in ("XYZ" if len(values) == 3 else [name])]
+    rest = "".join(property_line(channel, 0.0) for channel in channels)
+    text = ANIMATION.format(name.replace("Lcl Rotation", "R"), rest)
     links = 'C: "OO",94,93\nC: "OO",95,94\nC: "OP",95,{}, "{}"\n'.format(target, name)
-    channels = ["d|" + axis for axis in "XYZ"] if len(values) == 3 else ["d|" + name]
-    text += "".join(property_line(channel, 0.0) for channel in channels) + "}\n}\n"
     for number, (channel, value) in enumerate(zip(channels, values, strict=True), 96):
-        text += 'AnimationCurve: {}, "AnimCurve::", "" {{\n'.format(number)
-        text += "KeyTime: *2 {\na: 0,46186158000\n}\n"
-        text += "KeyValueFloat: *2 {{\na: {},0\n}}\n".format(value)
-        text += "KeyAttrFlags: *1 {{\na: {}\n}}\n".format(flags)
-        text += "KeyAttrDataFloat: *4 {\na: 0,0,0,0\n}\nKeyAttrRefCount: *1 {\na: 2\n}\n}\n"
+        text += CURVE.format(number, value, flags)
         links += 'C: "OP",{},95, "{}"\n'.format(number, channel)
     return text, links
+
+
+def matrix(linear, move):
+    return np.vstack([np.column_stack([linear, move]), [0, 0, 0, 1]])
 
 
 def by_name(found):
@@ -248,51 +307,30 @@ def test_fbx_weight_is_the_files_or_doubtful(tmp_path, weight, moves):
     assert is_doubtful or close(body["volume"], 6.0 * abs(1.0 + weight), 1e-5)
 
 
-@pytest.mark.parametrize("weight", [0.0, 0.5])
-@pytest.mark.parametrize("flags", [None, 4, 8])
+@pytest.mark.parametrize("flags", [None, 4, 8])  # of linear keys, of cubic ones
 @pytest.mark.parametrize("bone_scale", [[1, 1, 1], [1, 3, 0.5]])
-@pytest.mark.parametrize("kind", [0, 1])
-def test_fbx_skin_follows_the_clusters(tmp_path, kind, bone_scale, flags, weight):
-    """Two bones move the bottom and the top of the box, one below the other, from a bind pose that
-    is not the pose; flags: of keys at the times to measure (linear or cubic), None without.
-    """
-    pose = {"Lcl Rotation": [0, 20, 30], "Lcl Scaling": bone_scale, **ACTIVE}
-    inner = {"Lcl Translation": [0, 10, 200], "Lcl Rotation": [20, 0, 0], "InheritType": kind}
+def test_fbx_skin_follows_the_clusters(tmp_path, bone_scale, flags):
     part = {"Lcl Translation": [500, 0, 0], "GeometricTranslation": [0, 0, 10]}
-    models = [("part", "Mesh", part, 0), ("low", "LimbNode", pose, 0)]
-    models.append(("high", "LimbNode", inner | {"RotationActive": 1}, 3))
-    binds = [np.diag([1.0, 2, 1, 1]), np.eye(4)]
-    binds[1][:3, 3] = 5, -10, -180
+    low = {"Lcl Rotation": [0, 20, 30], "Lcl Scaling": bone_scale, **ACTIVE}
+    high = {"Lcl Translation": [0, 10, 200], "Lcl Rotation": [20 - 7 * bool(flags), 0, 0], **ACTIVE}
+    models = [("part", "Mesh", part, 0), ("low", "LimbNode", low, 0), ("high", "LimbNode", high, 3)]
+    binds = np.diag([1.0, 2, 1, 1]), matrix(np.eye(3), [5, -10, -180])
     shares = np.tile([[0.75, 0.25], [0.2, 0.2]], (4, 1))
-    more = 'Deformer: 80, "Deformer::", "Skin" {\nVersion: 101\n}\n'
-    links = 'C: "OO",80,1\n'
-    for number, (bind, share) in enumerate(zip(binds, shares.T, strict=True)):
-        more += 'Deformer: {}, "SubDeformer::", "Cluster" {{\n'.format(81 + number)
-        arrays = {"Indexes": range(8), "Weights": share, "Transform": bind.T.ravel()}
-        arrays["TransformLink"] = np.linalg.inv(bind).T.ravel()
-        for name, values in arrays.items():
-            numbers = ",".join(map(repr, np.asarray(values).tolist()))
-            more += "{}: *{} {{\na: {}\n}}\n".format(name, len(values), numbers)
-        more += '}}\nNodeAttribute: {}, "NodeAttribute::", "LimbNode" {{\n'.format(71 + number)
-        more += 'TypeFlags: "Skeleton"\n}\n'
-        pairs = (81 + number, 80), (3 + number, 81 + number), (71 + number, 3 + number)
-        links += "".join('C: "OO",{},{}\n'.format(*pair) for pair in pairs)
-    more, links = with_shape(more, links, weight)
+    more, links = with_shape(SKIN, 'C: "OO",80,1\n', 0.5)
+    for number, (bind, share) in enumerate(zip(binds, shares.T, strict=True), 81):
+        arrays = share, bind.T.ravel(), np.linalg.inv(bind).T.ravel()
+        numbers = [",".join(map(repr, values.tolist())) for values in arrays]
+        more += CLUSTER.format(number, *numbers)
+        links += 'C: "OO",{0},80\nC: "OO",{1},{0}\n'.format(number, number - 78)
     if flags is not None:
         keyed, more_links = animation(4, "Lcl Rotation", [20, 0, 0], flags)
         more, links = more + keyed, links + more_links
-        models[2][2]["Lcl Rotation"] = [0, 0, 77]
     body = measured(write(tmp_path / "t.fbx", models, more=more, more_links=links))
-    low = np.eye(4)
-    low[:3, :3] = files.turn([0, 20, 30]) @ np.diag(bone_scale)
-    high = np.eye(4)
-    turned = files.turn([20, 0, 0])
-    high[:3, :3] = turned if kind else np.linalg.inv(low[:3, :3]) @ files.turn([0, 20, 30]) @ turned
-    high[:3, :3] = high[:3, :3] @ (np.eye(3) if kind else np.diag(bone_scale))
-    high[:3, 3] = 0, 10, 200
-    places = [low @ binds[0], low @ high @ binds[1]]
-    points = BOX + [0, 0, 10] + weight * np.where(BOX[:, :1] > 0, [[100, 0, 0]], 0)
-    moved = np.einsum("vj,jab,vb->va", shares, places, np.column_stack([points, np.ones(8)]))
+    places = [matrix(files.turn([0, 20, 30]) @ np.diag(bone_scale), [0, 0, 0])] * 2
+    places[1] = places[0] @ matrix(files.turn([20, 0, 0]), [0, 10, 200])
+    points = BOX * [1.5, 1, 1] + [0, 0, 10]
+    whole = np.column_stack([points, np.ones(8)])
+    moved = np.einsum("vj,jab,vb->va", shares, np.array(places) @ binds, whole)
     moved = moved[:, :3] / shares.sum(axis=1, keepdims=True) / 100.0
     triangles = [(a, *pair) for a, b, c, d in QUADS for pair in ((b, c), (c, d))]
     assert close(body["volume"], abs(np.linalg.det(moved[triangles]).sum() / 6.0), 1e-5)

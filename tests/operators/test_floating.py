@@ -73,6 +73,32 @@ def test_turned_body_shows_its_righting_arm(scene):
     assert held(obj) is None
 
 
+def test_live_body_is_read_by_the_timer_and_never_by_a_draw(scene, monkeypatch):
+    from body_moments.blender.session.live import measuring
+    from body_moments.blender.session.stored import floating
+
+    water(scene)
+    boat, cargo = hull(density=300.0), hull((1.0, 1.0, 0.2), density=300.0)
+    cargo.parent = boat
+    cargo.location.z = 1.0
+    objects.only(boat)
+    assert bpy.ops.object.body_moments_float() == {"FINISHED"}
+    bpy.ops.object.body_moments_live()
+    depth = held(boat).state.draught
+    for vertex in cargo.data.vertices:
+        vertex.co.z *= 2.0
+    cargo.data.update()
+    with monkeypatch.context() as patch:
+        patch.setattr(floating, "read", lambda *_args: pytest.fail("It was read in a draw."))
+        assert held(boat).state.draught == depth
+    monkeypatch.setattr(measuring, "IDLE", 0.0)
+    assert measuring._tick() is None
+    assert held(boat).state.draught == pytest.approx(depth + 0.06 / 12.0, rel=1e-5)
+    boat.body_moments.density = 3000.0
+    measuring._tick()
+    assert held(boat).code == "sinks"
+
+
 def test_children_and_tanks_float_as_one_body(scene):
     water(scene)
     boat = hull(density=300.0)

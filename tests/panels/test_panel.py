@@ -48,6 +48,11 @@ def test_equal_findings_of_objects_are_one_line():
     assert "5 Objects" in labels(shown()) and "Repaired" in labels(shown())
     # in the row of the main panel, and among the findings
     assert sum("3 objects: holes capped" in label for label in labels(shown())) == 2
+    only(objects[0])
+    objects[0].scale = 50, 50, 50
+    bpy.ops.object.body_moments_measure()
+    assert "Is a unit of this scene a millimeter?" in labels(shown())
+    only(*objects)
     assert bpy.ops.object.body_moments_select_refused(code="holes_capped") == {"FINISHED"}
     assert [obj.name for obj in bpy.context.selected_objects] == ["0", "1", "2"]
 

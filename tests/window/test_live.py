@@ -44,7 +44,6 @@ def test_live_numbers_follow_drag_escape_undo_and_animation(window):
     follows(27.0)
     window.type("Return")
     follows(27.0)
-    window.picture("live")
     window.type("ctrl+z")
     follows(1.0)
     window.ask("bpy.ops.object.mode_set(mode='OBJECT')")
@@ -58,6 +57,30 @@ def test_live_numbers_follow_drag_escape_undo_and_animation(window):
     assert window.get(TORUS_VOLUME) == pytest.approx(3.0 * TORUS, rel=1e-6)
 
 
+def test_live_numbers_follow_a_face_that_is_dragged(window):
+    window.ask(TOWER_SCENE)
+    window.point_at_view()
+    window.type("g", "z", "2")
+    window.wait(f"abs({LIVE}.measurement.volume - 16.0) <= 1e-5")
+    window.picture("live")
+    window.key("Return")
+
+
+TOWER_SCENE = """
+for obj in list(bpy.data.objects):
+    bpy.data.objects.remove(obj)
+bpy.ops.mesh.primitive_cube_add(location=(0, 0, 1))
+bpy.context.object.name = "Tower"
+view = area.spaces.active.region_3d
+view.view_location, view.view_distance = (0.8, 0.0, 1.6), 11.0
+bpy.ops.object.body_moments_live()
+bpy.ops.object.mode_set(mode="EDIT")
+bpy.ops.mesh.select_mode(type="FACE")
+bpy.ops.mesh.select_all(action="DESELECT")
+mesh = __import__("bmesh").from_edit_mesh(bpy.context.object.data)
+max(mesh.faces, key=lambda face: face.calc_center_median().z).select_set(True)
+mesh.select_flush(True)
+"""
 SPHERE_SCENE = """
 for obj in list(bpy.data.objects):
     bpy.data.objects.remove(obj)

@@ -81,7 +81,7 @@ def test_bones_are_measured_and_drawn_in_their_pose(rig):
     window.wait(f"'body_mass' in {BONES}['bone 0']")
     masses = window.get(f"[bone['body_mass'] for bone in {BONES}]")
     assert [round(mass, 6) for mass in masses] == [1000.0, 1000.0, 1000.0, 1125.0]
-    window.picture("rig-bones")
+    window.picture("rig-posed")
     window.ask("bpy.context.scene.body_moments.overlay.show = True")
     window.ask("bpy.ops.object.mode_set(mode='POSE')\nbpy.ops.pose.select_all(action='SELECT')")
     window.ask(

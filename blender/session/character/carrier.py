@@ -193,7 +193,8 @@ class Carrier:
             else:
                 new = self.values(in_pieces(quaternions, places), before)
             if as_layer and name == "rotation_quaternion":
-                new = continuous(_quotients(before, new))
+                first, last = rotation_matrix(before), rotation_matrix(new)
+                new = continuous(quaternion(first.swapaxes(1, 2) @ last))
                 new *= np.sign(new[0, 0])
             elif as_layer:
                 new = new - before
@@ -205,16 +206,3 @@ class Carrier:
             rows = channels.get((curve.data_path, curve.array_index))
             if rows is not None:
                 fcurves.replace_section(curve, times, rows)
-
-
-def _quotients(first: NDArray, second: NDArray) -> Array:
-    """Return the unit quaternions (s, 4) that turn the first to the second, in their own axes."""
-    w, v = first[:, :1], -first[:, 1:]
-    product = np.concatenate(
-        [
-            w * second[:, :1] - (v * second[:, 1:]).sum(axis=1, keepdims=True),
-            w * second[:, 1:] + second[:, :1] * v + np.cross(v, second[:, 1:]),
-        ],
-        axis=1,
-    )
-    return product / np.linalg.norm(product, axis=1, keepdims=True)

@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
+from math import inf
 from operator import itemgetter
 
 import bpy
@@ -37,6 +38,7 @@ from ...read.objects import read_patches
 from ...settings.options import MeasureOptions
 from ...settings.preferences import preferences
 from .. import memory
+from ..stored import floating
 from ..tracking import handlers, updates
 from .following import Followed, LiveResult
 
@@ -161,7 +163,8 @@ def note_updates(events: handlers.Updates) -> None:
     if changed and not bpy.app.is_job_running("RENDER"):
         _follow_at_once(events, set(changed))
     others = events.collections or events.moved or events.reshaped
-    is_due = changed or moved or others and any(current.shows_others for current in memory.followed)
+    follows = len(memory.afloat) or any(current.shows_others for current in memory.followed)
+    is_due = changed or moved or others and follows
     if is_due and not bpy.app.background and not bpy.app.timers.is_registered(_tick):
         bpy.app.timers.register(_tick)
 
@@ -210,7 +213,8 @@ def _tick() -> float | None:
             budget -= seconds
         else:
             waiting = True
-    for window in bpy.context.window_manager.windows if due else ():
+    waiting |= floating.follow(depsgraph, inf if idle else budget)
+    for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             if area.type in {"VIEW_3D", "PROPERTIES"}:
                 area.tag_redraw()

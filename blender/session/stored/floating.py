@@ -4,11 +4,13 @@
 
 An object floats as one body with the objects that it carries (its children). The body is read on
 request; it is remembered until a shape, a setting or a place within it changes, and read again
-then if Live is on. The waterline follows the place, the liquid and its density at once.
+then by the timer of Live if that is on (`follow`). The waterline follows the place, the liquid and
+its density at once.
 """
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -40,6 +42,7 @@ from ...scene.findings import CHILD_NOT_HELD
 from ...scene.rigid_world import down, has_gravity
 from ...scene.transforms import TransformChannels, world
 from ...settings.floating import liquid_density
+from ...settings.options import AS_SET, MeasureOptions
 from ...write import properties
 from .. import memory
 from ..live import following
@@ -59,7 +62,7 @@ class Afloat:
     uids: the session uids of its objects, which survive undo; name: of the first one. places:
     (k, 4, 4) their matrices when it was read; roles: of the members.
     rest: where it settles from there, in m. curve: its righting arms. rests: all positions of rest.
-    shown: the generation and the scene, and what is displayed for them.
+    shown: the generation and the scene, and what is displayed for them. seconds: of reading it.
     """
 
     uids: tuple[int, ...]
@@ -70,6 +73,7 @@ class Afloat:
     curve: RightingCurve | None = None
     rests: tuple[Flotation, ...] = ()
     shown: tuple[tuple, Held | Finding | None] | None = None
+    seconds: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,34 +130,55 @@ def _roles(members: Iterable[Object]) -> tuple:
     return tuple((tank.role, tank.fill if tank.role == "TANK" else 0.0) for tank in tanks)
 
 
-def read(depsgraph: Depsgraph, members: Sequence[Object]) -> Afloat:
+def read(
+    depsgraph: Depsgraph,
+    members: Sequence[Object],
+    options: MeasureOptions = AS_SET,
+    density: float | None = None,
+) -> Afloat:
     """Read a floating body and settle it, without moving anything; MeasureError if it does not
     float.
+
+    options: of the objects with a mass of their own. density: of the liquid, kg/m³, in place of the
+    scene's.
     """
+    start = time.thread_time()
     scene = depsgraph.scene
-    parts = {obj: measure_body(obj, depsgraph) for obj in members if measurable(obj)}
+    of_space = replace(AS_SET, unit_scale=options.unit_scale)
+    parts = {
+        obj: measure_body(
+            obj, depsgraph, options if obj.body_moments_tank.role == "BODY" else of_space
+        )
+        for obj in members
+        if measurable(obj)
+    }
 
     def having(role: str) -> list[Object]:
         return [obj for obj in parts if obj.body_moments_tank.role == role]
 
     masses = [parts[obj].mass_properties for obj in having("BODY")]
-    mass = float(sum(each.mass for each in masses))
-    center = sum((each.mass * each.center for each in masses), np.zeros(3)) / (mass or 1.0)
+    shares = np.array([each.mass for each in masses])
+    mass = float(shares.sum())
+    shares = shares / (mass or 1.0)
+    center = shares @ np.reshape([each.center for each in masses], (-1, 3))
+    bounds = np.reshape([parts[obj].measurement.center_bounds for obj in having("BODY")], (-1, 2))
     rest = settle(
         [parts[obj].body for obj in having("BODY")],
         mass,
         center,
-        liquid_density(scene),
+        liquid_density(scene) if density is None else density,
         _up(scene),
         [
             (parts[obj].body, obj.body_moments_tank.fill / 100.0, parts[obj].measurement.density)
             for obj in having("TANK")
         ],
         [parts[obj].body for obj in having("FLOODED")],
+        shares @ bounds,
     )
     places = np.array([float64_matrix(obj.matrix_world) for obj in members])
     uids = tuple(obj.session_uid for obj in members)
-    return Afloat(uids, members[0].name, places, _roles(members), rest)
+    seconds = time.thread_time() - start
+    return Afloat(uids, members[0].name, places, _roles(members), rest, seconds=seconds)
 
 
 def remember(afloat: Afloat, members: Iterable[Object], depsgraph: Depsgraph) -> None:
@@ -338,24 +363,46 @@ def held_body(obj: Object, scene: Scene) -> Held | Finding | None:
             value = _held(obj, afloat, scene)
         except MeasureError as refusal:
             value = refusal.finding
-        afloat = memory.afloat[obj]
         afloat.shown = (key, value)
     return afloat.shown[1]
 
 
-def _held(obj: Object, afloat: Afloat, scene: Scene) -> Held | None:
+def _members(afloat: Afloat, scene: Scene) -> list[Object]:
+    """Return the objects of a body, none if one is gone."""
     by_uid = {member.session_uid: member for member in scene.objects}
-    members = [by_uid[uid] for uid in afloat.uids if uid in by_uid]
-    if len(members) < len(afloat.uids):
+    return [by_uid[uid] for uid in afloat.uids] if {*afloat.uids} <= by_uid.keys() else []
+
+
+def follow(depsgraph: Depsgraph, budget: float) -> bool:
+    """Read the bodies with Live on that have changed again, if that took no longer than the budget
+    in seconds; return whether others wait.
+    """
+    waiting = False
+    for afloat in {id(afloat): afloat for afloat in memory.afloat}.values():
+        members = _members(afloat, depsgraph.scene)
+        if not any(map(following.is_live, members)) or (
+            _turn_since(afloat, members, depsgraph.scene) is not None
+        ):
+            continue
+        if afloat.seconds > budget:
+            waiting = True
+            continue
+        try:
+            remember(read(depsgraph, members), members, depsgraph)
+        except MeasureError as refusal:
+            afloat.shown = ((), refusal.finding)
+            handlers.count_change(members[0])
+    return waiting
+
+
+def _held(obj: Object, afloat: Afloat, scene: Scene) -> Held | None:
+    members = _members(afloat, scene)
+    if not members:
         return None
     turn = _turn_since(afloat, members, scene)
     if turn is None:
-        if not any(map(following.is_live, members)):
-            return None
-        depsgraph = bpy.context.view_layer.depsgraph
-        fresh = read(depsgraph, members)
-        remember(fresh, members, depsgraph)
-        return _held(obj, fresh, scene)
+        is_live = any(map(following.is_live, members))
+        return afloat.shown[1] if is_live and afloat.shown is not None else None
     unit = meters_per_unit(scene)
     turn[:3, 3] *= unit
     up = _up(scene)

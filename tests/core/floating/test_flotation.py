@@ -49,6 +49,12 @@ def lathe(radii, heights, count):
 def test_box_has_closed_form_numbers(place):
     rest = log(6.0, 2.0, 1.0, 0.4, place).settle([0.0, 1e-3, 1.0])
     size = 1e-12 * max(1.0, np.abs(place).max())
+    bounds = rest.error_bounds
+    kb = float(rest.up @ rest.center_of_buoyancy) - rest.keel
+    assert abs(rest.draught - 0.4) <= bounds["draught"][0] < size
+    assert abs(kb - 0.2) <= bounds["kb"][0] < size
+    off = rest.metacentric_heights - [4 / 4.8 - 0.3, 36 / 4.8 - 0.3]
+    assert np.abs(off).max() <= bounds["gm"][0] < 1e-10
     assert rest.residual < 1e-9
     assert rest.draught == pytest.approx(0.4, abs=size)
     assert rest.level == pytest.approx(place[2] - 0.1, abs=size)
@@ -59,6 +65,24 @@ def test_box_has_closed_form_numbers(place):
     assert rest.metacentric_radii == pytest.approx([4.0 / 4.8, 36.0 / 4.8], rel=1e-12)
     assert rest.metacentric_heights == pytest.approx([4 / 4.8 - 0.3, 36 / 4.8 - 0.3], rel=1e-12)
     assert np.abs(rest.heel_axis) == pytest.approx([1.0, 0.0, 0.0], abs=1e-9)
+
+
+@pytest.mark.parametrize("slope", [0.0, 0.4])
+def test_bounds_cover_numbers_of_points_stored_as_float32(slope):
+    points = box_points((-3.0, -1.1, -0.7), (3.3, 1.0, 0.6)) + [200.0, 0.1, 0.3]
+    points[1::2, 1] += slope * np.sign(points[1::2, 1])  # the sides flare
+    moved = np.spacing(np.abs(points).max(axis=0).astype(np.float32)) / 2.0
+    center = np.array([200.1, 0.05, 0.2])
+    exact = FloatingBody(points, BOX_FACES, 5000.0, center, 1000.0).at([0.02, -0.03, 1.0])
+    stored = FloatingBody(
+        points.astype(np.float32), BOX_FACES, 5000.0, center, 1000.0, displacement=moved
+    ).at(exact.up)
+    bounds = {name: bound.sum() for name, bound in stored.error_bounds.items()}
+    assert abs(stored.draught - exact.draught) <= bounds["draught"] < 1e-3
+    buoyancy = exact.up @ (stored.center_of_buoyancy - exact.center_of_buoyancy)
+    assert abs(buoyancy - stored.keel + exact.keel) <= bounds["kb"] < 1e-2
+    off = stored.metacentric_heights - exact.metacentric_heights
+    assert 0.0 < np.abs(off).max() <= bounds["gm"] < 0.1
 
 
 @pytest.mark.parametrize("share", [0.05, 0.1, 0.2, 0.211, 0.789, 0.8, 0.95])

@@ -132,9 +132,9 @@ def test_parts_in_hollow_of_thick_hull_displace_nothing(inside, joined):
 SPACE = (-0.5, -0.5, 0.1), (0.5, 0.5, 0.6)
 
 
-def flooded(*spaces, tanks=()):
+def flooded(*spaces, tanks=(), mass=2000.0, up=UP):
     return settle(
-        *([body(bowl(0.1))], 2000.0, np.array([0.0, 0.0, 0.4]), 1000.0, UP),
+        *([body(bowl(0.1))], mass, np.array([0.0, 0.0, 0.3]), 1000.0, up),
         [(body(box(*tank)), 0.5, 800.0) for tank in tanks],
         [body(box(*space)) for space in spaces],
     )
@@ -143,6 +143,11 @@ def flooded(*spaces, tanks=()):
 def test_flooded_space_in_hollow_displaces_nothing():
     apart = (1.0, -0.5, 0.1), (1.5, 0.5, 0.6)
     assert flooded(SPACE).draught == pytest.approx((2.0 - 0.1) / (8.0 - 1.0), rel=1e-9)
+    for heel in (0.3, 1.0, 1.6, 2.6):  # the lid of a tilted hollow cuts the space
+        rest = flooded(SPACE, mass=500.0, up=[0.0, np.sin(heel), np.cos(heel)])
+        # Upside down, the walls and the bottom displace 580 L/m and 8000 L/m.
+        depth = 0.5 / 8.0 if heel < 2.0 else 0.5 / 1.16
+        assert rest.draught == pytest.approx(depth, rel=1e-9)
     two = flooded(SPACE, apart)
     assert two.plane.area * two.up[2] == pytest.approx(8.0 - 1.0 - 0.5, rel=1e-9)
 
