@@ -45,7 +45,7 @@ class BodyMomentsSymmetry(PropertyGroup):
     """The symmetry that was found of an object."""
 
     group: StringProperty(
-        name="core.shape.Symmetry",
+        name="Symmetry",
         description="Schoenflies symbol of the symmetry that the surface confirms",
     )
     compatible: StringProperty(

@@ -33,26 +33,26 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
         description="What the copies may have of their own; the shared mesh has that of the first "
         "one",
         items=(
-            ("UV", "UV Maps", "scene.copies.Copies get the UV maps of the shared mesh"),
+            ("UV", "UV Maps", "Copies get the UV maps of the shared mesh"),
             (
                 "ATTRIBUTES",
                 "Attributes",
-                "scene.copies.Copies get colors, normals and other attributes of the shared mesh",
+                "Copies get colors, normals and other attributes of the shared mesh",
             ),
             (
                 "MATERIALS",
                 "Materials",
-                "scene.copies.Copies keep their materials, linked to the object",
+                "Copies keep their materials, linked to the object",
             ),
             (
                 "GROUPS",
                 "Vertex Groups",
-                "scene.copies.Copies get the vertex groups of the shared mesh",
+                "Copies get the vertex groups of the shared mesh",
             ),
             (
                 "PROPERTIES",
                 "Custom Properties",
-                "scene.copies.Copies get the custom properties of the shared mesh",
+                "Copies get the custom properties of the shared mesh",
             ),
         ),
         options={"ENUM_FLAG"},
