@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Imports: a scan becomes a Volume object; B-spline surfaces of IGES and .obj files become surface
-objects.
+"""Imports: a scan becomes a Volume object; B-spline surfaces of IGES and .obj files, and solids of
+STEP files become surface objects.
 """
 
 from dataclasses import replace
@@ -154,12 +154,12 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
 
 
 class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, ImportHelper):
-    """Import the B-spline surfaces of IGES files, and of .obj files with surf, as they are"""
+    """Import the solids of STEP files, and the surfaces of IGES and of .obj files with surf"""
 
     bl_idname = "object.body_moments_import_surfaces"
     bl_label = "Import Surfaces"
 
-    filter_glob: StringProperty(default="*.igs;*.iges;*.obj", options={"HIDDEN"})
+    filter_glob: StringProperty(default="*.step;*.stp;*.igs;*.iges;*.obj", options={"HIDDEN"})
     directory: StringProperty(subtype="DIR_PATH", options={"HIDDEN", "SKIP_SAVE"})
     files: CollectionProperty(type=OperatorFileListElement, options={"HIDDEN", "SKIP_SAVE"})
     unit: FloatProperty(
@@ -216,6 +216,8 @@ class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, I
             "Imported {count} patch of order {order} from {file}.",
             "Imported {count} patches of order {order} at most from {file}.",
         )
+        if not found.order:
+            texts = "Imported {count} solid from {file}.", "Imported {count} solids from {file}."
         done = reports.phrase(*texts, count=found.patches, order=found.order, file=path.name)
         return found.objects, [done, *found.findings]
 

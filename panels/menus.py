@@ -31,7 +31,7 @@ EQUAL_INERTIA: Entry = ("object.body_moments_equal_inertia", "MESH_CUBE")
 EXPORT_MENU = "TOPBAR_MT_body_moments_export"
 IMPORTS = {
     "object.body_moments_import_scan": "Scan of Densities (.nii/.nrrd/.npy)",
-    "object.body_moments_import_surfaces": "NURBS Surfaces (.igs/.iges, .obj with surf)",
+    "object.body_moments_import_surfaces": "CAD (.step/.stp, .igs/.iges, .obj with surf)",
     "import_scene.body_moments_audit": "Robot Description for Audit (.urdf/.sdf/.xml/.usda)",
 }
 PIE_GAP = 8.0  # rows between the pie's lowest entry and ours

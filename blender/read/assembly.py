@@ -208,7 +208,13 @@ class _Walk:
         reason = self._left_out(obj)
         if reason is not None and not (kind == MemberKind.POINT and reason.code == NOT_RENDERED):
             return [Member(obj, kind, left_out=reason)]
-        if _shows_members(obj) and depth < MAX_DEPTH:
+        settings = obj.body_moments
+        has_usual_density = (settings.mass_from, settings.density_from, settings.kind) == (
+            "DENSITY",
+            "VALUE",
+            "SOLID",
+        ) and not settings.is_property_set("density")
+        if shows_collection(obj) and has_usual_density and depth < MAX_DEPTH:
             source = obj.instance_collection
             x, y, z = source.instance_offset
             inside = _Walk(source.all_objects, self.depsgraph, inside=True).collection(
@@ -234,17 +240,6 @@ class _Walk:
         if reason is None or reason.code != NOT_RENDERED or obj.hide_render:
             return reason
         return hidden_reason(obj, self.depsgraph) or reason
-
-
-def _shows_members(obj: Object) -> bool:
-    """Return whether an object instances a collection and has no density and no mass of its own."""
-    settings = obj.body_moments
-    return (
-        shows_collection(obj)
-        and (settings.mass_from, settings.density_from, settings.kind)
-        == ("DENSITY", "VALUE", "SOLID")
-        and not settings.is_property_set("density")
-    )
 
 
 def left_out_reasons(scene: Scene, view_layer: ViewLayer) -> dict[Object, Finding]:
@@ -352,7 +347,6 @@ def _is_copy(obj: Object, other: Object) -> bool:
 
 
 def _operands(obj: Object) -> Iterator[Object]:
-    """Yield the operands of an object's Boolean modifiers."""
     for modifier in obj.modifiers:
         if modifier.type != "BOOLEAN" or not (modifier.show_viewport or modifier.show_render):
             continue

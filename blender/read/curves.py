@@ -97,7 +97,6 @@ def is_round(obj) -> bool:
 
 
 def _is_straight(spline) -> bool:
-    """Return whether a spline is straight between its points."""
     if spline.type == "POLY" or (spline.type == "NURBS" and spline.order_u == 2):
         return True
     pieces = _control_points(spline)[None]

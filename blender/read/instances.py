@@ -121,7 +121,12 @@ class InstanceCollector:
         original = evaluated.original
         if original in self._path or len(self._path) > MAX_DEPTH:
             return
-        if _needs_instance_list(original):
+        kinds = {
+            modifier.particle_system.settings.render_type
+            for modifier in original.modifiers
+            if modifier.type == "PARTICLE_SYSTEM" and modifier.show_viewport
+        }
+        if original.instance_type in {"VERTS", "FACES"} or kinds & {"OBJECT", "COLLECTION"}:
             raise _NeedsInstanceList
         if self._path:
             if original.type == "META":
@@ -163,12 +168,6 @@ class InstanceCollector:
             self._add_mesh(evaluated.data, geometry.mesh, matrices, evaluated)
         self._count_surfaceless(geometry, len(matrices))
 
-    def _add_geometry_set(self, geometry, matrices: NDArray) -> None:
-        self._owners.append(geometry)
-        self._add_mesh(geometry.mesh, geometry.mesh, matrices)
-        self._count_surfaceless(geometry, len(matrices))
-        self._add_instances(geometry, matrices)
-
     def _add_instances(self, geometry, matrices: NDArray) -> bool:
         """Add the instances of a geometry set, once for each place of the set; return whether there
         were any.
@@ -191,17 +190,16 @@ class InstanceCollector:
                     placed = (matrices[:, None] @ transforms[order[start:end]][None]).reshape(
                         -1, 4, 4
                     )
-                self._add_reference(reference, placed)
+                if isinstance(reference, bpy.types.Object):
+                    self._add_object(reference.evaluated_get(self.depsgraph), placed)
+                elif isinstance(reference, bpy.types.Collection):
+                    self._add_collection(reference, placed)
+                else:  # another geometry set
+                    self._owners.append(reference)
+                    self._add_mesh(reference.mesh, reference.mesh, placed)
+                    self._count_surfaceless(reference, len(placed))
+                    self._add_instances(reference, placed)
         return True
-
-    def _add_reference(self, reference, matrices: NDArray) -> None:
-        """Add an instance of a geometry set: an object, a collection or another geometry set."""
-        if isinstance(reference, bpy.types.Object):
-            self._add_object(reference.evaluated_get(self.depsgraph), matrices)
-        elif isinstance(reference, bpy.types.Collection):
-            self._add_collection(reference, matrices)
-        else:
-            self._add_geometry_set(reference, matrices)
 
     def _add_collection(self, collection, matrices: NDArray) -> None:
         self.collections[collection.original] = None
@@ -356,22 +354,6 @@ def shows_itself(obj, instanced: bool) -> bool:
     """
     instancer = instanced or obj.instance_type != "NONE" or len(obj.particle_systems) > 0
     return obj.show_instancer_for_viewport or not instancer
-
-
-def _needs_instance_list(obj) -> bool:
-    if obj.instance_type in {"VERTS", "FACES"}:
-        return True
-    systems = [
-        modifier
-        for modifier in obj.modifiers
-        if modifier.type == "PARTICLE_SYSTEM" and modifier.show_viewport
-    ]
-    return any(
-        [
-            modifier.particle_system.settings.render_type in {"OBJECT", "COLLECTION"}
-            for modifier in systems
-        ]
-    )
 
 
 def visible_objects(collection, switch: str = "hide_viewport") -> Iterator:

@@ -81,7 +81,6 @@ def constraint_connections(
 
 
 def _pose(obj: Object, unit: float) -> Pose:
-    """Return an object's location and rotation, m."""
     matrix = float64_matrix(obj.matrix_world)
     turn = polar_rotation(matrix[None])[0][0]
     return Pose(matrix[:3, 3] * unit, turn * np.sign(np.linalg.det(turn)))

@@ -122,7 +122,6 @@ def _bone_radius_and_error(bone: PoseBone, reach: float) -> tuple[float, float]:
 
 
 def _norm(matrix: Array) -> float:
-    """Return the largest factor by which a (4, 4) matrix stretches a vector."""
     return float(np.linalg.norm(matrix[:3, :3], 2))
 
 

@@ -154,7 +154,11 @@ def _selected_faces(obj, depsgraph) -> SectionReading:
 
 
 def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
-    _require_flat_outlines(obj)
+    curve = obj.data
+    is_spatial = obj.type == "CURVE" and curve.dimensions != "2D"
+    has_bevel = curve.bevel_depth or (curve.bevel_mode == "OBJECT" and curve.bevel_object)
+    if is_spatial or curve.extrude or curve.offset or has_bevel:
+        raise ReadError(FLAT_UNSUITABLE, fault=EXTRUDED, subject=obj.name)
     if obj.mode == "EDIT":
         obj.update_from_editmode()
     local, loops, open_splines = _spline_outlines(obj, resolution)
@@ -169,7 +173,10 @@ def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
     place = locate(obj, depsgraph)
     linear = place.matrix[:3, :3]
     facing = np.cross(linear[:, 0], linear[:, 1]) * np.sign(np.linalg.det(linear) or 1.0)
-    filled = _fill_area(obj, depsgraph)
+    evaluated = obj.evaluated_get(depsgraph)
+    mesh = evaluated.to_mesh()
+    filled = mesh_surface(mesh, edges=False) if mesh is not None and len(mesh.polygons) else None
+    evaluated.to_mesh_clear()
     findings = list(_outline_findings(obj, open_splines))
     drawn = None
     if obj.type == "FONT" and obj.data.follow_curve is not None:
@@ -228,14 +235,6 @@ def _outline_findings(obj, open_splines: int) -> Iterator[Finding]:
         yield finding(RENDER_DIFFERS, slight=True, differences=[difference.as_record()])
 
 
-def _require_flat_outlines(obj) -> None:
-    curve = obj.data
-    is_spatial = obj.type == "CURVE" and curve.dimensions != "2D"
-    has_bevel = curve.bevel_depth or (curve.bevel_mode == "OBJECT" and curve.bevel_object)
-    if is_spatial or curve.extrude or curve.offset or has_bevel:
-        raise ReadError(FLAT_UNSUITABLE, fault=EXTRUDED, subject=obj.name)
-
-
 def _spline_outlines(obj, resolution: int | None) -> tuple[NDArray[np.float32], list[Index], int]:
     """Return (n, 3) spline points, the indices of each closed spline's points, and the number of
     open splines.
@@ -265,12 +264,3 @@ def _spline_outlines(obj, resolution: int | None) -> tuple[NDArray[np.float32], 
     steps = edges[edges[:, 1] == edges[:, 0] + 1]
     loose = int(np.count_nonzero(~inside)) - int(np.count_nonzero(~inside[steps[:, 0]]))
     return points, loops, loose
-
-
-def _fill_area(obj, depsgraph) -> Surface | None:
-    evaluated = obj.evaluated_get(depsgraph)
-    mesh = evaluated.to_mesh()
-    try:
-        return mesh_surface(mesh, edges=False) if mesh is not None and len(mesh.polygons) else None
-    finally:
-        evaluated.to_mesh_clear()

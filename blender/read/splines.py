@@ -9,14 +9,17 @@ shape keys and hooks are applied by the formulas of key.cc and MOD_hook.cc in fl
 object read from a file are a picture of the file's faces, which `keep_faces` keeps.
 """
 
+import hashlib
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 from bpy.types import Curve
 
 from ...core.bodies import SplineReading, float64_matrix
+from ...core.cad import read_source
 from ...core.moments import FLOAT32_HALF_ULP
-from ...core.numerics import Array, NDArray, SplineSpace
+from ...core.numerics import Array, NDArray
 from ...core.nurbs import Patch, blender_space, display_parameters, display_table
 from ...core.verdict.finding import ReadError, finding
 from .findings import CONTROL_POINTS_RECOVERED, SCALE_ZERO_AXIS, SPLINES_LEFT_OUT
@@ -26,8 +29,11 @@ from .mesh import read_array, vertex_points
 AGREEMENT_RTOL = 4e-6
 RECOVERY_RTOL = 1e-6  # relative to the size: error of recovered control points
 MAX_CONDITION = 1e4  # largest condition number of a direction's samples
+# beginnings of a spline's properties, as arguments of `blender_space`
+SPACE = ("point_count_", "order_", "use_cyclic_", "use_bezier_", "use_endpoint_")
 
 
+SOURCE = "body_cad"  # property of the data that show a body of a STEP file
 _faces_of_file: dict[int, SplineReading] = {}  # by the identifier of the data in this session
 # These move control points whatever their switch says (curve_get_tessellate_point in displist.cc);
 # other modifiers only with `use_apply_on_spline`. None does after the first constructive modifier.
@@ -72,13 +78,38 @@ def keep_faces(readings: dict[Curve, SplineReading]) -> None:
     _faces_of_file.update({data.session_uid: reading for data, reading in readings.items()})
 
 
+def keep_source(data: Curve, source: bytes, matrix: Sequence[float]) -> None:
+    """Store a body of a STEP file and its (4, 4) matrix with the data that show it."""
+    data[SOURCE] = {"source": source, "matrix": matrix, "shown": _shown_digest(data)}
+
+
+def _shown_digest(data: Curve) -> str:
+    digests = [hashlib.sha256(weighted_points(spline)) for spline in data.splines]
+    return "".join(digest.hexdigest() for digest in digests)
+
+
+def _kept_faces(original) -> SplineReading | None:
+    """Return the faces that an object shows, None if it was changed since, or shows none."""
+    data = original.data
+    source = data.get(SOURCE)
+    if source is not None:
+        is_changed = any(spline_modifiers(original)) or data.shape_keys is not None
+        if is_changed or _shown_digest(data) != source["shown"]:
+            return None
+        if data.session_uid not in _faces_of_file:
+            faces, rounding = read_source(source["source"], source["matrix"])
+            _faces_of_file[data.session_uid] = SplineReading(faces, rounding, ())
+    return _faces_of_file.get(data.session_uid)
+
+
 def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
     """Return the patches of a surface object, checked against `mesh` if given; None if the mesh
     must be measured.
     """
     original = evaluated.original
-    if original.data.session_uid in _faces_of_file:
-        return _faces_of_file[original.data.session_uid]
+    kept = _kept_faces(original)
+    if kept is not None:
+        return kept
     if spline_modifiers(original)[1]:
         return None
     splines = [spline for spline in evaluated.data.splines if spline.type == "NURBS"]
@@ -103,10 +134,12 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
     samples = []
     left_out = 0
     for spline, start, end in zip(splines, starts[:-1], starts[1:]):
-        spaces = _spaces(spline)
-        if spaces is None:
+        # with v first, a patch's normal points as Blender's faces do
+        v, u = (blender_space(*(getattr(spline, name + axis) for name in SPACE)) for axis in "vu")
+        if v is None or u is None:
             left_out += 1
             continue
+        spaces = (v, u)
         shape = (spline.point_count_v, spline.point_count_u)
         patches.append(
             Patch(
@@ -154,13 +187,6 @@ def nonpositive_weights(splines) -> int:
 def weighted_points(spline) -> NDArray[np.float32]:
     """Return (n, 4) control points and weights of a spline that is not a Bézier one."""
     return read_array(spline.points, "co", (len(spline.points), 4), np.float32)
-
-
-def _spaces(spline) -> tuple[SplineSpace, SplineSpace] | None:
-    """Return the spaces of v and u: with v first, a patch's normal points as Blender's faces do."""
-    names = ("point_count_", "order_", "use_cyclic_", "use_bezier_", "use_endpoint_")
-    v, u = (blender_space(*(getattr(spline, name + axis) for name in names)) for axis in "vu")
-    return None if v is None or u is None else (v, u)
 
 
 def _verified(

@@ -35,8 +35,17 @@ def measurable(obj) -> bool:
         return is_point_mass(obj)
     if obj.type == "CURVE":
         # A wire needs no surface, and closed curves bound one for a shell.
+        curve = obj.data
+        filled = curve.dimensions == "2D" and curve.fill_mode != "NONE"
+        beveled = curve.bevel_depth or (curve.bevel_mode == "OBJECT" and curve.bevel_object)
         settings = getattr(obj, "body_moments", None)
-        return _curve_has_surface(obj) or (settings is not None and settings.kind != "SOLID")
+        return bool(
+            filled
+            or curve.extrude
+            or beveled
+            or obj.modifiers
+            or (settings is not None and settings.kind != "SOLID")
+        )
     return obj.type in {*SURFACE_TYPES, "VOLUME"} or any(
         modifier.type == "NODES" for modifier in obj.modifiers
     )
@@ -112,9 +121,22 @@ def evaluated_geometry(obj, depsgraph, reader):
     """Return the object's `GeometrySet`, which owns its meshes, or raise ReadError that names the
     object `reader`.
     """
-    reason = _sculpt_mode_reason(obj) if obj.mode == "SCULPT" else None
-    if obj.type in {"CURVE", "SURFACE"} and not _shape_keys_fit(obj.data):
-        reason = finding(SHAPE_KEYS_OF_OTHER_POINTS)
+    reason = None
+    if obj.mode == "SCULPT" and (
+        obj.use_dynamic_topology_sculpting
+        or any(
+            modifier.sculpt_levels
+            for modifier in obj.modifiers
+            if modifier.type == "MULTIRES" and modifier.show_viewport
+        )
+    ):  # the viewport shows something else than the evaluated mesh
+        reason = finding(SCULPTED_MESH)
+    if obj.type in {"CURVE", "SURFACE"} and obj.data.shape_keys and not obj.data.is_editmode:
+        splines = obj.data.splines
+        count = sum(len(spline.bezier_points) + len(spline.points) for spline in splines)
+        # joining curves can leave other counts
+        if any(len(key.data) != count for key in obj.data.shape_keys.key_blocks):
+            reason = finding(SHAPE_KEYS_OF_OTHER_POINTS)
     if reason is None:
         try:
             return obj.evaluated_get(depsgraph).evaluated_geometry()
@@ -125,36 +147,11 @@ def evaluated_geometry(obj, depsgraph, reader):
     raise ReadError(reason, subject=reader.name)
 
 
-def _shape_keys_fit(curve) -> bool:
-    """Return whether a curve's shape keys have as many points as its splines, which joining curves
-    can break.
-    """
-    if curve.shape_keys is None or curve.is_editmode:
-        return True
-    count = sum(len(spline.bezier_points) + len(spline.points) for spline in curve.splines)
-    return all(len(key.data) == count for key in curve.shape_keys.key_blocks)
-
-
 def why_not_evaluated(obj, depsgraph) -> Finding:
     """Return the reason why Blender has not evaluated the object."""
     return hidden_reason(obj, depsgraph) or finding(
         NOT_SHOWN, cause="Blender has not evaluated the object. Update the view layer"
     )
-
-
-def _sculpt_mode_reason(obj) -> Finding | None:
-    """Return the reason why the viewport shows something else than the evaluated mesh in Sculpt
-    Mode, or None.
-    """
-    levels = [
-        modifier
-        for modifier in obj.modifiers
-        if modifier.type == "MULTIRES" and modifier.show_viewport
-    ]
-    is_sculpted = obj.use_dynamic_topology_sculpting or any(
-        [modifier.sculpt_levels for modifier in levels]
-    )
-    return finding(SCULPTED_MESH) if is_sculpted else None
 
 
 def hidden_reason(obj, depsgraph) -> Finding | None:
@@ -193,9 +190,8 @@ def hidden_reason(obj, depsgraph) -> Finding | None:
         barred |= blocking.keys()
     if len(barred) == len(branches):
         return reasons[-1]  # each of its collections has another reason; the mildest
-    if obj.hide_get(view_layer=depsgraph.view_layer):
-        return finding(HIDDEN_IN_VIEWPORT, name=obj.name, switch="eye icon")
-    return None
+    is_hidden = obj.hide_get(view_layer=depsgraph.view_layer)
+    return finding(HIDDEN_IN_VIEWPORT, name=obj.name, switch="eye icon") if is_hidden else None
 
 
 def blends_keys(obj) -> bool:
@@ -203,17 +199,6 @@ def blends_keys(obj) -> bool:
     edited one.
     """
     return obj.data.shape_keys is not None and obj.use_shape_key_edit_mode
-
-
-def _curve_has_surface(obj) -> bool:
-    curve = obj.data
-    filled = curve.dimensions == "2D" and curve.fill_mode != "NONE"
-    thick = (
-        curve.extrude != 0.0
-        or curve.bevel_depth != 0.0
-        or (curve.bevel_mode == "OBJECT" and curve.bevel_object)
-    )
-    return bool(filled or thick or obj.modifiers)
 
 
 def _split_name(name: str) -> tuple[str, int]:

@@ -19,6 +19,7 @@ from typing import NamedTuple
 import bpy
 import numpy as np
 from bpy.types import Context, Curve, Object, Scene
+from bpy_extras.node_shader_utils import PrincipledBSDFWrapper
 
 from ...core.bodies import SplineReading
 from ...core.cad import MAX_ORDER, SurfaceBody, is_storable, read_surfaces
@@ -37,7 +38,7 @@ from ...core.scans import (
     scan_suffix,
 )
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
-from ..read.splines import keep_faces
+from ..read.splines import keep_faces, keep_source
 from ..scale import meters_per_unit
 from .findings import SURFACES_ROUNDED
 
@@ -199,7 +200,10 @@ def show_bodies(
     readings = {}
     made = []
     for body in bodies:
-        obj, _ = surface_object(body.name, list(map(_shown, body.patches)), factor)
+        shown = (
+            [_band(list(map(_quads, body.patches)))] if body.source else map(_shown, body.patches)
+        )
+        obj, _ = surface_object(body.name, list(shown), factor)
         for spline in obj.data.splines:
             if spline.order_u == spline.order_v == 2:
                 spline.resolution_u = spline.resolution_v = 1
@@ -207,6 +211,11 @@ def show_bodies(
         matrix[:3, 3] -= obj.location
         faces = tuple(face.transform(matrix) for face in body.patches)
         readings[obj.data] = SplineReading(faces, factor * body.rounding, ())
+        if body.matrix is not None:
+            place = (matrix @ body.matrix).ravel().tolist()
+            keep_source(obj.data, body.source, place)
+        if body.color:
+            obj.data.materials.append(_material(body.color))
         collection.objects.link(obj)
         made.append(obj)
     keep_faces(readings)
@@ -218,21 +227,47 @@ def _shown(face: Face) -> Patch:
     through samples.
     """
     if not isinstance(face, Patch):
-        a, b, c, d = np.moveaxis(face.quads(SHOWN_SAMPLES), 1, 0)
-        # A band along all trapezoids, with folds of no width between them.
-        points = np.stack(
-            [np.stack([a, b, c, d], axis=1), np.stack([a, a, d, d], axis=1)], axis=2
-        ).reshape(-1, 2, 3)
-    else:
-        if max(space.order for space in face.spaces) <= MAX_ORDER and is_storable(face):
-            return face
-        points = face.samples(SHOWN_SAMPLES)
+        return _band([face.quads(SHOWN_SAMPLES)])
+    if max(space.order for space in face.spaces) <= MAX_ORDER and is_storable(face):
+        return face
+    points = face.samples(SHOWN_SAMPLES)
     return Patch((bezier_space(len(points), 2), bezier_space(points.shape[1], 2)), points)
+
+
+def _quads(face: Face) -> Array:
+    """Return (n, 4, 3) corners of quadrilaterals that look like a face."""
+    if not isinstance(face, Patch):
+        return face.quads(SHOWN_SAMPLES)
+    grid = face.samples(SHOWN_SAMPLES)
+    return np.stack([grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]], axis=2).reshape(
+        -1, 4, 3
+    )
+
+
+def _band(quads: list[Array]) -> Patch:
+    """Return a band along all quadrilaterals, with folds of no width between them."""
+    a, b, c, d = np.moveaxis(np.concatenate(quads), 1, 0)
+    points = np.stack(
+        [np.stack([a, b, c, d], axis=1), np.stack([a, a, d, d], axis=1)], axis=2
+    ).reshape(-1, 2, 3)
+    return Patch((bezier_space(len(points), 2), bezier_space(2, 2)), points)
+
+
+def _material(color: Sequence[float]) -> bpy.types.Material:
+    """Return the material of a color in sRGB, by its name if it was made before."""
+    linear = [one / 12.92 if one <= 0.04045 else ((one + 0.055) / 1.055) ** 2.4 for one in color]
+    name = "#{:02x}{:02x}{:02x}".format(*(round(255.0 * one) for one in color))
+    material = bpy.data.materials.get(name)
+    if material is None:
+        material = bpy.data.materials.new(name)
+        material.use_nodes = True
+        PrincipledBSDFWrapper(material, is_readonly=False).base_color = linear
+    return material
 
 
 class ImportedSurfaces(NamedTuple):
     """Objects of a file of surfaces, with the number and the highest order of their patches, and
-    findings.
+    findings. Solids have order 0.
     """
 
     objects: list[Object]
@@ -252,6 +287,9 @@ def import_surfaces(path: Path, limits: Limits, unit: float, context: Context) -
         raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
     stated = shortest_decimal(unit) if file.unit is None else file.unit
     factor = stated / meters_per_unit(context.scene)
+    if file.bodies[0].source:
+        objects = show_bodies(file.bodies, context.collection, factor)
+        return ImportedSurfaces(objects, len(objects), 0, [*file.refused, *file.notes])
     made = import_bodies(file.bodies, context.collection, factor)
     patches = [patch for body in file.bodies for patch in body.patches]
     order = max(space.order for patch in patches for space in patch.spaces)

@@ -13,6 +13,7 @@ from bpy.types import Object
 
 from ...core.measurement import Measurement
 from ...core.verdict import LINKED_OBJECT, EditRefusedError, welding_tolerance
+from ..read.mesh import vertex_points
 from .findings import SHAPE_NOT_OF_MESH
 
 # Modifiers that only move vertices: the faults' indices are those of the mesh itself.
@@ -143,11 +144,9 @@ def merge_by_distance(mesh: bpy.types.Mesh) -> int:
     """Merge vertices that count as one when a body is measured; return the number of vertices that
     are gone.
     """
-    before = len(mesh.vertices)
-    points = np.empty((before, 3), np.float32)
-    mesh.vertices.foreach_get("co", points.ravel())
+    points = vertex_points(mesh)
     with _edited(mesh) as edited:
         size = float(np.linalg.norm(np.ptp(points, axis=0)))
         error = float(np.spacing(np.abs(points).max()))
         bmesh.ops.remove_doubles(edited, verts=edited.verts[:], dist=welding_tolerance(size, error))
-    return before - len(mesh.vertices)
+    return len(points) - len(mesh.vertices)

@@ -23,10 +23,11 @@ import numpy as np
 from bpy.types import ID, Context, Object
 from mathutils import Matrix
 
-from ...core.numerics import Index, NDArray
+from ...core.numerics import Index
 from ...core.verdict import LINKED_OBJECT, internal_error
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from ..read.findings import SCALE_ZERO_AXIS
+from ..read.mesh import read_array
 from ..settings.density import density_anchor
 from .changes import (
     SceneChange,
@@ -343,7 +344,13 @@ def transform_data(data: ID, change: Matrix4) -> None:
         if data.vertices:
             _transform_mesh(data, change)
     elif isinstance(data, bpy.types.TextCurve):
-        _translate_text(data, change)
+        offset = change[:3, 3]
+        if np.abs(change[:3, :3] - np.eye(3)).max() > 1e-6 or abs(offset[2]) > 1e-6 * max(
+            np.abs(offset).max(), data.size
+        ):
+            raise EditRefusedError(REFRAME_IMPOSSIBLE, cause=WITHOUT_TRANSFORM)
+        data.offset_x += offset[0]
+        data.offset_y += offset[1]
     elif isinstance(data, bpy.types.Curve):
         data.transform(Matrix(change), shape_keys=True)
     else:
@@ -352,27 +359,14 @@ def transform_data(data: ID, change: Matrix4) -> None:
 
 def _transform_mesh(mesh: bpy.types.Mesh, change: Matrix4) -> None:
     keys = [block.data for block in mesh.shape_keys.key_blocks] if mesh.shape_keys else []
-    exact_keys = [_transform_points(key, change) for key in keys]
+    moved = [
+        read_array(key, "co", (len(key), 3), np.float32).astype(np.float64) @ change[:3, :3].T
+        + change[:3, 3]
+        for key in keys
+    ]
     transform_meshes([mesh], change[None])
-    for key, points in zip(keys, exact_keys):
-        key.foreach_set("co", points)
-
-
-def _transform_points(key, change: Matrix4) -> NDArray[np.float32]:
-    points = np.empty(3 * len(key), np.float32)
-    key.foreach_get("co", points)
-    points = points.reshape(-1, 3).astype(np.float64) @ change[:3, :3].T + change[:3, 3]
-    return np.ascontiguousarray(points, np.float32).ravel()
-
-
-def _translate_text(text: bpy.types.TextCurve, change: Matrix4) -> None:
-    offset = change[:3, 3]
-    if np.abs(change[:3, :3] - np.eye(3)).max() > 1e-6 or abs(offset[2]) > 1e-6 * max(
-        np.abs(offset).max(), text.size
-    ):
-        raise EditRefusedError(REFRAME_IMPOSSIBLE, cause=WITHOUT_TRANSFORM)
-    text.offset_x += offset[0]
-    text.offset_y += offset[1]
+    for key, points in zip(keys, moved):
+        key.foreach_set("co", np.ascontiguousarray(points, np.float32).ravel())
 
 
 def _reason_of_change(obj: Object, harmless: set[str]) -> Finding:

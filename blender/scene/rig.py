@@ -14,6 +14,7 @@ from bpy.types import Context, Object, PoseBone
 from mathutils import Matrix, Vector
 
 from ...core.mesh import join_surfaces
+from ...core.moments import affine_matrices
 from ...core.verdict import EditRefusedError
 from ..bodies.rig import BonePart, Rig
 from ..scale import meters_per_unit
@@ -108,9 +109,7 @@ def _body(made: MadeCollection, armature: Object, part: BonePart, unit: float) -
     """
     assert part.measurement is not None
     body = part.measurement.mass_properties
-    frame = np.eye(4)
-    frame[:3, :3] = body.principal.axes
-    frame[:3, 3] = body.center / unit
+    frame = affine_matrices(body.principal.axes, body.center / unit)
     surface = join_surfaces(
         [piece.transform(matrix[:3, :3], matrix[:3, 3]) for piece, matrix in part.surfaces]
     )

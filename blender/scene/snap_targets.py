@@ -12,6 +12,7 @@ the angle between two measured frames.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -19,10 +20,11 @@ import numpy as np
 from bpy.types import Context, Object
 
 from ...core.inertia import EQUAL_AXES, MassProperties, PrincipalFrame, zhang_chen_frame
+from ...core.moments import affine_matrices
 from ...core.numerics import Array, NDArray, polar_rotation
 from ...core.shape import MAX_FIT_RTOL, RigidMatch
 from ...core.verdict import EditRefusedError, Finding, Procedure
-from ..bodies.measure_body import MeasuredBody, measure_body
+from ..bodies.measure_body import measure_body
 from ..bodies.measure_object import measured_in_turn
 from ..bodies.shape.shape import NoShapeError, shape_of_measured
 from ..bodies.stack import Measured
@@ -94,20 +96,15 @@ class SnapTarget:
         diagonal = np.diag(tensor)
         off = np.abs(tensor - np.diag(diagonal)).max()
         along = (frame * self.axes).sum(axis=0)
+        # Axes of equal moments lie as the shape requires; a cube's may be swapped or reversed.
+        cosines = (frame.T @ self.axes)[:, self.shape_axes]
+        expected = np.eye(3)[:, self.shape_axes] if self.is_unique else np.round(cosines)
         return bool(
             off <= limit
             and (np.diff(diagonal) >= -limit).all()
-            and self._matches_shape_axes(frame)
+            and (np.abs(cosines - expected) <= MAX_DIRECTION_NOISE).all()
             and (self.shape_axes or (along > -0.5).all())
         )
-
-    def _matches_shape_axes(self, frame: NDArray) -> bool:
-        """Return whether axes of equal moments lie as the shape requires; a cube's axes may be
-        swapped or reversed.
-        """
-        cosines = (frame.T @ self.axes)[:, self.shape_axes]
-        expected = np.eye(3)[:, self.shape_axes] if self.is_unique else np.round(cosines)
-        return bool((np.abs(cosines - expected) <= MAX_DIRECTION_NOISE).all())
 
 
 def targets_in_turn(context: Context, objects: Sequence[Object]) -> Callable[[Object], SnapTarget]:
@@ -154,16 +151,9 @@ def target_of(
             is_varying = own.measurement.kind == "shell" or own.body.mass is not None
             principal = zhang_chen_frame(moments, None if is_varying else own.body.third_order)
         else:
-            principal = _frame_by_shape(own)
+            with suppress(NoShapeError):
+                principal = shape_of_measured(own, 1).principal_frame()
     return SnapTarget.of_body(obj, body, principal, unit)
-
-
-def _frame_by_shape(measured: MeasuredBody) -> PrincipalFrame:
-    """Return the principal frame that the shape fixes; the measured one if it has no shape."""
-    try:
-        return shape_of_measured(measured, 1).principal_frame()
-    except NoShapeError:
-        return measured.mass_properties.principal
 
 
 def matrix_at_center(obj: Object, body: SnapTarget) -> NDArray | None:
@@ -181,16 +171,13 @@ def matrix_along_axes(obj: Object, body: SnapTarget) -> NDArray | None:
     """Return the matrix of the body's center and principal axes, or None if the object has them
     already.
     """
-    now = world(obj)
-    linear = now[:3, :3]
+    linear = world(obj)[:3, :3]
     is_rotation = (
         np.abs(linear.T @ linear - np.eye(3)).max() <= UNIT_SCALE and np.linalg.det(linear) > 0.0
     )
     if is_rotation and matrix_at_center(obj, body) is None and body.is_principal(linear):
         return None
-    target = np.eye(4)
-    target[:3, :3], target[:3, 3] = body.axes, body.center
-    return target
+    return affine_matrices(body.axes, body.center)
 
 
 def matrix_for_bullet(obj: Object, body: SnapTarget) -> NDArray | None:
@@ -207,10 +194,8 @@ def matrix_for_bullet(obj: Object, body: SnapTarget) -> NDArray | None:
     off = np.abs(products - wanted).max()
     if np.linalg.det(linear) > 0.0 and off <= UNIT_SCALE * products.max():
         return matrix_at_center(obj, body)
-    target = np.eye(4)
-    target[:3, :3] = polar_rotation(np.array([obj.matrix_world.to_quaternion().to_matrix()]))[0][0]
-    target[:3, 3] = body.center
-    return target
+    turn = np.array([obj.matrix_world.to_quaternion().to_matrix()])
+    return affine_matrices(polar_rotation(turn)[0][0], body.center)
 
 
 def align_to_world(

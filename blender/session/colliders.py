@@ -16,7 +16,8 @@ from ...core import bodies, colliders, inertia, mesh, moments, robots, verdict
 from ...core.measurement import Measurement, digest, plain
 from ...core.numerics import Array, polar_rotation
 from .. import read, write
-from ..bodies.measure_body import MeasuredBody, measure_body
+from ..bodies.measure_body import measure_body
+from ..bodies.stack import Measured
 from ..read.fingerprint import colliders_digest, scale_products
 from ..scale import meters_per_unit
 from ..scene import changes
@@ -102,7 +103,7 @@ def plan_colliders(
     return known[key]
 
 
-def _mesh_key(obj: Object, measured: MeasuredBody) -> str:
+def _mesh_key(obj: Object, measured: Measured) -> str:
     """Return a key that is equal for objects with the same settings and meshes in the same places
     of their frames.
     """
@@ -123,7 +124,7 @@ def _mesh_key(obj: Object, measured: MeasuredBody) -> str:
     return digest(settings + b"".join(np.ascontiguousarray(part).tobytes() for part in parts))
 
 
-def _surface(obj: Object, measured: MeasuredBody) -> mesh.Surface:
+def _surface(obj: Object, measured: Measured) -> mesh.Surface:
     """Return the measured surface, repaired if it is a solid's, in the object's frame in m."""
     measurement = measured.measurement
     pieces = [*measured.body.surfaces(measurement.kind == "shell")]

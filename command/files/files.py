@@ -23,10 +23,11 @@ from ...core.files import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..findings import FILE_NEWER_VERSION, FILE_VERSION_UNSUPPORTED
 from ..supervisor.listing import BLEND, USD
-from . import finite, importers, placing, suffixes
+from . import finite, placing, suffixes
 from .import_fbx import import_fbx
 from .import_gltf import import_gltf
 from .import_usd import import_usd
+from .importers import import_3mf, import_cad, import_mesh, import_obj
 from .references import Opened
 
 _OLDEST = (2, 50)  # reading files of older versions can damage their content
@@ -40,12 +41,14 @@ _ANIMATED: dict[str, Callable[[str, float | None], Opened]] = {
     ".gltf": import_gltf,
 } | dict.fromkeys(USD, import_usd)
 _IMPORTERS: dict[str, Callable[[str], object]] = {
-    ".stl": importers.import_mesh,
-    ".ply": importers.import_mesh,
-    ".obj": importers.import_obj,
-    ".3mf": importers.import_3mf,
-    ".igs": importers.import_iges,
-    ".iges": importers.import_iges,
+    ".stl": import_mesh,
+    ".ply": import_mesh,
+    ".obj": import_obj,
+    ".3mf": import_3mf,
+    ".igs": import_cad,
+    ".iges": import_cad,
+    ".step": import_cad,
+    ".stp": import_cad,
 }
 
 

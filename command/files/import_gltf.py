@@ -249,9 +249,6 @@ def _sampled(file: GltfFile, sampler: dict[str, Any], seconds: float, part: str)
 
 
 def _correct(pose: _Pose, shown: dict[str, _Shown]) -> None:
-    """Bring objects to the places, shape keys to the weights, and vertices that joints move to the
-    points, that a file states.
-    """
     weighted: set[bpy.types.Key] = set()
     for name, node in shown.items():
         shapes = bpy.data.objects[name].data.shape_keys

@@ -171,7 +171,7 @@ def _mesh(one: streams.Placed) -> bpy.types.Mesh:
     )
 
 
-def import_iges(path: str) -> Opened:
+def import_cad(path: str) -> Opened:
     """Add the surfaces of a file to the scene, in meters. Raises FileError and OSError."""
     return _added(cad.read_surfaces(path, files.file_limits(), for_blender=False))
 

@@ -11,17 +11,29 @@ from __future__ import annotations
 
 import os
 from argparse import Namespace
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
-from typing import Any
+from typing import Any, TypeVar
 
 from ...blender.session.findings import NO_SUCH_NAME
 from ...blender.write.thumbnail import thumbnail
-from ...core import bodies, cad, robots, streams, verdict
+from ...core import cad, floating, robots, streams, verdict
+from ...core.bodies import (
+    DENSITY_DEFAULTED,
+    SHAPE_OF_GRID,
+    ArrayOptions,
+    about_file,
+    body_of_mesh,
+    measure_array,
+    measure_faces,
+    measure_labels,
+    measure_mesh_file,
+    measure_reading,
+    read_mesh,
+)
 from ...core.files import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
-from ...core.floating import settle
 from ...core.measurement import Measurement, PrintSettings, Settings, record
 from ...core.scans import LABEL_ABSENT, UNIT_ASSUMED, Label, read_label_table
 from ...core.scans import formats as scans
@@ -64,6 +76,9 @@ _NOT_OF_STREAMS = (
 )
 
 
+Named = TypeVar("Named", streams.FileMesh, cad.SurfaceBody)
+
+
 class BareFile:
     """A file that is measured without Blender.
 
@@ -92,6 +107,9 @@ class BareFile:
         """Measure the bodies in the file. Raises MeasureError."""
         if self._is_scan or is_streamed(self._path, self.options, self._memory):
             self._measure_whole(contents)
+        elif file_suffix(self._path) in listing.CAD:
+            check_file(self._path)
+            self._measure_cad(contents)
         else:
             check_file(self._path)
             self._measure_meshes(contents)
@@ -136,7 +154,7 @@ class BareFile:
         findings = [*checks.file_findings(self._path, self.options)]
         if settings.density is None and settings.mass is None:
             settings = replace(settings, density=DEFAULT_DENSITY)
-            findings.append(finding(bodies.DENSITY_DEFAULTED, density="1000 kg/m³"))
+            findings.append(finding(DENSITY_DEFAULTED, density="1000 kg/m³"))
         return settings, findings
 
     def _chosen(self, names: Iterable[str], contents: Contents) -> list[str]:
@@ -163,14 +181,14 @@ class BareFile:
             return
         count = self._progress(self._path, "samples" if is_scan else "faces")
         measurement = (
-            bodies.measure_array(self._path, name, self._array_options(), self._settings(), count)
+            measure_array(self._path, name, self._array_options(), self._settings(), count)
             if is_scan
             else self._measure_stream(name, count)
         )
         requested = [more for more in ("pose", "signature") if getattr(self.options, more)]
         shapeless = checks.unused(requested)
         if is_scan:
-            shapeless = [finding(bodies.SHAPE_OF_GRID)] * bool(requested)
+            shapeless = [finding(SHAPE_OF_GRID)] * bool(requested)
         floats = ["float"] if self.options.float else []
         more = dict.fromkeys([*requested, *["thumbnail"] * bool(self.options.thumbnails)])
         more |= dict.fromkeys(["floating"] * len(floats))
@@ -181,11 +199,11 @@ class BareFile:
         settings, findings = self._mesh_settings()
         table = {}
         if options.label_table is not None:
-            with bodies.about_file(options.label_table.name):
+            with about_file(options.label_table.name):
                 table = read_label_table(options.label_table, options.limits)
         wanted = None if options.label == "all" else [options.label]
         array = self._array_options()
-        measured = bodies.measure_labels(
+        measured = measure_labels(
             self._path, name, array, replace(settings, unit=1.0), wanted, table
         )
         absent = [more["label"]["value"] for _, more in measured]
@@ -199,23 +217,17 @@ class BareFile:
         chosen = self._chosen([one.name for one, _ in measured], contents)
         for one, more in measured:
             density = table.get(more["label"]["value"], Label()).density
-            own = [
-                each
-                for each in findings
-                if density is None or each.code != bodies.DENSITY_DEFAULTED
-            ]
+            own = [each for each in findings if density is None or each.code != DENSITY_DEFAULTED]
             if one.name in chosen:
                 self._add(contents, one, own, more)
 
-    def _array_options(self) -> bodies.ArrayOptions:
+    def _array_options(self) -> ArrayOptions:
         taken = {
             one: getattr(self.options, one)
             for one in (*checks.OF_ARRAYS, "unit_scale", "limits", "threshold")
         }
         taken["positions"] = dict(self.options.positions or ())
-        return bodies.ArrayOptions(
-            **{one: value for one, value in taken.items() if value is not None}
-        )
+        return ArrayOptions(**{one: value for one, value in taken.items() if value is not None})
 
     def _measure_stream(self, name: str, progress: Callable[[int], None]) -> Measurement:
         check_file(self._path)
@@ -227,7 +239,27 @@ class BareFile:
         if given:
             raise QueryError(STREAM_OPTIONS, options=arguments.words(given))
         settings, findings = self._mesh_settings()
-        return bodies.measure_mesh_file(self._path, name, settings, tuple(findings), progress)
+        return measure_mesh_file(self._path, name, settings, tuple(findings), progress)
+
+    def _measure_cad(self, contents: Contents) -> None:
+        """Measure the bodies of a CAD file, each with a name of its own."""
+        try:
+            file = cad.read_surfaces(self._path, self.options.limits, for_blender=False)
+        except OSError as error:
+            raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
+        contents.errors += [failure(None, refused) for refused in file.refused]
+        settings, findings = self._mesh_settings()
+        settings = replace(settings, unit=file.unit or settings.unit)
+        findings += [finding(cad.FACES_NOT_READ, count=file.unread)] * bool(file.unread)
+        bodies = _with_own_names(file.bodies)
+        chosen = self._chosen([body.name for body in bodies], contents)
+        for body in bodies:
+            if body.name in chosen:
+                try:
+                    measured = measure_faces(body.name, body.patches, body.rounding, settings)
+                    self._add(contents, measured, (*findings, *file.notes), {})
+                except MeasureError as refusal:
+                    contents.errors.append(failure(body.name, refusal.finding))
 
     def _measure_meshes(self, contents: Contents) -> None:
         try:
@@ -247,24 +279,24 @@ class BareFile:
             if mesh.name not in chosen:
                 continue
             try:
-                reading = bodies.read_mesh(mesh, upright)
+                reading = read_mesh(mesh, upright)
                 try:
-                    body = bodies.body_of_mesh(reading, settings)
-                    measurement = bodies.measure_reading(reading, body, settings)
+                    body = body_of_mesh(reading, settings)
+                    measurement = measure_reading(reading, body, settings)
                     sheet = []
                 except MeasureError as refusal:
                     if not is_open_sheet(refusal, self.options):
                         raise
                     thickness = self.options.thickness or DEFAULT_THICKNESS
                     shell = replace(settings, kind="shell", thickness=thickness)
-                    body = bodies.body_of_mesh(reading, shell)
-                    measurement = bodies.measure_reading(reading, body, shell)
+                    body = body_of_mesh(reading, shell)
+                    measurement = measure_reading(reading, body, shell)
                     sheet = [finding(MEASURED_AS_SHELL)]
                 more, of_liquid = {}, ()
                 if self.options.float:
                     of_mass = measurement.mass_properties
                     settled = partial(
-                        settle,
+                        floating.settle,
                         [body],
                         of_mass.mass,
                         of_mass.center,
@@ -306,8 +338,8 @@ class BareFile:
         contents.measured.append((measurement.name, None, measurement))
 
 
-def _with_own_names(meshes: list[streams.FileMesh]) -> list[streams.FileMesh]:
-    """Return the meshes, later ones of a name with numbers behind it, as Blender names objects."""
+def _with_own_names(meshes: Sequence[Named]) -> list[Named]:
+    """Return meshes or bodies, later ones of a name with numbers behind it, as in Blender."""
     names: set[str] = set()
     named = []
     for mesh in meshes:
@@ -328,6 +360,8 @@ def is_bare(path: str, options: Namespace, memory: int | None) -> bool:
     if scans.scan_suffix(path) or not processes.has_blender():
         return True
     suffix = file_suffix(path)
+    if suffix in (".step", ".stp"):
+        return not arguments.options_of_polygons(options)
     if suffix not in listing.UNITLESS:
         return False
     if is_streamed(path, options, memory):

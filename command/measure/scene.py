@@ -198,7 +198,6 @@ class Scene:
         opened: references.Opened,
         contents: Contents,
     ) -> None:
-        """Add the records and measurements of bodies, and the records of flat shapes."""
         of_file = (
             *opened.notes,
             *file_findings(self._path, self.options),
@@ -444,5 +443,4 @@ class Scene:
 
 
 def _unavailable(part: str, refusal: MeasureError) -> Finding:
-    """Return the finding that a part of a record is missing, with the cause."""
     return finding(PART_UNAVAILABLE, part=part, cause=refusal.finding.as_record())

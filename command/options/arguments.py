@@ -46,6 +46,7 @@ ONE_FILE = "argument --format: {} takes one FILE, as a robot is one file"
 ONE_OBJECT = "argument --fourier: takes one object of one FILE"
 NEEDS_BLENDER = "{} Blender: add --blender PATH, or install the bpy module"
 RIM = "rim"
+_OF_POLYGONS = ("wall", "print", "below", "against", "float", "thumbnails")
 _OF_OBJECTS = ("polynomial", "density_from", "fourier", "flat", "pose", "signature")
 
 
@@ -240,6 +241,16 @@ def options_of_blender(options: argparse.Namespace, is_scan: bool) -> list[str]:
     ]
 
 
+def options_of_polygons(options: argparse.Namespace) -> list[str]:
+    """Return the given options for which a body of a CAD file has to be an object in Blender."""
+    given = {name: getattr(options, name) for name in _OF_POLYGONS}
+    return [
+        *options_of_blender(options, False),
+        *(name for name, value in given.items() if value not in (None, False, "thin")),
+        *["kind"] * (options.kind == "printed"),
+    ]
+
+
 def boolean_and_wire(options: argparse.Namespace) -> list[str]:
     """Return the given ones of the options --overlap union and --kind wire."""
     return ["overlap"] * (options.overlap == "union") + ["kind"] * (options.kind == "wire")
@@ -251,7 +262,12 @@ def check_blender(options: argparse.Namespace, paths: Sequence[str]) -> None:
         return
     for path in paths:
         is_scan = bool(scans.scan_suffix(path))
-        given = words(options_of_blender(options, is_scan))
-        if given or not (is_scan or Path(path).suffix.lower() in listing.UNITLESS):
+        suffix = Path(path).suffix.lower()
+        given = words(
+            options_of_polygons(options)
+            if suffix in listing.CAD
+            else options_of_blender(options, is_scan)
+        )
+        if given or not (is_scan or suffix in (*listing.UNITLESS, *listing.CAD)):
             what = ", ".join(given) if given else "“{}”".format(path)
             fail(NEEDS_BLENDER.format(what + (" need" if len(given) > 1 else " needs")))

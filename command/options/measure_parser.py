@@ -21,10 +21,11 @@ DEFAULT_ORDER = 2  # For --surface-moments without --order: the order that inert
 DEFAULT_TIMEOUT = 1800.0  # seconds for one file
 
 _EPILOG = """\
-FILE is .blend, .stl, .obj, .ply, .glb, .gltf, .usd, .usda, .usdc, .usdz, .fbx, .3mf, .igs or
-.iges, or an array or scan of densities: .npy, .npz, .nrrd, .nhdr, .nii, .nii.gz, or .raw if called
-NAME_XxYxZ_TYPE.raw; or a folder, whose files of these kinds are measured, those in its folders too.
-Without one, the file that Blender has open is measured. All numbers are SI: kilograms and meters.
+FILE is .blend, .stl, .obj, .ply, .glb, .gltf, .usd, .usda, .usdc, .usdz, .fbx, .3mf, .step, .stp,
+.igs or .iges, or an array or scan of densities: .npy, .npz, .nrrd, .nhdr, .nii, .nii.gz, or .raw if
+called NAME_XxYxZ_TYPE.raw; or a folder, whose files of these kinds are measured, those in its
+folders too. Without one, the file that Blender has open is measured. All numbers are SI: kilograms
+and meters.
 Files are measured by child processes, so that none of them can end the others: what crashes, hangs
 or takes too much memory has a record that says so.
 Other commands take the place of `measure`: --help without a command lists them.

@@ -23,8 +23,9 @@ from ..parser import UsageError
 SCHEMA = "body-moments-manifest/1"
 BLEND = ".blend"
 UNITLESS = (".stl", ".obj", ".ply")  # formats that need no import either
+CAD = (".igs", ".iges", ".step", ".stp")  # nor do these, which state their unit
 USD = (".usd", ".usda", ".usdc", ".usdz")
-IMPORTED = (".stl", ".ply", ".obj", ".fbx", ".3mf", ".igs", ".iges", ".glb", ".gltf", *USD)
+IMPORTED = (".stl", ".ply", ".obj", ".fbx", ".3mf", *CAD, ".glb", ".gltf", *USD)
 SUFFIXES = (BLEND, *IMPORTED, *(suffix for suffix in scans.SUFFIXES if suffix != ".raw"))
 COPY_SUFFIX = ".body_moments.blend"  # suffix of our own copies of .blend files
 # Other .raw files belong to headers.

@@ -6,6 +6,7 @@ from typing import Any
 from .files import ArrayOptions as ArrayOptions
 from .files import body_of_mesh as body_of_mesh
 from .files import measure_array as measure_array
+from .files import measure_faces as measure_faces
 from .files import measure_labels as measure_labels
 from .files import measure_mesh_file as measure_mesh_file
 from .files import read_mesh as read_mesh

@@ -19,6 +19,7 @@ from ..files import DEFAULT_LIMITS, Limits
 from ..measurement import DENSITY_FROM, NO_VOLUME, Body, Measurement, Settings
 from ..moments import KNOWN_ORDER, Moments, affine_matrices
 from ..numerics import Array
+from ..nurbs import Face, measure_patches
 from ..scans import (
     LABEL_ABSENT,
     SCAN_UNSTATED,
@@ -38,7 +39,7 @@ from ..streams import (
     measure_stream,
     open_mesh_file,
 )
-from ..verdict import SELF_INTERSECTION, MeshHealth, Method, Procedure
+from ..verdict import SELF_INTERSECTION, MeshHealth, Method, Procedure, Source
 from ..verdict.finding import Finding, ReadError, finding
 from ..verdict.findings import NO_FACES
 from .findings import (
@@ -123,6 +124,48 @@ class StreamBody(Body):
         found = measure_stream(self.mesh, order, order if area else 0, self.threads)
         volume, areas = _in_meters(found, self.unit)
         return volume, areas if area else None
+
+
+@dataclass(frozen=True, eq=False)
+class FaceBody(Body):
+    """The solid or the sheet of curved faces, in meters. stored: as in `measure_patches`."""
+
+    any_order: ClassVar[bool] = True
+
+    faces: tuple[Face, ...] = field(kw_only=True)
+    stored: float = field(kw_only=True)
+
+    def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
+        """Return the moments to an order."""
+        found = measure_patches(
+            self.faces, order=order, area_order=order if area else 0, stored=self.stored
+        )
+        return found.volume, found.area if area else None
+
+
+def measure_faces(
+    name: str, faces: Sequence[Face], rounding: float, settings: Settings
+) -> Measurement:
+    """Return the mass properties of a solid or a thin sheet of faces, or raise MeasureError.
+
+    rounding: largest effect of a file's decimals on a point, in its unit.
+    """
+    scale = np.diag([*[settings.unit] * 3, 1.0])
+    placed = tuple(face.transform(scale) for face in faces)
+    stored = settings.unit * rounding
+    found = measure_patches(placed, area_order=3, stored=stored)
+    is_shell = settings.kind == "shell"
+    body = FaceBody(
+        found.volume * 0.0 if is_shell else found.volume,
+        found.area,
+        found.health,
+        Method(Procedure.SHELL if is_shell else found.method, Source.NURBS),
+        found.findings,
+        estimated=True,
+        faces=placed,
+        stored=stored,
+    )
+    return measure_reading(bare_reading(name, "SURFACE"), body, settings)
 
 
 def measure_mesh_file(

@@ -275,7 +275,7 @@ def read_obj_faces(
 
 def _read_points(lines: Lines) -> Array:
     """Return the (n, 3) vertices of a block."""
-    values, at, _ = parse_decimals(lines.keep(lines.kinds[0]))
+    values, at = parse_decimals(lines.keep(lines.kinds[0]))
     line = np.searchsorted(lines.starts, at, "right")
     first = np.flatnonzero(np.diff(line, prepend=-1))
     return values[first[:, None] + np.arange(3)]

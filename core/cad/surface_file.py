@@ -15,9 +15,16 @@ from ..streams import KINDS, FileMesh, box_of_blocks
 from ..verdict import FileError
 from .iges import IgesReader
 from .obj import UPRIGHT, ObjReader, read_obj_meshes
+from .step import StepReader
 from .surfaces import SurfaceFile
 
-_READERS = {".igs": IgesReader, ".iges": IgesReader, ".obj": ObjReader}
+_READERS = {
+    ".igs": IgesReader,
+    ".iges": IgesReader,
+    ".obj": ObjReader,
+    ".step": StepReader,
+    ".stp": StepReader,
+}
 SUFFIXES = tuple(_READERS)
 
 

@@ -51,12 +51,16 @@ class SurfaceBody:
     """Faces of one object in a file, in the file's unit; patches for Blender's flags *Bézier* and
     *Endpoint*.
 
-    rounding: largest effect of the file's decimals on a point.
+    rounding: largest effect of the file's decimals on a point. color: red, green and blue in sRGB.
+    source: the compressed STEP file of this body alone, which `matrix` (4, 4) places.
     """
 
     name: str
     patches: tuple[Face, ...]
     rounding: float = 0.0
+    color: tuple[float, ...] | None = None
+    source: bytes = b""
+    matrix: Array | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -73,19 +73,22 @@ def within(
     loops = [one.curves or _lifted(surface, one.parameters or ()) for one in boundaries]
     if not all(loops):
         raise SurfaceRefusedError(SURFACE_TRIMMED)
+    in_space = [Boundary(loop) for loop in loops]
     if isinstance(surface, Quadric):
         try:
             patch = spanned_quadric(surface, [curve for loop in loops for curve in loop])
         except ValueError:
             patch = None
-        spanned = [Boundary(loop) for loop in loops]
-        if patch is not None and (not loops or _follow_sides(patch, _UNIT, spanned)):
+        if patch is not None and (not loops or _follow_sides(patch, _UNIT, in_space)):
             return [patch]
         if only_patches:
             raise SurfaceRefusedError(SURFACE_TRIMMED)
-        return [curved_region(surface, loops, rounding, directed)]
+        face = curved_region(surface, loops, rounding, directed)
+        return [face if face.loops else spanned_quadric(surface, [])]
     if _is_flat(surface, FLAT_RTOL * patches_size([surface]) + 4.0 * rounding):
         return [first_region([loops], vector_area([surface]))]
+    if _follow_sides(surface, _UNIT, in_space):
+        return [surface]
     chart = SplineChart(surface)
     if chart.periods[1] and not chart.periods[0]:
         # Strips end at the sides of the direction that does not close.

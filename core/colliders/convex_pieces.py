@@ -191,10 +191,7 @@ def _concave_planes(piece: Piece, size: float) -> Array:
     other = piece.normals[piece.face[second]]
     turn = np.einsum("ij,ij->i", np.cross(one, other), b - a)
     concave = turn < -1e-6 * size
-    a = a[concave]
-    b = b[concave]
-    one = one[concave]
-    other = other[concave]
+    a, b, one, other = (values[concave] for values in (a, b, one, other))
     weight = -turn[concave]
     if not len(a):
         return np.zeros((0, 4))

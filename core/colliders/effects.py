@@ -29,8 +29,7 @@ import numpy as np
 
 from ..inertia import MassProperties
 from ..mesh import ConvexHull, Surface, convex_hull, triangle_areas
-from ..moments import SECOND_MOMENT_INDEX, Moments
-from ..moments.exponents import monomial_count, monomials
+from ..moments import SECOND_MOMENT_INDEX, Moments, monomial_count, monomials
 from ..numerics import Array, NDArray, sums_by_index
 from ..polyhedron import polyhedron_moments
 from ..robots import Effect, Inertial, Pose, Shape, compare, moments_of, ratio

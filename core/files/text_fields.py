@@ -34,11 +34,7 @@ SHORT_OR_NAN = rb"(?:" + SHORT + rb"|[+-]?[nN][aA][nN])"
 SHORT_WHOLE = rb"[+-]?[0-9]{1,18}+"
 # forms that C prints
 _NOT_FINITE = re.compile(rb"[+-]?(?:nan|inf|infinity|nan\([\w]*\)|1\.#\w+)", re.IGNORECASE)
-MAX_POWER = 22  # up to this float64 holds a power of ten
-MAX_WHOLE = 1e18  # int64 holds smaller numbers, and replaces larger ones by its largest
-_POWERS = 10.0 ** np.arange(MAX_POWER + 1)
-_SPACE, _NINE, _DOT = b" 9."
-_BLANKS = bytes(letter if _SPACE < letter <= _NINE else _SPACE for letter in range(256))
+_SPACE, _NINE = b" 9"
 
 # Words for the field that a line should have.
 NUMBER = "a finite decimal number"
@@ -95,61 +91,18 @@ def refuse_line(data: Data, at: int, fault: Fault) -> NoReturn:
     raise FileError(LINE_MISREAD, line=line, text=fault[0], expected=fault[1])
 
 
-def parse_decimals(text: bytes) -> tuple[Array, Index, int]:
-    """Return the (n,) decimal numbers of a text, the offsets of their first letters, and the count
-    of exponents.
+def parse_decimals(text: bytes) -> tuple[Array, Index]:
+    """Return the (n,) decimal numbers of a text, and the offsets of their first letters.
 
-    Numbers of up to 15 digits that need no higher power of ten than 22 are correctly rounded,
-    others to two units in the last place. Words of letters separate numbers. ValueError if another
-    word is no number, or touches a letter.
+    Words of letters separate numbers. ValueError if another word is no number, or touches a letter.
     """
     letters = np.frombuffer(text, np.uint8)
+    before = np.append(np.uint8(_SPACE), letters[:-1])
     is_part = (letters > _SPACE) & (letters <= _NINE)
-    edges = np.flatnonzero(np.diff(is_part, prepend=False, append=False))
-    starts = edges[::2]
-    ends = edges[1::2]
-    # The letter before an exponent is an e that follows a number.
-    is_exponent = (letters[starts - 1] | 32 == ord("e")) & (starts > 0)
-    is_exponent[1:] &= ends[:-1] == starts[1:] - 1
-    is_exponent[:1] = False
-    is_sign = (letters == ord("+")) | (letters == ord("-"))
-    has_sign = is_sign[starts]
-    before = np.where(starts > 0, letters[starts - 1], _SPACE)
-    after = np.append(letters, np.uint8(_SPACE))[ends]
-    touches = (before[~is_exponent] > _SPACE).any() or np.count_nonzero(
-        after > _SPACE
-    ) != np.count_nonzero(is_exponent)
-    if (
-        touches
-        or (is_exponent[1:] & is_exponent[:-1]).any()
-        or np.count_nonzero(is_sign) != np.count_nonzero(has_sign)
-    ):
+    follows = (before > _SPACE) & (before <= _NINE)
+    is_exponent = follows & (letters | 32 == ord("e"))
+    starts = np.flatnonzero(is_part & (before <= _SPACE))
+    words = np.where(is_part | is_exponent, letters, np.uint8(_SPACE)).tobytes().split()
+    if len(words) != len(starts) or (follows & (letters > _NINE) & ~is_exponent).any():
         raise ValueError("no decimal numbers")
-    whole = np.fromstring(text.translate(_BLANKS, b"."), np.int64, sep=" ")
-    powers = np.zeros(len(starts), np.int64)
-    dots = np.flatnonzero(letters == _DOT)
-    first = owners = np.flatnonzero(~is_exponent)
-    if len(dots) != len(first) or (dots < starts[first]).any() or (dots >= ends[first]).any():
-        owners = np.searchsorted(starts, dots, "right") - 1  # Not every number has a dot.
-    powers[owners] = dots - ends[owners] + 1
-    digits = ends - starts - has_sign
-    digits[owners] -= 1
-    if (np.diff(owners) < 1).any() or is_exponent[owners].any() or digits.min(initial=1) < 1:
-        raise ValueError("no decimal numbers")
-    last = np.flatnonzero(is_exponent)
-    powers[last - 1] += whole[last]
-    values = whole.astype(np.float64)
-    left = np.abs(powers)
-    is_hard = (np.abs(values) >= MAX_WHOLE) | (left > 2 * MAX_POWER)
-    left = np.minimum(left, 2 * MAX_POWER)
-    while left.any():
-        scales = _POWERS[np.minimum(left, MAX_POWER)]
-        values = np.where(powers < 0, values / scales, values * scales)
-        left = np.maximum(left - MAX_POWER, 0)
-    is_hard[last] = is_hard[last - 1]
-    if is_hard.any():
-        is_part[is_part] = np.repeat(is_hard, ends - starts)
-        is_part[starts[last] - 1] = is_hard[last]
-        hard = np.where(is_part, letters, np.uint8(_SPACE)).tobytes()
-        values[is_hard & ~is_exponent] = np.fromstring(hard, np.float64, sep=" ")
-    return values[first], starts[first], len(last)
+    return np.array(words, np.float64), starts

@@ -21,8 +21,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..moments import Measure, Moments
-from ..moments.exponents import monomial_count, monomial_index
+from ..moments import Measure, Moments, monomial_count, monomial_index
 from ..numerics import (
     Array,
     Index,
@@ -239,9 +238,7 @@ def _steep_side_windings(
         part = slice(first, first + rays_per_block)
         x, y = middle[part, 0, None], middle[part, 1, None]
         near = np.flatnonzero((high >= y.min()) & (low <= y.max()))
-        a = start[near]
-        b = end[near]
-        d = along[near]
+        a, b, d = (values[near] for values in (start, end, along))
         # 1 where the ray's line is crossed upward, -1 downward
         up = (b[:, 1] > y).astype(np.int64) - (a[:, 1] > y)
         ahead = d[:, 0] * (y - a[:, 1]) - d[:, 1] * (x - a[:, 0])  # positive to the edge's left
@@ -310,9 +307,7 @@ def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int,
             ]
         )
         along = (np.abs(sides) <= touch).all(axis=0)
-        i = i[along]
-        j = j[along]
-        pair = pair[along]
+        i, j, pair = (values[along] for values in (i, j, pair))
         unit = (end[i] - start[i]) / length[i, None]
         first, last = (((point[j] - start[i]) * unit).sum(axis=1) for point in (start, end))
         # For opposite edges first is beyond last.

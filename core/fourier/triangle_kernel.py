@@ -110,7 +110,8 @@ class SortedTriangles:
                 ((a + b + c) / 3.0 + 1.0) * (MORTON_CELLS / 2.0), 0, MORTON_CELLS
             ).astype(np.int64)
             octave = np.clip(np.frexp(diameter)[1] + 1100, 0, 2000).astype(np.int64)
-            keys.append(octave << 30 | _morton_code(cell))
+            x, y, z = spread_bits(cell)  # interleaved: the place on a Z-shaped curve
+            keys.append(octave << 30 | x | y << 1 | z << 2)
             diameters.append(diameter)
         order = np.argsort(np.concatenate(keys), kind="stable")
         self.triangles = triangles[order]
@@ -131,14 +132,6 @@ class SortedTriangles:
         some.diameters = self.diameters[selection]
         some.heights = self.heights[selection]
         return some
-
-
-def _morton_code(cells: NDArray) -> NDArray[np.int64]:
-    """Interleave the bits of three numbers below 1024, (3, k): the position of a place on a
-    Z-shaped curve.
-    """
-    spread = spread_bits(cells)
-    return spread[0] | spread[1] << 1 | spread[2] << 2
 
 
 class TriangleBlock:

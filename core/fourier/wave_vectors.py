@@ -206,10 +206,8 @@ class GridWaves:
         def fill(wave_rows: slice, cosine: NDArray, sine: NDArray, spare: NDArray) -> None:
             i, j = np.divmod(np.arange(wave_rows.start, wave_rows.stop), len(self.side))
             c, s, scratch = (a.reshape(len(i), *z[0].shape) for a in (cosine, sine, spare))
-            a = x[0][i - first]
-            b = x[1][i - first]
-            p = y[0][j]
-            q = y[1][j]
+            a, b = (values[i - first] for values in x)
+            p, q = (values[j] for values in y)
             real = (a * p - b * q)[:, None]
             imaginary = (a * q + b * p)[:, None]
             np.subtract(real * z[0], imaginary * z[1], out=c)

@@ -17,7 +17,7 @@ from .correspondence import correspondences as correspondences
 from .edges import Edges as Edges
 from .edges import closed_side_faces as closed_side_faces
 from .edges import consistent_orientation as consistent_orientation
-from .edges import faces_across_sides as faces_across_sides
+from .edges import faces_beside_edges as faces_beside_edges
 from .edges import find_edges as find_edges
 from .edges import group_components as group_components
 from .edges import ring_sizes as ring_sizes

@@ -370,9 +370,7 @@ def intersecting_pairs(
     while pieces:
         pair, a, b = pieces.pop()
         going = ~intersects[pair]
-        pair = pair[going]
-        a = a[going]
-        b = b[going]
+        pair, a, b = (values[going] for values in (pair, a, b))
         work += len(pair)
         if work > MAX_BOX_PAIRS:
             for rest, *_ in [*pieces, (pair,)]:
@@ -382,9 +380,7 @@ def intersecting_pairs(
             np.minimum(tree.high[a], tree.high[b]) - np.maximum(tree.low[a], tree.low[b]) >= 0.0,
             axis=1,
         )
-        pair = pair[meet]
-        a = a[meet]
-        b = b[meet]
+        pair, a, b = (values[meet] for values in (pair, a, b))
         child_a, child_b = tree.child[a], tree.child[b]
         both = (child_a == -1) & (child_b == -1)
         if both.any():
@@ -428,16 +424,12 @@ def _intersect_leaves(
     meet = np.ones(len(pair), bool)
     for low, high in zip(tree.bottom, tree.top):
         meet &= (low[first] <= high[second]) & (low[second] <= high[first])
-    first = first[meet]
-    second = second[meet]
-    pair = pair[meet]
+    first, second, pair = (values[meet] for values in (first, second, pair))
     if vertex is not None:
         mine = vertex[tree.ids[:, first]]
         theirs = vertex[tree.ids[:, second]]
         apart = np.logical_and.reduce([x != y for x in mine for y in theirs])
-        first = first[apart]
-        second = second[apart]
-        pair = pair[apart]
+        first, second, pair = (values[apart] for values in (first, second, pair))
     corner, plane = (tree.corners(triangle).transpose(1, 2, 0) for triangle in (first, second))
     for _ in range(2):
         intersects[pair[_edges_cross_triangles(corner, plane, tolerance)]] = True

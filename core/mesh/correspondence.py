@@ -21,7 +21,6 @@ DIRECTION = np.array([0.7071, 0.5477, 0.4472])
 MAX_CANDIDATES = 500  # similarities that are compared in full
 PROBES = 6  # vertices that are compared first
 RESEMBLANCE = 20.0  # the scores of equal vertices differ by at most so many tolerances
-Indices = Index
 
 
 class Elements:
@@ -32,7 +31,7 @@ class Elements:
     similarity changes.
     """
 
-    def __init__(self, points: Array, edges: Indices, corners: Indices, starts: Indices):
+    def __init__(self, points: Array, edges: Index, corners: Index, starts: Index):
         self.points = points
         self.edges = edges
         self.corners = corners
@@ -59,10 +58,10 @@ class Correspondence:
 
     linear: Array
     offset: Array
-    vertices: Indices
-    edges: Indices
-    faces: Indices
-    corners: Indices
+    vertices: Index
+    edges: Index
+    faces: Index
+    corners: Index
 
     @property
     def is_still(self) -> bool:
@@ -112,7 +111,7 @@ def correspondences(
             yield found
 
 
-def _first_near(points: NDArray, targets: NDArray, tolerance: float) -> Indices:
+def _first_near(points: NDArray, targets: NDArray, tolerance: float) -> Index:
     """Return for each of (n, 3) points the first of the (m, 3) targets within the tolerance, or
     m.
     """
@@ -164,7 +163,7 @@ def _candidate_turns(
 def _anchors(points: NDArray, scores: NDArray, near: float) -> tuple[int, int] | None:
     """Return two vertices, not in line with the middle, that as few others as possible resemble."""
 
-    def count_alike(scores: NDArray) -> Indices:
+    def count_alike(scores: NDArray) -> Index:
         ordered = np.sort(scores)
         return np.searchsorted(ordered, scores + near, side="right") - np.searchsorted(
             ordered, scores - near
@@ -195,8 +194,8 @@ def _frames(first: NDArray, second: NDArray) -> Array:
 def _prove(
     first: Elements,
     second: Elements,
-    places: Indices,
-    others: Indices,
+    places: Index,
+    others: Index,
     mirrored: bool,
     tolerance: float,
 ) -> Correspondence | None:
@@ -258,8 +257,8 @@ def _similarity(source: NDArray, target: NDArray, mirrored: bool) -> tuple[NDArr
 
 
 def _match_faces(
-    first: Elements, second: Elements, places: Indices, others: Indices, mirrored: bool
-) -> tuple[Indices, Indices] | None:
+    first: Elements, second: Elements, places: Index, others: Index, mirrored: bool
+) -> tuple[Index, Index] | None:
     """Return the second mesh's face and corner for each of the first's; of a mirror image, corners
     run backward.
     """
@@ -280,7 +279,7 @@ def _match_faces(
     return faces, corners
 
 
-def _from_least(keys: Indices, corners: Indices) -> tuple[Indices, Indices]:
+def _from_least(keys: Index, corners: Index) -> tuple[Index, Index]:
     """Return the (k, s) keys and corners of faces, each row turned so that it begins with its least
     key.
     """
@@ -288,7 +287,7 @@ def _from_least(keys: Indices, corners: Indices) -> tuple[Indices, Indices]:
     return np.take_along_axis(keys, turned, axis=1), np.take_along_axis(corners, turned, axis=1)
 
 
-def _match_rows(rows: Indices, others: Indices) -> Indices | None:
+def _match_rows(rows: Index, others: Index) -> Index | None:
     """Return the index in `others` of each row, or None if the rows are not the same."""
     order = np.lexsort(rows.T[::-1])
     other_order = np.lexsort(others.T[::-1])

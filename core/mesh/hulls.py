@@ -399,9 +399,7 @@ def convex_polygon(points: Array, tolerance: float = 0.0) -> Index:
             length > 0.0, length, 1.0
         )
         outside = height > max(least, 4.0 * np.finfo(np.float64).eps * np.abs(points).max())
-        rest = rest[outside]
-        side = side[outside]
-        height = height[outside]
+        rest, side, height = (values[outside] for values in (rest, side, height))
         if not len(rest):
             break
         order = np.lexsort((height, side))

@@ -82,22 +82,15 @@ class LineGrids:
         for a single body.
         """
         if body is None:
+            body = np.zeros(1, np.intp)
             places = points.T[self.axes[0]].astype(np.float64)
-            center = self.center.T
-            cell = self.cell.T
-            origin = self.origin.T
         else:
             places = points[np.arange(len(points)), self.axes[body].T].astype(np.float64)
-            center = self.center[body].T
-            cell = self.cell[body].T
-            origin = self.origin[body].T
-        places -= center
-        along = places[2]
-        for k in range(2):
-            places[k] -= LINE_SLOPES[k] * along
-            places[k] /= cell[k]
+        places -= self.center[body].T
+        places[:2] -= np.multiply.outer(LINE_SLOPES, places[2])
+        places[:2] /= self.cell[body].T
         places[1] -= COLUMN_SLOPE * places[0]
-        places[:2] += origin
+        places[:2] += self.origin[body].T
         return places
 
     def squared_distances(
@@ -156,7 +149,10 @@ def find_crossings(
         np.clip(end, 0, grids.rows) for end in (np.minimum.reduce(above), np.maximum.reduce(above))
     )
     bodies = len(grids.cell)
-    faces = _count_faces(surface, body, len(grids.cell))
+    faces = np.array([surface.triangle_count])
+    if body is not None:
+        halves = np.concatenate([surface.quads[:, 0], surface.quads[:, 0], surface.triangles[:, 0]])
+        faces = np.bincount(body[halves], minlength=bodies)
     apart = _rows_apart(sums_by_index(owner, last - first, bodies), MAX_PAIRS, faces)
     step = apart[owner]
     first = -(-first // step) * step
@@ -200,17 +196,6 @@ def _cells(
             grids.places(points[part], None if body is None else body[part])[:2]
         )
     return cells[0], cells[1]
-
-
-def _count_faces(surface: Surface, body: NDArray[np.integer] | None, bodies: int) -> Index:
-    """Return the (b,) numbers of triangles of the bodies."""
-    if body is None:
-        return np.array([surface.triangle_count])
-    quads, triangles = (
-        np.bincount(body[faces[:, 0]], minlength=bodies)
-        for faces in (surface.quads, surface.triangles)
-    )
-    return triangles + 2 * quads
 
 
 def _rows_apart(work: Array, limit: tuple[int, float], faces: Index) -> Index:

@@ -22,6 +22,8 @@ from .exponents import KNOWN_ORDER as KNOWN_ORDER
 from .exponents import check_exponents as check_exponents
 from .exponents import count_of_degree as count_of_degree
 from .exponents import factorial_ratios as factorial_ratios
+from .exponents import monomial_count as monomial_count
+from .exponents import monomial_index as monomial_index
 from .exponents import monomial_values as monomial_values
 from .exponents import monomials as monomials
 from .exponents import order_from_count as order_from_count
@@ -39,8 +41,8 @@ from .moments import Measure as Measure
 from .moments import Moments as Moments
 from .moments import U as U
 from .moments import image as image
-from .moments import join_moments as join_moments
 from .moments import measure_scale_factors as measure_scale_factors
+from .moments import stack_moments as stack_moments
 from .moments import sum_moments as sum_moments
 from .moments import unchecked_moments as unchecked_moments
 from .solid_harmonics import Multiplets as Multiplets

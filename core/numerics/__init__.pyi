@@ -44,9 +44,7 @@ from .compensated import compensated_normals as compensated_normals
 from .compensated import phase_factors as phase_factors
 from .compensated import two_sum as two_sum
 from .float32 import shortest_decimal as shortest_decimal
-from .graph import EDGES_PER_BLOCK as EDGES_PER_BLOCK
 from .graph import connected_components as connected_components
-from .graph import connected_neighbors as connected_neighbors
 from .quadrature import gauss_legendre as gauss_legendre
 from .quadrature import gauss_legendre_with_ends as gauss_legendre_with_ends
 from .quadrature import spread_directions as spread_directions

@@ -56,28 +56,6 @@ def connected_components(
             return label.astype(np.intp), number
 
 
-def connected_neighbors(neighbors: NDArray[np.integer]) -> tuple[Index, int]:
-    """Return (n,) components of nodes with (n, k) neighbors, and their number; each link is listed
-    at both its ends.
-    """
-    count = len(neighbors)
-    parent = np.arange(count, dtype=neighbors.dtype)
-    for column in neighbors.T:
-        np.minimum(parent, column, out=parent)
-    tree, number = _trees(parent)
-    if number == 1:
-        return _zeros(count, np.intp), 1
-    ends = [(tree[:0], tree[:0])]
-    for start in range(0, count, EDGES_PER_BLOCK):
-        own = tree[start : start + EDGES_PER_BLOCK]
-        for column in neighbors[start : start + EDGES_PER_BLOCK].T:
-            other = tree.take(column, mode="clip")
-            lower = np.flatnonzero(other < own)  # each link once
-            ends.append((own[lower], other[lower]))
-    component, number = connected_components(number, *(np.concatenate(each) for each in zip(*ends)))
-    return component.take(tree, mode="clip"), number
-
-
 def _zeros(count: int, dtype: DTypeLike) -> NDArray:
     """Return a read-only array (count,) of zeros that takes no memory, like `np.broadcast_to` but
     in less time.

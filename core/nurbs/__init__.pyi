@@ -23,6 +23,7 @@ from .patch_moments import vector_area as vector_area
 from .patch_moments import volume_moments as volume_moments
 from .quadric import TURN as TURN
 from .quadric import Quadric as Quadric
+from .seams import close_pairs as close_pairs
 from .seams import nearest_parameters as nearest_parameters
 from .seams import sharpest_crease as sharpest_crease
 from .solid import PatchIntegrals as PatchIntegrals

@@ -29,14 +29,17 @@ import numpy as np
 
 from ..inertia import MOMENTS_OVERFLOW
 from ..mesh import Surface
-from ..moments import Measure, Moments, U, unchecked_moments
-from ..moments.exponents import (
+from ..moments import (
+    Measure,
+    Moments,
+    U,
     count_of_degree,
     factorial_ratios,
     monomial_count,
     monomial_values,
     monomials,
     quotient_indices,
+    unchecked_moments,
 )
 from ..numerics import Array, NDArray, batches, cross, dot, indices_in_range
 from ..verdict import MeasureError, check_size

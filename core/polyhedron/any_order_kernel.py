@@ -19,8 +19,7 @@ from math import factorial
 
 import numpy as np
 
-from ..moments import U
-from ..moments.exponents import count_of_degree, monomials, quotient_indices
+from ..moments import U, count_of_degree, monomials, quotient_indices
 from ..numerics import Array, Index
 
 FACES_PER_CHUNK = 32  # faces that share one bound of their coordinates

@@ -16,8 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..inertia import MOMENTS_OVERFLOW
 from ..mesh import BoundarySum, PlanarityAccumulator, Surface
-from ..moments import Measure, Moments, U
-from ..moments.exponents import monomial_count
+from ..moments import Measure, Moments, U, monomial_count
 from ..numerics import (
     Array,
     check_order,

@@ -35,8 +35,15 @@ from math import isfinite
 import numpy as np
 
 from ..mesh import PlanarityAccumulator, Surface, has_flipped_corners
-from ..moments import PAIRWISE_SUM_ROUNDINGS, Measure, Moments, U, unchecked_moments
-from ..moments.exponents import monomial_count, monomials
+from ..moments import (
+    PAIRWISE_SUM_ROUNDINGS,
+    Measure,
+    Moments,
+    U,
+    monomial_count,
+    monomials,
+    unchecked_moments,
+)
 from ..numerics import Array, Index, NDArray, batches, indices_in_range
 from ..verdict import check_size
 

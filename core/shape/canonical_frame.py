@@ -21,8 +21,7 @@ from functools import lru_cache
 import numpy as np
 
 from ..inertia import MOMENTS_OVERFLOW, NOISE_LEVEL, SecondMomentAxes, frame_about
-from ..moments import Measure, Moments
-from ..moments.exponents import monomial_index, monomials, tensor_index
+from ..moments import Measure, Moments, monomial_index, monomials, tensor_index
 from ..numerics import Array, NDArray, distinct_arrays, spread_directions
 from ..verdict import MeasureError
 
@@ -72,7 +71,10 @@ def canonical_frames(
     """
     central = moments.about_center()
     total = central.raw[0]
-    check_range(central.at(None), spread.size[None])
+    with np.errstate(over="ignore", under="ignore"):
+        reach = total * spread.size.max() ** central.order
+    if not np.finfo(float).tiny < reach < np.inf:
+        raise MeasureError(MOMENTS_OVERFLOW, order=central.order)
     central = replace(
         central,
         raw=central.raw / total,
@@ -84,16 +86,6 @@ def canonical_frames(
     return EquivalentFrames(
         *lexicographic_maximum(frames, values, noise), noise, revolution_axes, tilt
     )
-
-
-def check_range(moments: Moments, size: Array) -> None:
-    """Raise MeasureError if the highest moments of bodies with these (n, 3) extents are no
-    numbers.
-    """
-    with np.errstate(over="ignore", under="ignore"):
-        reach = moments.raw[:, 0] * size.max(axis=1) ** moments.order
-    if not ((reach > np.finfo(float).tiny) & (reach < np.inf)).all():
-        raise MeasureError(MOMENTS_OVERFLOW, order=moments.order)
 
 
 def _candidates(

@@ -163,11 +163,6 @@ def rank(
     return sorted(ranked, key=lambda row: round(row[1].distance(any_size, any_hand), DECIMALS))
 
 
-def same_size(similarity: Likeness) -> bool:
-    """Return whether the two bodies are of one size, to noise."""
-    return abs(similarity.scale - 1.0) <= SAME_SIZE_RTOL
-
-
 def classify(similarity: Likeness) -> Similarity:
     """Name the relation of a shape to the one that it was compared with."""
     if similarity.shape > MAX_SIMILAR_DIFFERENCE:
@@ -175,4 +170,5 @@ def classify(similarity: Likeness) -> Similarity:
     if similarity.shape > SAME_SHAPE_DISTANCE:
         return Similarity.SIMILAR
     relation = {None: "copy_or_mirror", True: "mirror", False: "copy"}[similarity.is_mirror_image]
-    return Similarity(relation if same_size(similarity) else "scaled_" + relation)
+    is_same_size = abs(similarity.scale - 1.0) <= SAME_SIZE_RTOL
+    return Similarity(relation if is_same_size else "scaled_" + relation)

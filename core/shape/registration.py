@@ -24,7 +24,6 @@ import numpy as np
 from ..inertia import HALF_TURN_SIGNS, complete_free_axes
 from ..moments import Moments, invert_through_point
 from ..numerics import Array, NDArray, distinct_arrays
-from .canonical_frame import EquivalentFrames
 from .symmetries import Symmetry
 from .unique_frames import equivalent_frames, undetermined_axes
 from .zernike import degrees
@@ -74,8 +73,11 @@ def match(source: Moments, target: Moments, residual: Residual, size: float) -> 
     first = equivalent_frames(source).frames[0]
 
     def maps(mirrored: bool) -> Array:
-        frames = equivalent_frames(invert_through_point(target) if mirrored else target)
-        return _candidate_rotations(first, frames) * (-1.0 if mirrored else 1.0)
+        alike = equivalent_frames(invert_through_point(target) if mirrored else target)
+        turned = (alike.frames[:, None] * HALF_TURN_SIGNS[:, None, :]).reshape(-1, 3, 3)
+        free = undetermined_axes(alike.revolution_axes)
+        frames = np.array([complete_free_axes(frame, free, first) for frame in turned])
+        return distinct_arrays(frames @ first.T, 1e-9) * (-1.0 if mirrored else 1.0)
 
     return _best_match(maps, residual, size)
 
@@ -90,20 +92,6 @@ def _best_match(maps: Callable[[bool], NDArray], residual: Residual, size: float
         _best_map(maps(True), residual, size)[1].max() < MIRROR_SHARE * largest
     )
     return RigidMatch(rotation, largest, float(distances.mean()), mirrored)
-
-
-def _candidate_rotations(first: NDArray, target: EquivalentFrames) -> Array:
-    """Return the (k, 3, 3) rotations from a frame of the source to the frames of the target and
-    their half turns.
-    """
-    frames = (target.frames[:, None] * HALF_TURN_SIGNS[:, None, :]).reshape(-1, 3, 3)
-    frames = np.array(
-        [
-            complete_free_axes(frame, undetermined_axes(target.revolution_axes), first)
-            for frame in frames
-        ]
-    )
-    return distinct_arrays(frames @ first.T, 1e-9)
 
 
 def _best_map(candidates: NDArray, residual: Residual, size: float) -> tuple[NDArray, NDArray]:
@@ -213,8 +201,7 @@ def _mirrors(zernike: NDArray, points: NDArray) -> Array:
     outermost corners.
     """
     radius = np.hypot(*points.T)
-    outer = points[radius > (1.0 - 1e-4) * radius.max()]
-    corners = np.arctan2(*outer.T[::-1])
+    corners = np.arctan2(*points[radius > (1.0 - 1e-4) * radius.max()].T[::-1])
     corners = corners[np.unique(np.round(corners, 5), return_index=True)[1][: 2 * MAX_AXIS_ORDER]]
     angles = np.concatenate([_best_angles(zernike.conj(), zernike), corners[0] + corners])
     return turns_about_normal(angles) @ MIRROR

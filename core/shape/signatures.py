@@ -32,8 +32,17 @@ from math import hypot, log, pi, sqrt, tanh
 
 import numpy as np
 
-from ..moments import Measure, Moments, U, along_first, complex_moments, couple, harmonic_moments
-from ..moments.exponents import monomial_count, monomials
+from ..moments import (
+    Measure,
+    Moments,
+    U,
+    along_first,
+    complex_moments,
+    couple,
+    harmonic_moments,
+    monomial_count,
+    monomials,
+)
 from ..numerics import Array, Mask, NDArray, PerBody, check_type
 from ..verdict import FileError
 from .findings import SIGNATURE_INVALID
@@ -97,7 +106,11 @@ class Signature:
             result = cls(
                 float(record["size"]), invariants, zernike, fourier, chirality, dimension=dimension
             )
-            lengths = _lengths(dimension)
+            couplings = len(_flat_pairs()) + len(_flat_triples())
+            lengths = {
+                2: (INVARIANT_ORDER // 2 - 1 + couplings, int(_is_chiral().sum())),
+                3: (2 + len(_pairs()) + len(_even_triples()), len(_chiral_triples())),
+            }[dimension]
         except (KeyError, TypeError, ValueError, OverflowError) as error:
             raise FileError(SIGNATURE_INVALID, fault="was not written by --signature") from error
         is_complete = (
@@ -137,17 +150,6 @@ class Likeness:
             for value in (log(self.scale), self.chirality_difference)
         )
         return hypot(self.shape, 0.0 if any_size else size, 0.0 if any_hand else hand)
-
-
-def _lengths(dimension: int) -> tuple[int, int]:
-    """Return the numbers of invariants and of chiralities of a signature.
-
-    KeyError for an unknown dimension.
-    """
-    bodies = 2 + len(_pairs()) + len(_even_triples()), len(_chiral_triples())
-    couplings = len(_flat_pairs()) + len(_flat_triples())
-    flat = INVARIANT_ORDER // 2 - 1 + couplings, int(_is_chiral().sum())
-    return {2: flat, 3: bodies}[dimension]
 
 
 def signature(moments: Moments, radius: float, zernike: Multiplets | None = None) -> Signature:
@@ -225,8 +227,11 @@ def _numbers(
     if moments.measure == Measure.VOLUME:
         volume = zernike[0, 0].real[0] * 4.0 * pi / 3.0
         power = radial_power(zernike, FREQUENCIES)[0] / volume**2
+    scalars = [harmonic[n, 0].real[0] for n in (4, 6)]
+    products = [np.add.reduce((harmonic[a].conj() * harmonic[b]).real) for a, b in _pairs()]
+    invariants = np.array(scalars + products + _couplings(harmonic, _even_triples()))
     chirality = np.array(_couplings(harmonic, _chiral_triples()))
-    return _invariants(harmonic), descriptors(zernike), power, chirality, error
+    return invariants, descriptors(zernike), power, chirality, error
 
 
 def similarity(a: Signature, b: Signature) -> Likeness:
@@ -285,12 +290,6 @@ def similarity(a: Signature, b: Signature) -> Likeness:
 def _relative_difference(a: NDArray, b: NDArray) -> float:
     scale = max(np.linalg.norm(a), np.linalg.norm(b))
     return float(np.linalg.norm(a - b) / scale) if scale else 0.0
-
-
-def _invariants(harmonic: Multiplets) -> Array:
-    scalars = [harmonic[n, 0].real[0] for n in (4, 6)]
-    products = [np.add.reduce((harmonic[a].conj() * harmonic[b]).real) for a, b in _pairs()]
-    return np.array(scalars + products + _couplings(harmonic, _even_triples()))
 
 
 def _couplings(harmonic: Multiplets, triples: list[tuple[Key, Key, Key]]) -> list[Array]:

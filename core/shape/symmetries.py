@@ -65,13 +65,11 @@ class Symmetry:
         """Rotation axes as (direction, order), the highest order first."""
         proper = self.operations[np.linalg.det(self.operations) > 0.0]
         turns = proper[np.trace(proper, axis1=1, axis2=2) < 3.0 - EQUAL_OPERATION_ATOL]
-        directions = _distinct_lines(
-            np.array(
-                [np.linalg.eigh(rotation + rotation.T)[1][:, 2] for rotation in turns]
-            ).reshape(-1, 3)
-        )
+        lines = np.linalg.eigh(turns + turns.swapaxes(1, 2))[1][:, :, 2]
+        same = np.abs(lines @ lines.T) > 1.0 - EQUAL_OPERATION_ATOL
+        first = [i for i in range(len(lines)) if np.argmax(same[i]) == i]
         return sorted(
-            ((axis, 1 + int(same.sum())) for axis, same in directions), key=lambda pair: -pair[1]
+            ((lines[i], 1 + int(same[i].sum())) for i in first), key=lambda pair: -pair[1]
         )
 
     @property
@@ -143,19 +141,13 @@ def symmetry(
     axes = first.T[list(alike.revolution_axes)]
     operations = np.array(operations)
     if len(axes) == 1:
-        operations = _finite_operations(operations, axes[0])
+        # the finite operations, for all others: the identity and perhaps a reflection
+        reflection = np.eye(3) - 2.0 * np.outer(axes[0], axes[0])
+        is_reversed = _reverses_axis(operations, axes[0]).any()
+        operations = np.array([np.eye(3), reflection] if is_reversed else [np.eye(3)])
     elif len(axes) == 3:
         operations = np.array([np.eye(3)])
     return Symmetry(distinct_arrays(operations, EQUAL_OPERATION_ATOL), axes, order)
-
-
-def _finite_operations(operations: NDArray, axis: NDArray) -> Array:
-    """Return the finite operations of a body of revolution, for all others: the identity and
-    perhaps a reflection.
-    """
-    if not _reverses_axis(operations, axis).any():
-        return np.eye(3)[None]
-    return np.array([np.eye(3), np.eye(3) - 2.0 * np.outer(axis, axis)])
 
 
 def _reverses_axis(operations: NDArray, axis: NDArray) -> Mask:
@@ -167,12 +159,6 @@ def axis_rotation(axis: NDArray, angle: float) -> Array:
     x, y, z = axis
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     return np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross
-
-
-def _distinct_lines(vectors: NDArray) -> list[tuple[NDArray, NDArray]]:
-    """Return each line once, with the mask of the (k, 3) unit vectors that lie along it."""
-    same = np.abs(vectors @ vectors.T) > 1.0 - EQUAL_OPERATION_ATOL
-    return [(vectors[i], same[i]) for i in range(len(vectors)) if np.argmax(same[i]) == i]
 
 
 def _schoenflies(symmetry_found: Symmetry) -> str:

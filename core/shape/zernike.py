@@ -17,8 +17,9 @@ the stable recursion
     J_k = (S_k - A_k) / (n+3),    A_{k+1} = ((2n+3) S_k - n A_k) / (n+3),    A_0 = 0.
 
 Of a plane shape in the unit disc (Zernike 1934; Teague 1980 for shapes) they are A_nm =
-sqrt((n+1)/π) ∫ R_nm(r) exp(-imφ) dA, orthonormal: the sum of all |A_nm|², m = -n..n, is at most the
-shape's area. Turned by θ a shape has A_nm exp(-imθ), and its mirror image in y = 0 has conj(A_nm).
+sqrt((n+1)/π) ∫ R_nm(r) exp(-imφ) dA with R_nm = r^m P_k^(0, m)(2r² - 1), k = (n-m)/2, orthonormal:
+the sum of all |A_nm|², m = -n..n, is at most the shape's area. Turned by θ a shape has A_nm
+exp(-imθ), and its mirror image in y = 0 has conj(A_nm).
 
 Every frequency within the ball's resolution follows too, for ∫ R_nl j_l(qr) r² dr = (-1)^k
 sqrt(2n+3) j_{n+1}(q)/q.
@@ -61,7 +62,7 @@ def zernike_moments(raw: NDArray, order: int) -> Multiplets:
         * sum(
             (
                 sqrt(2 * n + 3) * float(c) * harmonic[l + 2 * i, l]
-                for i, c in enumerate(_radial(n, l))
+                for i, c in enumerate(_radial((n - l) // 2, Fraction(2 * l + 1, 2)))
             ),
             NO_SUM,
         )
@@ -247,10 +248,8 @@ def _spherical_bessel(q: NDArray, order: int) -> Array:
 
 
 @lru_cache
-def _radial(n: int, l: int) -> tuple[Fraction, ...]:
-    """Return the coefficients of r^(l+2i), i = 0..k, in R_nl, without the root of 2n+3."""
-    k = (n - l) // 2
-    beta = Fraction(2 * l + 1, 2)
+def _radial(k: int, beta: Fraction) -> tuple[Fraction, ...]:
+    """Return the coefficients of r^2i, i = 0..k, in P_k^(0, beta)(2r² - 1)."""
     row = []
     factor = Fraction((-1) ** k)
     for i in range(k):
@@ -273,25 +272,9 @@ def disc_zernike(moments: Moments, radius: float) -> NDArray[np.complex128]:
         [
             sqrt((n + 1) / pi)
             * sum(
-                factor * c[(s + m) // 2, (s - m) // 2].conjugate()
-                for s, factor in _disc_radial(n, m)
+                float(factor) * c[m + i, i].conjugate()
+                for i, factor in enumerate(_radial((n - m) // 2, Fraction(m)))
             )
             for n, m in degrees(moments.order)
         ]
     )
-
-
-@lru_cache
-def _disc_radial(n: int, m: int) -> list[tuple[int, float]]:
-    """Return the terms of the radial polynomial R_nm as pairs (exponent, coefficient)."""
-    return [
-        (
-            n - 2 * k,
-            float(
-                (-1) ** k
-                * factorial(n - k)
-                // (factorial(k) * factorial((n + m) // 2 - k) * factorial((n - m) // 2 - k))
-            ),
-        )
-        for k in range((n - m) // 2 + 1)
-    ]

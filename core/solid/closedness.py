@@ -13,14 +13,12 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh import Planarity, PlanarityAccumulator, Surface, closed_side_faces, faces_across_sides
+from ..mesh import Planarity, PlanarityAccumulator, Surface, closed_side_faces, faces_beside_edges
 from ..moments import Moments
 from ..numerics import (
     Index,
     Mask,
-    check_type,
     connected_components,
-    connected_neighbors,
     indices_in_range,
 )
 from ..polyhedron import polyhedron_moments, third_order
@@ -67,7 +65,6 @@ def check_surface(surface: Surface) -> CheckedSurface:
     """Check that a surface can be measured, or raise MeasureError; leave out vertices that no face
     uses.
     """
-    check_type("surface", surface, Surface)
     faces = [corners for corners in (surface.quads, surface.triangles) if len(corners)]
     if not faces:
         raise MeasureError(NO_FACES)
@@ -180,7 +177,6 @@ def _components_of_closed(surface: Surface) -> tuple[Index, int] | None:
         return None
     if len(surface.triangles) and len(surface.quads):
         return None
-    across = faces_across_sides(
-        surface.triangles if len(surface.triangles) else surface.quads, len(surface.points)
-    )
-    return None if across is None else connected_neighbors(across)
+    faces = surface.triangles if len(surface.triangles) else surface.quads
+    sides = faces_beside_edges(faces, len(surface.points))
+    return None if sides is None else connected_components(len(faces), *sides)

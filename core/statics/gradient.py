@@ -27,7 +27,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..mesh import Surface
-from ..moments.exponents import monomial_count
+from ..moments import monomial_count
 from ..numerics import Array, check_type, cross, float_array
 
 TRIANGLES_PER_BLOCK = 65536  # triangles at a time

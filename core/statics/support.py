@@ -393,9 +393,7 @@ def _coplanar(
     triangle, side = np.divmod(np.arange(neighbors.size), 3)
     other = neighbors.ravel()
     larger = lengths[triangle] >= lengths[other]
-    triangle = triangle[larger]
-    other = other[larger]
-    side = side[larger]
+    triangle, other, side = (values[larger] for values in (triangle, other, side))
     corners = triangles[other]
     shared = (corners == triangles[triangle, side][:, None]) | (
         corners == triangles[triangle, (side + 1) % 3][:, None]

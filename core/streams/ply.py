@@ -79,7 +79,9 @@ class PlyFile:
         try:
             self._header = header = parse_header(start)
             for element in header.elements:
-                if element.rows * _least_bytes(element, header.order) > path.stat().st_size:
+                kinds = [one.counter or one.type for one in element.properties]
+                least = sum(int(kind[1:]) for kind in kinds) if header.order else 2 * len(kinds) - 1
+                if element.rows * least > path.stat().st_size:
                     raise damaged(
                         self._path,
                         DAMAGE_INCOMPLETE,
@@ -131,7 +133,13 @@ class PlyFile:
         faces, column = self._faces
         for _, _, columns in self._blocks(faces):
             if columns[column].shape[1] >= 3:
-                yield self._piece(*self._corners(columns[column], len(self._points)))
+                corners, first, last = self._corners(columns[column], len(self._points))
+                points = self._points[first:last]
+                if last - first > MAX_SPREAD * corners.size:
+                    points = self._points[corners.ravel()]
+                    corners = np.arange(corners.size).reshape(corners.shape)
+                    first = 0
+                yield polygon_surface(points, corners - first)
 
     def mesh(self) -> FileMesh:
         """Read faces, strips of triangles, edges, and numbers of the vertices, finite or not.
@@ -185,13 +193,6 @@ class PlyFile:
             )
         return corners, first, last
 
-    def _piece(self, corners: NDArray[np.integer], first: int, last: int) -> Surface:
-        if last - first <= MAX_SPREAD * corners.size:
-            return polygon_surface(self._points[first:last], corners - first)
-        return polygon_surface(
-            self._points[corners.ravel()], np.arange(corners.size).reshape(corners.shape)
-        )
-
     def _empty_points(self) -> NDArray[np.floating]:
         """Return (n, 3) points to be filled: float32 if the file has them as such, else float64."""
         types = {self._vertices.properties[axis].type for axis in self._axes}
@@ -226,12 +227,6 @@ class PlyFile:
                     ) from error
                 if element is wanted:
                     return
-
-
-def _least_bytes(element: Element, order: str) -> int:
-    """Return the least number of bytes of a row in a file."""
-    kinds = [one.counter or one.type for one in element.properties]
-    return sum(int(kind[1:]) for kind in kinds) if order else 2 * len(kinds) - 1
 
 
 def check_ply_text(data: Data, header: Header) -> None:

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from ..files import (
     MARK,
-    MAX_FLOAT32,
     SHORT,
     SHORT_OR_NAN,
     Data,
@@ -36,18 +35,11 @@ from .findings import STL_CUT_SHORT
 HEAD = 84
 RECORD = 50
 CORNERS = np.dtype({"names": ["at"], "formats": ["(3,3)<f4"], "offsets": [12], "itemsize": RECORD})
-TRIANGLES_PER_BLOCK, TRIANGLES_IN_CACHE = 1 << 17, 1 << 13
+TRIANGLES_PER_BLOCK = 1 << 17
 SAMPLES = 1000  # triangles that show where the body is
 TEXT_PER_BLOCK = 1 << 20  # bytes
 TEXT_PER_TRIANGLE = 250  # bytes, about
 FACET_END = b"endfacet"
-# The words of a facet without the letter that numbers may have, and all letters of numbers and
-# white space.
-FACET_LETTERS = b"factnormaloutrloopvrtxvrtxvrtxndloopndfact"
-# of a facet
-WORDS = 21
-_SPACE = ord(" ")
-_NUMERIC = b"0123456789.e+- \t\r\n\v\f"
 _NORMAL = re.compile(rb"normal[^v]*?out")
 # words for the end of a file
 BY_COUNT = "where its number of triangles does"
@@ -98,16 +90,14 @@ class StlFile:
         """Return the box of a sample of the triangles (of a text, the first ones), of all if a
         sample is not finite.
         """
-        with open(self._path, "rb") as file:
-            blocks = (
-                [self._samples()] if self._binary else list(islice(self._text_corners(file), 1))
-            )
+        if self._binary:
+            records = np.frombuffer(map_file(self._path), CORNERS, self.face_count, HEAD)
+            blocks = [records["at"][:: max(1, self.face_count // SAMPLES)].astype(np.float32)]
+        else:
+            with open(self._path, "rb") as file:
+                blocks = list(islice(self._text_corners(file), 1))
         is_finite = all(np.isfinite(block).all() for block in blocks)
         return box_of_blocks(blocks, "triangle") if is_finite else self.box()
-
-    def _samples(self) -> NDArray[np.float32]:
-        records = np.frombuffer(map_file(self._path), CORNERS, self.face_count, HEAD)
-        return records["at"][:: max(1, self.face_count // SAMPLES)].astype(np.float32)
 
     def box(self) -> Box:
         """Return the least and the largest coordinates. Raises FileError if some are not finite."""
@@ -153,76 +143,25 @@ class StlFile:
 
         FileError if a word is wrong.
         """
-        has_solids = b"solid" in text
-        corners = None if has_solids else _plain_corners(text)
-        if corners is not None:
-            return corners
-        if not self._is_checked:
-            check_stl_text(map_file(self._path))
-            self._is_checked = True
-        text = SOLID.sub(b"", text) if has_solids else text
-        # a normal that is no number
-        corners = _plain_corners(_NORMAL.sub(b"normal 0 0 0 out", text))
-        if corners is None:
-            raise FileError(STL_CUT_SHORT, end=BY_WORD)
-        return corners
-
-
-def _plain_corners(text: bytes) -> NDArray[np.float32] | None:
-    """Return the (n, 3, 3) corners of facets whose words and numbers are in their places, or None
-    if some are not.
-    """
-    count = text.count(FACET_END)
-    if text.translate(None, _NUMERIC) != FACET_LETTERS * count:
-        return None
-    try:
-        numbers, at, exponents = parse_decimals(text)
-    except ValueError:
-        return None
-    if len(numbers) != 12 * count or text.count(b"e") != 11 * count + exponents:
-        return None
-    letters = np.frombuffer(text, np.uint8)
-    at = at.reshape(count, 12)
-    if (
-        np.count_nonzero((letters[1:] > _SPACE) & (letters[:-1] <= _SPACE)) + (text[:1] > b" ")
-        != WORDS * count
-    ):
-        return None
-    normal, vertex, loop = (
-        np.flatnonzero(letters == ord(one)).reshape(count, times)
-        for one, times in (("m", 1), ("x", 3), ("p", 2))
-    )
-    # Each row is in order if the words and the first and last numbers between them are.
-    order = [
-        normal,
-        at[:, [0, 2]],
-        loop[:, :1],
-        vertex[:, :1],
-        at[:, [3, 5]],
-        vertex[:, 1:2],
-        at[:, [6, 8]],
-    ]
-    order += [vertex[:, 2:], at[:, [9, 11]], loop[:, 1:]]
-    positions = np.concatenate(order, axis=1)
-    is_plain = (positions[:, 1:] > positions[:, :-1]).all() and np.abs(numbers).max(
-        initial=0.0
-    ) < MAX_FLOAT32
-    return numbers.reshape(count, 4, 3)[:, 1:].astype(np.float32) if is_plain else None
+        if _FACETS.match(text).end() < len(text):  # type: ignore[union-attr]
+            if not self._is_checked:
+                check_stl_text(map_file(self._path))
+                self._is_checked = True
+            # a normal that is no number
+            text = _NORMAL.sub(b"normal 0 0 0 out", text)
+        if b"solid" in text:
+            text = SOLID.sub(b"", text)
+        try:
+            numbers = parse_decimals(text)[0].reshape(-1, 4, 3)
+        except ValueError as error:
+            raise FileError(STL_CUT_SHORT, end=BY_WORD) from error
+        return numbers[:, 1:].astype(np.float32)
 
 
 def _binary_corners(file: BinaryIO) -> Iterator[NDArray[np.float32]]:
     file.seek(HEAD)
-    records = np.empty(TRIANGLES_IN_CACHE, CORNERS)
-    count = 1
-    while count:
-        corners = np.empty((TRIANGLES_PER_BLOCK, 3, 3), np.float32)
-        done = 0
-        while count and done < TRIANGLES_PER_BLOCK:
-            count = file.readinto(records.view(np.uint8)) // RECORD  # type: ignore[attr-defined]
-            corners[done : done + count] = records["at"][:count]
-            done += count
-        if done:
-            yield corners[:done]
+    while len(records := np.fromfile(file, CORNERS, TRIANGLES_PER_BLOCK)):
+        yield records["at"].astype(np.float32, order="C")
 
 
 def check_stl_text(data: Data) -> None:

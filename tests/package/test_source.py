@@ -198,6 +198,7 @@ def test_no_file_names_a_machine_or_a_registry():
         ".npy",
         ".zip",
         ".gz",
+        ".xz",
         ".glb",
         ".fbx",
     )

@@ -30,8 +30,9 @@ from ....core import bodies, mesh, nurbs, polyhedron
 from ....core.measurement import Body, Measurement
 from ....core.numerics import Array
 from ....core.verdict import MeasureError, Method, Procedure, ReadError, Source, internal_error
-from ...bodies.measure_body import MeasuredBody, measure_body
+from ...bodies.measure_body import measure_body
 from ...bodies.request import Request, measurement_of
+from ...bodies.stack import Measured
 from ...read import fingerprint, visibility
 from ...read.mesh import mesh_points
 from ...read.objects import read_patches
@@ -256,7 +257,7 @@ class MovingSurface:
     corners: NDArray[np.integer]
 
     @classmethod
-    def from_measured(cls, measured: MeasuredBody) -> MovingSurface | None:
+    def from_measured(cls, measured: Measured) -> MovingSurface | None:
         """Return the faces of a measured body, or None unless it is one exact or repaired mesh in
         its own place.
         """

@@ -13,6 +13,7 @@ from bpy.types import Object
 
 from ....core import bodies, verdict
 from ....core.numerics import Array
+from ....core.solid import SmallSolid
 from ...bodies.stack import Measured
 from .. import memory, tracking
 
@@ -55,10 +56,11 @@ def remember(obj: Object, measured: Measured) -> None:
         elements = measured.measurement.health.defective_elements
         place = np.linalg.inv(reading.matrix) @ part.matrices[0]
     else:
-        shape = measured.stack.shape(measured.index)
-        surface = shape.surface
-        if (elements := shape.defects) is None:
+        solid = measured.stack.solids[measured.stack.members[measured.index].shape]
+        if isinstance(solid, SmallSolid) and solid.method is verdict.Procedure.EXACT:
             return
+        surface = measured.stack.surface(measured.index)
+        elements = solid.health.defective_elements
     pairs, faces = (
         np.concatenate([getattr(elements, name) for name in names]) for names in (PAIRS, FACES)
     )

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files written by OpenCascade (`kernel/make.py`), against its own mass properties."""
+"""Files written by OpenCascade (`tools/make_iges.py`), against its own mass properties."""
 
 import gzip
 import json

@@ -105,14 +105,8 @@ def test_decimals_of_any_form_are_rounded_as_by_float():
         "-9223372036854775808e05",
     ]
     text = "vertex " + " Vertex\t".join(words)
-    numbers, places, _ = parse_decimals(text.encode())
-    truth = np.array([float(word) for word in words])
-    assert (np.abs(numbers - truth) <= 4.5e-16 * np.abs(truth)).all()
-    is_plain = (np.abs(truth) > 1e-7) & (np.abs(truth) < 1e20)
-    is_short = is_plain & np.array(
-        [sum(map(str.isdigit, word.lower().partition("e")[0])) <= 15 for word in words]
-    )
-    assert np.array_equal(numbers[is_short], truth[is_short]) and is_short.sum() > 1000
+    numbers, places = parse_decimals(text.encode())
+    assert numbers.tolist() == [float(word) for word in words]
     assert [text[place] for place in places] == [word[0] for word in words]
 
 

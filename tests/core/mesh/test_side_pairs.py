@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bare arrays are proved closed by pairing the sides of their faces, compared with a dictionary of
+"""Bare arrays are proved closed by sorting the sides of their faces, compared with a dictionary of
 sides.
 """
 
@@ -8,7 +8,7 @@ from collections import defaultdict
 
 import numpy as np
 import pytest
-from body_moments.core.mesh.edges import faces_across_sides
+from body_moments.core.mesh.edges import faces_beside_edges
 
 from tests.core import bodies
 
@@ -16,7 +16,7 @@ RNG = np.random.default_rng(7)
 
 
 def bipyramid(sides):
-    """Two vertices of so many faces that no hash has places for all their sides."""
+    """Two vertices of many faces."""
     ring = np.arange(sides)
     angle = 2.0 * np.pi * ring / sides
     points = np.concatenate(
@@ -45,9 +45,9 @@ def shuffled(part):
     return points[order], RNG.permutation(np.argsort(order)[faces])
 
 
-def across_by_search(faces):
-    """Return the faces across by a dictionary of sides, or None if an edge lacks two sides in
-    opposite directions.
+def pairs_by_search(faces):
+    """Return the pairs of faces beside the edges by a dictionary of sides, or None if an edge lacks
+    two sides in opposite directions.
     """
     at = defaultdict(list)
     for face, corners in enumerate(faces.tolist()):
@@ -58,19 +58,35 @@ def across_by_search(faces):
         for (start, stop), found in at.items()
     ):
         return None
-    return [
-        [at[stop, start][0] for start, stop in zip(row, [*row[1:], row[0]])]
-        for row in faces.tolist()
-    ]
+    return sorted(
+        sorted((face, *at[stop, start])) for (start, stop), (face,) in at.items() if start < stop
+    )
+
+
+def found_pairs(faces, count):
+    beside = faces_beside_edges(faces, count)
+    return None if beside is None else sorted(map(sorted, beside.T.tolist()))
 
 
 @pytest.mark.parametrize("dtype", [np.int32, np.int64])
 @pytest.mark.parametrize("name", PARTS)
-def test_the_face_across_each_side_is_found(name, dtype):
+def test_faces_beside_each_edge_are_found(name, dtype):
     points, faces = shuffled(PARTS[name])
     for order in "CF":
-        across = faces_across_sides(np.asarray(faces, dtype, order=order), len(points))
-        assert across.tolist() == across_by_search(faces)
+        given = np.asarray(faces, dtype, order=order)
+        assert found_pairs(given, len(points)) == pairs_by_search(faces)
+
+
+def test_faces_beside_edges_of_millions_of_sides_are_found():
+    """Keys of two ends have no room for the number of a side."""
+    count = 1025
+    i, j = np.divmod(np.arange(count * count, dtype=np.int32), count)
+    after = (i + 1) % count * count, (j + 1) % count
+    faces = np.stack([i * count + j, after[0] + j, sum(after), i * count + after[1]], axis=1)
+    beside = faces_beside_edges(faces, len(faces))
+    steps = np.abs(beside[0] - beside[1])
+    assert np.isin(steps, [1, count - 1, count, count * (count - 1)]).all()
+    assert (np.bincount(beside.ravel()) == 4).all()
 
 
 @pytest.mark.parametrize(
@@ -89,26 +105,19 @@ def test_the_face_across_each_side_is_found(name, dtype):
 @pytest.mark.parametrize("name", PARTS)
 def test_open_or_inconsistent_mesh_is_not_proved_closed(name, damage):
     points, faces = damage(PARTS[name])
-    assert across_by_search(faces) is None
-    assert faces_across_sides(faces, len(points)) is None
+    assert pairs_by_search(faces) is None
+    assert faces_beside_edges(faces, len(points)) is None
 
 
 def test_faces_at_random_are_judged_as_by_a_search():
-    """Few vertices, so that sides meet by chance, in both directions, once and more often.
-
-    A closed torus beside them makes the mesh large enough to be looked up in a table instead of
-    being sorted.
-    """
-    beside = bodies.torus(40, 30)
+    """Few vertices, so that sides meet by chance, in both directions, once and more often."""
     proved = 0
     for _ in range(80):
         count = int(RNG.integers(4, 7))
         points, faces = bodies.sphere(0) if RNG.random() < 0.5 else bodies.box()
         extra = RNG.integers(0, count, (2 * int(RNG.integers(0, 3)), 3))
         faces = RNG.permutation(np.concatenate([faces, extra])).astype(np.int32)
-        joined = np.concatenate([faces, beside[1] + len(points)])
-        for mesh, used in ((faces, len(points)), (joined, len(points) + len(beside[0]))):
-            across, expected = faces_across_sides(mesh, used), across_by_search(mesh)
-            assert (None if across is None else across.tolist()) == expected
+        expected = pairs_by_search(faces)
+        assert found_pairs(faces, len(points)) == expected
         proved += expected is not None
     assert 10 < proved < 70

@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.numerics.graph import connected_components, connected_neighbors
+from body_moments.core.numerics.graph import connected_components
 
 
 def walked(count, a, b):
@@ -51,19 +51,3 @@ def test_long_paths_are_one_component(kind, count):
     a, b = np.append(order[:-1], count + 1), np.append(order[1:], count)
     component, number = connected_components(count + 2, a, b)
     assert number == 2 and component.tolist() == [0] * count + [1, 1]
-
-
-@pytest.mark.parametrize("parts, size", [(1, 30), (4, 7), (25, 3), (3, 60), (3, 20_000)])
-@pytest.mark.parametrize("seed", [None, 0, 1, 2], ids=["in order", "0", "1", "2"])
-@pytest.mark.parametrize("dtype", [np.int32, np.int64])
-def test_neighbors_seen_from_both_ends_are_joined(parts, size, seed, dtype):
-    """Rings of nodes in any order: each has two neighbors."""
-    count = parts * size
-    order = np.arange(count) if seed is None else np.random.default_rng(seed).permutation(count)
-    place = np.arange(count)
-    ahead = place - place % size + (place % size + 1) % size
-    neighbors = np.empty((count, 2), dtype)
-    neighbors[order, 0], neighbors[order[ahead], 1] = order[ahead], order
-    component, number = connected_neighbors(neighbors)
-    assert (component.tolist(), number) == walked(count, order, order[ahead])
-    assert number == parts

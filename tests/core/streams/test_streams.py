@@ -34,7 +34,6 @@ from tests.core.mesh_files import ply, stl, stl_text
 def small_blocks(monkeypatch):
     """So that a small file is many blocks."""
     monkeypatch.setattr(stl_module, "TRIANGLES_PER_BLOCK", 15)
-    monkeypatch.setattr(stl_module, "TRIANGLES_IN_CACHE", 5)
     monkeypatch.setattr(stl_module, "TEXT_PER_BLOCK", 700)
     monkeypatch.setattr(stl_module, "SAMPLES", 3)
     monkeypatch.setattr(ply_rows, "BYTES_PER_BLOCK", 301)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Write the parts of the folder `swept` with OpenCascade's default writer (`pip install
+"""Write the parts of tests/core/cad/kernel/swept with OpenCascade's default writer (`pip install
 cadquery-ocp==8.0.1.1.0`): NAME_faces.igs with trimmed surfaces (144), NAME_solid.igs a manifold
 solid (186).
 """
@@ -16,7 +16,7 @@ from OCP.TopAbs import TopAbs_EDGE
 from OCP.TopExp import TopExp_Explorer
 from OCP.TopoDS import TopoDS
 
-FOLDER = Path(__file__).parent / "swept"
+FOLDER = Path(__file__).parents[1] / "tests/core/cad/kernel/swept"
 
 
 def made(kind, *sizes):

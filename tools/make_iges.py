@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Write the bodies of this folder with OpenCascade (`pip install cadquery-ocp`), and their
-properties by its GProp.
+"""Write the bodies of tests/core/cad/kernel with OpenCascade (`pip install cadquery-ocp`), and
+their properties by its GProp.
 
 The faces are converted to B-splines; NAME.igs has trimmed surfaces (144), NAME_solid.igs a manifold
 solid (186).
@@ -20,7 +20,7 @@ from OCP.IGESControl import IGESControl_Controller, IGESControl_Writer
 from OCP.TopExp import TopExp_Explorer
 from OCP.TopoDS import TopoDS
 
-FOLDER = Path(__file__).parent
+FOLDER = Path(__file__).parents[1] / "tests/core/cad/kernel"
 
 
 def axis(x, y, z):

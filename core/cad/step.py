@@ -1,0 +1,412 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Solids of a STEP file (AP203, AP214, AP242): one body for each solid that an assembly places.
+
+A body is kept whole or not at all. Units follow the context of each representation; a file's bodies
+are in the unit of the first.
+"""
+
+from __future__ import annotations
+
+import math
+import zlib
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..files import DEFAULT_LIMITS, FILE_TOO_LARGE
+from ..numerics import Array, clamped_space
+from ..nurbs import Curve, Face, close_pairs, patches_size
+from ..verdict import WELDING_RTOL, FileError
+from .findings import SURFACE_DAMAGED
+from .iges_entities import MAX_DEPTH
+from .part21 import Part21, Reference
+from .step_shapes import MISSING, EntityError, Shapes, blame, refuse
+from .surfaces import Refusals, SurfaceBody, SurfaceFile
+
+SOLIDS = (
+    "MANIFOLD_SOLID_BREP",
+    "BREP_WITH_VOIDS",
+    "FACETED_BREP",
+    "SHELL_BASED_SURFACE_MODEL",
+    "FACE_BASED_SURFACE_MODEL",
+)
+SHELLS = ("CLOSED_SHELL", "OPEN_SHELL", "CONNECTED_FACE_SET")
+ORIENTED_SHELLS = ("ORIENTED_CLOSED_SHELL", "ORIENTED_OPEN_SHELL")
+# Items with these ends of their names have a volume or an area; others are refused by name.
+BODIES = ("_BREP", "_WITH_VOIDS", "_SOLID", "_SURFACE_MODEL", "_SHELL", "_FACE_SET")
+_POWERS = ("ATTO", "FEMTO", "PICO", "NANO", "MICRO", "MILLI", "", "KILO", "MEGA", "GIGA", "TERA")
+PREFIXES: dict[str | None, float] = {None: 1.0, ".CENTI.": 1e-2, ".DECI.": 1e-1}
+PREFIXES |= {".{}.".format(name): 10.0 ** (3 * k - 18) for k, name in enumerate(_POWERS)}
+COLORS = {
+    name: tuple(float(k >> channel & 1) for channel in range(3))
+    for k, name in enumerate(
+        ("black", "red", "green", "yellow", "blue", "magenta", "cyan", "white")
+    )
+}
+MAX_FACES = 200_000  # faces placed by a file
+MAX_STYLES = 64  # entities between a styled item and its color
+
+
+class _Child(NamedTuple):
+    """A placed representation, with the placements in it and in its parent that coincide."""
+
+    number: int
+    frame: int
+    parent_frame: int
+
+
+class StepReader:
+    """A reader of the solids of a STEP file."""
+
+    def __init__(self, path: Path, _for_blender: bool, data: bytes | None = None) -> None:
+        self._text = Part21(path.read_bytes() if data is None else data)
+        self._stem = path.stem
+        self._shapes = Shapes(self._text)
+        self._refusals = Refusals()
+        self._edges: dict[int, list[Curve]] = {}
+        self._uses: Counter[int] = Counter()
+        self._solids: dict[int, list[Face]] = {}
+        self._contexts: dict[int, tuple[float, float]] = {}
+        self._children: dict[int, list[_Child]] = {}  # by representation
+        self._twins: dict[int, list[int]] = {}  # representations of the same coordinates
+        self._owners: dict[int, int] = {}  # product definitions by representation
+        self._relations: dict[int, int] = {}  # child definitions by relationship
+        self._colors: dict[int, tuple[float, ...]] = {}
+        self._bodies: list[SurfaceBody] = []
+        self._visited: set[int] = set()
+        self._noted: set[int] = set()
+        self._placed = 0
+        self._unit = 0.0
+
+    def read(self) -> SurfaceFile:
+        """Read the solids. FileError if none can be kept."""
+        text = self._text
+        if text.torn:
+            self._note(
+                EntityError(
+                    text.torn,
+                    SURFACE_DAMAGED,
+                    {"fault": "the end of the file, which comes too early"},
+                )
+            )
+        for name, take in (
+            ("SHAPE_DEFINITION_REPRESENTATION", self._own),
+            ("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION", self._use),
+            ("SHAPE_REPRESENTATION_RELATIONSHIP", self._twin),
+            ("REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION", self._relate),
+            ("STYLED_ITEM", self._style),
+            ("OVER_RIDING_STYLED_ITEM", self._style),
+        ):
+            for number in text.named.get(name, ()):
+                with self._noting(number):
+                    take(number, text[number][name])
+        representations = [
+            number
+            for name, numbers in text.named.items()
+            if name.endswith("SHAPE_REPRESENTATION") and not name.startswith("CONTEXT_DEPENDENT")
+            for number in numbers
+        ]
+        for number in representations:
+            with self._noting(number):
+                self._map(number)
+        placed = {
+            twin
+            for row in self._children.values()
+            for one in row
+            for twin in self._group(one.number)
+        }
+        # First the roots, then what only a circle of assemblies places.
+        for number in [*(one for one in representations if one not in placed), *representations]:
+            if number not in self._visited:
+                self._place(number, np.eye(4), ())
+        return replace(self._refusals.file(self._bodies, self._unit or None), unread=0)
+
+    @contextmanager
+    def _noting(self, number: int) -> Iterator[None]:
+        """Note refusals within an entity, except for those that the file's end explains."""
+        torn = self._text.torn
+        try:
+            with blame(number):
+                yield
+        except EntityError as error:
+            self._is_whole = False
+            is_torn = bool(torn) and error.values.get("fault") == MISSING
+            if not is_torn and error.number not in self._noted:
+                self._note(error)
+
+    def _note(self, error: EntityError) -> None:
+        """Note the refusal of an entity."""
+        self._noted.add(error.number)
+        name = self._text.entity(error.number)
+        place = "#{} (line {})".format(error.number, self._text.line(error.number))
+        self._refusals.add(error.code, name, place, **error.values)
+
+    def _attribute(self, number: int, index: int) -> Any:
+        """Return an attribute of the first entity of an instance."""
+        return next(iter(self._text[number].values()))[index]
+
+    def _own(self, _: int, values: list[Any]) -> None:
+        """Take the product that has a representation."""
+        self._owners[values[1]] = self._attribute(values[0], 2)
+
+    def _use(self, _: int, values: list[Any]) -> None:
+        """Take the part that a relationship places: the related one of a usage."""
+        self._relations[values[0]] = self._attribute(self._attribute(values[1], 2), 4)
+
+    def _twin(self, number: int, values: list[Any]) -> None:
+        """Take two representations in the same coordinates."""
+        if "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION" not in self._text[number]:
+            for one, other in (values[2:4], values[3:1:-1]):
+                self._twins.setdefault(one, []).append(other)
+
+    def _relate(self, number: int, values: list[Any]) -> None:
+        """Take a placed part of an assembly: by custom the first representation."""
+        _, _, child, parent = self._text[number]["REPRESENTATION_RELATIONSHIP"]
+        _, frames = self._shapes.pick(values[0], ("ITEM_DEFINED_TRANSFORMATION",))
+        part = self._relations.get(number)
+        owners = [{self._owners.get(one) for one in self._group(end)} for end in (child, parent)]
+        frame, parent_frame = frames[2:4]
+        if part in owners[1] and part not in owners[0]:
+            child, parent, frame, parent_frame = parent, child, parent_frame, frame
+        self._children.setdefault(parent, []).append(_Child(child, frame, parent_frame))
+
+    def _map(self, number: int) -> None:
+        """Take the mapped items of a representation."""
+        for item in self._attribute(number, 1):
+            values = self._text[item].get("MAPPED_ITEM")
+            if values:
+                origin, child = self._text[values[1]]["REPRESENTATION_MAP"]
+                self._children.setdefault(number, []).append(_Child(child, origin, values[2]))
+
+    def _style(self, _: int, values: list[Any]) -> None:
+        """Take the first color of a styled item."""
+        color = self._color(values[1], set())
+        if color:
+            self._colors[values[2]] = color
+
+    def _color(self, value: Any, seen: set[int]) -> tuple[float, ...] | None:
+        if isinstance(value, (list, tuple)):
+            return next(filter(None, (self._color(one, seen) for one in value)), None)
+        if not isinstance(value, Reference) or value in seen or len(seen) > MAX_STYLES:
+            return None
+        seen.add(value)
+        parts = self._text[value]
+        if "COLOUR_RGB" in parts:
+            return tuple(map(float, parts["COLOUR_RGB"][1:4]))
+        if "DRAUGHTING_PRE_DEFINED_COLOUR" in parts:
+            return COLORS.get(parts["DRAUGHTING_PRE_DEFINED_COLOUR"][0].lower())
+        return self._color(list(parts.values()), seen)
+
+    def _group(self, number: int) -> list[int]:
+        """Return the representations in the same coordinates as one, itself first."""
+        group = [number]
+        for one in group:
+            group += [twin for twin in self._twins.get(one, ()) if twin not in group]
+        return group
+
+    def _units(self, number: int) -> tuple[float, float]:
+        """Return the meters and the radians per unit of a representation."""
+        context = self._attribute(number, 2)
+        if context not in self._contexts:
+            with blame(context):
+                found = {"LENGTH_UNIT": 0.0, "PLANE_ANGLE_UNIT": 1.0}
+                for unit in self._text[context].get("GLOBAL_UNIT_ASSIGNED_CONTEXT", [[]])[0]:
+                    for kind in found.keys() & self._text[unit].keys():
+                        found[kind] = self._size(unit, 0)
+                if not min(found.values()) > 0.0:
+                    raise refuse("a unit of no known length")
+                self._contexts[context] = found["LENGTH_UNIT"], found["PLANE_ANGLE_UNIT"]
+                self._unit = self._unit or found["LENGTH_UNIT"]
+        return self._contexts[context]
+
+    def _size(self, number: int, depth: int) -> float:
+        """Return the size of a unit in SI units, 0 if it is unknown."""
+        parts = self._text[number]
+        if "SI_UNIT" in parts:
+            prefix, name = parts["SI_UNIT"][-2:]
+            return PREFIXES.get(prefix, 0.0) if name in (".METRE.", ".RADIAN.") else 0.0
+        if "CONVERSION_BASED_UNIT" not in parts or depth == MAX_DEPTH:
+            return 0.0
+        name, factor = parts["CONVERSION_BASED_UNIT"]
+        if name.upper().startswith("DEG"):
+            return math.radians(1.0)
+        value, unit = next(row for row in self._text[factor].values() if len(row) == 2)
+        # OpenCascade leaves out the type of the value in AP203.
+        value = value[1][0] if isinstance(value, tuple) else value
+        return float(value) * self._size(unit, depth + 1)
+
+    def _matrix(self, frame: int, representation: int) -> Array:
+        matrix = self._shapes.frame(frame)
+        matrix[:3, 3] *= self._units(representation)[0] / self._unit
+        return matrix
+
+    def _place(self, number: int, matrix: NDArray, path: tuple[int, ...]) -> None:
+        """Add the bodies of a representation and of its parts. path: representations around it."""
+        if number in path or len(path) >= MAX_DEPTH:
+            raise refuse("references to itself, or nested too deeply")
+        group = self._group(number)
+        self._visited |= set(group)
+        for one in group:
+            with self._noting(one):
+                length, self._shapes.angle = self._units(one)
+                scaled = matrix @ np.diag([*[length / self._unit] * 3, 1.0])
+                solids = [item for item in self._attribute(one, 1) if self._is_body(item)]
+                for item in solids:
+                    self._add(item, one, scaled, len(solids) == 1)
+                for child, frame, parent_frame in self._children.get(one, ()):
+                    with self._noting(child):
+                        within = self._matrix(parent_frame, one) @ np.linalg.inv(
+                            self._matrix(frame, child)
+                        )
+                        self._place(child, matrix @ within, (*path, *group))
+
+    def _is_body(self, number: int) -> bool:
+        return any(name.endswith(BODIES) for name in self._text[number])
+
+    def _add(self, number: int, owner: int, matrix: NDArray, is_alone: bool) -> None:
+        """Add a solid, in place."""
+        if number not in self._solids:
+            self._is_whole = True
+            faces: list[Face] = []
+            with self._noting(number):
+                faces = self._solid(number)
+            self._solids[number] = faces if self._is_whole else []
+        faces = [face.transform(matrix) for face in self._solids[number]]
+        if not faces:
+            return
+        self._placed += len(faces)
+        if self._placed > MAX_FACES:
+            raise FileError(FILE_TOO_LARGE, limit=MAX_FACES, content="surfaces")
+        label = self._attribute(number, 0)
+        scale = float(np.linalg.norm(matrix[:3, :3], 2))
+        reach = max(
+            factor * float(np.abs(face.points).max())
+            for factor, own in ((1.0, faces), (scale, self._solids[number]))
+            for face in own
+        )
+        shells = [number, *np.ravel(self._attribute(number, 1)).tolist(), owner]
+        self._bodies.append(
+            SurfaceBody(
+                (self._product(owner) if is_alone or not label else label) or self._stem,
+                tuple(faces),
+                scale * self._shapes.gap + 4.0 * self._text.precision * reach,
+                next((self._colors[one] for one in shells if one in self._colors), None),
+                zlib.compress(
+                    self._text.extract(
+                        "#{}=SHAPE_REPRESENTATION('',(#{}),#{});\n".format(
+                            owner, number, self._attribute(owner, 2)
+                        )
+                    )
+                ),
+                matrix,
+            )
+        )
+
+    def _product(self, number: int) -> str:
+        """Return the name of the product that has a representation."""
+        owner = next(
+            (self._owners[one] for one in self._group(number) if one in self._owners), None
+        )
+        if owner is None:
+            return ""
+        product = self._attribute(self._attribute(owner, 2), 2)
+        return self._attribute(product, 1) or self._attribute(product, 0)
+
+    def _solid(self, number: int) -> list[Face]:
+        """Return the faces of a solid, or of a model of surfaces."""
+        _, values = self._shapes.pick(number, SOLIDS)
+        shells = [
+            one for value in values[1:] for one in (value if isinstance(value, list) else [value])
+        ]
+        return [face for shell in shells for face in self._shell(shell)]
+
+    def _shell(self, number: int) -> list[Face]:
+        name, values = self._shapes.pick(number, (*SHELLS, *ORIENTED_SHELLS))
+        outward = True
+        if name in ORIENTED_SHELLS:
+            outward = values[3]
+            number = values[2]
+            name, values = self._shapes.pick(number, SHELLS)
+        faces: list[Face] = []
+        self._uses.clear()
+        for one in values[1]:
+            with self._noting(one):
+                faces += self._face(one, outward)
+        single = [self._edges[edge] for edge, uses in self._uses.items() if uses == 1]
+        if name == "CLOSED_SHELL" and self._is_whole and single:
+            middles = np.array([curves[len(curves) // 2].samples(2)[1] for curves in single])
+            pairs = close_pairs(middles, WELDING_RTOL * patches_size(faces))
+            if len(np.unique(pairs)) < len(single):
+                with blame(number):
+                    raise refuse("a face that is missing")
+        return faces
+
+    def _face(self, number: int, outward: bool) -> list[Face]:
+        _, (_, bounds, surface, same, *_) = self._shapes.pick(
+            number, ("ADVANCED_FACE", "FACE_SURFACE")
+        )
+        loops = []
+        for bound in bounds:
+            _, (_, loop, ahead) = self._shapes.pick(bound, ("FACE_OUTER_BOUND", "FACE_BOUND"))
+            with blame(loop):
+                loops.append(self._loop(loop, ahead == same))
+        faces = self._shapes.faces(surface, [loop for loop in loops if loop])
+        return [face if same == outward else face.reverse_orientation() for face in faces]
+
+    def _loop(self, number: int, is_ahead: bool) -> list[Curve]:
+        """Return the curves of a loop, end to end; none for a vertex."""
+        name, values = self._shapes.pick(number, ("EDGE_LOOP", "POLY_LOOP", "VERTEX_LOOP"))
+        if name == "VERTEX_LOOP":
+            return []
+        curves: list[Curve] = []
+        if name == "POLY_LOOP":
+            points = np.array([self._shapes.point(one) for one in values[1]])
+            pairs = np.stack([points, np.roll(points, -1, axis=0)], axis=1)
+            curves = [Curve(clamped_space(2), pair) for pair in pairs]
+        else:
+            for use in values[1]:
+                _, (_, _, _, edge, ahead) = self._shapes.pick(use, ("ORIENTED_EDGE",))
+                curves += _turned(self._edge(edge), ahead)
+                self._uses[edge] += 1
+        ends = np.array([curve.points[[0, -1]] for curve in curves])
+        gaps = np.abs(ends[:, 0] - np.roll(ends[:, 1], 1, axis=0)).max()
+        if (
+            gaps
+            > WELDING_RTOL * np.ptp(np.concatenate([one.points for one in curves]), axis=0).max()
+        ):
+            raise refuse("a loop that does not close")
+        return _turned(curves, is_ahead)
+
+    def _edge(self, number: int) -> list[Curve]:
+        """Return the curves of an edge from its first to its last vertex."""
+        if number not in self._edges:
+            with blame(number):
+                _, values = self._shapes.pick(number, ("EDGE_CURVE",))
+                _, *vertices, curve, same = values
+                ends = [
+                    self._shapes.point(self._shapes.pick(one, ("VERTEX_POINT",))[1][1])
+                    for one in vertices
+                ]
+                made = self._shapes.curve(curve, ends if same else ends[::-1])
+                self._edges[number] = _turned(made, same)
+        return self._edges[number]
+
+
+def read_source(source: bytes, matrix: ArrayLike) -> tuple[tuple[Face, ...], float]:
+    """Return the faces of a body's `source` in place, and their rounding. Raise FileError."""
+    unpacked = zlib.decompressobj().decompress(source, DEFAULT_LIMITS.text_bytes)
+    (body,) = StepReader(Path(), False, unpacked).read().bodies
+    place = np.reshape(matrix, (4, 4))
+    scale = float(np.linalg.norm(place[:3, :3], 2))
+    return tuple(face.transform(place) for face in body.patches), scale * body.rounding
+
+
+def _turned(curves: list[Curve], is_ahead: bool) -> list[Curve]:
+    return curves if is_ahead else [curve.reverse() for curve in reversed(curves)]

@@ -1,0 +1,328 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Curves and surfaces of STEP files (ISO 10303-42), by the names of their entities.
+
+Lines and conics between two points are exact rational curves. Cylinders, cones, spheres and tori
+are quadrics, extrusions and revolutions are patches as long as their boundary, B-splines patches.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ..numerics import Array, SplineSpace, clamped_space
+from ..nurbs import Curve, Face, FlatFace, Quadric, bezier_curves, nearest_parameters
+from ..verdict import FileError, MeasureError
+from .findings import SURFACE_DAMAGED, SURFACE_POINTS, SURFACE_UNSUPPORTED
+from .iges_entities import MAX_ARC, MAX_DEPTH
+from .iges_sweeps import TURN, join_pieces, revolve, rule
+from .part21 import Part21, Reference
+from .surfaces import SurfaceRefusedError, bezier_surface, placed_surface
+from .trimmed import Boundary, within
+
+MISS_RTOL = 1e-4  # Relative to an edge: a vertex may be so far from its curve.
+SAMPLES = 257  # points of a spline where the search for the parameters of vertices begins
+OVERLAP = 1.0 + 1e-3  # length of a swept surface, relative to its boundary
+MISSING = "a reference to an entity that is not in the file"
+
+
+class EntityError(Exception):
+    """The refusal of an entity: its number, a finding's code and its values."""
+
+    def __init__(self, number: int, code: str, values: dict[str, Any]) -> None:
+        super().__init__(code)
+        self.number, self.code, self.values = number, code, values
+
+
+@contextmanager
+def blame(number: int) -> Iterator[None]:
+    """Raise EntityError with this number for every refusal that names no other entity."""
+    try:
+        yield
+    except FileError:
+        raise
+    except SurfaceRefusedError as error:
+        raise EntityError(number, error.finding.code, error.finding.values) from error
+    except MeasureError as error:
+        raise EntityError(number, SURFACE_POINTS, {"cause": error.finding}) from error
+    except (ValueError, OverflowError, LookupError, TypeError) as error:
+        is_missing = isinstance(error, KeyError) and isinstance(error.args[0], Reference)
+        fault = MISSING if is_missing else "numbers that are missing or not possible"
+        raise EntityError(number, SURFACE_DAMAGED, {"fault": fault}) from error
+
+
+def refuse(fault: str) -> SurfaceRefusedError:
+    """Return the refusal of an entity for a fault."""
+    return SurfaceRefusedError(SURFACE_DAMAGED, fault=fault)
+
+
+class Shapes:
+    """The curves and surfaces of a file, in its unit.
+
+    angle: radians per unit of angles. gap: largest distance of a vertex from a curve.
+    """
+
+    def __init__(self, text: Part21) -> None:
+        self.text = text
+        self.angle = 1.0
+        self.gap = 0.0
+
+    def pick(self, number: int, names: Any) -> tuple[str, list[Any]]:
+        """Return the first of the names that an instance has, and its attributes."""
+        parts = self.text[number]
+        name = next((name for name in parts if name in names), None)
+        if name is None:
+            raise SurfaceRefusedError(SURFACE_UNSUPPORTED, base=max(parts, key=len))
+        return name, parts[name]
+
+    def triple(self, number: int, name: str) -> Array:
+        """Return the (3,) coordinates of a point or a direction."""
+        values = np.array(self.pick(number, (name,))[1][1], np.float64)
+        if values.shape != (3,):
+            raise ValueError("not in space")
+        return values
+
+    def point(self, number: int) -> Array:
+        """Return the (3,) place of a point."""
+        return self.triple(number, "CARTESIAN_POINT")
+
+    def direction(self, number: int) -> Array:
+        """Return a (3,) direction of length 1."""
+        values = self.triple(number, "DIRECTION")
+        length = np.linalg.norm(values)
+        if not length > 0.0:
+            raise ValueError("no direction")
+        return values / length
+
+    def frame(self, number: int) -> Array:
+        """Return the (4, 4) matrix of a placement."""
+        name, values = self.pick(number, ("AXIS2_PLACEMENT_3D", "AXIS1_PLACEMENT"))
+        axis, toward = (*values[2:], None, None)[:2]
+        matrix = np.eye(4)
+        z = matrix[:3, 2] if axis is None else self.direction(axis)
+        x = np.eye(3)[0 if abs(z[0]) < 0.9 else 1] if toward is None else self.direction(toward)
+        x = x - (x @ z) * z
+        if not np.linalg.norm(x) > 0.0:
+            raise ValueError("directions of no frame")
+        x /= np.linalg.norm(x)
+        matrix[:3] = np.stack([x, np.cross(z, x), z, self.point(values[1])], axis=1)
+        return matrix
+
+    def curve(self, number: int, ends: Sequence[Array] | None, depth: int = 0) -> list[Curve]:
+        """Return a curve from the first to the second of two points, the whole curve for None."""
+        name, values = self.pick(number, (*_CURVES, *_BASES))
+        if name not in _BASES:
+            with blame(number):
+                made = _CURVES[name](self, self.text[number], values, ends)
+            return made if ends is None else self._ending(made, ends)
+        if depth == MAX_DEPTH:
+            raise refuse("references to itself, or nested too deeply")
+        if name != "TRIMMED_CURVE" or values[4] or ends is None:
+            return self.curve(values[1], ends, depth + 1)
+        return [one.reverse() for one in self.curve(values[1], ends[::-1], depth + 1)[::-1]]
+
+    def _ending(self, curves: list[Curve], ends: Sequence[Array]) -> list[Curve]:
+        """Return curves whose ends are moved to the vertices."""
+        gap = max(float(np.linalg.norm(curves[k].points[k] - ends[k])) for k in (0, -1))
+        self.gap = max(self.gap, gap)
+        size = max(float(np.ptp(curve.points, axis=0).max()) for curve in curves)
+        if gap > MISS_RTOL * size:
+            raise refuse("an edge whose ends are not on its curve")
+        for k in (0, -1):
+            points = curves[k].points.copy()
+            points[k] = ends[k]
+            curves[k] = replace(curves[k], points=points)
+        return curves
+
+    def faces(self, number: int, loops: list[list[Curve]], depth: int = 0) -> Sequence[Face]:
+        """Return the faces of a surface within loops, with its normal."""
+        name, values = self.pick(number, (*_SURFACES, "RECTANGULAR_TRIMMED_SURFACE"))
+        if name not in _SURFACES:
+            if depth == MAX_DEPTH:
+                raise refuse("references to itself, or nested too deeply")
+            return self.faces(values[1], loops, depth + 1)
+        surface = _SURFACES[name](self, self.text[number], values, loops)
+        if isinstance(surface, np.ndarray):
+            return [FlatFace.within(loops, surface)]
+        return within(surface, [Boundary(loop, None) for loop in loops], rounding=self.gap)
+
+
+def _line(shapes: Shapes, _: Any, values: list[Any], ends: Sequence[Array] | None) -> list[Curve]:
+    if ends is None:
+        raise ValueError("a line without ends")
+    begin = shapes.point(values[1])
+    along = shapes.direction(shapes.pick(values[2], ("VECTOR",))[1][1])
+    places = [begin + ((end - begin) @ along) * along for end in ends]
+    return [Curve(clamped_space(2), np.array(places))]
+
+
+def _conic(
+    shapes: Shapes, values: list[Any], ends: Sequence[Array] | None, kind: str
+) -> list[Curve]:
+    """Return pieces of a conic. A piece's middle control point is the meet of its end tangents."""
+    frame = shapes.frame(values[1])
+    x_size, y_size = values[2], values[-1]
+    if not min(x_size, y_size) > 0.0:
+        raise ValueError("a conic without size")
+    start, end = 0.0, TURN
+    if ends is not None:
+        local = np.linalg.solve(frame, np.column_stack([ends, np.ones(2)]).T)
+        x, y = local[0] / x_size, local[1] / y_size
+        start, end = {
+            "ELLIPSE": np.arctan2(y, x),
+            "HYPERBOLA": np.arcsinh(y),
+            "PARABOLA": y / 2.0,
+        }[kind].tolist()
+        if kind == "ELLIPSE":
+            end = start + ((end - start) % TURN or TURN)
+    elif kind != "ELLIPSE":
+        raise ValueError("an unbounded curve")
+    steps = math.ceil((end - start) / MAX_ARC - 1e-9) if kind == "ELLIPSE" else 1
+    pieces = []
+    for low, high in zip(*(np.linspace(start, end, steps + 1)[k : steps + k] for k in (0, 1))):
+        middle, half = (low + high) / 2.0, (high - low) / 2.0
+        t = np.array([low, middle, high])
+        if kind == "PARABOLA":
+            plane = [[low**2, low * high, high**2], 2.0 * t]
+            weight = 1.0
+        else:
+            cosine, sine = (np.cos, np.sin) if kind == "ELLIPSE" else (np.cosh, np.sinh)
+            weight = float(cosine(half))
+            plane = np.array([cosine(t), sine(t)]) / [1.0, weight, 1.0]
+        points = np.multiply(plane, [[x_size], [y_size]]).T @ frame[:3, :2].T + frame[:3, 3]
+        pieces.append(Curve(clamped_space(3), points, np.array([1.0, weight, 1.0])))
+    return pieces
+
+
+def _conic_of(kind: str) -> Callable[..., list[Curve]]:
+    return lambda shapes, _, values, ends: _conic(shapes, values, ends, kind)
+
+
+def _spline_values(parts: dict[str, list[Any]], kind: str) -> tuple[list[Any], Any]:
+    """Return the attributes of a B-spline after its name, and its weights or None."""
+    knots = parts.get("B_SPLINE_{}_WITH_KNOTS".format(kind), [])
+    values = knots[1:] if len(parts) == 1 else [*parts["B_SPLINE_" + kind], *knots]
+    weights = parts.get("RATIONAL_B_SPLINE_" + kind)
+    return values, weights and np.array(weights[0], np.float64)
+
+
+def _spline(
+    shapes: Shapes, parts: dict[str, list[Any]], _: Any, ends: Sequence[Array] | None
+) -> list[Curve]:
+    (degree, points, _, _, _, counts, knots, *_), weights = _spline_values(parts, "CURVE")
+    places = np.array([shapes.point(point) for point in points])
+    space = SplineSpace(tuple(np.repeat(knots, counts).tolist()), degree + 1, len(places))
+    curve = Curve(space, places, weights)
+    if ends is None:
+        return [curve]
+    low, high = space.domain
+    samples = curve.evaluate(np.linspace(low, high, SAMPLES))
+    size = float(np.ptp(samples, axis=0).max())
+    start, end = nearest_parameters(curve, samples, np.array(ends), 1e-9 * size).tolist()
+    if np.linalg.norm(samples[0] - samples[-1]) <= 1e-6 * size and end <= start + 1e-9 * (
+        high - low
+    ):
+        parts_used = [(start, high), (low, end)]
+    else:
+        parts_used = [(start, end)]
+    rest = 1e-9 * (high - low)
+    made = [
+        piece
+        for begin, stop in parts_used
+        if stop - begin > rest
+        for piece in bezier_curves(curve, (begin, stop))
+    ]
+    if not made:
+        raise refuse("an edge whose ends are not on its curve")
+    return made
+
+
+def _spline_surface(shapes: Shapes, parts: dict[str, list[Any]], *_: Any) -> Any:
+    values, weights = _spline_values(parts, "SURFACE")
+    s_degree, t_degree, rows, _, _, _, _, s_counts, t_counts, s_knots, t_knots, *_ = values
+    points = [[shapes.point(point) for point in row] for row in rows]
+    knots = np.repeat(s_knots, s_counts).tolist(), np.repeat(t_knots, t_counts).tolist()
+    surface = placed_surface(knots, (s_degree + 1, t_degree + 1), points, weights, np.eye(4))
+    patches = bezier_surface(surface, (None, None), False)
+    return patches[0] if len(patches) == 1 else surface
+
+
+def _quadric_of(minor: int | None, major: int | None = 2) -> Callable[..., Quadric]:
+    """Return the maker of a quadric whose radii are these attributes."""
+
+    def make(shapes: Shapes, _: Any, values: list[Any], __: Any) -> Quadric:
+        radii = [0.0 if at is None else float(values[at]) for at in (major, minor)]
+        if min(radii) < 0.0 or not max(radii) > 0.0:
+            raise ValueError("radii")
+        return Quadric(shapes.frame(values[1]), *radii)
+
+    return make
+
+
+def _cone(shapes: Shapes, _: Any, values: list[Any], __: Any) -> Quadric:
+    slope = math.tan(shapes.angle * values[3])
+    return Quadric(shapes.frame(values[1]), float(values[2]), 0.0, slope)
+
+
+def _extrusion(shapes: Shapes, _: Any, values: list[Any], loops: list[list[Curve]]) -> Any:
+    along = shapes.direction(shapes.pick(values[2], ("VECTOR",))[1][1])
+    if shapes.pick(values[1], (*_CURVES, *_BASES))[0] == "LINE":
+        vector = shapes.pick(values[1], ("LINE",))[1][2]
+        return np.cross(shapes.direction(shapes.pick(vector, ("VECTOR",))[1][1]), along)
+    profile = join_pieces(shapes.curve(values[1], None))
+    heights = np.concatenate([curve.points for loop in loops for curve in loop]) @ along
+    own = profile.points @ along
+    low, high = heights.min() - own.max(), heights.max() - own.min()
+    margin = (OVERLAP - 1.0) * (high - low)
+    ends = [
+        replace(profile, points=profile.points + shift * along)
+        for shift in (low - margin, high + margin)
+    ]
+    return rule(*ends)
+
+
+def _revolution(shapes: Shapes, _: Any, values: list[Any], loops: list[list[Curve]]) -> Any:
+    frame = shapes.frame(values[2])
+    begin, axis = frame[:3, 3], frame[:3, 2]
+    name, line = shapes.pick(values[1], (*_CURVES, *_BASES))
+    ends = None
+    if name == "LINE":
+        place = shapes.point(line[1])
+        along = shapes.direction(shapes.pick(line[2], ("VECTOR",))[1][1])
+        if not abs(along @ axis) > 1e-9:
+            return axis
+        heights = (
+            np.concatenate([curve.points for loop in loops for curve in loop]) - place
+        ) @ axis
+        ends = [
+            place + height / (along @ axis) * along for height in (heights.min(), heights.max())
+        ]
+    swept = revolve(join_pieces(shapes.curve(values[1], ends)), begin, axis, 0.0, TURN)
+    return swept.reverse_orientation()  # The angle is the first parameter.
+
+
+_BASES = ("TRIMMED_CURVE", "SURFACE_CURVE", "SEAM_CURVE", "INTERSECTION_CURVE")
+_CURVES: dict[str, Callable[..., list[Curve]]] = {
+    "LINE": _line,
+    "CIRCLE": _conic_of("ELLIPSE"),
+    "ELLIPSE": _conic_of("ELLIPSE"),
+    "HYPERBOLA": _conic_of("HYPERBOLA"),
+    "PARABOLA": _conic_of("PARABOLA"),
+    "B_SPLINE_CURVE_WITH_KNOTS": _spline,
+}
+_SURFACES: dict[str, Callable[..., Any]] = {
+    "PLANE": lambda shapes, _, values, __: shapes.frame(values[1])[:3, 2],
+    "CYLINDRICAL_SURFACE": _quadric_of(None),
+    "CONICAL_SURFACE": _cone,
+    "SPHERICAL_SURFACE": _quadric_of(2, None),
+    "TOROIDAL_SURFACE": _quadric_of(3),
+    "SURFACE_OF_LINEAR_EXTRUSION": _extrusion,
+    "SURFACE_OF_REVOLUTION": _revolution,
+    "B_SPLINE_SURFACE_WITH_KNOTS": _spline_surface,
+}

@@ -1,0 +1,149 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""STEP files written by OpenCascade (`tools/make_step.py`), against closed forms and its own mass
+properties, and damaged copies of them.
+"""
+
+import json
+import re
+import tarfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+from body_moments.core.cad.part21 import Part21
+from body_moments.core.cad.surface_file import read_surfaces
+from body_moments.core.moments import sum_moments
+from body_moments.core.nurbs import measure_patches
+from body_moments.core.verdict import FileError
+
+GPROP_RTOL = 4e-10
+PI = np.pi
+ANGLES = (np.arange(200) + 0.5) * PI / 200.0  # Gauss and Chebyshev's rule on a disk of radius 3
+HALF, WEIGHT = 3.0 * np.cos(ANGLES), 9.0 * PI / 200.0 * np.sin(ANGLES) ** 2
+SECTION = 2239.310204308137 / 12.0  # by Gauss' rule on each span of the outline; GProp is 1 % off
+EXACT = {
+    "cylinder": 500.0 * PI,
+    "cone": 520.0 / 3.0 * PI,
+    "apex": 120.0 * PI,
+    "sphere": 500.0 / 3.0 * PI,
+    "torus": 180.0 * PI**2,
+    "tube": 3600.0 * PI,
+    "wedge": 325.0,
+    "drilled": 8000.0 - 320.0 * PI,
+    "cross": 3600.0 * PI
+    - 4.0 * (WEIGHT * (np.sqrt(100.0 - HALF**2) - np.sqrt(25.0 - HALF**2))).sum(),
+    "fillets": 5168.0 + 192.0 * PI + 32.0 / 3.0 * PI,
+    "chamfers": 16688.0 / 3.0,
+    "rim": PI * (491.0 + 2.0 / 3.0 + 2.0 * PI),
+    "bead": 4.0 / 3.0 * PI * 21.0**1.5,
+    "cap": 108.0 * PI,
+    "half_torus": 90.0 * PI**2,
+    "slant": 250.0 * PI,
+    "steinmetz": 2000.0 / 3.0,
+    "tee": 930.0 * PI - 2.0 * (WEIGHT * np.sqrt(25.0 - HALF**2)).sum(),
+    "frustum": 1350.0,
+    "twisted": 516.0,
+    "open_box": 1464.0,
+    "cup": 349.0 * PI,
+    "prism": 12.0 * SECTION,
+    "leaning": 12.0 * SECTION,
+    "drilled_prism": 12.0 * SECTION - 48.0 * PI,
+    "turned": 201.0,
+    "cavity": 8000.0 - 288.0 * PI,
+    "plate": 19500.0 - 288.0 * PI,
+    "bolt": 480.0 * np.sqrt(3.0) + 320.0 * PI,
+}
+with tarfile.open(Path(__file__).parent / "kernel" / "step.tar.xz") as archive:
+    TEXTS = {Path(one.name).stem: archive.extractfile(one).read().decode() for one in archive}
+GPROP = json.loads(TEXTS.pop("volumes"))
+
+
+def read(tmp_path, text):
+    path = tmp_path / "part.step"
+    path.write_text(text)
+    return read_surfaces(path, for_blender=False)
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_step_part_of_a_kernel_is_within_its_bound(tmp_path, name):
+    file = read(tmp_path, TEXTS[name])
+    assert file.refused == ()
+    bodies = [measure_patches(one.patches, stored=one.rounding) for one in file.bodies]
+    assert {str(body.method) for body in bodies} == {"exact"}
+    volume = sum_moments([body.volume for body in bodies])
+    scale = file.unit * 1e3
+    error = scale**3 * (volume.rounding_error + volume.input_error)[0]
+    truth, center = GPROP[name]
+    slack = 0.0 if name in EXACT else GPROP_RTOL * truth
+    truth = EXACT.get(name, truth)
+    assert abs(scale**3 * volume.total - truth) <= error + slack
+    assert error <= 1e-9 * truth
+    if "prism" not in name and name != "leaning":
+        assert np.abs(scale * volume.center - center).max() <= 1e-5  # GProp is so far off the axis
+
+
+@pytest.mark.parametrize("name, unit", [("mm", 1e-3), ("inch", 0.0254), ("m", 1.0)])
+def test_step_assembly_has_names_colors_and_unit(tmp_path, name, unit):
+    file = read(tmp_path, TEXTS["assembly_" + name])
+    assert file.unit == pytest.approx(unit, rel=1e-15)
+    assert [one.name for one in file.bodies] == ["Plätte", *["Bolt"] * 4]
+    assert file.bodies[0].color is None
+    # sRGB of the linear color that OpenCascade was given.
+    assert file.bodies[1].color == pytest.approx((0.906332, 0.349190, 0.484529), abs=1e-6)
+
+
+def number_of(text, entity):
+    return re.search(r"#(\d+) = " + entity, text)[1]
+
+
+SWAPS = {
+    "end": (r"(#\d+ = ADVANCED_FACE.*?#\d+ = ADVANCED_FACE[^;]*;).*", r"\1", "ADVANCED_FACE"),
+    "unit": (r"\.MILLI\.,\.METRE\.", ".MILLI.,.CUBIT.", "CONTEXT"),
+    "misses": (r"(CYLINDRICAL_SURFACE\('',#\d+,)4\.", r"\g<1>4.3", "ADVANCED_FACE"),
+    "ends": (r"(CIRCLE\('',#\d+,)4\.", r"\g<1>4.3", "EDGE_CURVE"),
+    "close": (r"(EDGE_LOOP\('',\(#\d+),#\d+", r"\1", "EDGE_LOOP"),
+    "face that is missing": (r"(CLOSED_SHELL\('',\(#\d+),#\d+", r"\1", "CLOSED_SHELL"),
+    "not in the file": (r"(CYLINDRICAL_SURFACE\('',)#\d+", r"\1#999999", "ADVANCED_FACE"),
+    "numbers": (r"(CYLINDRICAL_SURFACE\('',#\d+,)4\.", r"\g<1>-4.", "ADVANCED_FACE"),
+    "possible": (r"CYLINDRICAL_SURFACE\(", "CYLINDRICAL_SURFACE" + "(" * 90, "ADVANCED_FACE"),
+    "OFFSET_SURFACE": (r"CYLINDRICAL_SURFACE", "OFFSET_SURFACE", "ADVANCED_FACE"),
+}
+
+
+@pytest.mark.parametrize("fault", SWAPS)
+def test_damaged_step_solid_is_refused_in_one_sentence(tmp_path, fault):
+    pattern, better, entity = SWAPS[fault]
+    text, count = re.subn(pattern, better, TEXTS["drilled"], count=1, flags=re.DOTALL)
+    assert count == 1
+    with pytest.raises(FileError) as error:
+        read(tmp_path, text)
+    (cause,) = error.value.finding.values["causes"]
+    message = str(error.value)
+    assert fault in message and entity in cause["values"]["kind"]
+    (number, line) = re.search(r"#(\d+) \(line (\d+)\)", message).groups()
+    assert "#{} = ".format(number) in text.splitlines()[int(line) - 1]
+
+
+def test_right_solids_beside_damage_are_measured(tmp_path):
+    whole = TEXTS["assembly_mm"]
+    within = re.search(r"REPRESENTATION_RELATIONSHIP\('','',(#\d+),(#\d+)\)", whole)
+    swapped = within[0].replace(within[2], within[1])
+    for text, names, faults in (
+        (whole.replace("CYLINDRICAL_SURFACE", "OFFSET_SURFACE", 1), ["Plätte"], 1),
+        (whole.replace(within[0], swapped), ["Bolt"] * 4 + ["Plätte"], 1),
+    ):
+        file = read(tmp_path, text)
+        assert sorted(one.name for one in file.bodies) == names
+        assert len(file.refused) == faults and file.unread == 0
+
+
+def test_part21_reads_strings_comments_and_types():
+    text = Part21(
+        b"ISO-10303-21;DATA;\n/* #1=A(); */ #2 = b('it''s; \\X2\\00E4\\X0\\ \\S\\d \\X\\E9',"
+        b"$,*,.T.,.x.,(1,-2.5E-3),LENGTH_MEASURE(3.),#2);\n#3=(C()D(1));ENDSEC;END-ISO-10303-21;"
+    )
+    assert text.torn == 0 and text.named == {"B": [2], "C": [3], "D": [3]}
+    measure = "LENGTH_MEASURE", [3.0]
+    assert text[2] == {"B": ["it's; ä ä é", None, None, True, ".X.", [1, -2.5e-3], measure, 2]}
+    assert text[3] == {"C": [], "D": [1]} and text.line(3) == 3
