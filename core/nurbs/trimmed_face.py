@@ -229,7 +229,7 @@ class TrimmedFace:
         beyond = np.where(
             bottom[empty, None] >= base - 0.5,
             level > bottom[empty, None],
-            -(level < top[empty, None]),
+            level < top[empty, None],
         )
         turns = (beyond * (end - begin)[:, other]).sum(axis=1) / (period or 1.0)
         full = empty[np.round(np.abs(turns)) % 2 == 1] if period else empty[:0]
