@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.bodies import WIRE_UNSUPPORTED, Reading, name_subject, to_si
+from ...core.bodies import WIRE_UNSUPPORTED, name_subject, to_si
 from ...core.flat import foot
 from ...core.fourier import (
     APPROXIMATE,
@@ -114,7 +114,8 @@ def object_transform(
             of = Measure.VOLUME
             total = body.volume.total
         if frame == "object":
-            turn = _to_object(reading, unit)
+            axes = reading.rotation.T
+            turn = affine_matrices(axes, -axes @ reading.location * unit)  # to the object's frame
             parts = [(surface, turn @ matrices) for surface, matrices in parts]
         if callable(q):
             q = q(_extent(parts))
@@ -174,8 +175,3 @@ def _extent(parts: list[tuple[Surface, NDArray]]) -> float:
     if not 0.0 < size < np.inf:
         raise ReadError(FOURIER_NO_EXTENT)
     return size
-
-
-def _to_object(reading: Reading, unit: float) -> Array:
-    """Return the (4, 4) map from the world to the object's frame, in meters."""
-    return affine_matrices(reading.rotation.T, -reading.rotation.T @ reading.location * unit)

@@ -29,7 +29,8 @@ from ...core.moments import are_singular
 from ...core.numerics import Array, polar_rotation
 from ...core.robots import Pose, Shape
 from ...core.verdict import ReadError
-from ..bodies.measure_body import MeasuredBody, measure_body
+from ..bodies.measure_body import measure_body
+from ..bodies.stack import Measured
 from ..read.findings import OBJECT_WITHOUT_GEOMETRY, SCALE_ZERO_AXIS
 from ..read.fingerprint import colliders_digest, scale_products
 from ..scale import meters_per_unit
@@ -115,7 +116,7 @@ def plan_colliders(
     return known[key]
 
 
-def _mesh_key(obj: Object, measured: MeasuredBody) -> str:
+def _mesh_key(obj: Object, measured: Measured) -> str:
     """Return a key that is equal for objects with the same settings and meshes in the same places
     of their frames.
     """
@@ -136,7 +137,7 @@ def _mesh_key(obj: Object, measured: MeasuredBody) -> str:
     return digest(settings + b"".join(np.ascontiguousarray(part).tobytes() for part in parts))
 
 
-def _surface(obj: Object, measured: MeasuredBody) -> Surface:
+def _surface(obj: Object, measured: Measured) -> Surface:
     """Return the measured surface, repaired if it is a solid's, in the object's frame in m."""
     measurement = measured.measurement
     pieces = [*measured.body.surfaces(measurement.kind == "shell")]

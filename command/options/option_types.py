@@ -14,7 +14,7 @@ from typing import Any
 
 from ...core.density import BY_NAME
 from ...core.files import parse_number, parse_whole
-from ...core.measurement import documents
+from ...core.measurement import PrintSettings, documents
 from ...core.robots import FORMATS as ROBOT_FORMATS
 from ..parser import COMMANDS
 
@@ -116,8 +116,8 @@ def triple(text: str) -> tuple[float, ...]:
     return values
 
 
-PRINT_COUNTS = "walls", "top", "bottom"
-PRINT_VALUES = "line_width", "layer_height", "infill", "price", "spool"
+_PRINT_DEFAULTS = PrintSettings()._asdict()
+del _PRINT_DEFAULTS["pocket"]
 
 
 def print_settings(text: str) -> tuple[tuple[str, float], ...]:
@@ -125,12 +125,12 @@ def print_settings(text: str) -> tuple[tuple[str, float], ...]:
     pairs = []
     for part in text.split(","):
         name, _, value = part.partition("=")
-        known = name in PRINT_COUNTS or name in PRINT_VALUES
-        if not known or (name in PRINT_COUNTS and not value.isdecimal()):
-            names = ", ".join((*PRINT_COUNTS, *PRINT_VALUES))
-            message = "{!r} is not NAME=VALUE with one of {}; the first three are whole numbers"
+        is_count = isinstance(_PRINT_DEFAULTS.get(name), int)
+        if name not in _PRINT_DEFAULTS or (is_count and not value.isdecimal()):
+            names = ", ".join(_PRINT_DEFAULTS)
+            message = "{!r} is not NAME=VALUE with one of {}; walls and layers are whole numbers"
             raise ArgumentTypeError(message.format(part, names))
-        pairs.append((name, int(value) if name in PRINT_COUNTS else number(value)))
+        pairs.append((name, int(value) if is_count else number(value)))
     return tuple(pairs)
 
 

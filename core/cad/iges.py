@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Faces of an IGES file, Initial Graphics Exchange Specification 5.3: B-spline surfaces (128),
-swept ones (118, 120, 122), cylinders, cones, spheres and tori (192 to 198), and trimmed planes.
+swept ones (118, 120, 122), cylinders, cones, spheres and tori (192 to 198), and planes.
 
-They stand alone, in trimmed surfaces (144), in solids (186) of shells (514) of faces (510), or in
-subfigures (308, 408). Planes may be trimmed, other surfaces only along their own boundary.
+They stand alone, in trimmed or bounded surfaces (144, 143), in solids (186) of shells (514) of
+faces (510), or in subfigures (308, 408).
 Transformations (124) and the unit of the global section are applied. Other surfaces and solids are
 refused by name; curves, points and annotation bound nothing and are left out.
 """
@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from ..files import FILE_TOO_LARGE
 from ..numerics import Array, lengths
-from ..nurbs import TURN, Curve, Face, Patch, Quadric, patches_size
+from ..nurbs import TURN, Curve, Face, FlatFace, Patch, Quadric, closed_parts, patches_size
 from ..verdict.finding import FileError, finding
 from .findings import (
     CURVES_LEFT_OUT,
@@ -36,7 +36,6 @@ from .iges_entities import (
     CurveReader,
     Entry,
     IgesText,
-    decimal_rounding,
     integers,
     numbers,
     padded,
@@ -53,8 +52,12 @@ from .surfaces import (
 )
 from .trimmed import Boundary, first_region, trimmed_faces, within
 
+TURNING = 3.0  # the norm of a matrix (3, 3) of ones
 MATRIX = 124
 SURFACE = 128
+OFFSET = 140
+BOUNDARY = 141
+BOUNDED = 143
 TRIMMED = 144
 DEFINITION = 308
 INSTANCE = 408
@@ -73,7 +76,6 @@ REFUSED = {
     108: "Plane",
     114: "Parametric Spline Surface",
     140: "Offset Surface",
-    143: "Bounded Surface",
     150: "Block",
     152: "Wedge",
     154: "Cylinder",
@@ -114,6 +116,7 @@ NAMES = (
     {
         SURFACE: "Rational B-Spline Surface",
         TRIMMED: "Trimmed Surface",
+        BOUNDED: "Bounded Surface",
         INSTANCE: "Subfigure Instance",
         SOLID: "Manifold Solid B-Rep",
     }
@@ -122,7 +125,7 @@ NAMES = (
     | REFUSED
 )
 # Index of the parameter that points to the surface or solid which an entity refers to.
-REFERENCES = {TRIMMED: 0, 140: 4, 143: 1, 430: 0, FACE: 0}
+REFERENCES = {TRIMMED: 0, OFFSET: 4, BOUNDED: 1, 430: 0, FACE: 0}
 CURVES = {100, 102, 104, 106, 110, 112, 116, 126, 130}  # Curves and points, which bound nothing.
 PARAMETER_CURVE = 142
 Value = TypeVar("Value")
@@ -137,12 +140,13 @@ class IgesReader:
         self._text = IgesText(path)
         self._entries = self._text.entries
         self._refusals = Refusals()
-        self._matrices: dict[int, Array | None] = {0: np.eye(4)}
+        # (4, 4) and the effect of the decimals of its directions on points at a unit's distance
+        self._matrices: dict[int, tuple[Array, float]] = {0: (np.eye(4), 0.0)}
         self._name = path.stem
         self._placed = 0
         self._rounding = 0.0
         self._turning = 0.0  # Largest effect of the decimals of directions, relative to the size.
-        self._curves = CurveReader(self._text, self._matrix)
+        self._curves = CurveReader(self._text, self._matrix_and_turning)
 
     def read(self) -> SurfaceFile:
         """Read the faces as one body, named after the file. FileError if no face can be kept."""
@@ -162,15 +166,17 @@ class IgesReader:
                 hidden += 1
             else:
                 patches += self._place(entry, np.eye(4), ())
+        if self._refusals.names and patches and not self._for_blender:
+            # A part of a body is no body: what closes without the refused faces is another one.
+            patches = closed_parts(patches, self._rounding)
         notes = [
             finding(code, count=n)
             for code, n in ((SURFACES_HIDDEN, hidden), (CURVES_LEFT_OUT, others))
             if n
         ]
-        self._rounding = max(self._rounding, self._curves.rounding)
         if self._turning and patches:
             reach = max(float(np.abs(face.points).max()) for face in patches)
-            self._rounding += 2.0 * self._turning * reach
+            self._rounding += self._turning * reach
         return self._refusals.file(
             [SurfaceBody(self._name, tuple(patches), self._rounding)], self._text.unit, notes
         )
@@ -221,7 +227,8 @@ class IgesReader:
         subfigures around it.
         """
         kind = NAMES[entry.type]
-        name = entry.label or "D{}".format(entry.number)
+        line = "D{}".format(entry.number)
+        name = "{} ({})".format(entry.label, line) if entry.label else line
         if entry.type in REFUSED:
             self._refusals.add(
                 SURFACE_UNSUPPORTED, "{} ({})".format(kind, entry.type), name, base=kind
@@ -237,10 +244,9 @@ class IgesReader:
             if entry.type in (SOLID, SHELL):
                 return self._shells(entry, above)
             if entry.type == SURFACE or entry.type in SWEPT:
-                return self._within(entry, above @ self._matrix(entry), [], True)
-            return (self._trimmed if entry.type == TRIMMED else self._face)(
-                entry, above @ self._matrix(entry)
-            )
+                return self._within(entry, above, [], True)
+            kinds = {TRIMMED: self._trimmed, BOUNDED: self._bounded, FACE: self._face}
+            return kinds[entry.type](entry, above @ self._matrix(entry))
 
         return self._refusals.keep("{} ({})".format(kind, entry.type), name, make)
 
@@ -280,29 +286,34 @@ class IgesReader:
         return entry
 
     def _matrix(self, entry: Entry) -> Array:
+        """Return the (4, 4) matrix of a part of the structure, and note its decimals."""
+        matrix, turning = self._matrix_and_turning(entry)
+        self._turning = max(self._turning, turning)
+        return matrix
+
+    def _matrix_and_turning(self, entry: Entry) -> tuple[Array, float]:
         """Return the (4, 4) matrix of an entity: its transformation, followed by the ones that this
-        refers to.
+        refers to; and how far its decimals move points at a unit's distance.
         """
         chain = []
         pointer = entry.matrix
         while pointer not in self._matrices and len(chain) < MAX_DEPTH:
             chain.append(self._entry(pointer, MATRIX))
             pointer = chain[-1].matrix
-        known = self._matrices.get(pointer)
-        if known is None:
+        if pointer not in self._matrices:
             raise SurfaceRefusedError(SURFACE_DAMAGED, fault=RECURSION)
+        known, turning = self._matrices[pointer]
         for one in reversed(chain):
             fields = self._text.fields(one)[:12]
-            self._rounding = max(self._rounding, decimal_rounding(fields[3::4]))
-            self._note_turning([word for k, word in enumerate(fields) if k % 4 < 3])
-            rows = numbers(fields)
+            self._rounding = max(self._rounding, self._text.rounding(fields[3::4]))
+            turning += TURNING * self._text.rounding([w for k, w in enumerate(fields) if k % 4 < 3])
             matrix = np.eye(4)
-            matrix[:3] = rows.reshape(3, 4)
+            matrix[:3] = numbers(fields).reshape(3, 4)
             known = known @ matrix
-            self._matrices[one.number] = known
+            self._matrices[one.number] = known, turning
         if not abs(np.linalg.det(known[:3, :3])) > 0.0:
             raise SurfaceRefusedError(SURFACE_DAMAGED, fault="a transformation that flattens")
-        return known
+        return known, turning
 
     def _trimmed(self, entry: Entry, matrix: NDArray) -> list[Face]:
         """Return the faces of a trimmed surface."""
@@ -313,7 +324,7 @@ class IgesReader:
         if len(loops) != bool(has_outer) + holes:
             raise ValueError("too few boundaries")
         boundaries = [self._boundary(loop, base, matrix) for loop in integers(loops, len(loops))]
-        return self._within(base, matrix @ self._matrix(base), boundaries, bool(has_outer))
+        return self._within(base, matrix, boundaries, bool(has_outer))
 
     def _boundary(self, pointer: int, base: Entry, matrix: NDArray) -> Boundary:
         """Return the boundary given by a curve on a surface (142), unknown if the curve lies on
@@ -329,15 +340,35 @@ class IgesReader:
         space = self._curves.read(in_space, matrix @ self._matrix(entry))
         return Boundary(space, self._curves.read(by_parameters, None), preferred == 1)
 
+    def _bounded(self, entry: Entry, matrix: NDArray) -> list[Face]:
+        """Return the faces of a surface within boundaries (141), the first of which is the outer
+        one.
+        """
+        _, pointer, count = integers(self._text.fields(entry), 3)
+        base = self._entries[pointer]
+        boundaries = []
+        for number in integers(self._text.fields(entry)[3:], count):
+            fields = self._text.fields(self._entry(number, BOUNDARY))
+            (curves,) = integers(fields[3:], 1)
+            at = 4
+            in_space, by_parameters = [], []
+            for _ in range(curves):
+                curve, sense, uses = integers(fields[at:], 3)
+                pieces = self._curves.read(curve, matrix)
+                in_space.append(_backward(pieces) if sense == 2 else pieces)
+                ways = integers(fields[at + 3 :], uses)
+                by_parameters += [self._curves.read(way, None) for way in ways] or [None]
+                at += 3 + uses
+            boundaries.append(Boundary(_join_curves(in_space), _join_curves(by_parameters)))
+        return self._within(base, matrix, boundaries, True)
+
     def _face(self, entry: Entry, matrix: NDArray) -> list[Face]:
         """Return the faces of a face of a solid: a surface within loops of edges."""
         fields = self._text.fields(entry)
         pointer, count, _ = integers(fields, 3)
         loops = integers(fields[3:], count)
         base = self._entries[pointer]
-        return self._within(
-            base, matrix @ self._matrix(base), [self._loop(loop, matrix) for loop in loops], True
-        )
+        return self._within(base, matrix, [self._loop(loop, matrix) for loop in loops], True)
 
     def _loop(self, pointer: int, matrix: NDArray) -> Boundary:
         """Return a boundary of edges; edges that are a vertex, such as a pole, have no curve in
@@ -367,31 +398,53 @@ class IgesReader:
             integers(self._text.fields(entry)[1 + 5 * (index - 1) :], 1) if index > 0 else (0,)
         )
         curves = self._curves.read(curve, matrix @ self._matrix(entry))
-        return curves if forward or curves is None else [one.reverse() for one in reversed(curves)]
+        return curves if forward else _backward(curves)
 
     def _within(
         self, base: Entry, matrix: NDArray, boundaries: Sequence[Boundary], has_outer: bool
     ) -> list[Face]:
-        """Return the faces of a surface within boundaries. matrix: (4, 4), of the surface and all
-        that is around it.
+        """Return the faces of a surface within boundaries. matrix: (4, 4), of all that is around
+        it.
         """
+        own, turning = self._matrix_and_turning(base)
+        matrix = matrix @ own
+        if base.type == OFFSET:
+            plane = self._entries[integers(self._text.fields(base)[4:], 1)[0]]
+            if plane.type in (PLANE, PLANE_SURFACE):  # It is where its boundary is.
+                base = plane
+        of_edges = self._curves.rounding
+        self._curves.rounding = 0.0
         if base.type in (PLANE, PLANE_SURFACE):
             loops = [boundary.curves for boundary in boundaries] if has_outer else []
             faces: list[Face] = [first_region([loops], self._plane_normal(base, matrix))]
         elif base.type in ANALYTIC:
-            quadric = self._quadric(base, self._text.fields(base), matrix)
+            quadric, moved, tilt = self._quadric(base, matrix)
             faces = within(
                 quadric, boundaries, rounding=self._rounding, only_patches=self._for_blender
             )
+            # A turn moves a sphere along itself, and a torus or a cylinder as it is long.
+            reach = quadric.radius if quadric.minor or quadric.slope else 0.0
+            if not quadric.minor:
+                points = np.concatenate([face.points.reshape(-1, 3) for face in faces])
+                reach += float(np.abs(quadric.project(points)[:, 1]).max())
+            self._rounding = max(self._rounding, moved + (tilt + turning) * reach)
         elif base.type in SWEPT:
-            surface, quadric = self._swept(base, matrix)
+            surface, quadric = self._swept(base)
+            moved = self._curves.rounding + turning * float(lengths(surface.points).max())
+            self._rounding = max(self._rounding, moved)
+            surface = surface.transform(matrix)
             # Parameters of other surfaces than splines are those of no exact form.
             in_space = [replace(one, parameters=None) if one.curves else one for one in boundaries]
             domain = surface.spaces[0].domain, surface.spaces[1].domain
-            patches = bezier_surface(surface, (None, None), self._for_blender)
-            rounding = self._rounding
             faces = trimmed_faces(
-                surface, domain, patches, in_space, has_outer, rounding, quadric, self._for_blender
+                surface,
+                domain,
+                bezier_surface(surface, (None, None), self._for_blender),
+                in_space,
+                has_outer,
+                self._rounding,
+                quadric and quadric.transform(matrix),
+                self._for_blender,
             )
         elif base.type != SURFACE:
             raise SurfaceRefusedError(
@@ -401,7 +454,8 @@ class IgesReader:
             fields = self._text.fields(base)
             knots, orders, points, weights, domain = _spline(fields)
             surface = placed_surface(knots, orders, points, weights, matrix)
-            rounding = self._note_rounding(fields, surface, matrix)
+            reach = float(lengths(surface.points - matrix[:3, 3]).max())
+            rounding = self._note_rounding(fields, surface, matrix) + turning * reach
             faces = trimmed_faces(
                 surface,
                 domain,
@@ -414,9 +468,13 @@ class IgesReader:
             )
         if self._for_blender and not all(isinstance(face, Patch) for face in faces):
             raise SurfaceRefusedError(SURFACE_TRIMMED)  # a flat face
+        if any(isinstance(face, FlatFace) for face in faces):
+            # Its plane is that of its edges; other edges only part one surface from another.
+            self._rounding = max(self._rounding, of_edges)
+        self._curves.rounding = 0.0
         return faces
 
-    def _swept(self, base: Entry, matrix: NDArray) -> tuple[Patch, Quadric | None]:
+    def _swept(self, base: Entry) -> tuple[Patch, Quadric | None]:
         """Return a surface of revolution, a tabulated cylinder or a ruled surface, and the quadric
         that it is a part of.
         """
@@ -427,7 +485,7 @@ class IgesReader:
             begin, end = self._curve(first).evaluate([0.0, 1.0])
             start, stop = numbers(fields[2:4]).tolist()
             profile = self._curve(integers(fields, 2)[1])
-            unsure = decimal_rounding(fields[2:4])
+            unsure = self._text.rounding(fields[2:4])
             if abs(stop - start - TURN) <= 4.0 * unsure:
                 stop = start + TURN
             else:
@@ -437,18 +495,14 @@ class IgesReader:
             quadric = revolved_quadric(profile, begin, end - begin)
         elif base.type == EXTRUDED:
             profile = self._curve(first)
-            self._rounding = max(self._rounding, decimal_rounding(fields[1:4]))
+            self._rounding = max(self._rounding, self._text.rounding(fields[1:4]))
             shift = numbers(fields[1:4]) - profile.evaluate(profile.space.domain[:1])[0]
             patch = rule(profile, replace(profile, points=profile.points + shift))
         else:
             _, second, is_backward = integers(fields, 3)
             other = self._curve(second)
             patch = rule(self._curve(first), other.reverse() if is_backward else other)
-        return patch.transform(matrix), quadric and quadric.transform(matrix)
-
-    def _note_turning(self, fields: list[str]) -> None:
-        """Note the decimals of directions."""
-        self._turning = max(self._turning, decimal_rounding(fields))
+        return patch, quadric
 
     def _curve(self, pointer: int) -> Curve:
         """Return a curve that sweeps a surface, in one piece."""
@@ -457,40 +511,42 @@ class IgesReader:
             raise ValueError("a curve of another kind")
         return join_pieces(pieces)
 
-    def _quadric(self, base: Entry, fields: list[str], matrix: NDArray) -> Quadric:
-        """Return a cylinder, cone, sphere or torus."""
+    def _quadric(self, base: Entry, matrix: NDArray) -> tuple[Quadric, float, float]:
+        """Return a cylinder, cone, sphere or torus, the effect of the decimals of its place and
+        sizes, and that of its directions at a unit's distance.
+        """
+        fields = self._text.fields(base)
         radii = 1 if base.type in (CYLINDER, BALL) else 2
         if base.type == BALL:
             location, axis, toward = integers([fields[0], *padded(fields[2:], 2)], 3)
-            values = numbers(fields[1:2])
+            sizes = fields[1:2]
         else:
             location, axis = integers(fields, 2)
-            values = numbers(fields[2 : 2 + radii])
+            sizes = fields[2 : 2 + radii]
             (toward,) = integers(padded(fields[2 + radii :], 1), 1)
-        if not (axis and toward):
-            raise SurfaceRefusedError(SURFACE_UNSUPPORTED, base=NAMES[base.type])
-        frame = np.eye(4)
+        radius, last = numbers(sizes)[[0, -1]].tolist()
         place = self._text.fields(self._entry(location, POINT))[:3]
+        frame = np.eye(4)
         frame[:3, 3] = numbers(place)
-        directions = [self._text.fields(self._entry(one, DIRECTION))[:3] for one in (axis, toward)]
-        self._note_turning([*directions[0], *directions[1]])
-        sizes = fields[2 : 2 + radii] if base.type != BALL else fields[1:2]
+        tilt = 0.0
+        if axis:
+            along = self._text.fields(self._entry(axis, DIRECTION))[:3]
+            tilt = math.sqrt(2.0) * self._text.rounding(along)
+            up = numbers(along) / np.linalg.norm(numbers(along))
+            side = np.cross(up, np.eye(3)[np.abs(up).argmin()])
+            if toward:  # The seam is there, and shows that a boundary follows the whole surface.
+                side = numbers(self._text.fields(self._entry(toward, DIRECTION))[:3])
+                side = side - (side @ up) * up
+            side /= np.linalg.norm(side)
+            frame[:3, :3] = np.stack([side, np.cross(up, side), up], axis=1)
+        slope = 0.0
         if base.type == CONE:
-            unsure = math.radians(decimal_rounding([sizes.pop()]))
-            self._turning = max(self._turning, 2.0 * unsure)
-        self._rounding = max(self._rounding, decimal_rounding([*place, *sizes]))
-        up, side = map(numbers, directions)
-        frame[:3, 2] = up / np.linalg.norm(up)
-        side = side - (side @ frame[:3, 2]) * frame[:3, 2]
-        frame[:3, 0] = side / np.linalg.norm(side)
-        frame[:3, 1] = np.cross(frame[:3, 2], frame[:3, 0])
-        radius, last = float(values[0]), float(values[-1])
-        if base.type == BALL:
-            radius, minor, slope = 0.0, last, 0.0
-        else:
-            minor = last if base.type == TORUS else 0.0
-            slope = math.tan(math.radians(last)) if base.type == CONE else 0.0
-        return Quadric(matrix @ frame, radius, minor, slope)
+            tilt += math.radians(self._text.rounding([sizes.pop()]))
+            slope = math.tan(math.radians(last))
+        minor = last if base.type in (BALL, TORUS) else 0.0
+        radius = 0.0 if base.type == BALL else radius
+        moved = self._text.rounding([*place, *sizes])
+        return Quadric(matrix @ frame, radius, minor, slope), moved, tilt
 
     def _note_rounding(self, fields: list[str], surface: Patch, matrix: NDArray) -> float:
         """Note and return the uncertainty of a surface's points by the decimals of its points and
@@ -498,12 +554,14 @@ class IgesReader:
         """
         count = surface.points.size // 3
         start = 9 + sum(len(space.knots) for space in surface.spaces)
-        moved = float(np.linalg.norm(matrix[:3, :3], 2)) * decimal_rounding(
+        moved = float(np.linalg.norm(matrix[:3, :3], 2)) * self._text.rounding(
             fields[start + count : start + 4 * count]
         )
         # A point is a mean of control points: it moves by twice its weights' share.
         if surface.weights is not None:
-            share = decimal_rounding(fields[start : start + count]) / float(surface.weights.min())
+            share = self._text.rounding(fields[start : start + count]) / float(
+                surface.weights.min()
+            )
             moved += 2.0 * share * patches_size([surface])
         self._rounding = max(self._rounding, moved)
         return moved
@@ -516,6 +574,11 @@ class IgesReader:
         return np.linalg.solve(matrix[:3, :3].T, numbers(fields[:3])) * np.sign(
             np.linalg.det(matrix[:3, :3])
         )
+
+
+def _backward(curves: list[Curve] | None) -> list[Curve] | None:
+    """Return curves end to end, run backward; None if they are unknown."""
+    return None if curves is None else [one.reverse() for one in reversed(curves)]
 
 
 def _join_curves(parts: Sequence[list[Curve] | None]) -> list[Curve] | None:

@@ -15,13 +15,14 @@ import math
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..files import FILE_UNREADABLE, FILE_UNRECOGNIZED, HEADER_FIELD
-from ..numerics import Array, SplineSpace, clamped_space
+from ..numerics import Array, SplineSpace, clamped_space, lengths
 from ..nurbs import Curve, bezier_curves
 from ..verdict import FileError
 from .findings import IGES_DAMAGED
@@ -56,6 +57,7 @@ UNIT_NAMES = {
     "UIN": 2.54e-8,
 }
 UNIT_BY_NAME = 3
+FEW = 8  # numbers that may all end in zeros
 MANY_DIGITS = 8  # Numbers with fewer significant digits are taken as exact.
 ARC = 100
 CHAIN = 102
@@ -131,6 +133,27 @@ class IgesText:
         if _integer(fields[0]) != entry.type:
             raise ValueError("parameters of another entity")
         return fields[1:]
+
+    def rounding(self, fields: list[str]) -> float:
+        """Return half a unit of the last digit in the largest of those numbers with many digits, 0
+        if there are none.
+
+        The longest number shows how many digits are written, because zeros at the end are often
+        left out: the longest of the file if there are few.
+        """
+        units = [0.0]
+        kinds = zip((True, False), _long_numbers("\n".join(fields)), self._long_numbers)
+        for is_fixed, found, all_numbers in kinds:
+            if found:
+                places, digits, _ = np.max(found if len(found) >= FEW else all_numbers, axis=0)
+                largest = max(value for *_, value in found)
+                last = math.floor(math.log10(largest)) - digits + 1.0
+                units.append(0.5 * 10.0 ** max(last, -places if is_fixed else last))
+        return max(units)
+
+    @cached_property
+    def _long_numbers(self) -> tuple[list[tuple[int, int, float]], ...]:
+        return _long_numbers("\n".join(line[:PARAMETERS] for line in self._lines))
 
 
 def _lines(text: str) -> list[str]:
@@ -254,16 +277,17 @@ def padded(fields: list[str], count: int) -> list[str]:
     return fields[:count] + [""] * (count - len(fields))
 
 
-def decimal_rounding(fields: list[str]) -> float:
-    """Return half a unit of the last digit in numbers with many digits, the largest of these; 0 if
-    there are none.
+def _long_numbers(text: str) -> tuple[list[tuple[int, int, float]], ...]:
+    """Return the decimals, digits and values of the numbers with many digits, those without and
+    with an exponent.
     """
-    last_digits = {
-        int(exponent or 0) - len(decimals)
-        for whole, decimals, exponent in _DECIMALS.findall("\n".join(fields))
-        if len((whole + decimals).strip("0")) >= MANY_DIGITS
-    }
-    return 0.5 * 10.0 ** max(last_digits) if last_digits else 0.0
+    found: tuple[list[tuple[int, int, float]], ...] = ([], [])
+    for whole, decimals, power in _DECIMALS.findall(text):
+        digits = (whole + decimals).lstrip("0")
+        if len(digits.rstrip("0")) >= MANY_DIGITS:
+            value = float("{}.{}e{}".format(whole, decimals, power or "0"))
+            found[bool(power)].append((len(decimals), len(digits), value))
+    return found
 
 
 def numbers(fields: list[str]) -> Array:
@@ -282,9 +306,11 @@ def numbers(fields: list[str]) -> Array:
 
 
 class CurveReader:
-    """A reader of the curves of a file. matrix_of: returns the (4, 4) matrix of an entity."""
+    """A reader of the curves of a file. matrix_of: returns the (4, 4) matrix of an entity, and the
+    decimals' effect on its directions.
+    """
 
-    def __init__(self, text: IgesText, matrix_of: Callable[[Entry], Array]) -> None:
+    def __init__(self, text: IgesText, matrix_of: Callable[[Entry], tuple[Array, float]]) -> None:
         self._text, self._matrix_of = text, matrix_of
         self._entries: Mapping[int, Entry] = text.entries
         self.rounding = 0.0  # Largest effect of the decimals of points of curves in space.
@@ -313,7 +339,10 @@ class CurveReader:
             and entry.matrix
         ):
             return None
-        matrix = None if matrix is None else matrix @ self._matrix_of(entry)
+        turning = 0.0
+        if matrix is not None:
+            own, turning = self._matrix_of(entry)
+            matrix = matrix @ own
         fields = self._text.fields(entry)
         if entry.type == CHAIN:
             (count,) = integers(fields, 1)
@@ -328,8 +357,10 @@ class CurveReader:
         if matrix is not None:
             # The numbers of a spline behind its knots and weights, or the whole of a simple curve.
             first = 6 + 2 * len(fields[6:]) // 5 if entry.type == SPLINE else 0
-            moved = float(np.linalg.norm(matrix[:3, :3], 2)) * decimal_rounding(fields[first:])
-            self.rounding = max(self.rounding, moved)
+            moved = self._text.rounding(fields[first:])
+            if made:
+                moved += turning * max(float(lengths(one.points).max()) for one in made)
+            self.rounding = max(self.rounding, float(np.linalg.norm(matrix[:3, :3], 2)) * moved)
         return (
             made if made is None or matrix is None else [curve.transform(matrix) for curve in made]
         )

@@ -64,12 +64,10 @@ def revolved_quadric(curve: Curve, begin: NDArray, axis: NDArray) -> Quadric | N
     r = across @ side
     run = np.array([r[-1] - r[0], z[-1] - z[0]])
     off = np.abs((r - r[0]) * run[1] - (z - z[0]) * run[0]).max()
-    if off <= SAME_RTOL * size * np.linalg.norm(run) and r.min() >= -SAME_RTOL * size:
-        slope = float(run[0] / run[1]) if abs(run[1]) > SAME_RTOL * size else math.inf
-        slope = 0.0 if abs(run[0]) <= SAME_RTOL * size else slope
-        if math.isinf(slope):  # a plane
-            return None
-        return Quadric(frame, float(r[0] - slope * z[0]), 0.0, slope)
+    if abs(run[1]) > SAME_RTOL * size and off <= SAME_RTOL * size * np.linalg.norm(run):
+        slope = float(run[0] / run[1]) if abs(run[0]) > SAME_RTOL * size else 0.0
+        is_one_sided = r.min() >= -SAME_RTOL * size
+        return Quadric(frame, float(r[0] - slope * z[0]), 0.0, slope) if is_one_sided else None
     rows = np.stack([2.0 * r, 2.0 * z, np.ones(len(r))], axis=1)
     center_r, center_z, rest = np.linalg.lstsq(rows, r**2 + z**2, rcond=None)[0]
     minor = math.sqrt(max(rest + center_r**2 + center_z**2, 0.0))

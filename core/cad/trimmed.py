@@ -83,7 +83,8 @@ def within(
             return [patch]
         if only_patches:
             raise SurfaceRefusedError(SURFACE_TRIMMED)
-        return [curved_region(surface, loops, rounding, directed)]
+        face = curved_region(surface, loops, rounding, directed)
+        return [face if face.loops else spanned_quadric(surface, [])]
     if _is_flat(surface, FLAT_RTOL * patches_size([surface]) + 4.0 * rounding):
         return [first_region([loops], vector_area([surface]))]
     if _follow_sides(surface, _UNIT, in_space):

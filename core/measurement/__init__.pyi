@@ -46,7 +46,6 @@ from .record import flat_record as flat_record
 from .settings import VERSION as VERSION
 from .settings import Pocket as Pocket
 from .settings import PrintSettings as PrintSettings
-from .settings import RequestedResults as RequestedResults
 from .settings import Settings as Settings
 from .settings import digest as digest
 from .settings import fingerprint as fingerprint

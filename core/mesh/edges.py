@@ -12,13 +12,11 @@ Orientation is decided by connected parts on the double cover: each face becomes
 each orientation. A part is orientable if its two covers stay apart.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..numerics import (
-    EDGES_PER_BLOCK,
     NEXT_AXIS,
     Array,
     Index,
@@ -41,64 +39,27 @@ def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
     edges = surface.corner_edges
     if corners is None or edges is None or not len(corners) == len(edges) > 0:
         return None
-    sides_at = _sides_at(surface, corners)
-    if sides_at is None:
+    quad_faces, triangle_faces = face_of_each(surface)
+    sizes = ring_sizes(triangle_faces, quad_faces)
+    if not sizes.all() or sizes.sum() != len(corners):
         return None
     # a negative edge becomes a large one
     count = int(edges.view("u{:d}".format(edges.itemsize)).max()) + 1
     if count > 2 * len(corners) or count > np.iinfo(edges.dtype).max // 2:
         # Most of them without faces, or too many for their type: a table costs more than a search.
         return None
+    ends = np.cumsum(sizes)
+    following = np.concatenate([corners[1:], corners[:1]])
+    following[ends - 1] = corners[ends - sizes]
+    slots = (corners < following).astype(edges.dtype)
+    slots *= count
+    slots += edges
     sides = np.full(2 * count, -1, np.int32)
-    for start in range(0, len(corners), EDGES_PER_BLOCK):
-        faces, upward = sides_at(start)
-        slot = upward.astype(edges.dtype)
-        slot *= count
-        slot += edges[start : start + EDGES_PER_BLOCK]
-        sides[slot.astype(np.intp)] = faces
+    sides[slots] = np.repeat(np.arange(len(sizes), dtype=np.int32), sizes)
     sides = sides.reshape(2, count)
     if len(corners) != 2 * count:  # edges without faces
         sides = sides[:, sides.max(axis=0) >= 0]
     return sides if len(corners) == sides.size and sides.min() >= 0 else None
-
-
-def _sides_at(
-    surface: Surface, corners: NDArray[np.integer]
-) -> Callable[[int], tuple[NDArray[np.int32], Mask]] | None:
-    """Return a function from a block's first corner to faces and directions of its corners; None if
-    they do not fit.
-    """
-    quads = len(surface.quads)
-    triangles = len(surface.triangles)
-    if not triangles and surface.quad_faces is None:
-        size = 4
-    elif not quads and surface.triangle_faces is None:
-        size = 3
-    else:
-        quad_faces, triangle_faces = face_of_each(surface)
-        sizes = ring_sizes(triangle_faces, quad_faces)
-        ends = np.cumsum(sizes)
-        if not sizes.all() or ends[-1] != len(corners):
-            return None
-        owner = np.repeat(np.arange(len(sizes), dtype=np.int32), sizes)
-        following = np.concatenate([corners[1:], corners[:1]])
-        following[ends - 1] = corners[ends - sizes]
-        return lambda start: (
-            owner[start : start + EDGES_PER_BLOCK],
-            corners[start : start + EDGES_PER_BLOCK] < following[start : start + EDGES_PER_BLOCK],
-        )
-    if len(corners) != size * (quads + triangles):
-        return None
-    faces = np.repeat(np.arange(EDGES_PER_BLOCK // size, dtype=np.int32), size)
-
-    def sides_at(start: int) -> tuple[NDArray[np.int32], Mask]:
-        vertices = corners[start : start + EDGES_PER_BLOCK]
-        upward = np.empty(len(vertices), bool)
-        np.less(vertices[:-1], vertices[1:], out=upward[:-1])
-        np.less(vertices[size - 1 :: size], vertices[::size], out=upward[size - 1 :: size])
-        return faces[: len(vertices)] + np.int32(start // size), upward
-
-    return sides_at
 
 
 def ring_sizes(

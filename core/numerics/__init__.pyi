@@ -44,7 +44,6 @@ from .compensated import compensated_normals as compensated_normals
 from .compensated import phase_factors as phase_factors
 from .compensated import two_sum as two_sum
 from .float32 import shortest_decimal as shortest_decimal
-from .graph import EDGES_PER_BLOCK as EDGES_PER_BLOCK
 from .graph import connected_components as connected_components
 from .quadrature import gauss_legendre as gauss_legendre
 from .quadrature import gauss_legendre_with_ends as gauss_legendre_with_ends
@@ -53,6 +52,7 @@ from .quadrature import triangle_rule as triangle_rule
 from .rotations import along_x as along_x
 from .rotations import polar_rotation as polar_rotation
 from .rotations import quaternion as quaternion
+from .rotations import rotation_about as rotation_about
 from .rotations import rotation_array as rotation_array
 from .rotations import rotation_matrix as rotation_matrix
 from .vectors import Number as Number

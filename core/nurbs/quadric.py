@@ -90,7 +90,7 @@ class Quadric:
                 (r_vv * cosine, r_vv * sine, z_vv),
             ]
         matrix = self.frame[:3, :3]
-        found = [np.tensordot(matrix, np.stack(row), 1) for row in rows]
+        found = [np.tensordot(matrix, np.stack(np.broadcast_arrays(*row)), 1) for row in rows]
         found[0] += self.frame[:3, 3].reshape(3, *[1] * r.ndim)
         return found
 

@@ -79,7 +79,6 @@ class SplineChart:
         """Return (3, ...) points at coordinates, derivatives by u and v, and if most = 2 by uu, uv
         and vv.
         """
-        u, v = np.broadcast_arrays(u, v)
         tables, controls = [], []
         for space, at, period in zip(self.patch.spaces, (u, v), self.periods):
             low, high = space.domain
@@ -96,7 +95,7 @@ class SplineChart:
         ]
         if len(self._net) == 4:
             found = quotient_derivatives(found)
-        found[0] += self.patch.points[0, 0].reshape(3, *[1] * u.ndim)
+        found[0] += self.patch.points[0, 0].reshape(3, *[1] * np.ndim(u))
         return found
 
     def project(self, points: NDArray, guess: NDArray | None = None) -> Array:

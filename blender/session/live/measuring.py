@@ -33,8 +33,9 @@ from ....core.numerics import Array
 from ....core.nurbs import Patch, TrackedSolid
 from ....core.polyhedron import volume_and_center
 from ....core.verdict import MeasureError, Method, Procedure, ReadError, Source, internal_error
-from ...bodies.measure_body import MeasuredBody, measure_body
+from ...bodies.measure_body import measure_body
 from ...bodies.request import Request, measurement_of
+from ...bodies.stack import Measured
 from ...read.fingerprint import has_transform, settings_hash, transform_key
 from ...read.mesh import mesh_points
 from ...read.objects import read_patches
@@ -257,7 +258,7 @@ class MovingSurface:
     corners: NDArray[np.integer]
 
     @classmethod
-    def from_measured(cls, measured: MeasuredBody) -> MovingSurface | None:
+    def from_measured(cls, measured: Measured) -> MovingSurface | None:
         """Return the faces of a measured body, or None unless it is one exact or repaired mesh in
         its own place.
         """

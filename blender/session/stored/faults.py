@@ -13,7 +13,8 @@ from bpy.types import Object
 
 from ....core.bodies import Reading
 from ....core.numerics import Array
-from ....core.verdict import FLIPPED_FACES
+from ....core.solid import SmallSolid
+from ....core.verdict import FLIPPED_FACES, Procedure
 from ...bodies.stack import Measured
 from .. import memory
 from ..tracking import updates
@@ -53,10 +54,11 @@ def remember(obj: Object, measured: Measured) -> None:
         elements = measured.measurement.health.defective_elements
         place = np.linalg.inv(reading.matrix) @ part.matrices[0]
     else:
-        shape = measured.stack.shape(measured.index)
-        surface = shape.surface
-        if (elements := shape.defects) is None:
+        solid = measured.stack.solids[measured.stack.members[measured.index].shape]
+        if isinstance(solid, SmallSolid) and solid.method is Procedure.EXACT:
             return
+        surface = measured.stack.surface(measured.index)
+        elements = solid.health.defective_elements
     pairs, faces = (
         np.concatenate([getattr(elements, name) for name in names]) for names in (PAIRS, FACES)
     )

@@ -7,7 +7,6 @@ symmetries and sections.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from itertools import groupby, repeat
 from typing import TYPE_CHECKING, Any
 
@@ -42,7 +41,7 @@ def store_many(
 ) -> Iterator[tuple[Object, Exception | None]]:
     """Store the results of objects; yield each with None, or the error that prevented it.
 
-    shapes: the `surface_digest` of objects that were read just now.
+    shapes: the `Surface.digest` of objects that were read just now.
     """
     for stack, run in groupby(measured, key=lambda item: item[1].stack):
         items = list(run)
@@ -62,8 +61,7 @@ def _store(obj: Object, found: Measured, values: dict[str, Any], scene: Scene) -
     """Write a measurement on the object; remember its faults, and the data for its sliders."""
     about = reference.stored_choice(obj)
     if found.stack is None:
-        found = replace(found, measurement=density.noted(obj, found.measurement, scene))
-        values = properties.values_of(found.measurement)
+        values = properties.values_of(density.noted(obj, found.measurement, scene))
     properties.store_values(obj, values)
     faults.remember(obj, found)
     reference.follow(obj, scene, about)
@@ -92,14 +90,13 @@ def _values_of_stack(part: MeasuredStack, scene: Scene) -> Iterator[dict[str, An
     for i, (member, from_mass) in enumerate(zip(part.members, part.from_mass.tolist())):
         if not from_mass and is_density_unset(member.obj.body_moments, scene):
             findings[i] = density.with_default_note(findings[i], "density")
-    methods = [part.shape(i).method for i in range(len(findings))]
     return properties.values_of_stack(
         part.mass_properties.in_frame(part.rotation, part.location),
         part.density,
         part.volume.raw[:, 0],
         part.area.raw[:, 0],
         part.error_bounds,
-        zip(methods, findings, part.fingerprints),
+        zip(part.methods, findings, part.fingerprints),
     )
 
 

@@ -29,8 +29,8 @@ from ....core.density import GridOptions
 from ....core.measurement import Body
 from ....core.numerics import shortest_decimal
 from ....core.verdict import MeasureError
-from ...bodies.measure_body import MeasuredBody
 from ...bodies.request import Request, measurement_of
+from ...bodies.stack import Measured
 from ...scale import meters_per_unit
 from ...settings import hooks
 from ...settings.density import grid_key
@@ -65,7 +65,7 @@ SliderWalls = _Kept[Walls]
 SliderGrid = _Kept[ThresholdGrid]
 
 
-def remember(obj: Object, measured: MeasuredBody, scene: Scene) -> None:
+def remember(obj: Object, measured: Measured, scene: Scene) -> None:
     """Remember the wall or the grid of an object's measurement, if it has one."""
     stamp = stamps.Stamp.parse(measured.measurement.fingerprint)
     reading = measured.reading

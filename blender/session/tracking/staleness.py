@@ -228,7 +228,7 @@ def mark_up_to_date(
     """Mark freshly stored results of objects as up to date, after evaluating what storing has
     tagged.
 
-    objects: with results stored or removed. shapes: the `surface_digest` of freshly read ones.
+    objects: with results stored or removed. shapes: the `Surface.digest` of freshly read ones.
     """
     depsgraph = context.evaluated_depsgraph_get()
     for obj in objects:
@@ -308,7 +308,7 @@ def note_edits(obj: Object, shape: bytes | None = None) -> None:
     """Note the effects of all updates since the last call on the stamps of an original object.
 
     Call it before its stamps are replaced: later nobody could say whether the geometry has changed
-    since. shape: the `surface_digest` of an object that was read just now.
+    since. shape: the `Surface.digest` of an object that was read just now.
     """
     uid = obj.session_uid
     newest = memory.state.updates
