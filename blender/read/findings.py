@@ -174,6 +174,11 @@ SECTION_SPLINES_OPEN = warning(
     "{count} open spline encloses nothing and was left out. Use Toggle Cyclic.",
     "{count} open splines enclose nothing and were left out. Use Toggle Cyclic.",
 )
+SOLID_CHANGED = error(
+    "solid_changed",
+    "The shape was changed after it came from a STEP file, which holds its exact surfaces. Undo "
+    "the change, or import the file again.",
+)
 SCALE_ZERO_AXIS = error(
     "scale_zero_axis", "A scale is zero along an axis: its own, a delta or a parent's. Set it."
 )
