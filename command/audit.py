@@ -250,7 +250,8 @@ def answer(options: argparse.Namespace) -> tuple[list[str], int]:
 
 def _documents(options: argparse.Namespace) -> Iterator[dict[str, Any]]:
     """Yield the report document of each file, in order; several threads make them on request."""
-    tasks = [(path, name, options) for path, name in options.names.items()]
+    meshes: dict[tuple, Any] = {}  # Files of a folder share many.
+    tasks = [(path, name, options, meshes) for path, name in options.names.items()]
     if options.jobs == 1:
         yield from map(_audit_file, tasks)
         return
@@ -258,13 +259,13 @@ def _documents(options: argparse.Namespace) -> Iterator[dict[str, Any]]:
         yield from pool.map(_audit_file, tasks)
 
 
-def _audit_file(task: tuple[Path, Path, argparse.Namespace]) -> dict[str, Any]:
+def _audit_file(task: tuple[Path, Path, argparse.Namespace, dict]) -> dict[str, Any]:
     """Return the report document of one file; of its failure if it cannot be audited."""
-    path, name, options = task
+    path, name, options, meshes = task
     try:
         roots = Roots.for_file(path, options.root, options.allow_outside)
         expected = Expectation(options.expect_mass, options.expect_center, options.within)
-        auditor = Auditor(roots, dict(options.joint), expected)
+        auditor = Auditor(roots, dict(options.joint), expected, meshes)
         audit = auditor.audit(read_description(path, roots))
         document = audit_report.document(str(path), audit, _write_copy(name, audit, options))
     except MeasureError as error:

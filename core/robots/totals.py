@@ -14,6 +14,7 @@ from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
+from numpy.polynomial.polynomial import polyval
 
 from ..numerics import Array
 from ..verdict.finding import Finding, finding
@@ -134,7 +135,7 @@ def build_tree(description: Description, values: Mapping[str, float]) -> Tree:
         else:
             above[joint.child] = joint
     findings += _open_loops(above)
-    values, wrong = _joint_values(above, values)
+    values, wrong = _joint_values(above, values, description.format == "mjcf")
     findings += wrong
     if (
         description.format == "urdf" and len(links) - len(above) == 1
@@ -179,7 +180,7 @@ def _open_loops(above: dict[str, StatedJoint]) -> Iterator[tuple[Finding, Place]
 
 
 def _joint_values(
-    above: Mapping[str, StatedJoint], stated: Mapping[str, float]
+    above: Mapping[str, StatedJoint], stated: Mapping[str, float], is_mjcf: bool
 ) -> tuple[dict[str, float], list[tuple[Finding, Place]]]:
     """Return the values of all motions that are not at zero, also of those that follow others, and
     findings about unusable names.
@@ -192,13 +193,15 @@ def _joint_values(
             wrong.append(_unusable(name, "the description has no such joint"))
         elif by_name[name].kind not in MOVABLE:
             wrong.append(_unusable(name, "its position is not one number"))
+    # MuJoCo's qpos0 does not obey equalities, so that only stated positions have followers.
     zeros = {one.name: one.zero for one in motions if one.name and not one.leader}
-    values = zeros | dict(stated)
+    values = ({} if is_mjcf else zeros) | dict(stated)
     for _ in motions:  # Followers may follow followers.
         more = {
-            motion.name: motion.factor * values[motion.leader] + motion.offset
+            motion.name: motion.zero
+            + float(polyval(values[motion.leader] - by_name[motion.leader].zero, motion.powers))
             for motion in motions
-            if motion.leader in values and motion.name not in values
+            if motion.leader in values.keys() & by_name.keys() and motion.name not in values
         }
         if not more:
             break

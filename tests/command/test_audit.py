@@ -335,17 +335,28 @@ def test_expectation_decides_the_exit_code(words, code, tmp_path):
     assert answer("--ignore", "audit_total", "--ignore", "audit_joint", *words, path)[1] == 0
 
 
+SDF_CHAIN = """<sdf version="1.11"><model name="m">{}{}</model></sdf>"""
+SDF_LINK = """<link name="{}"><pose>{} 0 0 0 0 0</pose><inertial><pose>1 0 0 0 0 0</pose>
+<mass>1</mass></inertial></link>"""
+SDF_JOINT = """<joint name="{}" type="revolute"><parent>{}</parent><child>{}</child><axis>
+<xyz>0 0 1</xyz>{}</axis></joint>"""
+
+
+@pytest.mark.parametrize("form", ["urdf", "sdf"])
 @pytest.mark.parametrize("words", [(), ("--joint", "j=0")])
-def test_followers_stand_at_their_offset(words, tmp_path):
-    mimic = '<mimic joint="j" offset="1.5707963267948966"/></joint>'
-    follower = JOINT.format("f", "b", "c").replace("</joint>", mimic)
-    path = description(
-        tmp_path / "r.urdf",
-        *PAIR,
-        PAIR[1].replace('name="b"', 'name="c"'),
-        JOINT.format("j", "a", "b"),
-        follower,
-    )
+def test_followers_stand_at_their_offset(words, form, tmp_path):
+    path = tmp_path / ("r." + form)
+    if form == "urdf":
+        mimic = '<mimic joint="j" offset="1.5707963267948966"/></joint>'
+        follower = JOINT.format("f", "b", "c").replace("</joint>", mimic)
+        link = PAIR[1].replace('name="b"', 'name="c"')
+        description(path, *PAIR, link, JOINT.format("j", "a", "b"), follower)
+    else:
+        mimic = """<mimic joint="j"><multiplier>-2</multiplier><offset>0.5707963267948966</offset>
+        <reference>0.5</reference></mimic>"""
+        links = "".join(map(SDF_LINK.format, "abc", range(3)))
+        joints = SDF_JOINT.format("j", "a", "b", "") + SDF_JOINT.format("f", "b", "c", mimic)
+        path.write_text(SDF_CHAIN.format(links, joints), encoding="utf-8")
     found = json.loads(answer(*words, path)[0])["total"]["center_of_mass"]
     plain = json.loads(answer("--joint", "f=1.5707963267948966", path)[0])
     assert found == plain["total"]["center_of_mass"]

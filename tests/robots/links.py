@@ -6,9 +6,18 @@ moments.
 
 import numpy as np
 from body_moments.core.inertia.mass_properties import MassProperties
-from body_moments.core.mesh.surface import Surface
+from body_moments.core.mesh import Surface
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.robots.model import FreeAxis, Inertial, Joint, Link, Pose, Robot, Shape
+from body_moments.core.robots.model import (
+    FreeAxis,
+    Inertial,
+    Joint,
+    Link,
+    Pose,
+    Robot,
+    Shape,
+    combine_inertials,
+)
 
 from tests.core.bodies import box, sphere
 
@@ -67,6 +76,35 @@ def bodies(count, seed=17, chain=False, away=False):
                 Joint("joint {}".format(index), parent, name, free_axes(rng, index), place)
             )
     return Robot("test", tuple(links), tuple(joints))
+
+
+def assembly(seed, count=12):
+    """A random tree of bodies with their meshes, half of its joints fixed, the others of any kind
+    and away from the links' origins; the root is fixed if the seed is odd.
+    """
+    rng = np.random.default_rng(seed)
+    links, joints = [], []
+    for name in "abcdefghijkl"[:count]:
+        points, triangles = shaped(rng, KINDS[rng.integers(6)])
+        mesh = Shape("mesh", surface=Surface.from_triangles(points, triangles))
+        pose = Pose(rng.normal(size=3), rotation(rng))
+        if links:
+            parent = links[rng.integers(len(links))].name
+            piston = (FreeAxis("translate", np.eye(3)[2], -0.25, 0.5),)
+            piston += (FreeAxis("rotate", np.eye(3)[2]),)
+            kinds = [(), piston, *(free_axes(rng, index) for index in range(1, 6))]
+            free = kinds[rng.integers(7)] if rng.integers(2) else ()
+            place = Pose(rng.normal(size=3), rotation(rng))
+            joints.append(Joint("to " + name, parent, name, free, place))
+        links.append(Link(name, inertial(points, triangles), pose, (mesh,)))
+    robot = Robot("random", tuple(links), tuple(joints))
+    return robot.with_fixed_roots() if seed % 2 else robot
+
+
+def total(robot, in_root=False):
+    """Return the truth about a whole robot, in the world or in the frame of its root."""
+    start = robot.roots[0].pose.inverse() if in_root else Pose()
+    return combine_inertials([one.inertial.place(start @ one.pose) for one in robot.links])
 
 
 def free_axes(rng, index):

@@ -65,7 +65,9 @@ int main(int count, char **arguments)
       ignition::math::Pose3d pose;
       for (const auto &error : link->SemanticPose().Resolve(pose, "__model__"))
         std::printf("error\t%d\t%s\n", static_cast<int>(error.Code()), error.Message().c_str());
-      std::printf("\t%.17g\t%.17g\t%.17g\n", pose.Pos().X(), pose.Pos().Y(), pose.Pos().Z());
+      const auto turn = pose.Rot();
+      std::printf("\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g\t%.17g\n", pose.Pos().X(), pose.Pos().Y(), pose.Pos().Z(),
+          turn.W(), turn.X(), turn.Y(), turn.Z());
     }
     for (uint64_t number = 0; number < model->JointCount(); ++number)
     {

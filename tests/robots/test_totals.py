@@ -45,13 +45,21 @@ def test_whole_and_subtrees_are_those_of_the_written_robot(form, away, tmp_path)
     assert abs(found.totals.subtrees[name].mass / below.mass - 1.0) < rel
 
 
-@pytest.mark.parametrize("values", [{}, {"j1": 0.7, "j2": 0.3, "j3": -0.4}])
-def test_subtrees_are_those_of_mujoco_in_any_position(values, tmp_path):
+@pytest.mark.parametrize("follower", ["", "j3"])
+@pytest.mark.parametrize("values", [{}, {"j1": 0.7, "j2": 0.3, "j3": -0.4}, {"j1": 0.7}])
+def test_subtrees_are_those_of_mujoco_in_any_position(values, follower, tmp_path):
+    """The third joint follows the first by an equality, which MuJoCo's qpos0 does not obey."""
     path = tmp_path / "robot.xml"
-    path.write_text(MODEL, encoding="utf-8")
-    model = mujoco.MjModel.from_xml_string(MODEL)
+    equality = '<equality><joint joint1="j3" joint2="j1" polycoef="0.1 0.5 0.2"/></equality>'
+    text = MODEL.replace("</mujoco>", equality * bool(follower) + "</mujoco>")
+    path.write_text(text, encoding="utf-8")
+    model = mujoco.MjModel.from_xml_string(text)
     data = mujoco.MjData(model)
-    for name, value in values.items():
+    moved = dict(values)
+    if follower and values:
+        distance = values["j1"] - np.radians(15.0)
+        moved.setdefault(follower, 0.1 + 0.5 * distance + 0.2 * distance**2)
+    for name, value in moved.items():
         data.joint(name).qpos[0] = value
     mujoco.mj_kinematics(model, data)
     mujoco.mj_comPos(model, data)

@@ -19,7 +19,13 @@ from numpy.typing import NDArray
 
 from ...files import parse_numbers
 from ...mesh import Surface, convex_hull
-from ...numerics import Array, inertia_of_second, rotation_matrix, second_of_inertia
+from ...numerics import (
+    Array,
+    inertia_of_second,
+    rotation_about,
+    rotation_matrix,
+    second_of_inertia,
+)
 from ...verdict import Finding, MeasureError
 from ..model import Pose, Shape
 from ..stated import (
@@ -33,7 +39,6 @@ from ..stated import (
     StatedJoint,
     StatedLink,
     StatedShape,
-    rotation_about,
 )
 from .meshes import checked_surface
 from .mjcf_meshes import LEGACY, WATER, Fit, Weight, builtin_surface
@@ -63,6 +68,12 @@ class _Model:
         self.compiler: dict[str, str] = {}
         self.meshes: dict[str, Node] = {}
         self.models: dict[str, _Model] = {}
+        self.followers = {
+            node.get("joint1"): node
+            for equality in root.all("equality")
+            for node in equality.all("joint")
+            if node.get("joint2") and node.get("active") != "false"
+        }
         self._shapes: dict[Node, Shape] = {}  # those of the meshes that were read
         self._classes: dict[str, dict[str, dict[str, str]]] = {}
         for compiler in root.all("compiler"):
@@ -279,12 +290,18 @@ def _motion(joint: Node, frame: _Frame) -> Motion:
     unit = 1.0
     if kind == "hinge" and frame.model.compiler.get("angle") != "radian":
         unit = radians(1.0)
+    leader, powers = "", (0.0, 1.0)
+    if follower := frame.model.followers.get(joint.get("name")):
+        leader = frame.prefix + follower.get("joint2") + frame.suffix
+        powers = tuple(parse_numbers(follower.get("polycoef") or "0 1"))
     return Motion(
         frame.prefix + joint.get("name") + frame.suffix,
         kind,
         frame.pose.rotation @ axis_of(values.get("axis", ""), (0.0, 0.0, 1.0)),
         frame.place(numbers(values.get("pos", ""), 3, (0.0, 0.0, 0.0)), np.eye(3)).position,
         number(values.get("ref", ""), 0.0) * unit,
+        leader,
+        powers,
     )
 
 

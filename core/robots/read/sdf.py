@@ -166,7 +166,14 @@ def _joint(
                 if frame:
                     turn = (own @ scope.pose(name).inverse() @ scope.pose(frame)).rotation
                 axis = axis_of("" if element is None else element.text, (0.0, 0.0, 1.0))
-                motions.append(Motion(label, kind, turn @ axis, own.position))
+                motion = Motion(label, kind, turn @ axis, own.position)
+                if mimic := node.find(tag, "mimic"):
+                    leader = mimic.get("joint") + " axis2" * (mimic.get("axis") == "axis2")
+                    factor = number(_text(mimic, "multiplier"), 1.0)
+                    offset = number(_text(mimic, "offset"), 0.0)
+                    offset -= factor * number(_text(mimic, "reference"), 0.0)
+                    motion = motion._replace(leader=leader, powers=(offset, factor))
+                motions.append(motion)
     parent = "" if ends["parent"] == "world" else ends["parent"] or "?"
     return StatedJoint(name, parent, ends["child"], None, tuple(motions), node.place)
 

@@ -50,8 +50,7 @@ def _joint(node: Node) -> StatedJoint:
     if mimic := node.find("mimic"):
         motion = motion._replace(
             leader=mimic.get("joint"),
-            factor=number(mimic.get("multiplier"), 1.0),
-            offset=number(mimic.get("offset"), 0.0),
+            powers=(number(mimic.get("offset"), 0.0), number(mimic.get("multiplier"), 1.0)),
         )
     return StatedJoint(name, parent, child, pose, (motion,), node.place)
 

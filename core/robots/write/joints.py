@@ -127,10 +127,11 @@ def with_axis_frames(
     had several.
 
     The frames stand at the joint, along the child's axes. is_whole: returns True for joints that
-    stay as they are. part: of the child's inertial, which a frame has as well; zero for frames
-    without mass.
+    stay as they are. part: of the child's inertial, which each of its frames takes over; zero for
+    frames without mass.
     """
     names, joint_names = ({one.name for one in those} for those in (robot.links, robot.joints))
+    links = {link.name: link for link in robot.links}
     frames: list[Link] = []
     joints: list[Joint] = []
     for joint in robot.joints:
@@ -139,11 +140,11 @@ def with_axis_frames(
         place = joint.pose.position
         between = () if is_whole(joint) else joint.free[:-1]
         pose = child.pose @ Pose(place) if place.any() else child.pose
-        inertial = (
-            child.inertial.share(part).place(Pose(-place))
-            if part and child.inertial is not None
-            else None
-        )
+        inertial = None
+        if part and between and child.inertial is not None:
+            inertial = child.inertial.share(part).place(Pose(-place))
+            rest = child.inertial.share(1.0 - part * len(between))
+            links[child.name] = replace(child, inertial=rest)
         for count, free in enumerate(between, start=1):
             (name,) = unique_names(["{}_axis_{}".format(child.name, count)], str, names).values()
             (label,) = unique_names(
@@ -155,4 +156,4 @@ def with_axis_frames(
             joint_names.add(label)
             parent = name
         joints.append(replace(joint, parent=parent, free=joint.free[len(between) :]))
-    return replace(robot, links=(*robot.links, *frames), joints=tuple(joints))
+    return replace(robot, links=(*links.values(), *frames), joints=tuple(joints))

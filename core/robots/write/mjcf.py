@@ -63,6 +63,17 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
     """Return a robot as MJCF. remarks, inertial_only: as in `urdf.write`."""
     names = unique_names([link.name for link in robot.links], _name)
     joint_names = unique_names([joint.name for joint in robot.joints], _name)
+    axes = [
+        (joint.name, count)
+        for joint in robot.joints
+        if len(joint.free) > 1 and not joint.is_ball
+        for count in range(len(joint.free))
+    ]
+    axis_names = unique_names(
+        axes,
+        lambda axis: "{}_{}".format(joint_names[axis[0]], axis[1] + 1),
+        joint_names.values(),
+    )
     root = Element("mujoco", model=xml_text(robot.name))
     if not inertial_only:
         bounds: dict[str, str] = {}
@@ -79,7 +90,7 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
         body = elements[link.name] = SubElement(above, "body", name=names[link.name])
         if not inertial_only:
             _add_place(body, robot.pose_in_parent(link))
-            _add_joints(body, robot, link, joint, joint_names)
+            _add_joints(body, robot, link, joint, joint_names, axis_names)
         if link.inertial is not None:
             _add_inertial(body, link.inertial)
         for shape in () if inertial_only else link.shapes:
@@ -143,7 +154,12 @@ def _add_place(element: Element, pose: Pose) -> None:
 
 
 def _add_joints(
-    body: Element, robot: Robot, link: Link, joint: Joint | None, names: dict[str, str]
+    body: Element,
+    robot: Robot,
+    link: Link,
+    joint: Joint | None,
+    names: dict[str, str],
+    axis_names: dict[tuple[str, int], str],
 ) -> None:
     """Add a joint for each degree of freedom of a link.
 
@@ -153,9 +169,8 @@ def _add_joints(
         if not link.is_fixed and any(part.inertial is not None for part in robot.rigid_parts(link)):
             SubElement(body, "freejoint")
         return
-    for count, free in enumerate(joint.free[:1] if joint.is_ball else joint.free, start=1):
-        is_single = joint.is_ball or len(joint.free) == 1
-        name = names[joint.name] if is_single else "{}_{}".format(names[joint.name], count)
+    for index, free in enumerate(joint.free[:1] if joint.is_ball else joint.free):
+        name = axis_names.get((joint.name, index), names[joint.name])
         kind = "hinge" if free.kind == "rotate" else "slide"
         if joint.is_ball:
             kind = "ball"

@@ -1,0 +1,237 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Load exported robots in every program that reads them, and write docs/robots-consumers.md.
+
+    python3 tests/project.py consumers
+
+Each program gets an environment of its own in --folder: together 12 GB, and an hour. Those that
+are there already are used again; with --python NAME=PATH another one is used. libsdformat is that
+of the system, built with g++ and pkg-config.
+"""
+
+import argparse
+import json
+import os
+import shlex
+import subprocess
+import sys
+import venv
+from pathlib import Path
+
+import numpy as np
+from loading import ROOT, load_checkout
+
+load_checkout()
+
+from body_moments.core.robots import FORMATS
+from body_moments.core.robots.model import Robot
+from body_moments.core.robots.write.joints import merge_fixed
+from body_moments.core.robots.write.stl import write_meshes
+from body_moments.core.robots.write.texts import robot_text
+
+from tests.robots.consumers import summed
+from tests.robots.links import assembly, total
+
+READERS = ROOT / "tests" / "robots" / "consumers.py"
+# program -> its reader, what pip installs, and the formats that it reads, with what is to be said
+CONSUMERS = {
+    "MuJoCo 4.0.0": ("mujoco", ["mujoco==4.0.0"], {"urdf": "", "mjcf": ""}),
+    "Drake 1.58.0": (
+        "drake",
+        ["drake==1.58.0"],
+        {"urdf": "", "sdf": "", "mjcf": "only OBJ meshes", "mjcf, OBJ": "`--mesh-format obj`"},
+    ),
+    "Pinocchio 4.1.0": (
+        "pinocchio",
+        ["pin==4.1.0"],
+        {"urdf": "", "mjcf": "places the root at the origin: compared in its frame"},
+    ),
+    "Newton 1.8.0": (
+        "newton",
+        ["newton[importers]==1.8.0"],
+        {"urdf": "", "mjcf": "", "usd": "converts nothing by `metersPerUnit`"},
+    ),
+    "OpenSim 4.6": ("opensim", ["opensim==4.6"], {"osim": ""}),
+    "Genesis 1.4.5": (
+        "genesis",
+        ["genesis-world==1.4.5", "torch"],
+        {"urdf": "every fifth file: it cuts up meshes", "mjcf": "every fifth file"},
+    ),
+    "PyBullet 3.2.7": (
+        "pybullet",
+        ["pybullet==3.2.7"],
+        {
+            "urdf": "with `URDF_USE_INERTIA_FROM_FILE`",
+            "mjcf": "inertia of the geoms",
+            "sdf": "knows no quaternions",
+        },
+    ),
+    "PyBullet 3.2.7, no flag": (
+        "pybullet_default",
+        ["pybullet==3.2.7"],
+        {"urdf": "inertia of the collider's bounding box"},
+    ),
+    "libsdformat 12.3": ("libsdformat", [], {"sdf": ""}),
+}
+BODY = '<inertial><mass value="1"/>{}</inertial>'
+TENSOR = '<inertia ixx="{}" iyy="{}" izz="{}" ixy="0" ixz="0" iyz="0"/>'
+ROBOT = """<robot name="r"><link name="a"><inertial><mass value="5"/>
+<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link><link name="b">{}
+<collision><geometry><box size="1 1 1"/></geometry></collision></link><joint name="j"
+type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/><limit lower="-1" upper="1"
+effort="1" velocity="1"/></joint></robot>"""
+PROBES = {
+    "none": "",
+    "short": BODY.format(TENSOR.format(1, 2, 3.0 * (1.0 + 1e-12))),
+    "impossible": BODY.format(TENSOR.format(1, 1, 9)),
+}
+HEAD = """# Robots in the Programs That Read Them
+
+{count} random robots of 12 links, with joints of all kinds and a mesh for each link, are exported
+by default, with and without *Merge Fixed Links*, and loaded by each program at its newest release.
+The differences of total mass, center (per radius of gyration, or distance from the origin if that
+is larger) and inertia from the exact ones are the largest over all files of a format. Newton
+computes in single precision, PyBullet turns tensors to their axes to 1e-5. The page was made by
+`python3 tests/project.py consumers`.
+
+| program | format | files read | mass | center | inertia | remark |
+|---|---|---|---|---|---|---|
+{rows}
+What the readers of URDF make of a link with a collider, a unit cube, and
+
+- no inertial at all,
+- the moments 1, 2 and 3 kg·m², the largest too large by 1e-12 of itself, so that A + B < C,
+- the moments 1, 1 and 9 kg·m², which no body has:
+
+| program | no inertial | A + B < C by 1e-12 | 1, 1, 9 |
+|---|---|---|---|
+{probes}
+"""
+
+
+def write_robots(folder: Path, count: int) -> list[tuple[Path, str, Robot]]:
+    """Write the random robots; return each file, its format and the robot."""
+    files = []
+    for kind in ("urdf", "sdf", "mjcf", "mjcf, OBJ", "usd", "osim"):
+        form, _, mesh_format = kind.lower().partition(", ")
+        for seed in range(count):
+            robot = assembly(seed)
+            for name in ("", "_merged"):
+                path = folder / (form + mesh_format + str(seed) + name + FORMATS[form].suffix)
+                named = robot
+                if not FORMATS[form].holds_meshes:
+                    named = write_meshes(robot, path, None, True, mesh_format or "stl")
+                text, _ = robot_text(merge_fixed(named) if name else named, form)
+                path.write_text(text, encoding="utf-8")
+                files.append((path, kind, robot))
+    return files
+
+
+def read(python: str, reader: str, files: list[Path], search: Path) -> list:
+    """Return the bodies of each file, or the reason why it was not read, as an earlier run had
+    them if there was one.
+    """
+    known = search / "{}_{}_{}.json".format(reader, files[0].stem, len(files))
+    if known.is_file():
+        return json.loads(known.read_text(encoding="utf-8"))
+    paths = str(search) + os.pathsep + os.environ["PATH"]
+    done = subprocess.run(
+        [python, READERS, reader, *files],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+        check=True,
+        env=os.environ | {"PATH": paths},
+        cwd=search,
+    )
+    answer = done.stdout.strip().splitlines()[-1]
+    known.write_text(answer, encoding="utf-8")
+    return json.loads(answer)
+
+
+def environment(folder: Path, reader: str, packages: list[str]) -> str:
+    """Return the Python that has a program, installed if it is missing."""
+    if not packages:
+        flags = ["pkg-config", "--cflags", "--libs", "sdformat12"]
+        flags = shlex.split(subprocess.run(flags, capture_output=True, text=True).stdout)
+        source = READERS.with_name("read_sdf.cc")
+        subprocess.run(["g++", "-std=c++17", source, "-o", folder / "read_sdf", *flags], check=True)
+        return sys.executable
+    home = folder / reader.removesuffix("_default")
+    python = home / "bin" / "python"
+    if not python.exists():
+        venv.create(home, with_pip=True)
+        subprocess.run([python, "-m", "pip", "install", "--quiet", *packages, "numpy"], check=True)
+    return str(python)
+
+
+def row_of(program: str, form: str, remark: str, found: list, robots: list[Robot]) -> str:
+    """Return the row of a program and a format."""
+    errors = []
+    for bodies, robot in zip(found, robots, strict=True):
+        if isinstance(bodies, str):
+            continue
+        is_at_origin = form == "urdf" and not robot.roots[0].is_fixed or "origin" in remark
+        truth = total(robot, is_at_origin)
+        mass, center, inertia = summed(bodies)
+        far = max(np.sqrt(np.trace(truth.inertia) / truth.mass), np.linalg.norm(truth.center))
+        errors.append(
+            (
+                abs(mass / truth.mass - 1.0),
+                np.abs(center - truth.center).max() / far,
+                np.abs(inertia - truth.inertia).max() / np.abs(truth.inertia).max(),
+            )
+        )
+    largest = ["{:.0e}".format(one) for one in np.max(errors, axis=0)] if errors else ["–"] * 3
+    reasons = sorted({one for one in found if isinstance(one, str)})
+    for reason in reasons:
+        print(program, form, reason, file=sys.stderr)
+    count = "{} of {}".format(len(errors), len(found))
+    return "| {} |\n".format(" | ".join([program, form, count, *largest, remark]))
+
+
+def words_of(bodies: object) -> str:
+    """Return what a program makes of the second link of a probe."""
+    if isinstance(bodies, str):
+        return "refused"
+    probes = [one for one in bodies if abs(one[0] - 5.0) > 1e-6]
+    if not probes:
+        return "mass 0"
+    ((mass, _, inertia),) = probes
+    moments = ", ".join("{:.7g}".format(one) for one in np.linalg.eigvalsh(inertia))
+    return "{:.6g} kg; {}".format(mass, moments)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--count", type=int, default=60)
+    parser.add_argument("--folder", type=Path, default=ROOT / ".envs" / "consumers")
+    parser.add_argument("--python", action="append", default=[], metavar="NAME=PATH")
+    options = parser.parse_args()
+    given = dict(one.split("=", 1) for one in options.python)
+    folder = options.folder.resolve()
+    folder.mkdir(parents=True, exist_ok=True)
+    files = write_robots(folder, options.count)
+    probes = []
+    for name, inertial in PROBES.items():
+        probes.append(folder / (name + ".urdf"))
+        probes[-1].write_text(ROBOT.format(inertial), encoding="utf-8")
+    rows, answers = "", ""
+    for program, (reader, packages, forms) in CONSUMERS.items():
+        home = reader.removesuffix("_default")
+        python = given.get(home) or environment(folder, reader, packages)
+        for form, remark in forms.items():
+            several = [(path, robot) for path, own, robot in files if own == form]
+            several = several[:: 5 if "fifth" in remark else 1]
+            found = read(python, reader, [path for path, _ in several], folder)
+            rows += row_of(program, form, remark, found, [robot for _, robot in several])
+        if "urdf" in forms:
+            words = map(words_of, read(python, reader, probes, folder))
+            answers += "| {} |\n".format(" | ".join([program, *words]))
+        print(rows.splitlines()[-1], answers.splitlines()[-1:], flush=True)
+    text = HEAD.format(count=options.count, rows=rows, probes=answers.rstrip("\n"))
+    (ROOT / "docs" / "robots-consumers.md").write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
