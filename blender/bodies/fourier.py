@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.bodies import WIRE_UNSUPPORTED, Reading, name_subject, to_si
+from ...core.bodies import WIRE_UNSUPPORTED, name_subject, to_si
 from ...core.flat import foot
 from ...core.fourier import (
     APPROXIMATE,
@@ -30,12 +30,12 @@ from ...core.moments import Measure, affine_matrices, placed_boxes
 from ...core.numerics import Array
 from ...core.verdict import Procedure
 from ...core.verdict.finding import Finding, ReadError, finding
+from ..read.findings import DISPLAY_MESH_MEASURED
 from ..read.objects import read_object
 from ..read.visibility import shows_flat_region
 from ..settings.density import density_field
 from ..settings.options import MeasureOptions, object_settings
 from .findings import (
-    DISPLAY_MESH_NEEDED,
     FOURIER_APPROXIMATE,
     FOURIER_NO_EXTENT,
     FOURIER_OF_UNIFORM_DENSITY,
@@ -114,7 +114,8 @@ def object_transform(
             of = Measure.VOLUME
             total = body.volume.total
         if frame == "object":
-            turn = _to_object(reading, unit)
+            axes = reading.rotation.T
+            turn = affine_matrices(axes, -axes @ reading.location * unit)  # to the object's frame
             parts = [(surface, turn @ matrices) for surface, matrices in parts]
         if callable(q):
             q = q(_extent(parts))
@@ -123,7 +124,7 @@ def object_transform(
     factor = resolved.thickness if shell and not area else 1.0
     findings = [*reading.findings, *body.findings]
     if reading.has_patches or (obj.type == "CURVE" and shell and shows_flat_region(obj)):
-        findings.append(finding(DISPLAY_MESH_NEEDED, purpose="a Fourier transform"))
+        findings.append(finding(DISPLAY_MESH_MEASURED, cause="a Fourier transform needs polygons"))
     if varies:
         findings.append(finding(FOURIER_OF_UNIFORM_DENSITY))
     return ObjectTransform(obj.name, transform, tuple(findings), factor)
@@ -174,8 +175,3 @@ def _extent(parts: list[tuple[Surface, NDArray]]) -> float:
     if not 0.0 < size < np.inf:
         raise ReadError(FOURIER_NO_EXTENT)
     return size
-
-
-def _to_object(reading: Reading, unit: float) -> Array:
-    """Return the (4, 4) map from the world to the object's frame, in meters."""
-    return affine_matrices(reading.rotation.T, -reading.rotation.T @ reading.location * unit)

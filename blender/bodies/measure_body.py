@@ -12,55 +12,24 @@ from __future__ import annotations
 
 import os
 from contextlib import ExitStack
-from dataclasses import dataclass
 
 import bpy
 
-from ...core.bodies import Reading, name_subject
-from ...core.inertia import MassProperties
-from ...core.measurement import Body, Measurement
-from ...core.verdict import Finding, Method
-from ..read.mesh import read_digest
+from ...core.bodies import name_subject
 from ..settings.options import AS_SET, MeasureOptions
 from . import grid, mesh, nurbs, wire
 from .assembly.given import point_measurement, read_point, with_given
 from .flat import flat
 from .request import Request, measurement_of
+from .stack import Measured
 
 THREADS = os.cpu_count() or 1  # for long measurements
 KINDS = (grid, wire, flat, mesh, nurbs)
 
 
-@dataclass(frozen=True, eq=False)
-class MeasuredBody:
-    """One object's measurement, with its reading and body; in no stack."""
-
-    measurement: Measurement
-    reading: Reading
-    body: Body
-    stack: None = None
-
-    @property
-    def findings(self) -> tuple[Finding, ...]:
-        return self.measurement.findings
-
-    @property
-    def mass_properties(self) -> MassProperties:
-        return self.measurement.mass_properties
-
-    @property
-    def method(self) -> Method:
-        return self.measurement.method
-
-    def shape_digest(self, obj: bpy.types.Object) -> bytes | None:
-        """Return the digest of the object's surface; None if it is large or not the whole shape."""
-        reading = self.reading
-        return read_digest(obj, reading) if isinstance(reading, Reading) else None
-
-
 def measure_body(
     obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
-) -> MeasuredBody:
+) -> Measured:
     """Return the measurement of one evaluated object with its reading and body, or raise
     MeasureError.
     """
@@ -69,10 +38,11 @@ def measure_body(
         point = read_point(request)
         if point is not None:
             measurement, body = point_measurement(point, request)
-            return MeasuredBody(measurement, point, body)
+            return Measured(measurement=measurement, reading=point, body=body)
         kinds = (kind for kind in KINDS if request.settings.kind in kind.MEASURED_AS)
         found = ((kind, kind.read(request)) for kind in kinds)
         # The last kind raises MeasureError in place of returning None.
         kind, reading = next((kind, reading) for kind, reading in found if reading is not None)
         body = with_given(kind.body(reading, request), reading, request)
-        return MeasuredBody(measurement_of(reading, body, request), reading, body)
+        measurement = measurement_of(reading, body, request)
+        return Measured(measurement=measurement, reading=reading, body=body)

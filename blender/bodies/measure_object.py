@@ -15,12 +15,13 @@ import bpy
 import numpy as np
 
 from ...core.measurement import Measurement, Settings
+from ...core.mesh import Surface
 from ...core.verdict import internal_error
 from ..read.mesh import mesh_surface, plain_mesh
 from ..read.places import has_places, world_matrices
 from ..settings.options import AS_SET, MeasureOptions, object_settings
 from .measure_body import measure_body
-from .stack import Measured, MeshShape, Stacked, StackMember, measure_members
+from .stack import Measured, Member, measure_members
 
 MAX_OBJECTS_PER_STACK = 512
 MAX_STACKED_FACES = 20_000  # of one mesh
@@ -87,12 +88,12 @@ class _Collector:
         self.scene = depsgraph.scene
         self.unit = options.meters_per_unit(self.scene)
         self.objects: list[bpy.types.Object] = []
-        self.members: list[StackMember] = []
-        self.shapes: list[MeshShape] = []
+        self.members: list[Member] = []
+        self.surfaces: list[Surface] = []
         self.faces = 0
         self._by_mesh: dict[bpy.types.Mesh, int | None] = {}
+        self._settings: dict[Settings, Settings] = {}
         self._by_content: dict[tuple, int] = {}
-        self._digests: dict[Settings, str] = {}
 
     def add(self, obj: bpy.types.Object) -> None:
         """Add an object, as a member of the stack if it can be stacked and read."""
@@ -102,25 +103,23 @@ class _Collector:
             if member is not None:
                 self.members.append(member)
 
-    def _member(self, obj: bpy.types.Object) -> StackMember | None:
+    def _member(self, obj: bpy.types.Object) -> Member | None:
         settings = self._settings_of(obj)
         mesh = None if settings is None else plain_mesh(obj, self.depsgraph)
         if settings is None or mesh is None:
             return None
-        try:
-            shape = self._by_mesh[mesh]
-        except KeyError:
-            shape = self._by_mesh[mesh] = self._read(mesh)
+        if mesh not in self._by_mesh:
+            self._by_mesh[mesh] = self._read(mesh)
+        shape = self._by_mesh[mesh]
         if shape is None:
             return None
         matrix = obj.evaluated_get(self.depsgraph).matrix_world
         location, turn, _scale = matrix.decompose()
         placed = world_matrices(obj)[0] if has_places(obj) else np.array(matrix)
-        return StackMember(
+        return Member(
             obj,
             shape,
             settings,
-            self._digest(settings),
             placed,
             tuple(placed[:3, 3].tolist()) if has_places(obj) else location.to_tuple(),
             (turn.w, turn.x, turn.y, turn.z),
@@ -139,13 +138,9 @@ class _Collector:
         ):
             return None
         settings = object_settings(obj, self.scene, options, self.unit)
-        return settings if settings.kind == "solid" and settings.overlap == "signed" else None
-
-    def _digest(self, settings: Settings) -> str:
-        known = self._digests.get(settings)
-        if known is None:
-            known = self._digests[settings] = settings.digest
-        return known
+        if settings.kind != "solid" or settings.overlap != "signed":
+            return None
+        return self._settings.setdefault(settings, settings)  # equal ones share their digest
 
     def _read(self, mesh: bpy.types.Mesh) -> int | None:
         """Return the index of the shape of a mesh; None if it has to be measured alone."""
@@ -153,14 +148,11 @@ class _Collector:
             return None
         surface = mesh_surface(mesh)
         content = surface.content
-        if content in self._by_content:
-            return self._by_content[content]
-        if not np.isfinite(surface.points).all():
-            return None
-        self.shapes.append(MeshShape(surface, len(mesh.polygons), content))
-        self.faces += len(surface.triangles) + len(surface.quads)
-        self._by_content[content] = len(self.shapes) - 1
-        return len(self.shapes) - 1
+        if content not in self._by_content:
+            self._by_content[content] = len(self.surfaces)
+            self.surfaces.append(surface)
+            self.faces += len(surface.triangles) + len(surface.quads)
+        return self._by_content[content]
 
     def outcomes(self) -> Iterator[list[tuple[bpy.types.Object, Outcome]]]:
         """Yield the outcomes of the objects: stacked objects together, others one by one."""
@@ -186,10 +178,10 @@ class _Collector:
         alone.
         """
         try:
-            stack = measure_members(self.members, self.shapes) if self.members else None
+            stack = measure_members(self.members, self.surfaces) if self.members else None
         except Exception as error:
             internal_error.finding_of(error)
             stack = None
         if stack is None:
             return {}
-        return {member.obj: Stacked(stack, i) for i, member in enumerate(stack.members)}
+        return {member.obj: Measured(stack, i) for i, member in enumerate(stack.members)}

@@ -9,111 +9,43 @@ measured alone.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
+from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.bodies import Reading
 from ...core.inertia import MassProperties, has_certain_total
 from ...core.inertia.third_moment_frames import third_moment_frames
-from ...core.measurement import Settings, build_measurement, find_large_bounds, fingerprint
-from ...core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
+from ...core.measurement import (
+    DENSITY_FROM_MASS,
+    DENSITY_FROM_VALUE,
+    Body,
+    Settings,
+    build_measurement,
+    find_large_bounds,
+    fingerprint,
+)
+from ...core.measurement.measurement import Measurement
 from ...core.mesh import Surface
-from ...core.moments import Moments, are_similarities, are_singular, image, join_moments
-from ...core.numerics import Array, Mask, rotation_matrix
+from ...core.moments import Moments, are_similarities, are_singular, image
+from ...core.numerics import Array, Index, Mask, rotation_matrix
 from ...core.polyhedron import area_of_images
-from ...core.solid import SolidStack, can_be_stacked, measure_stack
-from ...core.solid.measure import SolidIntegrals, measure_left_over, measure_solid
-from ...core.verdict import DefectiveElements, Finding, MeshHealth, Method, Procedure
+from ...core.solid import SolidStack, measure_again
+from ...core.verdict import Finding, Method, Procedure
 from ..read.fingerprint import transform_key
-from ..read.mesh import MAX_DIGESTED_FACES, surface_digest
+from ..read.mesh import read_digest
 from ..settings.accepted import accepted_codes, with_acceptance
-from .measure_body import MeasuredBody
 
 METHODS = {verdict: Method(verdict) for verdict in Procedure}
 
 
-@dataclass(eq=False)
-class MeshShape:
-    """A mesh in its own coordinates, and its measurement; equal to others of the same `content`.
-
-    `solids`: the stack in which the mesh was measured, at `row`. `alone`: the integrals of a mesh
-    that was measured by itself.
-    """
-
-    surface: Surface
-    face_count: int
-    content: tuple
-    row: int = -1
-    solids: SolidStack | None = None
-    alone: SolidIntegrals | None = None
-    method: Method = METHODS[Procedure.EXACT]
-    findings: tuple[Finding, ...] = ()
-
-    def __hash__(self) -> int:
-        return hash(self.content)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, MeshShape) and self.content == other.content
-
-    @property
-    def health(self) -> MeshHealth:
-        if self.solids is not None:
-            return self.solids.health(self.row)
-        assert self.alone is not None
-        return self.alone.health
-
-    @property
-    def defects(self) -> DefectiveElements | None:
-        """The elements with faults; None if there are none."""
-        spotless = self.alone is None and self.method is METHODS[Procedure.EXACT]
-        return None if spotless else self.health.defective_elements
-
-    @cached_property
-    def digest(self) -> bytes | None:
-        """Digest of the surface, for staleness; None for a large one."""
-        return surface_digest(self.surface) if self.face_count <= MAX_DIGESTED_FACES else None
-
-
-@lru_cache(maxsize=4)  # Objects are often measured again with the same shapes.
-def measure_shapes(
-    shapes: tuple[MeshShape, ...],
-) -> tuple[tuple[MeshShape, ...], Moments, Moments]:
-    """Return measured shapes in their own coordinates, their volumes to third order and areas."""
-    stackable = can_be_stacked([shape.surface for shape in shapes])
-    small = [shape for shape, is_stackable in zip(shapes, stackable) if is_stackable]
-    stacks: list[tuple[Moments, Moments]] = []
-    if small:
-        solids = measure_stack([shape.surface for shape in small])
-        stacks.append((solids.volume, solids.area))
-        for i, (shape, is_measured) in enumerate(zip(small, solids.is_measured.tolist())):
-            shape.row = i
-            if is_measured:
-                shape.solids = solids
-                shape.findings = solids.findings(i)
-                shape.method = METHODS[
-                    Procedure.CAPPED if solids.caps.is_capped[i] else Procedure.EXACT
-                ]
-            else:
-                shape.alone = measure_left_over(solids, i, shape.surface)
-    left_over = [shape for shape in shapes if shape.solids is None]
-    for row, shape in enumerate(left_over, len(small)):
-        solid = shape.alone = shape.alone or measure_solid(shape.surface)
-        shape.row = row
-        shape.method = METHODS[solid.method]
-        shape.findings = solid.findings
-        stacks.append((solid.volume.at(None), solid.area.at(None)))
-    rows = [shape.row for shape in shapes]
-    volume, area = (join_moments(parts).at(rows) for parts in zip(*stacks))
-    return shapes, volume, area
-
-
-@dataclass(frozen=True, eq=False)
-class StackMember:
+class Member(NamedTuple):
     """An object that may join a stack.
 
-    `shape`: index of its shape. `digest`: digest of the settings.
+    `shape`: index of its surface.
     `matrix`: (4, 4) map from the mesh's coordinates to the world, Blender units.
     `location`, `quaternion`: the object's frame.
     """
@@ -121,7 +53,6 @@ class StackMember:
     obj: bpy.types.Object
     shape: int
     settings: Settings
-    digest: str
     matrix: Array
     location: tuple[float, ...]
     quaternion: tuple[float, ...]
@@ -137,8 +68,8 @@ class MeasuredStack:
     `rotation`, `location`: (n, 3, 3) and (n, 3), the object frames.
     """
 
-    members: list[StackMember]
-    shapes: tuple[MeshShape, ...]
+    members: list[Member]
+    solids: SolidStack
     from_mass: Mask
     density: Array
     volume: Moments
@@ -148,17 +79,18 @@ class MeasuredStack:
     rotation: Array
     location: Array
     fingerprints: list[str]
+    methods: list[Method]
     findings: list[tuple[Finding, ...]]
 
-    def shape(self, i: int) -> MeshShape:
-        """Return the shape of one member."""
-        return self.shapes[self.members[i].shape]
+    def surface(self, i: int) -> Surface:
+        """Return the surface of one member, in its own coordinates."""
+        return self.solids.surfaces[self.members[i].shape]
 
     def some(self, which: list[int]) -> MeasuredStack:
         """Return the stack of the members with these indices."""
         if len(which) == len(self.members):
             return self
-        lists = "members", "fingerprints", "findings"
+        lists = "members", "fingerprints", "methods", "findings"
         arrays = "density", "from_mass", "stretch", "rotation", "location"
         return replace(
             self,
@@ -193,22 +125,20 @@ class MeasuredStack:
     def measurement(self, i: int) -> Measurement:
         """Return the measurement of one member."""
         obj = self.members[i].obj
-        shape = self.shape(i)
+        health = self.solids[self.members[i].shape].health
         volume = self.volume.at(i)
         density = self.density[i]
         return build_measurement(
             name=obj.name,
             type=obj.type,
             kind="solid",
-            method=shape.method,
+            method=self.methods[i],
             density=float(density),
             volume=volume,
             area=self.area.at(i),
             mass_properties=self.mass_properties.at(i),
             mass_moments=(volume, float(density)),
-            health=replace(
-                shape.health, volume_spread=shape.health.volume_spread * float(self.stretch[i])
-            ),
+            health=replace(health, volume_spread=health.volume_spread * float(self.stretch[i])),
             findings=self.findings[i],
             rotation=self.rotation[i],
             location=self.location[i],
@@ -217,43 +147,50 @@ class MeasuredStack:
         )
 
 
-@dataclass(frozen=True, eq=False)
-class Stacked:
-    """One object's measurement in a stack."""
+class Measured:
+    """One object's measurement: a row of a stack, or alone with its reading and body."""
 
-    stack: MeasuredStack
-    index: int
+    reading: Reading
+    body: Body
 
-    @property
+    def __init__(self, stack: MeasuredStack | None = None, index: int = 0, **alone: Any):
+        self.stack = stack
+        self.index = index
+        self.__dict__.update(alone)
+
+    @cached_property
     def measurement(self) -> Measurement:
+        assert self.stack is not None
         return self.stack.measurement(self.index)
 
     @property
     def findings(self) -> tuple[Finding, ...]:
-        return self.stack.findings[self.index]
+        return self.stack.findings[self.index] if self.stack else self.measurement.findings
 
     @property
     def mass_properties(self) -> MassProperties:
+        if self.stack is None:
+            return self.measurement.mass_properties
         return self.stack.mass_properties.at(self.index)
 
     @property
     def method(self) -> Method:
-        return self.stack.shape(self.index).method
+        return self.stack.methods[self.index] if self.stack else self.measurement.method
 
-    def shape_digest(self, _obj: bpy.types.Object) -> bytes | None:
-        """Return the digest of the object's surface; None for a large one."""
-        return self.stack.shape(self.index).digest
+    def shape_digest(self, obj: bpy.types.Object) -> bytes | None:
+        """Return the digest of the object's surface; None if it is large or not the whole shape."""
+        if self.stack is not None:
+            return self.stack.surface(self.index).digest
+        return read_digest(obj, self.reading) if isinstance(self.reading, Reading) else None
 
 
-Measured = Stacked | MeasuredBody
-
-
-def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> MeasuredStack | None:
+def measure_members(members: list[Member], surfaces: list[Surface]) -> MeasuredStack | None:
     """Return the stack of the members with certain volume and mass, or None; all members have the
     same unit.
     """
     unit = members[0].settings.unit
-    measured, own, own_area = measure_shapes(tuple(shapes))
+    solids = measure_again(surfaces)
+    own = solids.volume
     which = np.array([member.shape for member in members])
     matrices = np.array([member.matrix for member in members], np.float64)
     usable = np.isfinite(matrices).all(axis=(1, 2))
@@ -266,7 +203,7 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
         return None
     matrices[:, :3] *= unit
     volume = image(own.at(which), matrices)
-    area = _areas(own_area.at(which), matrices, [measured[row] for row in which])
+    area = _areas(solids, which, matrices)
     density, mass = np.array(
         [(member.settings.density, member.settings.mass) for member in members], np.float64
     ).T
@@ -294,7 +231,7 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
     geometry = np.ascontiguousarray(np.concatenate([volume.raw, area.raw], axis=1))
     return MeasuredStack(
         members,
-        measured,
+        solids,
         from_mass,
         density,
         volume,
@@ -304,11 +241,12 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
         rotation,
         np.array([member.location for member in members]) * unit,
         [
-            fingerprint(numbers, transform_key(each.obj), each.digest)
+            fingerprint(numbers, transform_key(each.obj), each.settings.digest)
             for numbers, each in zip(geometry, members)
         ],
+        [METHODS[solids[member.shape].method] for member in members],
         [
-            _findings(member.obj, measured[member.shape].findings + bounds)
+            _findings(member.obj, solids[member.shape].findings + bounds)
             for member, bounds in zip(members, find_large_bounds(volume, area, properties))
         ],
     )
@@ -319,14 +257,15 @@ def _findings(obj: bpy.types.Object, found: tuple[Finding, ...]) -> tuple[Findin
     return with_acceptance(found, accepted_codes(obj)) if found else ()
 
 
-def _chosen(members: list[StackMember], which: NDArray) -> list[StackMember]:
+def _chosen(members: list[Member], which: NDArray) -> list[Member]:
     return [members[i] for i in (np.flatnonzero(which) if which.dtype == bool else which).tolist()]
 
 
-def _areas(area: Moments, matrices: NDArray, shapes: list[MeshShape]) -> Moments:
-    """Return the areas of shapes mapped by matrices; surfaces are measured again if a matrix is
+def _areas(solids: SolidStack, which: Index, matrices: NDArray) -> Moments:
+    """Return the areas of surfaces mapped by matrices; surfaces are measured again if a matrix is
     no similarity.
     """
+    area = solids.area.at(which)
     even = are_similarities(matrices[:, :3, :3])
     if even.all():
         return image(area, matrices)
@@ -334,9 +273,7 @@ def _areas(area: Moments, matrices: NDArray, shapes: list[MeshShape]) -> Moments
     regular[~even, :3, :3] = np.eye(3)
     placed = image(area, regular)
     for i in np.flatnonzero(~even).tolist():
-        shape = shapes[i]
-        surface = shape.surface if shape.alone is None else shape.alone.given_surface
-        found = area_of_images(surface, matrices[i : i + 1, :3, :3])
+        found = area_of_images(solids[int(which[i])].given_surface, matrices[i : i + 1, :3, :3])
         for name in ("raw", "rounding_error", "input_error", "about"):
             getattr(placed, name)[i] = getattr(found, name)
     return placed

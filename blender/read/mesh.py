@@ -9,7 +9,6 @@ sizes of the faces follow from the attribute `loop_triangle_polygons`. Only n-go
 `loop_triangles`; core/mesh/surface.py cuts quads as Blender does.
 """
 
-import hashlib
 from collections.abc import Callable
 from itertools import chain
 from typing import TypeVar
@@ -187,7 +186,7 @@ def shape_digest(obj: Object, depsgraph: Depsgraph) -> bytes | None:
     mesh = geometry.mesh
     if mesh is None or len(mesh.polygons) > MAX_DIGESTED_FACES:
         return None
-    return surface_digest(mesh_surface(mesh, edges=False))
+    return mesh_surface(mesh, edges=False).digest
 
 
 def read_digest(obj: Object, reading: Reading) -> bytes | None:
@@ -196,7 +195,7 @@ def read_digest(obj: Object, reading: Reading) -> bytes | None:
         return None
     surface = reading.parts[0].surface
     is_large = len(surface.triangles) + len(surface.quads) > MAX_DIGESTED_FACES
-    return None if is_large else surface_digest(surface)
+    return None if is_large else surface.digest
 
 
 def _shows_one_mesh(obj: Object) -> bool:
@@ -209,12 +208,3 @@ def _shows_one_mesh(obj: Object) -> bool:
         and not len(obj.particle_systems)
         and "NODES" not in [modifier.type for modifier in obj.modifiers]
     )
-
-
-def surface_digest(surface: Surface) -> bytes:
-    """Return a digest of the faces of a surface."""
-    shape = hashlib.blake2b(digest_size=16)
-    for array in (surface.points, surface.triangles, surface.quads):
-        shape.update(np.ascontiguousarray(array).data)
-        shape.update(repr(array.shape).encode())
-    return shape.digest()

@@ -6,11 +6,11 @@ measurement.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 from bpy.types import Object, PropertyGroup, Scene
 
-from ...core.measurement import Pocket, PrintSettings, RequestedResults, Settings
+from ...core.measurement import Pocket, PrintSettings, Settings
 from ...core.numerics import shortest_decimal
 from ..scale import meters_per_unit
 from .density import object_density
@@ -18,7 +18,7 @@ from .properties import PRINT_OPTIONS
 
 
 @dataclass(frozen=True)
-class MeasureOptions(RequestedResults):
+class MeasureOptions:
     """Overrides of the objects' own settings, as in `Settings`; None leaves the setting.
 
     unit_scale: meters per Blender unit, else the scene's. printed: pairs of a field of
@@ -33,6 +33,10 @@ class MeasureOptions(RequestedResults):
     wall: str | None = None
     unit_scale: float | None = None
     printed: tuple[tuple[str, float], ...] = ()
+    order: int | None = None
+    surface: bool = False
+    compare: bool = True
+    threads: int = 1
 
     def meters_per_unit(self, scene: Scene) -> float:
         """Return the length of a Blender unit in meters: the given one, else the scene's."""
@@ -84,5 +88,8 @@ def object_settings(
         wall=options.wall or properties.wall.lower(),
         unit=unit,
         printed=print_settings(properties)._replace(**dict(options.printed)),
-        **{field.name: getattr(options, field.name) for field in fields(RequestedResults)},
+        order=options.order,
+        surface=options.surface,
+        compare=options.compare,
+        threads=options.threads,
     )

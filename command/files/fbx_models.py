@@ -21,7 +21,7 @@ from ...core.numerics import Array
 _ORDERS = ("XYZ", "XZY", "YZX", "YXZ", "ZXY", "ZYX")  # the first letter's rotation acts first
 _SAME = 1e-9  # larger than the rounding of products in float64
 _RSRS = 1  # InheritType: the product of the matrices
-_RRS = 2  # InheritType: without the parent's own scale
+RRS = 2  # InheritType: without the parent's own scale
 _TICKS = 46186158000.0  # of a file's clock in a second
 _SAME_TIME = 1e-6  # seconds
 _LINEAR = 4  # a flag of keys
@@ -93,11 +93,6 @@ class FbxModel:
             and bool(self.properties.get("Visibility Inheritance", (1,))[0])
         )
 
-    @property
-    def is_apart(self) -> bool:
-        """Whether it does not inherit the scale of its parent."""
-        return self.whole("InheritType") == _RRS
-
     def skinned(self, points: Array) -> Array:
         """Return the places, in the file's axes and unit, of (n, 3) points of its mesh that bones
         move. ValueError if their weights are unknown.
@@ -149,10 +144,11 @@ class FbxModel:
         doubt = above.doubt
         if self.whole("InheritType") != _RSRS:
             inherited = above.rotation.T @ above.matrix[:3, :3]
-            if self.is_apart and self.parent is not None:
+            is_apart = self.whole("InheritType") == RRS
+            if is_apart and self.parent is not None:
                 inherited = inherited / self.parent.vector("Lcl Scaling", 1.0)
             matrix[:3, :3] = above.rotation @ turn @ inherited * scale
-            rest = inherited - np.diag(np.ones(3) if self.is_apart else np.diag(inherited))
+            rest = inherited - np.diag(np.ones(3) if is_apart else np.diag(inherited))
             if np.abs(rest).max() > _SAME * np.abs(inherited).max():
                 doubt = "a node inherits some scales of the nodes above it"
         if not self.whole("RotationActive") and (order or np.any([pre, post])):
@@ -207,7 +203,12 @@ def fbx_models(root: FbxNode, seconds: float) -> list[FbxModel]:
     connections = root.child("Connections")
     if objects is None or connections is None:
         raise ValueError("version")
-    rest = _template(root)
+    kinds = [
+        kind.child("PropertyTemplate")
+        for kind in getattr(root.child("Definitions"), "children", ())
+        if kind.name == "ObjectType" and kind.values[:1] == ["Model"]
+    ]
+    rest = _properties(kinds[0]) if kinds else {}  # of models that state none
     nodes = {node.values[0]: node for node in objects.children}
     if any(not isinstance(number, int) for number in nodes):
         raise ValueError("version")
@@ -287,12 +288,3 @@ def _value_at(curve: FbxNode | None, rest: float, seconds: float) -> float | Non
 def _properties(node: FbxNode | None) -> dict[str, Any]:
     table = None if node is None else node.child("Properties70")
     return {} if table is None else {line.values[0]: line.values[4:] for line in table.children}
-
-
-def _template(root: FbxNode) -> dict[str, Any]:
-    """Return the properties of models that state none."""
-    definitions = root.child("Definitions")
-    for kind in () if definitions is None else definitions.children:
-        if kind.name == "ObjectType" and kind.values[:1] == ["Model"]:
-            return _properties(kind.child("PropertyTemplate"))
-    return {}

@@ -17,7 +17,7 @@ from ...core.files import MALFORMED, fbx_tree, map_file
 from ...core.numerics import Array
 from ...core.verdict.finding import Finding, finding
 from ..findings import FILE_HIDES, PLACES_UNCHECKED
-from .fbx_models import FbxModel, fbx_models, fbx_to_scene
+from .fbx_models import RRS, FbxModel, fbx_models, fbx_to_scene
 from .placing import MOST_WEIGHT, is_at, measure_at, place_objects, show_points, shown_seconds
 from .references import Opened
 
@@ -59,7 +59,7 @@ def import_fbx(path: str, frame: float | None) -> Opened:
         ]
         cause = "the weight of a shape key exceeds ±10"
         exceeding = {obj.name: cause for obj, _ in pairs if obj.data.shape_keys in clamped}
-        is_apart = any(model.is_apart for model in models)
+        is_apart = any(model.whole("InheritType") == RRS for model in models)
         doubts = _correct(groups, fbx_to_scene(root), is_apart) | exceeding
         findings = {
             name: (finding(PLACES_UNCHECKED, cause=cause),) for name, cause in doubts.items()
@@ -122,7 +122,7 @@ def _correct(
                 doubts[obj.name] = "".join(unsure[:1]) or "names are not unique"
     place_objects(places)
     for obj, points in skinned:
-        show_points(obj, points)
+        show_points(obj, points, np.eye(4))
     return doubts
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import partial
 from typing import ClassVar
 
 import numpy as np
@@ -16,12 +16,18 @@ from numpy.typing import NDArray
 
 from ..measurement import Body
 from ..mesh import Surface, normals
-from ..moments import sum_of_images
-from ..moments.moments import Moments, monomials, sum_moments
+from ..moments import Moments, monomials, sum_moments, sum_of_images
 from ..numerics import Array
 from ..polyhedron import polyhedron_moments
-from ..solid import DUPLICATE_FACES_COUNTED, NON_PLANAR_FACES, OVERLAP_OF_INSTANCES, UNCHECKED
-from ..solid.measure import SolidIntegrals, measure_solid
+from ..solid import (
+    DUPLICATE_FACES_COUNTED,
+    NON_PLANAR_FACES,
+    OVERLAP_OF_INSTANCES,
+    UNCHECKED,
+    SolidIntegrals,
+    measure_again,
+    measure_stack,
+)
 from ..verdict import NEGLIGIBLE, Method, Procedure, least_trusted
 from ..verdict.finding import Finding, finding
 from .findings import (
@@ -42,7 +48,6 @@ from .reading import Part, Reading, to_si
 
 MAX_MASS_MOMENT = 1e100  # kg m^n; squares of much larger moments would overflow
 MAX_COMPARED_TRIANGLES = 200_000  # triangles up to which instances are compared with each other
-MAX_KEPT_TRIANGLES = 100_000  # of a surface whose measurement is kept
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,20 +137,6 @@ def extend_input_error(moments: Moments, known: Moments) -> Moments:
     return replace(moments, input_error=swept * reach ** monomials(moments.order).sum(axis=1))
 
 
-@dataclass(frozen=True)
-class _KnownSurface:
-    """A surface that equals others of the same content."""
-
-    content: tuple
-    surface: Surface = field(compare=False)
-    threads: int = field(compare=False)
-
-
-@lru_cache(maxsize=2)  # Objects are often measured again with the same surface.
-def _measure_known(known: _KnownSurface) -> SolidIntegrals:
-    return measure_solid(known.surface, threads=known.threads)
-
-
 def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -> MeshBody:
     """Return the sum of all parts, each measured once in its own coordinates, and mapped to its
     places.
@@ -162,13 +153,11 @@ def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -
         return polyhedron_moments(surface, area_order=3, threads=threads, allow_open=True)[1]
 
     measured = measured_area if shell else None
-    for part in reading.parts:
-        surface = part.surface
-        solid = (
-            measure_solid(surface, shell=shell, threads=threads)
-            if shell or surface.triangle_count > MAX_KEPT_TRIANGLES
-            else _measure_known(_KnownSurface(surface.content, surface, threads))
-        )
+    surfaces = [part.surface for part in reading.parts]
+    measure = partial(measure_stack, shell=True) if shell else measure_again
+    stack = measure(surfaces, threads=threads)
+    for i, part in enumerate(reading.parts):
+        solid = stack[i]
         matrices = to_si(part.matrices, unit)
         volumes.append(sum_of_images(solid.volume, matrices))
         image_areas = list(area_of_instances(solid.given_surface, solid.area, matrices, measured))

@@ -12,8 +12,7 @@ import numpy as np
 
 from ..measurement import DENSITY_FROM, WALL_UNSUPPORTED, PrintSettings, Settings
 from ..mesh import Surface
-from ..moments import KNOWN_ORDER, Measure
-from ..moments.moments import sum_moments
+from ..moments import KNOWN_ORDER, Measure, sum_moments
 from ..numerics import Array
 from ..polyhedron import polyhedron_moments
 from ..verdict import NEGLIGIBLE, Procedure

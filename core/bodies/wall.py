@@ -20,12 +20,24 @@ import numpy as np
 from ..cuts import LEVEL_UNAVAILABLE, SHARED_SPACE, SURFACE_NEEDED
 from ..measurement import WALL_UNSUPPORTED, ZERO_QUANTITY, Body
 from ..mesh import Surface, boxes_overlap, join_surfaces
-from ..moments import KNOWN_ORDER, placed_boxes, sum_of_images
-from ..moments.moments import Measure, Moments, monomials, sum_moments
+from ..moments import (
+    KNOWN_ORDER,
+    Measure,
+    Moments,
+    monomials,
+    placed_boxes,
+    sum_moments,
+    sum_of_images,
+)
 from ..numerics import Array
 from ..polyhedron import polyhedron_moments
-from ..solid import COMPONENTS_OVERLAP, INVERTED_COMPONENTS, OVERLAP_OF_INSTANCES, UNCHECKED
-from ..solid.measure import SolidIntegrals
+from ..solid import (
+    COMPONENTS_OVERLAP,
+    INVERTED_COMPONENTS,
+    OVERLAP_OF_INSTANCES,
+    UNCHECKED,
+    SolidIntegrals,
+)
 from ..verdict import FLIPPED_FACES, NEGLIGIBLE, Procedure
 from ..verdict.finding import Finding, MeasureError, ReadError, finding, unique
 from ..wall import WALL_MEASURED, OffsetSolid, offset_solid, split_thickness, wall_moments

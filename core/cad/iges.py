@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Faces of an IGES file, Initial Graphics Exchange Specification 5.3: B-spline surfaces (128),
-swept ones (118, 120, 122), cylinders, cones, spheres and tori (192 to 198), and trimmed planes.
+swept ones (118, 120, 122), cylinders, cones, spheres and tori (192 to 198), and planes.
 
-They stand alone, in trimmed surfaces (144), in solids (186) of shells (514) of faces (510), or in
-subfigures (308, 408). Planes may be trimmed, other surfaces only along their own boundary.
+They stand alone, in trimmed or bounded surfaces (144, 143), in solids (186) of shells (514) of
+faces (510), or in subfigures (308, 408).
 Transformations (124) and the unit of the global section are applied. Other surfaces and solids are
 refused by name; curves, points and annotation bound nothing and are left out.
 """
@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from ..files import FILE_TOO_LARGE
 from ..numerics import Array, lengths
-from ..nurbs import TURN, Curve, Face, FlatFace, Patch, Quadric, patches_size
+from ..nurbs import TURN, Curve, Face, FlatFace, Patch, Quadric, closed_parts, patches_size
 from ..verdict.finding import FileError, finding
 from .findings import (
     CURVES_LEFT_OUT,
@@ -55,6 +55,9 @@ from .trimmed import Boundary, first_region, trimmed_faces, within
 TURNING = 3.0  # the norm of a matrix (3, 3) of ones
 MATRIX = 124
 SURFACE = 128
+OFFSET = 140
+BOUNDARY = 141
+BOUNDED = 143
 TRIMMED = 144
 DEFINITION = 308
 INSTANCE = 408
@@ -73,7 +76,6 @@ REFUSED = {
     108: "Plane",
     114: "Parametric Spline Surface",
     140: "Offset Surface",
-    143: "Bounded Surface",
     150: "Block",
     152: "Wedge",
     154: "Cylinder",
@@ -114,6 +116,7 @@ NAMES = (
     {
         SURFACE: "Rational B-Spline Surface",
         TRIMMED: "Trimmed Surface",
+        BOUNDED: "Bounded Surface",
         INSTANCE: "Subfigure Instance",
         SOLID: "Manifold Solid B-Rep",
     }
@@ -122,7 +125,7 @@ NAMES = (
     | REFUSED
 )
 # Index of the parameter that points to the surface or solid which an entity refers to.
-REFERENCES = {TRIMMED: 0, 140: 4, 143: 1, 430: 0, FACE: 0}
+REFERENCES = {TRIMMED: 0, OFFSET: 4, BOUNDED: 1, 430: 0, FACE: 0}
 CURVES = {100, 102, 104, 106, 110, 112, 116, 126, 130}  # Curves and points, which bound nothing.
 PARAMETER_CURVE = 142
 Value = TypeVar("Value")
@@ -163,6 +166,9 @@ class IgesReader:
                 hidden += 1
             else:
                 patches += self._place(entry, np.eye(4), ())
+        if self._refusals.names and patches and not self._for_blender:
+            # A part of a body is no body: what closes without the refused faces is another one.
+            patches = closed_parts(patches, self._rounding)
         notes = [
             finding(code, count=n)
             for code, n in ((SURFACES_HIDDEN, hidden), (CURVES_LEFT_OUT, others))
@@ -221,7 +227,8 @@ class IgesReader:
         subfigures around it.
         """
         kind = NAMES[entry.type]
-        name = entry.label or "D{}".format(entry.number)
+        line = "D{}".format(entry.number)
+        name = "{} ({})".format(entry.label, line) if entry.label else line
         if entry.type in REFUSED:
             self._refusals.add(
                 SURFACE_UNSUPPORTED, "{} ({})".format(kind, entry.type), name, base=kind
@@ -238,9 +245,8 @@ class IgesReader:
                 return self._shells(entry, above)
             if entry.type == SURFACE or entry.type in SWEPT:
                 return self._within(entry, above, [], True)
-            return (self._trimmed if entry.type == TRIMMED else self._face)(
-                entry, above @ self._matrix(entry)
-            )
+            kinds = {TRIMMED: self._trimmed, BOUNDED: self._bounded, FACE: self._face}
+            return kinds[entry.type](entry, above @ self._matrix(entry))
 
         return self._refusals.keep("{} ({})".format(kind, entry.type), name, make)
 
@@ -334,6 +340,28 @@ class IgesReader:
         space = self._curves.read(in_space, matrix @ self._matrix(entry))
         return Boundary(space, self._curves.read(by_parameters, None), preferred == 1)
 
+    def _bounded(self, entry: Entry, matrix: NDArray) -> list[Face]:
+        """Return the faces of a surface within boundaries (141), the first of which is the outer
+        one.
+        """
+        _, pointer, count = integers(self._text.fields(entry), 3)
+        base = self._entries[pointer]
+        boundaries = []
+        for number in integers(self._text.fields(entry)[3:], count):
+            fields = self._text.fields(self._entry(number, BOUNDARY))
+            (curves,) = integers(fields[3:], 1)
+            at = 4
+            in_space, by_parameters = [], []
+            for _ in range(curves):
+                curve, sense, uses = integers(fields[at:], 3)
+                pieces = self._curves.read(curve, matrix)
+                in_space.append(_backward(pieces) if sense == 2 else pieces)
+                ways = integers(fields[at + 3 :], uses)
+                by_parameters += [self._curves.read(way, None) for way in ways] or [None]
+                at += 3 + uses
+            boundaries.append(Boundary(_join_curves(in_space), _join_curves(by_parameters)))
+        return self._within(base, matrix, boundaries, True)
+
     def _face(self, entry: Entry, matrix: NDArray) -> list[Face]:
         """Return the faces of a face of a solid: a surface within loops of edges."""
         fields = self._text.fields(entry)
@@ -370,7 +398,7 @@ class IgesReader:
             integers(self._text.fields(entry)[1 + 5 * (index - 1) :], 1) if index > 0 else (0,)
         )
         curves = self._curves.read(curve, matrix @ self._matrix(entry))
-        return curves if forward or curves is None else [one.reverse() for one in reversed(curves)]
+        return curves if forward else _backward(curves)
 
     def _within(
         self, base: Entry, matrix: NDArray, boundaries: Sequence[Boundary], has_outer: bool
@@ -380,6 +408,10 @@ class IgesReader:
         """
         own, turning = self._matrix_and_turning(base)
         matrix = matrix @ own
+        if base.type == OFFSET:
+            plane = self._entries[integers(self._text.fields(base)[4:], 1)[0]]
+            if plane.type in (PLANE, PLANE_SURFACE):  # It is where its boundary is.
+                base = plane
         of_edges = self._curves.rounding
         self._curves.rounding = 0.0
         if base.type in (PLANE, PLANE_SURFACE):
@@ -542,6 +574,11 @@ class IgesReader:
         return np.linalg.solve(matrix[:3, :3].T, numbers(fields[:3])) * np.sign(
             np.linalg.det(matrix[:3, :3])
         )
+
+
+def _backward(curves: list[Curve] | None) -> list[Curve] | None:
+    """Return curves end to end, run backward; None if they are unknown."""
+    return None if curves is None else [one.reverse() for one in reversed(curves)]
 
 
 def _join_curves(parts: Sequence[list[Curve] | None]) -> list[Curve] | None:

@@ -200,7 +200,8 @@ def _oriented(
     low, high = chart.limits if axis else (-np.inf, np.inf)
     along = [track.pieces[..., axis] for track in tracks]
     least = min((float(row.min()) for row in along), default=low if np.isfinite(low) else 0.0)
-    winds = int(sum(track.turns[1 - axis] for track in tracks))
+    # Loops in pairs bound a band, whatever their directions; a single one goes round an apex.
+    winds = int(sum(abs(track.turns[1 - axis]) for track in tracks)) % 2
     base = least
     if not chart.is_closed and winds:
         base = _apex(chart, low, high, size)

@@ -23,14 +23,14 @@ from numpy.typing import NDArray
 
 from ..flat import Plane, foot, plane_positions
 from ..inertia import MassProperties, combine
-from ..moments import Invariant
+from ..moments import Invariant, Moments, U, monomials
 from ..moments.exponents import monomial_index
-from ..moments.moments import Moments, U, monomials
 from ..numerics import Array
 from ..polyhedron import multi_indices
 from ..verdict import Finding, MeasureError, Severity, find_verdict, sentence, severity
 from .documents import TOTAL, plain
-from .measurement import UNIFORM_DENSITIES, Measurement
+from .findings import UNIFORM_DENSITIES
+from .measurement import Measurement
 
 MAX_ELEMENTS = 1000  # Limit for one finding.
 _FIRST = ((1, 0, 0), (0, 1, 0))

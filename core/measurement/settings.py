@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 from ..numerics import shortest_decimal
@@ -17,20 +18,6 @@ from ..verdict.finding import ReadError
 from ..wall import PRINT_UNFIT
 
 VERSION = "v1"
-
-
-@dataclass(frozen=True, kw_only=True)
-class RequestedResults:
-    """Results that a measurement has on request.
-
-    order: of the moments; None for the order that mass properties need. surface: area moments, too.
-    compare: bodies that need no display mesh are compared with it.
-    """
-
-    order: int | None = None
-    surface: bool = False
-    compare: bool = True
-    threads: int = 1
 
 
 class Pocket(NamedTuple):
@@ -90,13 +77,15 @@ class PrintSettings(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Settings(RequestedResults):
+class Settings:
     """Settings of one object's measurement, in SI units; at most one of density and mass is given.
 
     kind: "solid", "shell", "printed" or "wire". density: kg/m³, of a wire kg/m; mass: kg.
     thickness: of a shell, m. overlap: "signed" or "union". wall: of a shell, "thin", "inward",
     "outward" or "centered". unit: meters per Blender unit. varying: text of the settings that
     decide a varying density or a given center or inertia. printed: of a print.
+    order: of the requested moments; None for the order that mass properties need. surface: area
+    moments, too. compare: bodies that need no display mesh are compared with it.
     """
 
     kind: str = "solid"
@@ -108,8 +97,12 @@ class Settings(RequestedResults):
     unit: float = 1.0
     varying: str = ""
     printed: PrintSettings = PrintSettings()
+    order: int | None = None
+    surface: bool = False
+    compare: bool = True
+    threads: int = 1
 
-    @property
+    @cached_property
     def digest(self) -> str:
         """Digest of the settings behind stored results, without those that have no effect on this
         kind of body.

@@ -9,6 +9,7 @@ are cut along the diagonal that Blender draws, so that the body measured is the 
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -133,13 +134,22 @@ class Surface:
         low, high = self.box
         return half_ulp(np.maximum(high, -low))
 
-    @property
+    @cached_property
     def content(self) -> tuple[tuple[str, bytes] | None, ...]:
         """All arrays as bytes; equal for surfaces of equal numbers."""
         arrays = [getattr(self, name) for name in ("points", "displacement", *INDEX_SHAPES)]
         return tuple(
             [None if array is None else (array.dtype.char, array.tobytes()) for array in arrays]
         )
+
+    @cached_property
+    def digest(self) -> bytes:
+        """A digest of the points and faces."""
+        found = hashlib.blake2b(digest_size=16)
+        for array in (self.points, self.triangles, self.quads):
+            found.update(np.ascontiguousarray(array).data)
+            found.update(repr(array.shape).encode())
+        return found.digest()
 
     @property
     def triangle_count(self) -> int:

@@ -24,6 +24,8 @@ from ..numerics import (
 from .edges import ring_sizes
 from .surface import HALVES, Surface, face_of_each, half_ulp, turned_quads
 
+MAX_STACKED_COORDINATE = 2.0**127  # no sum of these is infinite in float32
+
 
 @dataclass(frozen=True, eq=False)
 class TriangleStack:
@@ -85,10 +87,10 @@ class TriangleStack:
 
     @cached_property
     def coordinate_error(self) -> Array:
-        """(n, 3) half an ulp of each surface's largest coordinate on each axis: its
-        `Surface.coordinate_error`.
-        """
+        """The (n, 3) `Surface.coordinate_error` of each surface, which has no `displacement`."""
         low, high = self.box
+        if self.points.dtype != np.float32:
+            return np.zeros(low.shape)
         return half_ulp(np.maximum(high, -low))
 
 
@@ -116,44 +118,48 @@ class SurfaceStack(TriangleStack):
 
     @staticmethod
     def takes(surfaces: Sequence[Surface], most: int) -> list[bool]:
-        """Return which surfaces can be stacked: `most` triangles, float32 points, the mesh's own
-        corners and edges.
+        """Return which surfaces can be stacked: `most` triangles, the first one's type of numbers,
+        moderate coordinates, existing vertices, and the mesh's own edges or faces of one size.
         """
         fits = [
-            surface.points.dtype == np.float32
-            and surface.displacement is None
-            and surface.corner_vertices is not None
-            and surface.corner_edges is not None
-            and 0 < len(surface.corner_vertices) == len(surface.corner_edges)
+            surface.displacement is None
+            and surface.points.dtype == surfaces[0].points.dtype
             and 0 < surface.triangle_count <= most
+            and _has_rings(surface)
             for surface in surfaces
         ]
         known = [surface for surface, is_fit in zip(surfaces, fits) if is_fit]
         if not known:
             return fits
-        counts = np.array(
-            [(len(surface.points), len(np.asarray(surface.corner_edges))) for surface in known]
+        counts = np.array([len(surface.points) for surface in known])
+        is_moderate = np.abs(np.concatenate([surface.points for surface in known])) < (
+            MAX_STACKED_COORDINATE
         )
-        starts = segment_starts(counts[:, 1])
         in_range = np.ones(len(known), bool)
-        for name, limit in (("corner_vertices", counts[:, 0]), ("corner_edges", 2 * counts[:, 1])):
-            numbers = np.concatenate([getattr(surface, name) for surface in known])
-            in_range &= np.maximum.reduceat(as_unsigned(numbers), starts) < limit
+        in_range[np.repeat(np.arange(len(known)), counts)[~is_moderate.all(axis=1)]] = False
+        for name in ("triangles", "quads", "corner_vertices", "corner_edges"):
+            arrays = [getattr(surface, name) for surface in known]
+            which = [k for k, array in enumerate(arrays) if array is not None and len(array)]
+            if which:
+                flat = [arrays[k].ravel() for k in which]
+                sizes = np.array([len(each) for each in flat])
+                largest = np.maximum.reduceat(
+                    as_unsigned(np.concatenate(flat)), segment_starts(sizes)
+                )
+                in_range[which] &= largest < (
+                    2 * sizes if name == "corner_edges" else counts[which]
+                )
         by_surface = iter(in_range.tolist())
         return [is_fit and next(by_surface) for is_fit in fits]
 
     @classmethod
     def from_surfaces(cls, surfaces: Sequence[Surface]) -> SurfaceStack:
         """Stack surfaces that it `takes`, at least one."""
+        rings = [_rings(surface) for surface in surfaces]
         point_counts, corner_counts, single, quad_counts = np.array(
             [
-                [
-                    len(surface.points),
-                    len(np.asarray(surface.corner_edges)),
-                    len(surface.triangles),
-                    len(surface.quads),
-                ]
-                for surface in surfaces
+                [len(surface.points), len(ring[0]), len(surface.triangles), len(surface.quads)]
+                for surface, ring in zip(surfaces, rings)
             ]
         ).T
         bodies = np.arange(len(surfaces))
@@ -167,12 +173,7 @@ class SurfaceStack(TriangleStack):
             np.concatenate(faces).astype(np.intp)
             for faces in zip(*[face_of_each(surface) for surface in surfaces])
         )
-        corners = np.concatenate(
-            [np.asarray(surface.corner_vertices) for surface in surfaces]
-        ).astype(np.intp)
-        edges = np.concatenate([np.asarray(surface.corner_edges) for surface in surfaces]).astype(
-            np.intp
-        )
+        corners, edges = (np.concatenate(each).astype(np.intp) for each in zip(*rings))
         edge_counts = np.maximum.reduceat(edges, segment_starts(corner_counts)) + 1
         face_counts = np.zeros(len(surfaces), np.intp)
         np.maximum.at(face_counts, of_triangle, triangle_faces + 1)
@@ -272,6 +273,27 @@ class SurfaceStack(TriangleStack):
         last[1:] -= last[:-1].copy()
         last[0] += 1
         return Connections(oriented & (single == 0), is_open, last, component, sides)
+
+
+def _rings(surface: Surface) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+    """Return a mesh's corners and edges, numbered by vertices if it has none of its own."""
+    if surface.corner_vertices is not None and surface.corner_edges is not None:
+        return surface.corner_vertices, surface.corner_edges
+    faces = surface.triangles if len(surface.triangles) else surface.quads
+    ends = np.array([faces, faces.take(np.arange(1, faces.shape[1] + 1), 1, mode="wrap")]).reshape(
+        2, -1
+    )
+    keys = np.minimum(*ends).astype(np.intp) * len(surface.points) + np.maximum(*ends)
+    return faces.ravel(), np.unique(keys, return_inverse=True)[1].ravel()
+
+
+def _has_rings(surface: Surface) -> bool:
+    """Return whether the corners and edges of a mesh are known, or its faces all of one size."""
+    corners, edges = surface.corner_vertices, surface.corner_edges
+    if corners is not None or edges is not None:
+        return corners is not None and edges is not None and 0 < len(corners) == len(edges)
+    is_numbered = surface.triangle_faces is not None or surface.quad_faces is not None
+    return not is_numbered and not (len(surface.triangles) and len(surface.quads))
 
 
 @dataclass(frozen=True, eq=False)

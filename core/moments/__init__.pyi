@@ -41,8 +41,8 @@ from .moments import Measure as Measure
 from .moments import Moments as Moments
 from .moments import U as U
 from .moments import image as image
-from .moments import join_moments as join_moments
 from .moments import measure_scale_factors as measure_scale_factors
+from .moments import stack_moments as stack_moments
 from .moments import sum_moments as sum_moments
 from .moments import unchecked_moments as unchecked_moments
 from .solid_harmonics import Multiplets as Multiplets

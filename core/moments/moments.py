@@ -334,19 +334,13 @@ def stack_moments(parts: Sequence[Moments]) -> Moments:
     """Stack moments of one measure, each about its own point, along a leading axis, to the lowest
     of their orders.
     """
-    order = min([part.order for part in parts])
-    return join_moments([part.truncate(order).at(None) for part in parts])
-
-
-def join_moments(stacks: Sequence[Moments]) -> Moments:
-    """Join stacks of one measure and order into one stack."""
-    if len(stacks) == 1:
-        return stacks[0]
-    raw, about, rounding, inputs = (
-        np.concatenate([getattr(stack, name) for stack in stacks])
-        for name in ("raw", "about", "rounding_error", "input_error")
+    count = min([len(part.raw) for part in parts])
+    raw, rounding, inputs = (
+        np.array([getattr(part, name)[:count] for part in parts])
+        for name in ("raw", "rounding_error", "input_error")
     )
-    return unchecked_moments(raw, about, stacks[0].measure, rounding, inputs)
+    about = np.array([part.about for part in parts])
+    return unchecked_moments(raw, about, parts[0].measure, rounding, inputs)
 
 
 @np.errstate(over="ignore", invalid="ignore")  # callers check for overflow

@@ -21,6 +21,7 @@ from .patch_moments import area_moments as area_moments
 from .patch_moments import stored_area_moments as stored_area_moments
 from .patch_moments import vector_area as vector_area
 from .patch_moments import volume_moments as volume_moments
+from .patch_topology import closed_parts as closed_parts
 from .quadric import TURN as TURN
 from .quadric import Quadric as Quadric
 from .seams import close_pairs as close_pairs

@@ -21,12 +21,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..numerics import Index, Mask, clamped_space, connected_components
-from ..verdict import MeasureError
+from ..verdict import MeasureError, welding_tolerance
 from .findings import DISCONTINUOUS_PATCH
 from .flat_face import self_intersects
 from .patch_moments import vector_area
 from .seams import close_pairs, cut_open_sides, join_sides
-from .splines import Curve, Face, Patch
+from .splines import Curve, Face, Patch, patches_size
 
 MAX_CHORDS = 4096  # Limit for a boundary loop that is tested for crossing itself.
 
@@ -142,6 +142,15 @@ def find_topology(patches: Sequence[Face], tolerance: float) -> PatchTopology:
         ],
         unclosable,
     )
+
+
+def closed_parts(faces: Sequence[Face], stored: float) -> list[Face]:
+    """Return the faces of the components without open sides."""
+    tolerance = welding_tolerance(patches_size(faces), stored)
+    topology = find_topology(faces, tolerance)
+    is_open = topology.unclosable.copy()
+    is_open[[loop.component for loop in topology.loops]] = True
+    return [face for face, part in zip(faces, topology.component) if not is_open[part]]
 
 
 def _find_loops(

@@ -170,10 +170,3 @@ def rotation(vector: NDArray) -> Array:
     """Return the (3, 3) rotation by a vector's length about it."""
     half = 0.5 * float(np.linalg.norm(vector))
     return rotation_matrix(np.concatenate([[np.cos(half)], 0.5 * np.sinc(half / np.pi) * vector]))
-
-
-def angle_about(axis: NDArray, turn: NDArray) -> float:
-    """Return the angle by which a (3, 3) rotation turns about an axis, 0 if the axis is."""
-    twist = quaternion(turn)
-    length = float(np.linalg.norm(axis))
-    return 2.0 * float(np.arctan2(twist[1:] @ axis / length, twist[0])) if length else 0.0

@@ -23,8 +23,10 @@ from .findings import OVERLAP_OF_INSTANCES as OVERLAP_OF_INSTANCES
 from .findings import SELF_INTERSECTING as SELF_INTERSECTING
 from .findings import UNCHECKED as UNCHECKED
 from .findings import VERTICES_WELDED as VERTICES_WELDED
-from .measure import measure_left_over as measure_left_over
+from .measure import SolidStack as SolidStack
+from .measure import measure_again as measure_again
 from .measure import measure_solid as measure_solid
+from .measure import measure_stack as measure_stack
 from .nesting import ComponentRelations as ComponentRelations
 from .nesting import classify_pairs as classify_pairs
 from .nesting import self_overlaps as self_overlaps
@@ -33,9 +35,7 @@ from .orientation import ClosedParts as ClosedParts
 from .orientation import ComponentComparison as ComponentComparison
 from .orientation import zero_volume as zero_volume
 from .solid_method import SolidIntegrals as SolidIntegrals
-from .solid_stack import SolidStack as SolidStack
-from .solid_stack import can_be_stacked as can_be_stacked
-from .solid_stack import measure_stack as measure_stack
+from .solid_stack import SmallSolid as SmallSolid
 
 __all__ = [
     "SolidIntegrals",

@@ -18,7 +18,6 @@ from ..moments import Moments
 from ..numerics import (
     Index,
     Mask,
-    check_type,
     connected_components,
     indices_in_range,
 )
@@ -66,7 +65,6 @@ def check_surface(surface: Surface) -> CheckedSurface:
     """Check that a surface can be measured, or raise MeasureError; leave out vertices that no face
     uses.
     """
-    check_type("surface", surface, Surface)
     faces = [corners for corners in (surface.quads, surface.triangles) if len(corners)]
     if not faces:
         raise MeasureError(NO_FACES)

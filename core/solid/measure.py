@@ -14,13 +14,17 @@ point, and called open.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property, lru_cache
 
 import numpy as np
 
-from ..mesh import Surface
-from ..verdict import Procedure
+from ..mesh import Surface, SurfaceStack
+from ..moments import KNOWN_ORDER, Moments, stack_moments
+from ..numerics import check_type
+from ..polyhedron import MAX_SMALL_TRIANGLES, nothing
+from ..verdict import Finding, MeasureError, Procedure
 from .closedness import CheckedSurface, GivenIntegrals, check_surface, integrate_and_prove
 from .hole_caps import (
     cap_holes,
@@ -35,7 +39,7 @@ from .orientation import OrientedSolid, orient_components
 from .repaired_mesh import UNKNOWN, RepairedMesh, copy_with
 from .self_intersection import find_self_intersection
 from .solid_method import SolidIntegrals, judge
-from .solid_stack import SolidStack
+from .solid_stack import SmallSolid, measure_small
 from .weld_open_parts import (
     copied_faces,
     drop_collapsed_triangles,
@@ -47,6 +51,8 @@ from .weld_open_parts import (
     without_faces,
 )
 
+MAX_KEPT_TRIANGLES = 100_000  # of surfaces whose measurement is kept
+MAX_STACKED_TRIANGLES = 100_000  # of surfaces measured together, each of a few hundred bytes
 MAX_WELDED_SHARE = (
     0.1  # Share of the volume: a weld that may change more closes no gap left by rounding.
 )
@@ -103,18 +109,99 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     >>> str(body.method), round(body.volume.total * 6, 9), flipped.tolist()
     ('reoriented', 1.0, [3])
     """
-    checked = check_surface(surface)
-    return _measure_given(checked, integrate_and_prove(checked, shell, threads), shell, threads)
+    return measure_stack([surface], shell=shell, threads=threads)[0]
 
 
-def measure_left_over(stack: SolidStack, i: int, surface: Surface) -> SolidIntegrals:
-    """Measure a surface that its stack left over as number `i`, as `measure_solid` does, from the
-    stack's integrals.
+def measure_stack(
+    surfaces: Sequence[Surface], *, shell: bool = False, threads: int = 1
+) -> SolidStack:
+    """Measure the bodies that surfaces bound, at least one, as `measure_solid` does: small ones
+    together if they need no repair but caps, others one by one.
     """
+    for surface in surfaces:
+        check_type("surface", surface, Surface)
+    fits = SurfaceStack.takes(surfaces, 0 if shell else MAX_SMALL_TRIANGLES)
+    counts = np.array([surface.triangle_count for surface in surfaces]) * fits
+    which = np.flatnonzero(fits & (np.cumsum(counts) <= MAX_STACKED_TRIANGLES)).tolist()
+    small = measure_small([surfaces[i] for i in which]) if which else None
+    rows = {i: SmallSolid(small, row, surfaces[i]) for row, i in enumerate(which)}
+    solids: list[SolidIntegrals | Finding] = []
+    for i, surface in enumerate(surfaces):
+        row = rows.get(i)
+        if row is not None and row.is_measured:
+            solids.append(row)
+            continue
+        try:
+            solids.append(measure_alone(surface, row and row.given(), shell, threads))
+        except MeasureError as refusal:
+            solids.append(refusal.finding)
+    return SolidStack(surfaces, solids)
+
+
+@dataclass(frozen=True, eq=False)
+class SolidStack:
+    """The bodies of n surfaces, `stack[i]` each, or why they are refused.
+
+    `volume`, `area`: stacks of their moments; zero for refused surfaces.
+    """
+
+    surfaces: Sequence[Surface]
+    solids: Sequence[SolidIntegrals | Finding]
+
+    def __getitem__(self, i: int) -> SolidIntegrals:
+        solid = self.solids[i]
+        if isinstance(solid, Finding):
+            raise MeasureError(solid)
+        return solid
+
+    @cached_property
+    def volume(self) -> Moments:
+        return self._moments(0)
+
+    @cached_property
+    def area(self) -> Moments:
+        return self._moments(1)
+
+    def _moments(self, which: int) -> Moments:
+        none = nothing(KNOWN_ORDER, None)[which]
+        return stack_moments(
+            [
+                none if isinstance(solid, Finding) else (solid.volume, solid.area)[which]
+                for solid in self.solids
+            ]
+        )
+
+
+def measure_alone(
+    surface: Surface, given: GivenIntegrals | None = None, shell: bool = False, threads: int = 1
+) -> SolidIntegrals:
+    """Measure a surface by itself, from integrals over its faces if `given`."""
     checked = check_surface(surface)
     return _measure_given(
-        checked, stack.given(i, surface) or integrate_and_prove(checked, False, 1), False, 1
+        checked, given or integrate_and_prove(checked, shell, threads), shell, threads
     )
+
+
+@dataclass(frozen=True)
+class _Known:
+    """Surfaces that equal others of the same content."""
+
+    content: tuple
+    surfaces: Sequence[Surface] = field(compare=False)
+    threads: int = field(compare=False)
+
+
+@lru_cache(maxsize=4)  # Objects are often measured again with the same surfaces.
+def _measure_known(known: _Known) -> SolidStack:
+    return measure_stack(known.surfaces, threads=known.threads)
+
+
+def measure_again(surfaces: Sequence[Surface], threads: int = 1) -> SolidStack:
+    """Return the `measure_stack` of surfaces, remembered unless they are large."""
+    if sum([surface.triangle_count for surface in surfaces]) > MAX_KEPT_TRIANGLES:
+        return measure_stack(surfaces, threads=threads)
+    content = tuple([surface.content for surface in surfaces])
+    return _measure_known(_Known(content, surfaces, threads))
 
 
 def _measure_given(

@@ -72,7 +72,9 @@ def find_self_intersection(
     component = None
     if mesh.number > 1:
         parts = oriented.closed_parts()
-        surface = _used_points(parts.points, parts.triangles)
+        used = np.zeros(len(parts.points), bool)
+        used[parts.triangles.ravel()] = True
+        surface = Surface(parts.points[used], (np.cumsum(used) - 1)[parts.triangles])
         component = parts.part
     else:
         center = volume.about + volume.raw[1:4] / volume.total
@@ -95,13 +97,6 @@ def find_self_intersection(
     spread = float(volume.about_center().raw[SECOND_MOMENT_INDEX.diagonal()].sum())
     effect = max(float(excess.volume[0]) / volume.total, float(excess.second_moment[0]) / spread)
     return SelfIntersection(Intersection.FOUND, float(excess.volume[0]), effect)
-
-
-def _used_points(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> Surface:
-    """Return the surface of some triangles without the points of others."""
-    used = np.zeros(len(points), bool)
-    used[triangles.ravel()] = True
-    return Surface(points[used], (np.cumsum(used) - 1)[triangles])
 
 
 def all_cones_agree(surface: Surface, center: Array) -> bool:

@@ -200,7 +200,8 @@ def judge(
     if len(inverted):
         findings.append(_inverted_finding(mesh, inverted, checked.size, volume.total))
     if caps[:2].any():
-        edges = _capped_edges(checked, oriented)
+        edges = mesh.capped_edges[oriented.solid[mesh.capped_component]]
+        edges = unique_pairs(edges if checked.vertices is None else checked.vertices[edges])
         findings.append(cap_finding(edges, caps, cap_share, checked.size, volume.total))
     if oriented.comparison is not None:
         findings += _component_findings(mesh, oriented.comparison, checked.size, volume.total)
@@ -291,13 +292,6 @@ def _inverted_finding(mesh: RepairedMesh, inverted: Index, size: float, volume: 
     return finding(
         INVERTED_COMPONENTS, faces, slight=slight, count=len(inverted), total=int(mesh.number)
     )
-
-
-def _capped_edges(checked: CheckedSurface, oriented: OrientedSolid) -> Index:
-    """Return the edges of the capped holes of components that have a volume."""
-    mesh, vertices = oriented.mesh, checked.vertices
-    edges = mesh.capped_edges[oriented.solid[mesh.capped_component]]
-    return unique_pairs(edges if vertices is None else vertices[edges])
 
 
 def cap_finding(edges: Index, caps: Array, share: float, size: float, volume: float) -> Finding:

@@ -1,18 +1,19 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measurement of many small solids at once, if they face outward and are closed as they are or by
-caps alone.
+"""Measurement of small solids at once, one or many, if they face outward and are closed as they are
+or by caps alone.
 
 A solid may have one or several separate pieces. Results are exact or capped, with the same numbers
-as from `measure_solid`, which measures all other solids one by one. Caps are made if every edge has
-one face, or two that agree, at each boundary vertex one side arrives and one leaves, every loop has
-an area, and no vertices touch that a repair would weld.
+as from `measure_alone`, which measures all other solids. Caps are made if every edge has one face,
+or two that agree, at each boundary vertex one side arrives and one leaves, every loop has an area,
+and no vertices touch that a repair would weld.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,13 +34,21 @@ from ..mesh import (
 )
 from ..moments import Moments, U, sum_moments
 from ..numerics import NEXT_AXIS, PREVIOUS_AXIS, Array, Index, Mask
-from ..polyhedron import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH, small_moments
-from ..verdict import WELDING_RTOL, DefectiveElements, Finding, Intersection, MeshHealth
+from ..polyhedron import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH, box_center, small_moments
+from ..verdict import (
+    WELDING_RTOL,
+    DefectiveElements,
+    Finding,
+    Intersection,
+    MeshHealth,
+    Procedure,
+)
 from .boundary_loops import OwnedLoops, has_distinct_vertices, side_ends
 from .closedness import SUM_ROUNDING, GivenIntegrals, prove_closed, same_sign
-from .orientation import zero_volume
+from .orientation import OrientedSolid, zero_volume
+from .repaired_mesh import RepairedMesh
 from .self_intersection import MAX_UNSURE_LINES, measure_excess
-from .solid_method import cap_finding, shape_findings
+from .solid_method import SolidIntegrals, cap_finding, shape_findings
 
 MAX_COMPONENTS = 16  # Limit for one body: all pairs are compared.
 # times the volume that counts as none: bodies with smaller components are measured one by one
@@ -47,8 +56,8 @@ CLEAR_VOLUME = 4.0
 
 
 @dataclass(frozen=True, eq=False)
-class SolidStack:
-    """The moments of the bodies that n surfaces bound, meaningless unless measured.
+class SmallSolids:
+    """The bodies of n small surfaces, meaningless unless measured.
 
     `is_measured`: (n,) surfaces closed as they are or by caps; `is_integrated`: (n,) surfaces whose
     integrals hold for the faces as given, at least. `cones`: (n, 2) sums of the cones over faces,
@@ -68,64 +77,83 @@ class SolidStack:
     component_counts: Index
     caps: StackCaps
 
-    def given(self, i: int, surface: Surface) -> GivenIntegrals | None:
+
+class SmallSolid(SolidIntegrals):
+    """Body `i` of a stack, with results that are computed when they are asked for."""
+
+    def __init__(self, stack: SmallSolids, i: int, surface: Surface):
+        volume = stack.volume.at(i)
+        area = stack.area.at(i)
+        self.__dict__.update(stack=stack, i=i, given_surface=surface, volume=volume, area=area)
+
+    @property
+    def is_measured(self) -> bool:
+        return bool(self.stack.is_measured[self.i])
+
+    def given(self) -> GivenIntegrals | None:
         """Return the integrals over the faces of a surface that is not measured, or None if they do
         not hold.
         """
-        if not self.is_integrated[i]:
+        if not self.stack.is_integrated[self.i]:
             return None
-        agree = bool(same_sign(*self.cones[i].tolist()))
-        return GivenIntegrals(
-            self.volume.at(i), self.area.at(i), self.planarity.at(i), agree, prove_closed(surface)
-        )
+        agree = bool(same_sign(*self.stack.cones[self.i].tolist()))
+        flat = self.stack.planarity.at(self.i)
+        return GivenIntegrals(self.volume, self.area, flat, agree, prove_closed(self.given_surface))
 
-    def health(self, i: int) -> MeshHealth:
-        """Return the state of a measured body's surface."""
-        flat = self.planarity
-        edges = self.caps.edges_of(i)
+    @cached_property
+    def method(self) -> Procedure:
+        return Procedure.CAPPED if self.stack.caps.is_capped[self.i] else Procedure.EXACT
+
+    @cached_property
+    def health(self) -> MeshHealth:
+        flat = self.stack.planarity
+        edges = self.stack.caps.edges_of(self.i)
         return MeshHealth(
             closed=not len(edges),
             boundary_edges=len(edges),
-            components=int(self.component_counts[i]),
-            non_planar_faces=int(flat.non_planar_counts[i]),
-            volume_spread=float(flat.volume_spread[i]),
-            cap_area_share=self._cap_share(i),
-            self_intersection=self.intersection[i],
+            components=int(self.stack.component_counts[self.i]),
+            non_planar_faces=int(flat.non_planar_counts[self.i]),
+            volume_spread=float(flat.volume_spread[self.i]),
+            cap_area_share=self._cap_share,
+            self_intersection=Intersection(self.stack.intersection[self.i]),
             defective_elements=DefectiveElements(boundary_edges=edges),
         )
 
-    def findings(self, i: int) -> tuple[Finding, ...]:
-        """Return the findings about a measured body."""
-        flat = self.planarity
+    @cached_property
+    def findings(self) -> tuple[Finding, ...]:
+        flat = self.stack.planarity
+        caps = self.stack.caps
         found = []
-        if self.caps.is_capped[i]:
-            share = self._cap_share(i)
-            total = float(self.volume.raw[i, 0])
+        if caps.is_capped[self.i]:
+            size = float(self.stack.size[self.i])
+            edges = caps.edges_of(self.i)
             found.append(
-                cap_finding(
-                    self.caps.edges_of(i), self.caps.counts[i], share, float(self.size[i]), total
-                )
+                cap_finding(edges, caps.counts[self.i], self._cap_share, size, self.volume.total)
             )
-        if flat.volume_spread[i]:
-            found += shape_findings(True, flat.at(i), self.volume.at(i))
+        if flat.volume_spread[self.i]:
+            found += shape_findings(True, flat.at(self.i), self.volume)
         return tuple(found)
 
-    def _cap_share(self, i: int) -> float:
-        return float(self.caps.counts[i, 2] / self.area.raw[i, 0])
+    @cached_property
+    def oriented(self) -> OrientedSolid:
+        mesh = self.stack.caps.mesh(self.i, self.given_surface, self.health)
+        is_closed = self.health.closed
+        yes = np.ones(mesh.number, bool)
+        surface = self.given_surface if is_closed else Surface(mesh.points, mesh.triangles)
+        return OrientedSolid(mesh, is_closed, surface, self.volume, True, yes, ~yes, ~yes, None)
+
+    @property
+    def _cap_share(self) -> float:
+        return float(self.stack.caps.counts[self.i, 2] / self.area.total)
 
 
-def can_be_stacked(surfaces: Sequence[Surface]) -> list[bool]:
-    """Return which surfaces `measure_stack` can measure."""
-    return SurfaceStack.takes(surfaces, MAX_SMALL_TRIANGLES)
-
-
-def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
-    """Measure the bodies of surfaces, at least one, that `can_be_stacked` allows, if closed as they
+def measure_small(surfaces: Sequence[Surface]) -> SmallSolids:
+    """Measure the bodies of surfaces, at least one, that `SurfaceStack.takes`, if closed as they
     are or by caps.
     """
     stack = SurfaceStack.from_surfaces(surfaces)
     low, high = stack.box
-    center = (low / 2.0 + high / 2.0).astype(np.float32).astype(np.float64)
+    center = box_center(low, high, stack.points.dtype)
     reach = np.maximum(high - center, center - low) * (1.0 + 4.0 * U)
     volume, area, cones = small_moments(
         stack.points,
@@ -191,7 +219,7 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
             triangles.some(rows), tolerance[rows], _renumbered(part[chosen])
         )
         is_measured[rows] = intersection[rows] == Intersection.NOT_FOUND
-    return SolidStack(
+    return SmallSolids(
         is_measured,
         is_integrated & ~capped,
         cones,
@@ -323,6 +351,36 @@ class StackCaps:
         for name, values in changed.items():
             values[rows] = getattr(total, name)
         return replace(volume, **changed)
+
+    def mesh(self, i: int, surface: Surface, report: MeshHealth) -> RepairedMesh:
+        """Return one surface with its caps; without triangles if it is one component, and closed as
+        it is.
+        """
+        number = report.components
+        stack = self.triangles
+        points = surface.points
+        triangles = surface.triangles[:0]
+        face = part = np.empty(0, np.intp)
+        if number > 1 or not report.closed:
+            start, begin = stack.first_point[i], stack.first_triangle[i]
+            rows = slice(begin, begin + stack.triangle_counts[i])
+            points = stack.points[start : start + stack.point_counts[i]]
+            triangles = stack.triangles[rows] - start
+            face = np.full(len(triangles), -1)
+            face[: surface.triangle_count] = surface.all_triangles()[1]
+            part = self.part[rows] - self.part[rows].min()
+        return RepairedMesh(
+            points,
+            triangles,
+            face,
+            np.zeros(len(face), bool),
+            part,
+            number,
+            np.zeros(number, bool),
+            np.concatenate([self.counts[i : i + 1], np.zeros((number - 1, 3))]),
+            report,
+            capped_edges=self.edges_of(i),
+        )
 
     def edges_of(self, i: int) -> Index:
         """Return the (k, 2) edges along the holes of one surface."""

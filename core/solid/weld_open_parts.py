@@ -212,7 +212,10 @@ def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     face = mesh.face
     if edges.count.max() <= 2:  # copies of faces would have no others beside them
         return mesh
-    sides = _non_manifold_sides(edges, face)
+    # edges with more than two triangles, but not both sides of a polygon's own diagonal
+    sides = np.flatnonzero((edges.count > 2)[edges.of_side])
+    first = first_occurrence(edges.of_side[sides], face[sides // 3].astype(np.intp))
+    sides = sides[np.bincount(first)[first] == 1]
     mesh = mesh.with_report(
         non_manifold_edges=len(np.unique(edges.of_side[sides])),
         elements={"non_manifold_edges": distinct_vertex_pairs(mesh.state.given, sides)},
@@ -304,12 +307,3 @@ def _regions_of_one_layer(edges: Edges, later: Mask, copied: Mask, agree: Array)
     single = np.bincount(edges.of_side, np.repeat(copied & ~later, 3))[edge] % 2 == 1
     closed = np.bincount(region[owner], single, minlength=number) == 0
     return np.where(has_neighbors, votes > 0, (parallel > 0) | closed)[region]
-
-
-def _non_manifold_sides(edges: Edges, face: NDArray[np.integer]) -> Index:
-    """Return the sides on edges with more than two triangles, not counting both sides of a
-    polygon's own diagonal.
-    """
-    sides = np.flatnonzero((edges.count > 2)[edges.of_side])
-    first = first_occurrence(edges.of_side[sides], face[sides // 3].astype(np.intp))
-    return sides[np.bincount(first)[first] == 1]

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -161,3 +162,9 @@ def unrolled(patch: Patch) -> Patch:
         weights = None if weights is None else weights.take(rows, axis)
         spaces.append(type(space)(space.knots, space.order, space.function_count))
     return Patch(tuple(spaces), points, weights)
+
+
+def labels(values):
+    """The labels of refused entities, without their lines in the directory."""
+    assert all(re.fullmatch(r"(.* \()?D\d+\)?", name) for name in values["names"])
+    return [name.split(" (")[0] for name in values["names"]]

@@ -38,12 +38,11 @@ from ....core.mesh import Surface
 from ....core.moments import KNOWN_ORDER, Moments, similarity_groups, sum_moments, sum_of_images
 from ....core.numerics import Array
 from ....core.polyhedron import polyhedron_moments
-from ....core.solid import ClosedParts
-from ....core.solid.measure import SolidIntegrals
+from ....core.solid import ClosedParts, SolidIntegrals
 from ....core.verdict import NEGLIGIBLE, Procedure
 from ....core.verdict.finding import Finding, ReadError, finding, truncate_findings
 from ...settings.density import DensityField, density_key, material_density
-from ...settings.findings import OBJECT_DENSITY_USED, OBJECT_DENSITY_USED_FOR_MATERIALS
+from ...settings.findings import OBJECT_DENSITY_USED
 from ..findings import (
     ATTRIBUTE_VALUES,
     CAVITY_MATERIAL_IGNORED,
@@ -166,9 +165,10 @@ def _by_material(reading: Reading, body: MeshBody, request: Request, order: int)
         for i, values in enumerate(face_densities.values):
             parts.extend(_sheet_moments(reading, i, values, request, order))
     else:
-        for i, ((solid, matrices), (values, names)) in enumerate(
-            zip(body.solids, face_densities.with_names())
-        ):
+        for i, (solid, matrices) in enumerate(body.solids):
+            values = face_densities.values[i]
+            faces, slots = face_densities.slots[i]
+            names = [*(material.name if material else "" for material in slots), ""]
             volume = solid.volume
             if order > volume.order:
                 volume = polyhedron_moments(
@@ -178,7 +178,9 @@ def _by_material(reading: Reading, body: MeshBody, request: Request, order: int)
                     threads=request.settings.threads,
                     allow_open=True,
                 )[0]
-            weighed, findings = _solid_moments(solid, volume, matrices, values, names)
+            weighed, findings = _solid_moments(
+                solid, volume, matrices, values, np.array(names, object)[faces]
+            )
             parts += weighed
             by_part.append((reading.parts[i].source_object_name, findings))
     findings = [*face_densities.missing_note(), *findings_by_part(by_part, reading.name)]
@@ -242,15 +244,13 @@ class _FaceDensities:
         if not self.faces_without_density:
             return
         names = [material.name for material in self.materials if material_density(material) is None]
-        values = {
-            "count": self.faces_without_density,
-            "total": self.faces,
-            "density": self.default_density,
-        }
-        if names:
-            yield finding(OBJECT_DENSITY_USED_FOR_MATERIALS, **values, materials=names)
-        else:
-            yield finding(OBJECT_DENSITY_USED, **values)
+        yield finding(
+            OBJECT_DENSITY_USED,
+            count=self.faces_without_density,
+            total=self.faces,
+            density=self.default_density,
+            materials=names or "none",
+        )
 
     def source(self) -> Finding:
         """Return a note that names at most MAX_NAMED materials with their densities."""
@@ -263,14 +263,6 @@ class _FaceDensities:
         if self.faces_without_density:
             parts.append(finding(DENSITY_OF_OTHERS, density=self.default_density))
         return finding(DENSITY_FROM_MATERIALS, materials=[part.as_record() for part in parts])
-
-    def with_names(self) -> Iterator[tuple[NDArray, NDArray]]:
-        """Yield (f,) densities and (f,) material names of the mesh faces for each part."""
-        for values, (faces, slots) in zip(self.values, self.slots):
-            names = np.array(
-                [*(material.name if material else "" for material in slots), ""], object
-            )
-            yield values, names[faces]
 
 
 def _solid_moments(

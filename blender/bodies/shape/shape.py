@@ -29,9 +29,9 @@ from ....core.bodies import (
 )
 from ....core.inertia import EQUAL_AXES, NOISE_LEVEL, PrincipalFrame, pose_matrix
 from ....core.measurement import WALL_UNSUPPORTED, Body, Measurement
-from ....core.mesh import Surface, TriangleStack, join_surfaces
+from ....core.mesh import Surface, join_surfaces
 from ....core.moments import Moments, are_similarities
-from ....core.numerics import Array, Index, segment_starts
+from ....core.numerics import Array, segment_starts
 from ....core.polyhedron import extend_small_moments, polyhedron_moments, small_moments
 from ....core.shape import (
     MAX_AXIS_ORDER,
@@ -58,12 +58,13 @@ from ....core.shape.axial_harmonics import (
     turn_by_harmonics,
 )
 from ....core.shape.signatures import Signature, signature, signatures
+from ....core.solid import SmallSolid
 from ....core.verdict import OBJECT_SIZE, TOO_LARGE, Procedure, Source
 from ....core.verdict.finding import Finding, ReadError, finding
 from ...settings.options import MeasureOptions
-from ..measure_body import THREADS, MeasuredBody, measure_body
+from ..measure_body import THREADS, measure_body
 from ..measure_object import measured_in_turn
-from ..stack import MeasuredStack
+from ..stack import Measured, MeasuredStack
 from .surface_distance import EXACT_DISTANCE
 
 EQUAL_AXES_ATOL = 1e-12  # cosine: harmonics about axes nearer to each other are equal
@@ -286,7 +287,7 @@ class Shape:
         """Return Zernike descriptors of polygons to `order`, by quadrature above 20 and if raw
         moments lose digits.
         """
-        points = self.points_about_center()
+        points = np.concatenate([piece.used_points() - self.center for piece in self.pieces()])
         radius = float(np.sqrt((points * points).sum(axis=1).max()))
         # About the center and at about unit size, because high powers of a length soon exceed the
         # range of numbers.
@@ -350,10 +351,6 @@ class Shape:
         points = (whole.points.astype(np.float64) - self.center) / self.size
         return PlacedTriangles(points, whole.all_triangles()[0], near, far)
 
-    def points_about_center(self) -> Array:
-        """Return (n, 3) corners of all faces, relative to the center."""
-        return np.concatenate([piece.used_points() - self.center for piece in self.pieces()])
-
 
 class NoShapeError(ReadError):
     """The refusal of an object that can be measured, but has no shape of its own."""
@@ -370,7 +367,7 @@ def surface_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> S
     return surface_shape(measure_body(obj, depsgraph, SURFACE_OPTIONS))
 
 
-def surface_shape(measured: MeasuredBody) -> Shape:
+def surface_shape(measured: Measured) -> Shape:
     """Return the shape of a body that was measured with SURFACE_OPTIONS, which must have
     polygons.
     """
@@ -390,7 +387,7 @@ def shape_of(
     return shape_of_measured(measure_body(obj, depsgraph, options), options.threads)
 
 
-def shape_of_measured(measured: MeasuredBody, threads: int) -> Shape:
+def shape_of_measured(measured: Measured, threads: int) -> Shape:
     """Return the shape of a measured body, or raise NoShapeError if it has none."""
     measurement, body = measured.measurement, measured.body
     if body.mass is not None and not body.has_surface:
@@ -435,29 +432,24 @@ def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]
     linear = np.array([member.matrix[:3, :3] for member in stack.members])
     is_even = are_similarities(linear)
     determinant = np.linalg.det(linear)
-    solids = next((shape.solids for shape in stack.shapes if shape.solids is not None), None)
-    if solids is None:
-        return found
     # A body is a shape in its own coordinates, or the unevenly mapped shape of a single object.
     body_of: dict[tuple[int, int], int] = {}
-    rows = []
+    solids = []
     maps = []
     of_member = {}
     for i, member in enumerate(stack.members):
-        shape = stack.shapes[member.shape]
-        if shape.solids is None:
+        solid = stack.solids.solids[member.shape]
+        if not isinstance(solid, SmallSolid):
             continue
-        key = (shape.row, -1 if is_even[i] else i)
+        key = (member.shape, -1 if is_even[i] else i)
         if key not in body_of:
-            body_of[key] = len(rows)
-            rows.append(shape.row)
+            body_of[key] = len(solids)
+            solids.append(solid)
             maps.append(np.eye(3) if is_even[i] else linear[i])
         of_member[i] = body_of[key]
-    volume = solids.volume.at(np.array(rows))
-    centers = volume.about + volume.raw[:, 1:4] / volume.raw[:, :1]
-    of_bodies, scale = _signatures(
-        solids.caps.triangles, np.array(rows), np.array(maps), centers, order
-    )
+    if not solids:
+        return found
+    of_bodies, scale = _signatures(solids, maps, order)
     reach = np.finfo(np.float64).eps * np.abs(stack.mass_properties.center).max(axis=1)
     for i, body in of_member.items():
         own = of_bodies[body]
@@ -473,31 +465,29 @@ def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]
 
 
 def _signatures(
-    stack: TriangleStack, rows: Index, maps: NDArray, centers: NDArray, order: int
+    solids: list[SmallSolid], maps: list[NDArray], order: int
 ) -> tuple[list[Signature], Array]:
-    """Return the signatures of linearly mapped surfaces, each scaled to about unit size, and the
+    """Return the signatures of linearly mapped solids, each scaled to about unit size, and the
     (k,) scales.
     """
     points = []
     triangles = []
     first = 0
-    for row, linear, center in zip(rows.tolist(), maps, centers):
-        start = stack.first_point[row]
-        begin = stack.first_triangle[row]
-        own = (stack.points[start : start + stack.point_counts[row]] - center) @ linear.T
-        corners = stack.triangles[begin : begin + stack.triangle_counts[row]] - start + first
-        points.append(own)
-        triangles.append(corners[:, ::-1] if np.linalg.det(linear) < 0.0 else corners)
-        first += len(own)
-    counts = stack.triangle_counts[rows]
-    point_counts = stack.point_counts[rows]
+    for solid, linear in zip(solids, maps):
+        parts = solid.parts()
+        points.append((parts.points - solid.volume.center) @ linear.T)
+        step = -1 if np.linalg.det(linear) < 0.0 else 1
+        triangles.append(parts.triangles[:, ::step] + first)
+        first += len(parts.points)
+    counts = np.array([len(corners) for corners in triangles])
+    point_counts = np.array([len(own) for own in points])
     starts = segment_starts(point_counts)
     places = np.concatenate(points)
     radius = np.sqrt(np.maximum.reduceat((places * places).sum(axis=1), starts))
     scale = 2.0 ** np.frexp(radius)[1]  # a power of two rounds nothing
     places /= np.repeat(scale, point_counts)[:, None]
     reach = np.maximum.reduceat(np.abs(places), starts)
-    nothing = np.zeros((len(rows), 3))
+    nothing = np.zeros((len(solids), 3))
     joined = np.concatenate(triangles)
     volume = small_moments(
         places, joined, counts, nothing, reach, nothing, area=False, area_moments=False

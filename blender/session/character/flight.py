@@ -257,7 +257,8 @@ class CharacterMotion(BalanceGroup):
         # A turn about the momentum keeps it.
         axis = self.kept / max(float(np.linalg.norm(self.kept)), np.finfo(float).tiny)
         share = self.before / (self.before + self.after)
-        back = spin.rotation(-share * spin.angle_about(axis, spun[-1]) * axis)
+        twist = quaternion(spun[-1])
+        back = spin.rotation(-2.0 * share * np.arctan2(twist[1:] @ axis, twist[0]) * axis)
         moves[flight, :3, :3] = back @ spun
         for rows, frames in (
             (slice(None, flight.start), self.before),

@@ -7,30 +7,21 @@ symmetries and sections.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from itertools import groupby, repeat
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from bpy.types import Context, Object, Scene
 
+from .... import core
 from ....core.measurement import fingerprint
-from ....core.verdict import internal_error
+from ....core.verdict import Finding, internal_error
+from ... import bodies, read, settings
 from ...bodies.stack import Measured, MeasuredStack
-from ...read.fingerprint import matrix_hash, scale_hash, settings_hash
 from ...scale import meters_per_unit
-from ...settings.density import is_density_unset
 from ...write import properties, section
 from ..tracking import armatures, staleness, stamps
 from . import density, faults, reference, sliders
-
-if TYPE_CHECKING:
-    from ....core.shape import Symmetry
-    from ....core.verdict import Finding
-    from ...bodies.flat.flat import MeasuredSection
-    from ...bodies.flat.flat_shape import FlatShape
-    from ...bodies.rig import Rig
-    from ...bodies.shape.shape import Shape
 
 MAX_STORED_ELEMENTS = 32  # of a symmetry: nobody reads more for a ball or a fine prism
 
@@ -42,7 +33,7 @@ def store_many(
 ) -> Iterator[tuple[Object, Exception | None]]:
     """Store the results of objects; yield each with None, or the error that prevented it.
 
-    shapes: the `surface_digest` of objects that were read just now.
+    shapes: the `Surface.digest` of objects that were read just now.
     """
     for stack, run in groupby(measured, key=lambda item: item[1].stack):
         items = list(run)
@@ -62,8 +53,7 @@ def _store(obj: Object, found: Measured, values: dict[str, Any], scene: Scene) -
     """Write a measurement on the object; remember its faults, and the data for its sliders."""
     about = reference.stored_choice(obj)
     if found.stack is None:
-        found = replace(found, measurement=density.noted(obj, found.measurement, scene))
-        values = properties.values_of(found.measurement)
+        values = properties.values_of(density.noted(obj, found.measurement, scene))
     properties.store_values(obj, values)
     faults.remember(obj, found)
     reference.follow(obj, scene, about)
@@ -87,24 +77,26 @@ def store_measured(
 
 
 def _values_of_stack(part: MeasuredStack, scene: Scene) -> Iterator[dict[str, Any]]:
-    """Return the properties of the members of a stack."""
     findings = list(part.findings)
     for i, (member, from_mass) in enumerate(zip(part.members, part.from_mass.tolist())):
-        if not from_mass and is_density_unset(member.obj.body_moments, scene):
+        if not from_mass and settings.density.is_density_unset(member.obj.body_moments, scene):
             findings[i] = density.with_default_note(findings[i], "density")
-    methods = [part.shape(i).method for i in range(len(findings))]
     return properties.values_of_stack(
         part.mass_properties.in_frame(part.rotation, part.location),
         part.density,
         part.volume.raw[:, 0],
         part.area.raw[:, 0],
         part.error_bounds,
-        zip(methods, findings, part.fingerprints),
+        zip(part.methods, findings, part.fingerprints),
     )
 
 
 def store_symmetry(
-    obj: Object, shape: Shape | FlatShape, confirmed: Symmetry, allowed: Symmetry, tolerance: float
+    obj: Object,
+    shape: bodies.Shape | bodies.FlatShape,
+    confirmed: core.shape.Symmetry,
+    allowed: core.shape.Symmetry,
+    tolerance: float,
 ) -> None:
     """Store the symmetry that the surface confirms, and the group that the moments allow, on an
     object.
@@ -115,7 +107,9 @@ def store_symmetry(
     stored.tolerance = tolerance
     stored.of_display_mesh = shape.is_display_mesh
     stored.fingerprint = (
-        stamps.Stamp.parse(shape.fingerprint)._replace(transform=scale_hash(obj)).text
+        stamps.Stamp.parse(shape.fingerprint)
+        ._replace(transform=read.fingerprint.scale_hash(obj))
+        .text
     )
     stored.elements.clear()
     turn = shape.rotation.T
@@ -126,27 +120,33 @@ def store_symmetry(
         element.direction = local if local[np.argmax(np.abs(local))] > 0.0 else -local
 
 
-def _elements(found: Symmetry) -> list[tuple[str, int, np.ndarray]]:
+def _elements(found: core.shape.Symmetry) -> list[tuple[str, int, np.ndarray]]:
     axes = [("AXIS", order, axis) for axis, order in found.axes]
     if len(found.revolution_axes) == 1:
         axes = [("ROUND", 0, found.revolution_axes[0])]
     return [*axes, *(("PLANE", 0, normal) for normal in found.planes)]
 
 
-def store_sections(context: Context, sections: Sequence[tuple[Object, MeasuredSection]]) -> None:
+def store_sections(
+    context: Context, sections: Sequence[tuple[Object, bodies.MeasuredSection]]
+) -> None:
     """Store sections on their objects."""
     unit = meters_per_unit(context.scene)
     for obj, (found, description, findings) in sections:
         parts = (found.plane.origin, found.plane.axes.ravel(), found.second, found.centroid)
         numbers = np.concatenate([*parts, [found.area, found.perimeter]])
-        mark = fingerprint(numbers.tobytes(), matrix_hash(obj), settings_hash(obj, context.scene))
+        mark = fingerprint(
+            numbers.tobytes(),
+            read.fingerprint.matrix_hash(obj),
+            read.fingerprint.settings_hash(obj, context.scene),
+        )
         section.store(obj, found, description, findings, mark, unit)
     staleness.mark_stamps(
         context, [(obj, stamp) for obj, _ in sections if (stamp := stamps.of_section(obj))]
     )
 
 
-def store_rig(rig: Rig) -> list[tuple[str, Finding]]:
+def store_rig(rig: bodies.rig.Rig) -> list[tuple[str, Finding]]:
     """Store the results of all bones and the whole, or raise EditRefusedError; return bones
     without, and reasons.
     """

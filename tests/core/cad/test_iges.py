@@ -16,7 +16,7 @@ from body_moments.core.nurbs import Patch, area_moments, measure_patches
 from body_moments.core.verdict.finding import FileError
 from body_moments.tests.close import close
 from body_moments.tests.core.exact_splines import flux_moment, sphere, torus
-from body_moments.tests.core.iges_files import IgesFile, surface_fields, unrolled
+from body_moments.tests.core.iges_files import IgesFile, labels, surface_fields, unrolled
 
 from tests.core.polygons import arcs, polygon
 
@@ -32,7 +32,7 @@ def volume(file, number=0):
 
 
 def refused(file):
-    return {found.code: found.values["names"] for found in file.refused}
+    return {found.code: labels(found.values) for found in file.refused}
 
 
 def refusal(path, **limits):
@@ -196,7 +196,7 @@ def test_trimming_boundary_is_refused_by_name(tmp_path, curves):
     file = IgesFile()
     trimmed(file, curves)
     cause = refusal(file.write(tmp_path / "a.igs")).values["causes"][0]
-    assert (cause["code"], cause["values"]["names"]) == ("surface_trimmed", ["TRIM"])
+    assert (cause["code"], labels(cause["values"])) == ("surface_trimmed", ["TRIM"])
     file.surface(unrolled(torus()).transform(np.diag([1, 1, 1, 1]) + np.eye(4, k=3) * 9))
     read = read_surfaces(file.write(tmp_path / "a.igs"))
     assert refused(read) == {"surface_trimmed": ["TRIM"]} and close(
@@ -323,7 +323,7 @@ def test_other_surface_types_are_refused_and_curves_left_out(tmp_path):
         "surfaces_hidden": 1,
         "curves_left_out": 1,
     }
-    names = [(found.code, found.values["kind"], found.values["names"][0]) for found in read.refused]
+    names = [(found.code, found.values["kind"], labels(found.values)[0]) for found in read.refused]
     assert names == [
         ("surface_unsupported", "Parametric Spline Surface (114)", "VASE"),
         ("surface_damaged", "Manifold Solid B-Rep (186)", "D7"),
@@ -582,7 +582,7 @@ def test_dangling_pointer_is_damage(tmp_path):
     file.surface(unrolled(sphere()), matrix=99, label="FAR")
     file.surface(unrolled(sphere()), matrix=ball, label="OTHER")
     read = read_surfaces(file.write(tmp_path / "a.igs"))
-    assert [(found.code, found.values["names"]) for found in read.refused] == [
+    assert [(found.code, labels(found.values)) for found in read.refused] == [
         ("surface_damaged", ["PLACE"] * 3),
         ("surface_damaged", ["TRIM"]),
         ("surface_damaged", ["FAR", "OTHER"]),
@@ -703,3 +703,40 @@ def test_a_boundary_s_curve_that_lacks_numbers_is_damage(tmp_path, last, degree)
     file = IgesFile()
     trimmed(file, [(kind, [last, degree, *fields[2:]]), line(B, C), line(C, D), line(D, A)])
     assert refusal(file.write(tmp_path / "a.igs")).values["causes"][0]["code"] == "surface_damaged"
+
+
+def bounded_can(file, top=140):
+    """A cylinder of radius 2 and height 3 of bounded surfaces (143) with boundaries in space (141),
+    its upper end an offset plane (140) or another entity.
+    """
+    inner = {"status": "00010000"}
+    place, up = file.add(116, [0.0, 0.0, 0.0, 0], **inner), file.add(123, [0.0, 0.0, 1.0], **inner)
+    low, high = (file.add(100, [z, 0.0, 0.0, 2.0, 0.0, 2.0, 0.0], **inner) for z in (0.0, 3.0))
+    down = file.add(123, [0.0, 0.0, -1.0], **inner)
+    plane, bottom = (file.add(190, [place, way], **inner) for way in (up, down))
+    wall = file.add(192, [place, up, 2.0], **inner)
+    end = file.add(top, [0.0, 0.0, 1.0, 3.0, plane], **inner)
+    for base, circles in ((wall, (low, high)), (bottom, (low,)), (end, (high,))):
+        loops = [file.add(141, [0, 0, base, 1, one, 1, 0], **inner) for one in circles]
+        file.add(143, [0, base, len(loops), *loops])
+
+
+def test_bounded_surfaces_and_an_offset_plane_close_a_body(tmp_path):
+    file = IgesFile()
+    bounded_can(file)
+    read = read_surfaces(file.write(tmp_path / "a.igs"), for_blender=False)
+    body = measure_patches(read.bodies[0].patches)
+    assert read.refused == () and body.method == "exact"
+    assert abs(body.volume.total - 12.0 * np.pi) <= body.volume.rounding_error[0] <= 1e-10
+
+
+def test_body_with_a_refused_face_is_left_out_whole(tmp_path):
+    file = IgesFile()
+    bounded_can(file, 114)
+    with pytest.raises(FileError) as caught:
+        read_surfaces(file.write(tmp_path / "a.igs"), for_blender=False)
+    (cause,) = caught.value.finding.values["causes"]
+    assert cause["code"] == "surface_unsupported" and "D" in cause["values"]["names"][0]
+    file.surface(unrolled(torus()))
+    read = read_surfaces(file.write(tmp_path / "a.igs"), for_blender=False)
+    assert len(read.refused) == 1 and close(volume(read).total, DONUT, 1e-14)

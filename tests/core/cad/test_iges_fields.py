@@ -10,7 +10,7 @@ from body_moments.core.verdict.finding import FileError
 
 from tests.close import close
 from tests.core.exact_splines import sphere, torus
-from tests.core.iges_files import IgesFile, obj_text, surface_fields, unrolled
+from tests.core.iges_files import IgesFile, labels, obj_text, surface_fields, unrolled
 
 BALL = 4.0 / 3.0 * np.pi
 DONUT = 2.0 * np.pi**2 * 0.75 * 0.25**2
@@ -74,7 +74,7 @@ def test_parameters_of_another_entity_are_damage_despite_fit(tmp_path):
     assert lines[at].startswith("128,")
     lines[at] = "126," + lines[at][4:]
     found = read(tmp_path, lines)
-    assert [(one.code, one.values["names"]) for one in found.refused] == [
+    assert [(one.code, labels(one.values)) for one in found.refused] == [
         ("surface_damaged", ["OTHER"])
     ]
     assert close(total(found), DONUT, 1e-14)
@@ -95,7 +95,7 @@ def test_python_only_number_syntax_is_refused(tmp_path, word):
     file.add(128, [*fields[:-5], word, *fields[-4:]], label="WRONG")
     (tmp_path / "a.igs").write_bytes(file.text().encode("latin-1"))
     found = read_surfaces(tmp_path / "a.igs")
-    assert [(one.code, one.values["names"]) for one in found.refused] == [
+    assert [(one.code, labels(one.values)) for one in found.refused] == [
         ("surface_damaged", ["WRONG"])
     ]
 
@@ -125,7 +125,7 @@ def test_degrees_not_fitting_the_control_points_are_damage(tmp_path, degrees):
     file, fields = torus_beside()
     file.add(128, [*fields[:2], *degrees, *fields[4:]], label="WRONG")
     (found,) = read(tmp_path, file.text().splitlines()).refused
-    assert found.values["names"] == ["WRONG"] and found.code in (
+    assert labels(found.values) == ["WRONG"] and found.code in (
         "surface_damaged",
         "surface_beyond_limit",
     )
@@ -138,7 +138,7 @@ def test_impossible_control_point_count_is_damage(tmp_path, last):
         file.add(128, [*fields[:place], last, *fields[place + 1 :]], label="WRONG")
     file.add(128, [last, last, *fields[2:]], label="WRONG")
     (found,) = read(tmp_path, file.text().splitlines()).refused
-    assert found.code == "surface_damaged" and found.values["names"] == ["WRONG"] * 3
+    assert found.code == "surface_damaged" and labels(found.values) == ["WRONG"] * 3
 
 
 def obj(tmp_path, text):

@@ -2,14 +2,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Small solids measured together, compared with single measurements, however they are broken."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.solid import can_be_stacked, measure_left_over, measure_solid, measure_stack
+from body_moments.core.solid.measure import measure_alone, measure_solid, measure_stack
+from body_moments.core.solid.solid_stack import SmallSolid
 from body_moments.core.verdict import Intersection, Procedure
 
 from tests.close import close
 from tests.core.bodies import hourglass, mesh, moved
+from tests.core.findings import refused
 
 CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
 SIDES = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
@@ -115,8 +119,9 @@ def agree(one, other):
 
 
 def assert_alike(stack, i, surface):
-    alone, together = measure_solid(surface), stack.health(i)
-    assert alone.method is (Procedure.CAPPED if stack.caps.is_capped[i] else Procedure.EXACT)
+    alone, row = measure_alone(surface), stack[i]
+    together, found_together = row.health, row.findings
+    assert alone.method is row.method
     for one, other in ((alone.volume, stack.volume.at(i)), (alone.area, stack.area.at(i))):
         assert (np.abs(one.raw - other.raw) <= one.rounding_error).all()
         assert agree(one.about, other.about)
@@ -127,25 +132,49 @@ def assert_alike(stack, i, surface):
     assert np.array_equal(one.boundary_edges, other.boundary_edges)
     findings = [
         [(found.code, found.values, np.asarray(found.elements).tolist()) for found in several]
-        for several in (alone.findings, stack.findings(i))
+        for several in (alone.findings, found_together)
     ]
     assert agree(findings[0], findings[1])
+    assert close(row.exact_third_order().total, alone.volume.total, 1e-9)
+    first, second = alone.parts(), row.parts()
+    assert first.number == second.number and first.host_part.tolist() == second.host_part.tolist()
+    assert np.array_equal(first.triangles, second.triangles) and agree(first.points, second.points)
+    assert np.array_equal(first.face, second.face)
+    # the numbers of components may differ
+    assert len(np.unique(np.stack([first.part, second.part], axis=1), axis=0)) == first.number
 
 
-@pytest.mark.parametrize("seed", range(4))
-def test_stacked_bodies_match_single_measurements(seed):
+def is_together(stack):
+    return [isinstance(solid, SmallSolid) for solid in stack.solids]
+
+
+FORMS = {
+    "a mesh of its own edges": lambda surface: surface,
+    "float64": lambda surface: replace(surface, points=surface.points.astype(float)),
+    "triangles alone": lambda surface: Surface(surface.points, surface.all_triangles()[0]),
+}
+
+
+@pytest.mark.parametrize(
+    "seed, form",
+    [
+        *((seed, FORMS["a mesh of its own edges"]) for seed in range(3)),
+        *((3, form) for form in FORMS.values()),
+    ],
+)
+def test_stacked_bodies_match_single_measurements(seed, form):
     rng = np.random.default_rng(seed)
-    surfaces = [
-        surface for surface in (body(rng) for _ in range(250)) if can_be_stacked([surface])[0]
-    ]
+    surfaces = [form(body(rng)) for _ in range(250)]
     stack = measure_stack(surfaces)
-    measured = np.flatnonzero(stack.is_measured)
-    assert 20 < np.count_nonzero(stack.caps.is_capped[measured]) < len(measured) - 20
+    measured = np.flatnonzero(is_together(stack))
+    methods = [stack[i].method for i in measured.tolist()]
+    assert 20 < methods.count(Procedure.CAPPED) < len(measured) - 20
     for i in measured.tolist():
         assert_alike(stack, i, surfaces[i])
-    assert stack.is_integrated[~stack.is_measured].any()
-    for i in np.flatnonzero(~stack.is_measured).tolist():
-        assert_same(measure_left_over(stack, i, surfaces[i]), measure_solid(surfaces[i]))
+    small = stack[int(measured[0])].stack
+    assert small.is_integrated[~small.is_measured].any()
+    for i in np.flatnonzero(~np.array(is_together(stack))).tolist():
+        assert_same(stack[i], measure_alone(surfaces[i]))
 
 
 def assert_same(first, second):
@@ -196,7 +225,7 @@ NOT_TOGETHER = {
 def test_bodies_needing_more_than_caps_are_left_to_repair(name):
     whole_one = open_box()
     stack = measure_stack([whole_one, NOT_TOGETHER[name](), whole_one])
-    assert stack.is_measured.tolist() == [True, False, True]
+    assert is_together(stack) == [True, False, True]
     for i in (0, 2):
         assert_alike(stack, i, whole_one)
 
@@ -216,11 +245,8 @@ def test_a_diagonal_along_an_edge_is_left_to_be_repaired():
         renumbered = mesh(
             points[np.argsort(numbers)], [numbers[face].tolist() for face in faces], np.float32
         )
-        assert measure_stack([open_box(), renumbered, open_box()]).is_measured.tolist() == [
-            True,
-            False,
-            True,
-        ]
+        stack = measure_stack([open_box(), renumbered, open_box()])
+        assert is_together(stack) == [True, False, True]
 
 
 @pytest.mark.parametrize("way", [1, -1])
@@ -232,7 +258,7 @@ def test_bodies_needing_scaled_sums_are_measured_alone(way):
     )
     surfaces = [mesh((2.0 * CORNERS - 1.0) * size, SIDES, np.float32) for size in (1.0, far, near)]
     stack = measure_stack(surfaces)
-    assert stack.is_measured.tolist() == [True, False, True]
+    assert is_together(stack) == [True, False, True]
     for i in (0, 2):
         assert_alike(stack, i, surfaces[i])
 
@@ -246,7 +272,7 @@ def test_star_shaped_bodies_are_proved_together():
     surfaces = [mesh(points, triangles.tolist(), np.float32) for points, triangles in parts]
     for several in (surfaces, surfaces[:2], surfaces[2:]):
         stack = measure_stack(several)
-        assert stack.is_measured.all() and (stack.intersection == Intersection.EXCLUDED).all()
+        assert {row.health.self_intersection for row in stack.solids} == {Intersection.EXCLUDED}
         for i, surface in enumerate(several):
             assert_alike(stack, i, surface)
 
@@ -277,9 +303,18 @@ def test_warped_quads_are_compared_as_drawn():
 def test_stack_of_any_size_gives_no_numpy_warning(size):
     stack = measure_stack([mesh(CORNERS * size, SIDES, np.float32)] * 2)
     assert close(stack.volume.raw[:, 0], [size**3] * 2, 1e-14)
-    assert stack.is_measured.all() == (size < 2.0**100)
+    assert all(is_together(stack)) == (size < 2.0**100)
 
 
-def test_an_empty_mesh_has_no_place_in_a_stack_and_no_error():
-    empty = Surface(np.zeros((0, 3), np.float32), np.zeros((0, 3), int))
-    assert can_be_stacked([empty]) == [False] and empty.coordinate_error.tolist() == [0.0] * 3
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_refused_surfaces_leave_the_rest_of_their_stack(dtype):
+    whole_one = mesh(CORNERS, SIDES, dtype)
+    empty = Surface(np.zeros((0, 3), dtype), np.zeros((0, 3), int))
+    lost = mesh(CORNERS * [1, 1, np.nan], SIDES, dtype)
+    stack = measure_stack([empty, whole_one, lost, whole_one])
+    assert stack.volume.raw[:, 0].tolist() == [0.0, 1.0, 0.0, 1.0]
+    assert stack.area.raw[:, 0].tolist() == [0.0, 6.0, 0.0, 6.0]
+    for i, code in ((0, "no_faces"), (2, "non_finite_vertices")):
+        with refused(code):
+            stack[i]
+    assert empty.coordinate_error.tolist() == [0.0] * 3

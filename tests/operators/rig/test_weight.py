@@ -219,23 +219,17 @@ def test_contacts_in_the_air_are_refused(scene):
     refused(rig, BALANCE, "Nothing touches the ground.*Set Ground|Lower the pose")
 
 
-def test_zero_gravity_is_refused(scene):
-    rig, _body = posed(show=False)
-    scene.use_gravity = False
-    refused(rig, SHOW, "no gravity")
-    refused(rig, BALANCE, "no gravity")
-    assert not rig.body_moments_weight.show and "body_mass" not in rig
-
-
-@pytest.mark.parametrize("missing", ["mesh", "weights"])
-def test_rig_without_skin_is_refused(scene, missing):
+@pytest.mark.parametrize("missing", ["mesh", "weights", "gravity"])
+def test_rig_without_skin_or_gravity_is_refused(scene, missing):
     rig, body = posed(show=False)
     if missing == "mesh":
         bpy.data.objects.remove(body)
-    else:
+    elif missing == "weights":
         body.vertex_groups.clear()
-    refused(rig, SHOW, "assign weights")
-    refused(rig, BALANCE, "assign weights")
+    else:
+        scene.use_gravity = False
+    for operator in (SHOW, BALANCE):
+        refused(rig, operator, "no gravity" if missing == "gravity" else "assign weights")
     assert not rig.body_moments_weight.show and "body_mass" not in rig
 
 
