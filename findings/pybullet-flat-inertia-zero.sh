@@ -9,7 +9,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 python3 -m venv env
-env/bin/pip install -q pybullet==3.2.7
+env/bin/pip install -q pybullet==3.2.7 numpy==2.4.6
 env/bin/python - <<'PYTHON'
 import importlib.metadata
 
@@ -18,13 +18,15 @@ import pybullet
 pybullet.connect(pybullet.DIRECT)
 moments = []
 for largest in ("3", "3.000000000003"):
-    with open("robot.urdf", "w") as file:
+    name = "robot{}.urdf".format(largest)  # It caches files by their names.
+    with open(name, "w") as file:
         file.write(
-            '<robot name="r"><link name="a"><inertial><mass value="1"/><inertia ixx="1" iyy="2" '
-            'izz="{}" ixy="0" ixz="0" iyz="0"/></inertial></link></robot>'.format(largest)
+            '<robot name="r"><link name="a"/><link name="b"><inertial><mass value="1"/><inertia '
+            'ixx="1" iyy="2" izz="{}" ixy="0" ixz="0" iyz="0"/></inertial></link><joint name="j" '
+            'type="fixed"><parent link="a"/><child link="b"/></joint></robot>'.format(largest)
         )
-    body = pybullet.loadURDF("robot.urdf", flags=pybullet.URDF_USE_INERTIA_FROM_FILE)
-    moments.append(pybullet.getDynamicsInfo(body, -1)[2])
+    body = pybullet.loadURDF(name, flags=pybullet.URDF_USE_INERTIA_FROM_FILE)
+    moments.append(pybullet.getDynamicsInfo(body, 0)[2])
 print("pybullet", importlib.metadata.version("pybullet"), moments)
 assert moments == [(1.0, 2.0, 3.0), (0.0, 0.0, 0.0)]
 PYTHON

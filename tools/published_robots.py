@@ -81,11 +81,13 @@ robots`.
 """
 
 
-def reports_of(package: str, folder: Path) -> list[list[dict]]:
-    """Return the report documents of a package's descriptions, and of the repaired ones again."""
+def reports_of(package: str, folder: Path, python: str) -> tuple[list[dict], list[dict], Counter]:
+    """Return the report documents of a package's descriptions, of the repaired ones again, and the
+    counts of compared totals.
+    """
     name = package.partition("==")[0].replace("-", "_")
     content, copies = folder / name, folder / "copies"
-    reports = folder / (name + ".json"), folder / (name + "_repaired.json")
+    reports = [folder / (name + end + ".json") for end in ("", "_repaired", "_totals")]
     if not all(report.is_file() for report in reports):
         shutil.rmtree(content, ignore_errors=True)
         shutil.rmtree(copies, ignore_errors=True)
@@ -99,6 +101,8 @@ def reports_of(package: str, folder: Path) -> list[list[dict]]:
         command = [sys.executable, ROOT / "operators" / "batch.py", "audit", "--format", "json"]
         command += ["--fail-on", "never", "--root", content, "--force", "--output"]
         subprocess.run([*command, reports[0], "--repair", copies, content], check=False)
+        counts = compare_totals(documents_of(reports[0]), python)
+        reports[2].write_text(json.dumps(counts), encoding="utf-8")
         repaired = [one.relative_to(copies) for one in copies.rglob("*") if one.is_file()]
         shutil.copytree(copies, content, dirs_exist_ok=True)
         reports[1].write_text("[]", encoding="utf-8")
@@ -106,8 +110,14 @@ def reports_of(package: str, folder: Path) -> list[list[dict]]:
             again = [content / one for one in repaired]
             subprocess.run([*command, reports[1], *again], check=False)
         shutil.rmtree(copies)
-    found = [json.loads(report.read_text(encoding="utf-8")) for report in reports]
-    return [documents if isinstance(documents, list) else [documents] for documents in found]
+    before, after = map(documents_of, reports[:2])
+    return before, after, Counter(json.loads(reports[2].read_text(encoding="utf-8")))
+
+
+def documents_of(report: Path) -> list[dict]:
+    """Return the documents of a report, which is one alone for one file."""
+    documents = json.loads(report.read_text(encoding="utf-8"))
+    return documents if isinstance(documents, list) else [documents]
 
 
 def repairs_of(before: list[dict], after: list[dict]) -> Counter:
@@ -133,7 +143,7 @@ def compare_totals(documents: list[dict], python: str) -> Counter:
     """
     counts: Counter = Counter(compared=0, differ=0)
     for program, form in (("pinocchio", "urdf"), ("mujoco", "mjcf")):
-        several = [one for one in documents if one["format"] == form and one["total"]["mass"]]
+        several = [one for one in documents if one["format"] == form and one["links"]]
         command = [python, ROOT / "tests" / "robots" / "consumers.py", program]
         command += [one["file"] for one in several]
         done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True)
@@ -188,11 +198,9 @@ def main() -> None:
     rows, total = [], Counter()
     for package in PACKAGES:
         largest: dict[str, dict] = {}
-        reports = reports_of(package, folder)
-        total += repairs_of(*reports)
-        now = {one["file"]: one for one in [*reports[0], *reports[1]] if one["links"]}
-        total += compare_totals([*now.values()], options.python or str(CONSUMERS))
-        for document in reports[0]:
+        before, after, counts = reports_of(package, folder, options.python or str(CONSUMERS))
+        total += repairs_of(before, after) + counts
+        for document in before:
             known = largest.get(document["robot"])
             if document["links"] and (
                 known is None or len(document["links"]) > len(known["links"])

@@ -62,8 +62,8 @@ CONSUMERS = {
         ["pybullet==3.2.7"],
         {
             "urdf": "with `URDF_USE_INERTIA_FROM_FILE`",
-            "mjcf": "inertia of the geoms",
-            "sdf": "knows no quaternions",
+            "mjcf": "inertia of the geoms, some masses and places off",
+            "sdf": "neither places nor inertia of the file",
         },
     ),
     "PyBullet 3.2.7, no flag": (
