@@ -455,7 +455,10 @@ def test_sdf_has_a_joint_and_a_light_link_for_each_axis():
         masses = {
             link.get("name"): float(link.findtext("inertial/mass")) for link in root.iter("link")
         }
-        assert below == "arm" and masses["arm_axis_1"] == masses["arm"] * 2.0**-20
+        true = robot.link("arm").inertial.mass
+        assert below == "arm" and masses["arm_axis_1"] == true * 2.0**-20
+        parts = [mass for name, mass in masses.items() if name.startswith("arm")]
+        assert abs(sum(parts) / true - 1.0) < 1e-15
 
 
 def test_links_on_fixed_joints_alone_have_a_note():
