@@ -46,7 +46,7 @@ def target_of(context: Context, target: str) -> Root:
     return data
 
 
-def measured_assembly(context: Context, target: str) -> "bodies.assembly.assembly.Assembly":
+def measured_assembly(context: Context, target: str) -> "bodies.Assembly":
     """Measure an operator's assembly as it is now; raise MeasureError if it has no mass."""
     depsgraph = context.evaluated_depsgraph_get()
     return bodies.measure_assembly(target_of(context, target), depsgraph)
@@ -67,7 +67,7 @@ class OBJECT_OT_body_moments_measure_assembly(modal.ModalSteps, Operator):
         data = target_of(context, self.target)
         properties.require_storable(data)
         self._member = read.assembly.members_of(data, depsgraph)
-        self._results: bodies.assembly.assembly.Results = {}
+        self._results: bodies.Results = {}
         self._steps = bodies.measure_members(self._member, depsgraph, self._results)
         return sum(member.is_measured for member in self._member.walk())
 
@@ -148,9 +148,7 @@ class VIEW3D_OT_body_moments_cursor_to_assembly(_SnapToAssembly, Operator):
         name="Rotate to Principal Axes", description="Align the 3D cursor with the principal axes"
     )
 
-    def _place(
-        self, context: Context, assembly: "bodies.assembly.assembly.Assembly", center: list[float]
-    ) -> str:
+    def _place(self, context: Context, assembly: "bodies.Assembly", center: list[float]) -> str:
         context.scene.cursor.location = center
         if self.rotate:
             turn_cursor(
@@ -168,9 +166,7 @@ class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
     bl_idname = "object.body_moments_assembly_empty"
     bl_label = "Add Empty at Assembly"
 
-    def _place(
-        self, context: Context, assembly: "bodies.assembly.assembly.Assembly", center: list[float]
-    ) -> str:
+    def _place(self, context: Context, assembly: "bodies.Assembly", center: list[float]) -> str:
         root = assembly.root.member.data
         body = assembly.measurement.mass_properties
         # nothing else can point to it
@@ -205,9 +201,7 @@ class OBJECT_OT_body_moments_assembly_origin(_SnapToAssembly, Operator):
         "whose children stay where they are"
     )
 
-    def _place(
-        self, context: Context, assembly: "bodies.assembly.assembly.Assembly", center: list[float]
-    ) -> str:
+    def _place(self, context: Context, assembly: "bodies.Assembly", center: list[float]) -> str:
         root = assembly.root.member.data
         if isinstance(root, bpy.types.Collection):
             scene.changes.require_editable(root)

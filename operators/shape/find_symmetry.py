@@ -91,7 +91,7 @@ class OBJECT_OT_body_moments_find_symmetry(modal.ModalSteps, selection.OnSelecti
         self._results: list[
             tuple[
                 Object,
-                bodies.shape.shape.Shape | bodies.FlatShape,
+                bodies.Shape | bodies.FlatShape,
                 core.shape.Symmetry,
                 core.shape.Symmetry,
             ]

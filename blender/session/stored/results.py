@@ -93,7 +93,7 @@ def _values_of_stack(part: MeasuredStack, scene: Scene) -> Iterator[dict[str, An
 
 def store_symmetry(
     obj: Object,
-    shape: bodies.shape.shape.Shape | bodies.FlatShape,
+    shape: bodies.Shape | bodies.FlatShape,
     confirmed: core.shape.Symmetry,
     allowed: core.shape.Symmetry,
     tolerance: float,
@@ -128,7 +128,7 @@ def _elements(found: core.shape.Symmetry) -> list[tuple[str, int, np.ndarray]]:
 
 
 def store_sections(
-    context: Context, sections: Sequence[tuple[Object, bodies.flat.flat.MeasuredSection]]
+    context: Context, sections: Sequence[tuple[Object, bodies.MeasuredSection]]
 ) -> None:
     """Store sections on their objects."""
     unit = meters_per_unit(context.scene)
