@@ -122,7 +122,7 @@ def _correct(
                 doubts[obj.name] = "".join(unsure[:1]) or "names are not unique"
     place_objects(places)
     for obj, points in skinned:
-        show_points(obj, points)
+        show_points(obj, points, np.eye(4))
     return doubts
 
 

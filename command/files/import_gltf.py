@@ -23,7 +23,7 @@ from ...core.files import FILE_UNREADABLE, MALFORMED, GltfFile, map_file, node_m
 from ...core.numerics import Array
 from ...core.verdict.finding import FileError, Finding, finding
 from ..findings import FILE_HIDES, PLACES_UNCHECKED
-from .placing import MOST_WEIGHT, measure_at, place_objects, show_points, shown_seconds
+from .placing import measure_at, place_objects, show_points, shown_seconds
 from .references import Opened
 
 ADD_ON = "io_scene_gltf2"  # It comes with Blender, and may be switched off.
@@ -33,7 +33,6 @@ _NO_DECODER = (
     "this Blender lacks the library that decodes {} compression. Measure it with another "
     "Blender 5 (blender -b, not the Python module bpy), or export it without compression"
 )
-_SAME_WEIGHT = 1e-6  # larger than the rounding of float32
 _PARTS = "translation", "rotation", "scale", "weights"
 
 
@@ -41,12 +40,11 @@ class _Shown(NamedTuple):
     """The node whose mesh an object shows.
 
     number: of the node. local: (4, 4) the place of an instance in the node, in Blender's axes.
-    keys: the shape key of each morph target, None without one. is_skinned: joints place it.
+    is_skinned: joints place it.
     """
 
     number: int
     local: Array
-    keys: tuple[str | None, ...]
     is_skinned: bool
 
 
@@ -125,14 +123,13 @@ def _node_of(vnode: Any, gltf: Any) -> _Shown:
     is_instance = vnode.mesh_node_idx is None
     number = vnode.parent if is_instance else vnode.mesh_node_idx
     node = gltf.data.nodes[number]
-    keys = tuple(gltf.data.meshes[node.mesh].shapekey_names)
     if not is_instance:
-        return _Shown(number, np.eye(4), keys, node.skin is not None)
+        return _Shown(number, np.eye(4), node.skin is not None)
     translation, rotation, scale = vnode.trs()
     local = node_matrix(
         {"translation": translation, "rotation": np.roll(rotation, -1), "scale": scale}
     )
-    return _Shown(number, local, keys, False)
+    return _Shown(number, local, False)
 
 
 class _Pose:
@@ -172,26 +169,30 @@ class _Pose:
         rest = node.get("weights") or self._document["meshes"][node["mesh"]].get("weights", ())
         return np.array(self._animated.get(number, {}).get("weights", rest), np.float64)
 
-    def skinned(self, number: int) -> Array:
-        """Return the (n, 3) points of a node with joints in the world, in the file's axes, in the
-        order of Blender's vertices.
+    def points(self, number: int) -> Array:
+        """Return the (n, 3) points of a node's mesh in the file's axes, in the order of Blender's
+        vertices: moved by weights, and by joints, if it has some, into the world.
         """
         node = self._nodes[number]
-        skin = self._document["skins"][node["skin"]]
+        skin = self._document["skins"][node["skin"]] if "skin" in node else {"joints": ()}
         joints = np.array([self.place(joint) for joint in skin["joints"]])
         if "inverseBindMatrices" in skin:
             inverse = self._file.numbers(skin["inverseBindMatrices"]).reshape(-1, 4, 4)
             joints = joints @ inverse.transpose(0, 2, 1)
         blocks = [np.empty((0, 3))]
         for part in self._document["meshes"][node["mesh"]]["primitives"]:
-            arrays = {name: self._file.numbers(one) for name, one in part["attributes"].items()}
+            arrays = {
+                name: self._file.numbers(accessor)
+                for name, accessor in part["attributes"].items()
+                if name.startswith(("POSITION", "JOINTS_", "WEIGHTS_"))
+            }
             points = np.ones((len(arrays["POSITION"]), 4))
-            points[:, :3] = arrays["POSITION"]
+            points[:, :3] = arrays.pop("POSITION")
             for weight, target in zip(self.weights(number), part.get("targets", ())):
                 if weight and "POSITION" in target:
                     points[:, :3] += weight * self._file.numbers(target["POSITION"])
-            moved = np.zeros_like(points)
-            for name in (name for name in arrays if name.startswith("JOINTS_")):
+            moved = np.zeros_like(points) if "skin" in node else points
+            for name in (name for name in arrays if "skin" in node and name[0] == "J"):
                 shares = arrays["WEIGHTS" + name[6:]]
                 for joint, share in zip(arrays[name].T.astype(int), shares.T):
                     moved += share[:, None] * (joints[joint] @ points[..., None])[..., 0]
@@ -249,40 +250,19 @@ def _sampled(file: GltfFile, sampler: dict[str, Any], seconds: float, part: str)
 
 
 def _correct(pose: _Pose, shown: dict[str, _Shown]) -> None:
-    """Bring objects to the places, shape keys to the weights, and vertices that joints move to the
-    points, that a file states.
+    """Bring objects to the places, and vertices that weights or joints move to the points, that a
+    file states.
     """
-    weighted: set[bpy.types.Key] = set()
+    places = {
+        name: UPRIGHT @ pose.place(node.number) @ np.linalg.inv(UPRIGHT) @ node.local
+        for name, node in shown.items()
+        if not node.is_skinned
+    }
+    place_objects(places)
     for name, node in shown.items():
-        shapes = bpy.data.objects[name].data.shape_keys
-        if shapes is not None and shapes not in weighted:
-            weighted.add(shapes)
-            for key, weight in zip(node.keys, pose.weights(node.number)):
-                if key is not None:
-                    _set_weight(shapes, shapes.key_blocks[key], float(weight))
-    place_objects(
-        {
-            name: UPRIGHT @ pose.place(node.number) @ np.linalg.inv(UPRIGHT) @ node.local
-            for name, node in shown.items()
-            if not node.is_skinned
-        }
-    )
-    for name, node in shown.items():
-        if node.is_skinned:
-            show_points(bpy.data.objects[name], pose.skinned(node.number) @ UPRIGHT[:3, :3].T)
-
-
-def _set_weight(shapes: bpy.types.Key, block: bpy.types.ShapeKey, weight: float) -> None:
-    """Give a shape key its weight; if that is beyond Blender's limit, its offsets grow instead."""
-    if abs(block.value - weight) <= _SAME_WEIGHT * max(1.0, abs(weight)):
-        return
-    shapes.animation_data_clear()
-    growth = 2.0 ** max(0, math.ceil(math.log2(max(abs(weight), 1.0) / MOST_WEIGHT)))
-    if growth > 1.0:
-        rest, offset = (np.empty(3 * len(one.data), np.float32) for one in (block, block))
-        block.relative_key.data.foreach_get("co", rest)
-        block.data.foreach_get("co", offset)
-        block.data.foreach_set("co", rest + np.float32(growth) * (offset - rest))
-    block.slider_min = -MOST_WEIGHT
-    block.slider_max = MOST_WEIGHT
-    block.value = weight / growth
+        obj = bpy.data.objects[name]
+        blocks = getattr(obj.data.shape_keys, "key_blocks", ())
+        is_mixed = pose.weights(node.number).any() or any(block.value for block in blocks)
+        if node.is_skinned or is_mixed:
+            points = pose.points(node.number) @ UPRIGHT[:3, :3].T
+            show_points(obj, points, places.get(name, np.eye(4)))

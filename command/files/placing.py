@@ -82,8 +82,9 @@ def place_objects(places: Mapping[str, Array]) -> None:
     bpy.context.view_layer.update()
 
 
-def show_points(obj: bpy.types.Object, points: Array) -> None:
-    """Move the vertices of a mesh object to (n, 3) points in the world, without modifiers and keys.
+def show_points(obj: bpy.types.Object, points: Array, place: Array) -> None:
+    """Move the vertices of a mesh object to (n, 3) points in a (4, 4) place, without modifiers and
+    keys.
 
     ValueError if their counts differ.
     """
@@ -92,8 +93,8 @@ def show_points(obj: bpy.types.Object, points: Array) -> None:
         raise ValueError("points")
     obj.modifiers.clear()
     obj.shape_key_clear()
-    place = np.eye(4)
-    place[:3, 3] = points.mean(axis=0)
-    local = (points - place[:3, 3]).astype(np.float32)
+    middle = np.eye(4)
+    middle[:3, 3] = points.mean(axis=0)
+    local = (points - middle[:3, 3]).astype(np.float32)
     obj.data.attributes["position"].data.foreach_set("vector", local.ravel())
-    place_objects({obj.name: place})
+    place_objects({obj.name: place @ middle})

@@ -52,6 +52,7 @@ from .quadrature import triangle_rule as triangle_rule
 from .rotations import along_x as along_x
 from .rotations import polar_rotation as polar_rotation
 from .rotations import quaternion as quaternion
+from .rotations import rotation_about as rotation_about
 from .rotations import rotation_array as rotation_array
 from .rotations import rotation_matrix as rotation_matrix
 from .vectors import Number as Number

@@ -40,6 +40,13 @@ def rotation_matrix(quaternion: ArrayLike) -> Array:
     return np.array(rows).T.swapaxes(-1, -2)
 
 
+def rotation_about(axis: NDArray, angle: float) -> Array:
+    """Return the (3, 3) rotation about a (3,) axis of any length."""
+    return rotation_matrix(
+        [np.cos(angle / 2.0), *(np.sin(angle / 2.0) / np.linalg.norm(axis) * axis)]
+    )
+
+
 def quaternion(rotation: ArrayLike) -> Array:
     """Convert a rotation matrix to a unit quaternion.
 

@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..density import POUND
 from ..numerics import Array, rotation_matrix, second_of_inertia
 from ..verdict.finding import Finding, finding
 from .findings import (
@@ -45,7 +46,7 @@ DIFFERS = 1e-2
 UNEQUAL = 0.05  # Least difference of principal moments that were exchanged.
 MIXED = 0.618  # Factor of one of two tensors in a sum, in which equal sums are unlikely.
 ROUNDING = 1e-9  # Relative differences below are none, and do not choose between changes.
-INCH, POUND = 0.0254, 0.45359237
+INCH = 0.0254
 LENGTH_UNITS = (1e-3, 1e-2, 1e3, 1e2, INCH, 1.0 / INCH)
 # lb·in², lb·ft², oz·in²
 IMPERIAL_INERTIAS = (

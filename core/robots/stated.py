@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics import Array, rotation_matrix
+from ..numerics import Array, rotation_about
 from ..verdict import Finding
 from .model import Inertial, Pose, Shape
 
@@ -250,13 +250,6 @@ class Description:
     total: float = 0.0
     joints: tuple[StatedJoint, ...] = ()
     findings: tuple[Finding, ...] = ()
-
-
-def rotation_about(axis: NDArray, angle: float) -> Array:
-    """Return the (3, 3) rotation about a (3,) axis of any length."""
-    return rotation_matrix(
-        [np.cos(angle / 2.0), *(np.sin(angle / 2.0) / np.linalg.norm(axis) * axis)]
-    )
 
 
 def rotation_of_angles(roll: float, pitch: float, yaw: float) -> Array:

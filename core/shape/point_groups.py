@@ -18,8 +18,8 @@ from functools import cached_property
 import numpy as np
 
 from ..mesh import Bvh, tree_of_all
-from ..numerics import Array, Index, Mask, NDArray, cross_rows, lengths
-from .symmetries import Symmetry, axis_rotation
+from ..numerics import Array, Index, Mask, NDArray, cross_rows, lengths, rotation_about
+from .symmetries import Symmetry
 
 MAX_CORNERS = 4096  # farthest corners that are compared with each other
 MAX_CANDIDATES = 1 << 17
@@ -128,12 +128,12 @@ class PlacedTriangles:
             np.abs(height - height[outer]) <= 2.0 * self.far
         )
         count = len(self._distinct(np.flatnonzero(is_ring)))
-        return count if self._misfit(axis_rotation(axis, 2.0 * np.pi / count)) <= self.near else 1
+        return count if self._misfit(rotation_about(axis, 2.0 * np.pi / count)) <= self.near else 1
 
     def is_round(self, found: Symmetry, tolerance: float) -> bool:
         """Return whether turns about the axes of revolution hold within the tolerance."""
         turns = [
-            axis_rotation(axis, angle)
+            rotation_about(axis, angle)
             for axis in found.revolution_axes
             for angle in (1.0, 0.1, 0.01)
         ]

@@ -154,13 +154,6 @@ def _reverses_axis(operations: NDArray, axis: NDArray) -> Mask:
     return (operations @ axis) @ axis < 0.0
 
 
-def axis_rotation(axis: NDArray, angle: float) -> Array:
-    """Return the (3, 3) rotation about an axis, by Rodrigues' formula."""
-    x, y, z = axis
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross
-
-
 def _schoenflies(symmetry_found: Symmetry) -> str:
     axes = symmetry_found.axes
     planes = symmetry_found.planes

@@ -33,11 +33,11 @@ from ...files import (
     parse_wholes,
 )
 from ...mesh import Surface
-from ...numerics import Array
+from ...numerics import Array, rotation_about
 from ...streams import StlFile
 from ...verdict.finding import FileError, finding, system_reason
 from ..findings import MESH_UNREADABLE
-from ..stated import MOST, rotation_about
+from ..stated import MOST
 from .xml import MAX_DEPTH, Node, parse
 
 Arrays = tuple[NDArray[np.floating], NDArray[np.integer]]

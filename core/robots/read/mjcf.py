@@ -19,7 +19,13 @@ from numpy.typing import NDArray
 
 from ...files import parse_numbers
 from ...mesh import Surface, convex_hull
-from ...numerics import Array, inertia_of_second, rotation_matrix, second_of_inertia
+from ...numerics import (
+    Array,
+    inertia_of_second,
+    rotation_about,
+    rotation_matrix,
+    second_of_inertia,
+)
 from ...verdict import Finding, MeasureError
 from ..model import Pose, Shape
 from ..stated import (
@@ -33,7 +39,6 @@ from ..stated import (
     StatedJoint,
     StatedLink,
     StatedShape,
-    rotation_about,
 )
 from .meshes import checked_surface
 from .mjcf_meshes import LEGACY, WATER, Fit, Weight, builtin_surface

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ...files import parse_number
 from ...mesh import Surface
-from ...numerics import Array, polar_rotation, rotation_matrix
+from ...numerics import Array, polar_rotation, rotation_about, rotation_matrix
 from ...verdict.finding import FileError, Finding, finding
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER
 from ..model import Pose, Shape
@@ -33,7 +33,6 @@ from ..stated import (
     StatedJoint,
     StatedLink,
     StatedShape,
-    rotation_about,
 )
 from .meshes import checked_surface
 from .mjcf_meshes import CLOSED, WATER, Weight

@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.mesh.surface_stack import SurfaceStack
 from body_moments.core.solid.measure import measure_alone, measure_solid, measure_stack
 from body_moments.core.solid.solid_stack import SmallSolid
 from body_moments.core.verdict import Intersection, Procedure
 
 from tests.close import close
 from tests.core.bodies import hourglass, mesh, moved
+from tests.core.findings import refused
 
 CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
 SIDES = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
@@ -306,8 +306,15 @@ def test_stack_of_any_size_gives_no_numpy_warning(size):
     assert all(is_together(stack)) == (size < 2.0**100)
 
 
-def test_an_empty_mesh_has_no_place_in_a_stack_and_no_error():
-    empty = Surface(np.zeros((0, 3), np.float32), np.zeros((0, 3), int))
-    assert (
-        SurfaceStack.takes([empty], 9) == [False] and empty.coordinate_error.tolist() == [0.0] * 3
-    )
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_refused_surfaces_leave_the_rest_of_their_stack(dtype):
+    whole_one = mesh(CORNERS, SIDES, dtype)
+    empty = Surface(np.zeros((0, 3), dtype), np.zeros((0, 3), int))
+    lost = mesh(CORNERS * [1, 1, np.nan], SIDES, dtype)
+    stack = measure_stack([empty, whole_one, lost, whole_one])
+    assert stack.volume.raw[:, 0].tolist() == [0.0, 1.0, 0.0, 1.0]
+    assert stack.area.raw[:, 0].tolist() == [0.0, 6.0, 0.0, 6.0]
+    for i, code in ((0, "no_faces"), (2, "non_finite_vertices")):
+        with refused(code):
+            stack[i]
+    assert empty.coordinate_error.tolist() == [0.0] * 3
