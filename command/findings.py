@@ -22,14 +22,9 @@ FOURIER_OBJECT_COUNT = error(
     "fourier_object_count",
     "--fourier needs one object that is no array, and there are {count}. Use --object.",
 )
-NO_MEASURABLE_OBJECT = error(
-    "no_measurable_object", "Nothing was measured: there is no object with a surface or volume."
-)
-NOTHING_RENDERED = error(
-    "nothing_rendered",
-    "Nothing was measured: {count} object was left out. Use --all, or turn on its rendering.",
-    "Nothing was measured: {count} objects were left out. Use --all, or turn on their rendering.",
-)
+NO_SHAPES = "there is no object with a surface or volume"
+NOTHING_RENDERED = "all objects were left out. Use --all, or turn on their rendering"
+NOTHING_MEASURED = error("nothing_measured", "Nothing was measured: {cause:word}.")
 FILE_HIDES = note("file_hides", "The file does not show it: {cause:word}. Use --all to measure it.")
 FRAME_MEASURED = note(
     "frame_measured",
@@ -84,9 +79,6 @@ OPTIONS_UNUSED = warning(
 STREAM_OPTIONS = error(
     "stream_options",
     "A mesh that is read in blocks cannot be measured with {options}. Use --stream never.",
-)
-UNIT_ASSUMED = warning(
-    "unit_assumed", "The file has no unit: 1 unit was taken as 1 m. Use --unit-scale."
 )
 NEEDS_BLEND = "that needs a .blend file that was saved before"
 RESULTS_NOT_STORED = error("results_not_stored", "Results were not stored: {cause:word}.")

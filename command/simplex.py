@@ -15,23 +15,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.files import file_limits
-from ..core.measurement import described, print_message
+from ..core import files, measurement, polyhedron, scans
 from ..core.numerics import Array
-from ..core.polyhedron import (
-    SimplexMoments,
-    closes,
-    enclosed_moments,
-    facet_moments,
-    facets_of,
-    multi_indices,
-    outer_facets,
-)
-from ..core.scans import read_arrays
 from ..core.verdict.finding import MeasureError, finding, system_reason
 from .findings import SIMPLEX_OPEN
+from .options import arguments
 from .options import option_types as types
-from .options.arguments import join_negative_values
 from .parser import COMMANDS, Parser, UsageError
 
 MAX_DIMENSION = 12
@@ -62,7 +51,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     parser.value("--order", types.order, "N", "all |α| up to this (2)", default=2)
     parser.value("--about", _point, "X,Y,...", "the point that they are about (the origin)")
     parser.flag("--boundary", "add the moments of the boundary itself: length, area, …")
-    return parser.parse_intermixed_args(join_negative_values(argv))
+    return parser.parse_intermixed_args(arguments.join_negative_values(argv))
 
 
 def answer(options: argparse.Namespace) -> tuple[list[str], int]:
@@ -72,9 +61,9 @@ def answer(options: argparse.Namespace) -> tuple[list[str], int]:
     try:
         return [json.dumps(_measure(options), indent=1, allow_nan=False) + "\n"], 0
     except (UsageError, MeasureError) as error:
-        print_message(options.file, error)
+        measurement.print_message(options.file, error)
     except OSError as error:
-        print_message(options.file, "cannot be read: {}".format(system_reason(error)))
+        measurement.print_message(options.file, "cannot be read: {}".format(system_reason(error)))
     return [], 1
 
 
@@ -93,12 +82,12 @@ def _measure(options: argparse.Namespace) -> dict[str, Any]:
         )
     facets = simplices
     if simplices.shape[1] == dimension + 1:
-        facets, turned = facets_of(points, simplices)
+        facets, turned = polyhedron.facets_of(points, simplices)
         signs = turned if signs is None else turned * np.tile(signs, dimension + 1)
-    is_closed = closes(points, facets, signs)
+    is_closed = polyhedron.closes(points, facets, signs)
     findings = [] if is_closed else [finding(SIMPLEX_OPEN)]
     for one in findings:
-        print_message(options.file, one)
+        measurement.print_message(options.file, one)
     record: dict[str, Any] = (
         {
             "schema": "body-moments-simplex/1",
@@ -109,12 +98,18 @@ def _measure(options: argparse.Namespace) -> dict[str, Any]:
             "order": options.order,
             "about": about.tolist(),
         }
-        | _as_record(enclosed_moments(points, facets, options.order, about, signs, allow_open=True))
-        | described(findings)
+        | _as_record(
+            polyhedron.enclosed_moments(
+                points, facets, options.order, about, signs, allow_open=True
+            )
+        )
+        | measurement.described(findings)
     )
     if options.boundary:
-        outer = facets if facets is simplices else outer_facets(points, facets, signs)
-        record["boundary"] = _as_record(facet_moments(points, outer, options.order, about))
+        outer = facets if facets is simplices else polyhedron.outer_facets(points, facets, signs)
+        record["boundary"] = _as_record(
+            polyhedron.facet_moments(points, outer, options.order, about)
+        )
     return record
 
 
@@ -122,9 +117,10 @@ def _point(text: str) -> list[float]:
     return [types.number(word) for word in text.split(",")]
 
 
-def _as_record(moments: SimplexMoments) -> dict[str, dict[str, float]]:
+def _as_record(moments: polyhedron.SimplexMoments) -> dict[str, dict[str, float]]:
     keys = [
-        ",".join(map(str, row)) for row in multi_indices(len(moments.about), moments.order).tolist()
+        ",".join(map(str, row))
+        for row in polyhedron.multi_indices(len(moments.about), moments.order).tolist()
     ]
     return {
         "moments": dict(zip(keys, moments.raw.tolist())),
@@ -133,7 +129,7 @@ def _as_record(moments: SimplexMoments) -> dict[str, dict[str, float]]:
 
 
 def _read(path: Path) -> tuple[Array, NDArray[np.integer], NDArray | None]:
-    arrays = read_arrays(path, ("points", "simplices", "signs"), file_limits())
+    arrays = scans.read_arrays(path, ("points", "simplices", "signs"), files.file_limits())
     if not {"points", "simplices"} <= arrays.keys():
         raise UsageError("The file is no .npz archive with the arrays “points” and “simplices”")
     points = arrays["points"]

@@ -6,7 +6,6 @@ and its bill.
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
@@ -15,20 +14,12 @@ from mathutils import Matrix
 
 from ..blender import bodies, read, scene, session
 from ..blender.scale import meters_per_unit
-from ..blender.scene.changes import require_editable
-from ..blender.scene.findings import OPEN_OBJECT
-from ..blender.session import stored
 from ..blender.settings.assembly import Root, active_assembly, is_assembly
 from ..blender.write import properties, reports
 from ..core.verdict import EditRefusedError, MeasureError, Procedure, Severity, of_severity
-from . import selection
+from . import modal, selection
 from .findings import NO_ACTIVE_ASSEMBLY
-from .modal import ModalSteps
 from .snap.frames import turn_cursor
-
-if TYPE_CHECKING:
-    from ..blender.bodies.assembly.assembly import Assembly, Results
-
 
 TARGET = EnumProperty(
     name="Assembly",
@@ -55,13 +46,13 @@ def target_of(context: Context, target: str) -> Root:
     return data
 
 
-def measured_assembly(context: Context, target: str) -> "Assembly":
+def measured_assembly(context: Context, target: str) -> "bodies.Assembly":
     """Measure an operator's assembly as it is now; raise MeasureError if it has no mass."""
     depsgraph = context.evaluated_depsgraph_get()
     return bodies.measure_assembly(target_of(context, target), depsgraph)
 
 
-class OBJECT_OT_body_moments_measure_assembly(ModalSteps, Operator):
+class OBJECT_OT_body_moments_measure_assembly(modal.ModalSteps, Operator):
     """Measure all members of a collection or all children of an empty, and store the total"""
 
     bl_idname = "object.body_moments_measure_assembly"
@@ -76,13 +67,13 @@ class OBJECT_OT_body_moments_measure_assembly(ModalSteps, Operator):
         data = target_of(context, self.target)
         properties.require_storable(data)
         self._member = read.assembly.members_of(data, depsgraph)
-        self._results: Results = {}
+        self._results: bodies.Results = {}
         self._steps = bodies.measure_members(self._member, depsgraph, self._results)
         return sum(member.is_measured for member in self._member.walk())
 
     def _finish(self, context: Context) -> set[str]:
         assembly = bodies.assemble(self._member, self._results, context.evaluated_depsgraph_get())
-        failures = stored.assembly.store(context, assembly)
+        failures = session.stored.assembly.store(context, assembly)
         findings = [*of_severity(assembly.measurement.findings, Severity.WARNING, Severity.ERROR)]
         done = [
             reports.phrase(
@@ -110,7 +101,9 @@ class OBJECT_OT_body_moments_clear_assembly(Operator):
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
-        return report_cleared(self, context, stored.assembly.clear(target_of(context, self.target)))
+        return report_cleared(
+            self, context, session.stored.assembly.clear(target_of(context, self.target))
+        )
 
 
 def report_cleared(operator: Operator, context: Context, is_cleared: bool) -> set[str]:
@@ -130,8 +123,6 @@ FRAME_OF = "principal_frame_of_assembly"
 
 
 class _SnapToAssembly:
-    """Base of the operators that place something at an assembly's center of mass."""
-
     bl_options = {"REGISTER", "UNDO"}
     target: TARGET
     _place: Callable[..., str]  # places the cursor, empty or origin, and returns the report
@@ -141,7 +132,7 @@ class _SnapToAssembly:
         assembly = measured_assembly(context, self.target)
         for part in assembly.root.walk():
             if part.measurement is not None and part.measurement.method.procedure == Procedure.OPEN:
-                raise EditRefusedError(OPEN_OBJECT, subject=part.member.name)
+                raise EditRefusedError(scene.findings.OPEN_OBJECT, subject=part.member.name)
         unit = meters_per_unit(context.scene)
         center = (assembly.measurement.mass_properties.center / unit).tolist()
         return selection.report(self, self._place(context, assembly, center))
@@ -157,7 +148,7 @@ class VIEW3D_OT_body_moments_cursor_to_assembly(_SnapToAssembly, Operator):
         name="Rotate to Principal Axes", description="Align the 3D cursor with the principal axes"
     )
 
-    def _place(self, context: Context, assembly: "Assembly", center: list[float]) -> str:
+    def _place(self, context: Context, assembly: "bodies.Assembly", center: list[float]) -> str:
         context.scene.cursor.location = center
         if self.rotate:
             turn_cursor(
@@ -175,7 +166,7 @@ class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
     bl_idname = "object.body_moments_assembly_empty"
     bl_label = "Add Empty at Assembly"
 
-    def _place(self, context: Context, assembly: "Assembly", center: list[float]) -> str:
+    def _place(self, context: Context, assembly: "bodies.Assembly", center: list[float]) -> str:
         root = assembly.root.member.data
         body = assembly.measurement.mass_properties
         # nothing else can point to it
@@ -188,7 +179,7 @@ class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
             empty.rotation_mode = "QUATERNION"
             empty[FRAME_OF] = owner
             context.scene.collection.objects.link(empty)
-        require_editable(empty)
+        scene.changes.require_editable(empty)
         unit = meters_per_unit(context.scene)
         empty.empty_display_size = max(float(body.radii_of_gyration.max()) / unit, 1e-3)
         frame = Matrix(body.principal.axes.tolist()).to_4x4()
@@ -210,17 +201,17 @@ class OBJECT_OT_body_moments_assembly_origin(_SnapToAssembly, Operator):
         "whose children stay where they are"
     )
 
-    def _place(self, context: Context, assembly: "Assembly", center: list[float]) -> str:
+    def _place(self, context: Context, assembly: "bodies.Assembly", center: list[float]) -> str:
         root = assembly.root.member.data
         if isinstance(root, bpy.types.Collection):
-            require_editable(root)
+            scene.changes.require_editable(root)
             root.instance_offset = center
             return reports.phrase(
                 "Instances of “{assembly}” are placed by its center of mass", assembly=root.name
             )
         scene.move_parent(context, root, center)
         if properties.is_stored(root):
-            stored.assembly.store(context, measured_assembly(context, "OBJECT"))
+            session.stored.assembly.store(context, measured_assembly(context, "OBJECT"))
         return reports.phrase(
             "Moved “{assembly}” to the center of mass; its children stay", assembly=root.name
         )

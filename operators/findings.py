@@ -18,9 +18,7 @@ ROBOT_NAMES_ALIKE = error(
 ROBOT_GEOMETRY_NOT_WRITTEN = error(
     "robot_geometry_not_written", "Blender's exporter failed: {error}."
 )
-PRIMITIVE_HAS_PARENT = error(
-    "primitive_has_parent", "It has a parent, or is linked. Clear the parent to simulate it."
-)
+PRIMITIVE_HAS_PARENT = "It has a parent, or is linked. Clear the parent to simulate it"
 FILE_EXISTS = error("file_exists", "The file “{file}” exists. Turn on Overwrite.")
 
 OBJECT_WARNINGS = warning("object_warnings", "{object}: {causes}")
@@ -38,7 +36,7 @@ POSE_NOT_A_COPY = warning(
     "{object}: surfaces at most {maximum:length} apart, {mean:length} on average; not a copy, or "
     "cut off",
 )
-NOT_A_RIGID_BODY = error("not_a_rigid_body", "Not a rigid body. Turn on Add Rigid Bodies.")
+NOT_A_RIGID_BODY = "Not a rigid body. Turn on Add Rigid Bodies"
 RIGID_BODY_CENTER_ELSEWHERE = warning(
     "rigid_body_center_elsewhere",
     "Physics uses the origin as center of mass, which differs for {objects}. Use Axes to Principal "

@@ -16,13 +16,9 @@ import bpy
 from bpy.types import Context, Object, Operator
 
 from .. import core
-from ..blender.read.visibility import measurable
-from ..blender.scene.changes import ancestors
-from ..blender.session.stored import outcome
-from ..blender.session.tracking import armatures
-from ..blender.settings.preferences import copy_defaults
+from ..blender import read, scene, settings, write
+from ..blender.session import stored, tracking
 from ..blender.write import reports
-from ..blender.write.findings import FILE_NOT_WRITTEN
 from ..core.verdict import FileError, Finding, MeasureError, Severity, system_reason
 
 NO_FILE = "No file is named. Choose one."
@@ -37,11 +33,13 @@ def selected_measurable(context: Context) -> list[Object]:
 
     Works in background too. A scene that is used for the first time gets its defaults.
     """
-    copy_defaults(context.scene)
+    settings.preferences.copy_defaults(context.scene)
     objects = [
-        obj for obj in armatures.subjects(context.view_layer.objects.selected) if measurable(obj)
+        obj
+        for obj in tracking.armatures.subjects(context.view_layer.objects.selected)
+        if read.visibility.measurable(obj)
     ]
-    return sorted(objects, key=lambda obj: len([*ancestors(obj)]))
+    return sorted(objects, key=lambda obj: len([*scene.changes.ancestors(obj)]))
 
 
 def poll_object_mode(cls: type[Operator], context: Context) -> bool:
@@ -99,7 +97,9 @@ def report(operator: Operator, *parts: Finding | str, level: Severity = Severity
 
     Refusals and warnings stay in the panel until the next action.
     """
-    outcome.remember(operator.bl_label, [part for part in parts if isinstance(part, Finding)])
+    stored.outcome.remember(
+        operator.bl_label, [part for part in parts if isinstance(part, Finding)]
+    )
     redraw(bpy.context)
     return reports.report(operator, *parts, level=level)
 
@@ -180,7 +180,7 @@ def finish(
     """Report texts, and the first of the failures and findings, redraw, and return the result of
     `execute`.
     """
-    outcome.remember(
+    stored.outcome.remember(
         operator.bl_label, [part for part in (*failures, *findings) if isinstance(part, Finding)]
     )
     redraw(bpy.context)
@@ -241,7 +241,9 @@ def write_file(path: Path, pieces: Iterable[str | bytes]) -> None:
                 piece if isinstance(piece, bytes) else piece.encode() for piece in pieces
             )
     except OSError as error:
-        raise FileError(FILE_NOT_WRITTEN, file=path.name, error=system_reason(error)) from error
+        raise FileError(
+            write.findings.FILE_NOT_WRITTEN, file=path.name, error=system_reason(error)
+        ) from error
 
 
 def ask_for_table(operator: Operator, context: Context) -> set[str]:

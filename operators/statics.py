@@ -9,15 +9,10 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 from bpy.types import Context, Object, Operator
 
 from ..blender import session
-from ..blender.session import stored
-from ..blender.session.selected import subject
-from ..blender.session.tracking import staleness
-from ..blender.write import reports
-from ..blender.write.translations import localized
+from ..blender.session import selected, stored, tracking
+from ..blender.write import reports, translations
 from ..core.verdict.finding import Finding, finding
-from . import selection
-from .findings import OBJECTS_TIP
-from .modal import ModalDialog
+from . import findings, modal, selection
 
 
 class OBJECT_OT_body_moments_stability(selection.OnSelection, Operator):
@@ -40,7 +35,7 @@ class OBJECT_OT_body_moments_stability(selection.OnSelection, Operator):
             notes.extend(session.check_stability(context, obj, measured))
 
         known, failures = selection.apply_to_all(objects, check)
-        staleness.mark_up_to_date(context, measured)
+        tracking.staleness.mark_up_to_date(context, measured)
         supports = {obj: stored.stability.support(obj, context.scene) for obj in objects}
         standing = [
             obj for obj, support in supports.items() if support is not None and support.stands
@@ -49,7 +44,7 @@ class OBJECT_OT_body_moments_stability(selection.OnSelection, Operator):
             obj.name for obj in objects if stored.stability.is_known(obj) and obj not in standing
         ]
         if falling:
-            notes.insert(0, finding(OBJECTS_TIP, count=len(falling), names=falling))
+            notes.insert(0, finding(findings.OBJECTS_TIP, count=len(falling), names=falling))
         texts = ("{count} of {total} object stands", "{count} of {total} objects stand")
         done = reports.phrase(*texts, count=len(standing), total=len(known))
         return selection.summarize(self, len(known), len(objects), done, failures, notes)
@@ -89,12 +84,12 @@ class OBJECT_OT_body_moments_rest_on_ground(selection.OnSelectionInObjectMode, O
         layout = self.layout
         layout.use_property_split = True
         layout.prop(self, "pose")
-        obj = subject(context)
+        obj = selected.subject(context)
         poses = None if obj is None else stored.stability.poses(obj)
         if self.pose and poses is not None and not isinstance(poses, Finding):
             count = len(poses.shares)
             place = (self.pose - 1) % count
-            text = localized("Pose {:d} of {:d}: {:.1f}%, tips at {:.1f}°")
+            text = translations.localized("Pose {:d} of {:d}: {:.1f}%, tips at {:.1f}°")
             share = 100.0 * poses.shares[place]
             angle = degrees(poses.tipping_angles[place])
             layout.label(text=text.format(place + 1, count, share, angle), translate=False)
@@ -116,7 +111,7 @@ class OBJECT_OT_body_moments_rest_on_ground(selection.OnSelectionInObjectMode, O
         return selection.summarize(self, len(moved), len(objects), done, failures, notes, idle)
 
 
-class OBJECT_OT_body_moments_balance_group(ModalDialog, Operator):
+class OBJECT_OT_body_moments_balance_group(modal.ModalDialog, Operator):
     """Follow the center of mass of several objects over the frame range."""
 
     bl_idname = "object.body_moments_balance_group"

@@ -9,16 +9,12 @@ from __future__ import annotations
 
 from bpy.types import Context, Object, UILayout
 
-from ..blender.session import stored
+from ..blender.session import selected, stored, tracking
 from ..blender.session.displayed import displayed
-from ..blender.session.selected import subject
-from ..blender.session.tracking.staleness import stale_reason
 from ..blender.settings.preferences import shows_advanced
 from ..blender.write import properties
-from ..core.inertia import PlainBody
-from ..core.lazy import loaded_module
-from . import rows
-from .places import in_both_places
+from ..core import inertia, lazy
+from . import places, rows
 
 
 class AdvancedPanel:
@@ -28,11 +24,11 @@ class AdvancedPanel:
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return shows_advanced() and subject(context) is not None
+        return shows_advanced() and selected.subject(context) is not None
 
     def draw(self, context: Context) -> None:
         layout = self.layout
-        obj = subject(context)
+        obj = selected.subject(context)
         scene = context.scene
         rows.button(layout, "object.body_moments_fourier", "MOD_WAVE", short="Fourier")
         shown = displayed(obj, scene)
@@ -42,7 +38,7 @@ class AdvancedPanel:
             _display_mesh(layout, obj, numbers)
 
 
-def _display_mesh(layout: UILayout, obj: Object, shown: PlainBody) -> None:
+def _display_mesh(layout: UILayout, obj: Object, shown: inertia.PlainBody) -> None:
     display = properties.optional(obj, "body_display_volume")
     if display is None:
         return
@@ -53,7 +49,7 @@ def _display_mesh(layout: UILayout, obj: Object, shown: PlainBody) -> None:
         rows.filled(column, "{:+.3g}% of the volume", 100.0 * (display / shown.volume - 1.0))
 
 
-def _bounds(layout: UILayout, obj: Object, shown: PlainBody) -> None:
+def _bounds(layout: UILayout, obj: Object, shown: inertia.PlainBody) -> None:
     body = rows.fold(layout, "body_moments_bounds", "Error Bounds")
     if body is None:
         return
@@ -81,7 +77,7 @@ class MomentsPanel:
 
     def draw(self, context: Context) -> None:
         layout = self.layout
-        obj = subject(context)
+        obj = selected.subject(context)
         settings = context.scene.body_moments
         column = layout.column()
         rows.setting(column, settings, "moments_order")
@@ -91,11 +87,11 @@ class MomentsPanel:
         row = layout.row(align=True)
         rows.button(row, "object.body_moments_compute_moments", "PHYSICS", short="Compute")
         row.operator("object.body_moments_copy", text="", icon="COPYDOWN").what = "MOMENTS"
-        table = loaded_module(stored, "moments")
+        table = lazy.loaded_module(stored, "moments")
         computed = None if table is None else table.computed_moments(obj)
         if computed is None:
             return
-        rows.stale_row(layout, stale_reason(obj, context.scene, table.stamp_of))
+        rows.stale_row(layout, tracking.staleness.stale_reason(obj, context.scene, table.stamp_of))
         degrees, missing = table.current_numbers(obj, context.scene)
         if missing is not None:
             rows.message(layout, missing)
@@ -115,6 +111,6 @@ class MomentsPanel:
 
 
 CLASSES = (
-    *in_both_places(AdvancedPanel, "advanced"),
-    *in_both_places(MomentsPanel, "orders", parent="advanced"),
+    *places.in_both_places(AdvancedPanel, "advanced"),
+    *places.in_both_places(MomentsPanel, "orders", parent="advanced"),
 )

@@ -24,16 +24,10 @@ from bpy.types import (
 )
 
 from ..blender.session.tracking.staleness import stale_reason
-from ..blender.settings.assembly import Root, active_assembly, settings_of
-from ..blender.settings.chosen import chosen_objects
-from ..blender.settings.given import has_density
-from ..blender.write import properties
-from ..blender.write.translations import localized
-from ..core.inertia import PlainBody
-from ..core.verdict import Group, severity
-from . import remedies, rows
-from .density import given_rows
-from .places import AmongProperties, in_both_places
+from ..blender.settings import assembly, chosen, given
+from ..blender.write import properties, translations
+from ..core import inertia, verdict
+from . import density, places, remedies, rows
 
 MEMBER_ICONS = {
     "COLLECTION": "OUTLINER_COLLECTION",
@@ -54,7 +48,7 @@ class BODY_MOMENTS_UL_assembly(UIList):
     ) -> None:
         line = layout.row(align=True)
         line.separator(factor=0.001 + 1.5 * row.depth)
-        tree = settings_of(_data.id_data).rows
+        tree = assembly.settings_of(_data.id_data).rows
         if index + 1 < len(tree) and tree[index + 1].depth > row.depth:
             icon = "DISCLOSURE_TRI_DOWN" if row.is_open else "DISCLOSURE_TRI_RIGHT"
             line.prop(row, "is_open", text="", icon=icon, emboss=False)
@@ -76,8 +70,10 @@ class BODY_MOMENTS_UL_assembly(UIList):
                 share = "{:.0f}%".format(100.0 * copies * row.share)
                 numbers.label(text=share, translate=False)
         if findings:
-            worst = max(findings, key=lambda found: tuple(rows.ICONS).index(severity(found)))
-            numbers.label(text="", icon=rows.ICONS[severity(worst)])
+            worst = max(
+                findings, key=lambda found: tuple(rows.ICONS).index(verdict.severity(found))
+            )
+            numbers.label(text="", icon=rows.ICONS[verdict.severity(worst)])
 
     def filter_items(self, _context, data, name) -> tuple[list[int], list[int]]:
         """Hide rows below a closed member, rows that do not match a search, and equal parts but for
@@ -104,7 +100,6 @@ def _base_name(name: str) -> str:
 
 
 def _are_equal(row: PropertyGroup, other: PropertyGroup) -> bool:
-    """Return whether two neighboring rows show equal parts."""
     return (
         row.member == other.member == "OBJECT"
         and (row.depth, row.is_counted, row.findings)
@@ -115,7 +110,6 @@ def _are_equal(row: PropertyGroup, other: PropertyGroup) -> bool:
 
 
 def _count_equal(tree: bpy_prop_collection, first: int) -> int:
-    """Return the number of equal parts from a row on."""
     end = first + 1
     while end < len(tree) and _are_equal(tree[end - 1], tree[end]):
         end += 1
@@ -123,15 +117,15 @@ def _count_equal(tree: bpy_prop_collection, first: int) -> int:
     return 1 if has_members else end - first
 
 
-def draw_assembly(layout: UILayout, context: Context, root: Root, target: str) -> None:
+def draw_assembly(layout: UILayout, context: Context, root: assembly.Root, target: str) -> None:
     """Draw an assembly's settings, its total and its tree."""
     layout.use_property_decorate = False
-    settings = settings_of(root)
+    settings = assembly.settings_of(root)
     column = layout.column()
     rows.setting(column, settings, "mass_from", expand=True)
     if settings.mass_from == "MASS":
         rows.setting(column, settings, "mass", text="Mass (kg)")
-        given_rows(layout, settings)
+        density.given_rows(layout, settings)
     button = layout.row()
     button.scale_y = 1.4
     button.operator("object.body_moments_measure_assembly", icon="PHYSICS").target = target
@@ -143,7 +137,7 @@ def draw_assembly(layout: UILayout, context: Context, root: Root, target: str) -
     rows.stale_state(layout, reason)
     if stored is None:
         return
-    groups = [Group(found) for found in properties.findings(root)]
+    groups = [verdict.Group(found) for found in properties.findings(root)]
     rows.quantities(layout, [("Mass", "mass", stored.mass)])
     _tree(layout, settings)
     _numbers(layout, stored, isinstance(root, Collection))
@@ -152,7 +146,6 @@ def draw_assembly(layout: UILayout, context: Context, root: Root, target: str) -
 
 
 def _actions(column: UILayout, target: str, is_collection: bool) -> None:
-    """Draw the buttons for a measured assembly, always at the same place."""
     row = column.row(align=True)
     rows.button(
         row,
@@ -173,7 +166,6 @@ def _actions(column: UILayout, target: str, is_collection: bool) -> None:
 
 
 def _tree(layout: UILayout, settings: PropertyGroup) -> None:
-    """Draw the list of members, and the findings about the highlighted member."""
     layout.template_list(
         BODY_MOMENTS_UL_assembly.__name__,
         "",
@@ -188,7 +180,7 @@ def _tree(layout: UILayout, settings: PropertyGroup) -> None:
             rows.message(layout, found)
 
 
-def _numbers(layout: UILayout, stored: PlainBody, in_world: bool) -> None:
+def _numbers(layout: UILayout, stored: inertia.PlainBody, in_world: bool) -> None:
     column = layout.column(align=True)
     entries = [("Volume", "volume", stored.volume), ("Area", "area", stored.area)]
     rows.quantities(column, [entry for entry in entries if entry[-1]])
@@ -204,22 +196,24 @@ class AssemblyPanel:
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        root = active_assembly(context) if chosen_objects(context) else None
+        root = assembly.active_assembly(context) if chosen.chosen_objects(context) else None
         if not isinstance(root, Collection):
             return root is not None
-        members = (True for obj in root.all_objects if has_density(obj))
+        members = (True for obj in root.all_objects if given.has_density(obj))
         return properties.is_stored(root) or len([*islice(members, 2)]) > 1
 
     def draw(self, context: Context) -> None:
-        root = active_assembly(context)
+        root = assembly.active_assembly(context)
         text = (
-            localized("Empty: {:s}") if isinstance(root, Object) else localized("Collection: {:s}")
+            translations.localized("Empty: {:s}")
+            if isinstance(root, Object)
+            else translations.localized("Collection: {:s}")
         )
         self.layout.label(text=text.format(root.name), icon="OUTLINER_COLLECTION", translate=False)
         draw_assembly(self.layout, context, root, "OF_OBJECT")
 
 
-class COLLECTION_PT_body_moments(AmongProperties, Panel):
+class COLLECTION_PT_body_moments(places.AmongProperties, Panel):
     """The active collection as one body"""
 
     bl_context = "collection"
@@ -234,6 +228,6 @@ class COLLECTION_PT_body_moments(AmongProperties, Panel):
 
 CLASSES = (
     BODY_MOMENTS_UL_assembly,
-    *in_both_places(AssemblyPanel, "assembly"),
+    *places.in_both_places(AssemblyPanel, "assembly"),
     COLLECTION_PT_body_moments,
 )

@@ -16,21 +16,17 @@ from typing import NamedTuple
 from bpy.types import Context, Object, UILayout
 
 from ..blender.read.visibility import measurable
+from ..blender.session import stored, tracking
 from ..blender.session.displayed import Displayed, Verdict, displayed, shown_objects, total
 from ..blender.session.live.following import Lag, current_numbers, is_live
-from ..blender.session.stored import outcome
-from ..blender.session.tracking import armatures
-from ..blender.settings.chosen import chosen_objects
-from ..blender.settings.preferences import draw_links
+from ..blender.settings import chosen, preferences
 from ..blender.write import properties
 from ..blender.write.translations import localized
-from ..core.inertia import PlainBody
+from ..core import inertia, wall
 from ..core.verdict import METHODS, Group, Source, method_key, truncate_list
-from ..core.wall import WALL_MEASURED
-from . import remedies, rows
+from . import places, remedies, rows
 from .density import material_row
 from .overlay.draw import header_switch
-from .places import in_both_places
 
 # by the frame
 CENTER_HEADINGS = {
@@ -66,7 +62,7 @@ class Answer(NamedTuple):
     name: str
     icon: str
     verdict: Verdict | None
-    numbers: PlainBody | None
+    numbers: inertia.PlainBody | None
     heading: str
     density: str
     size: tuple[str, str, float | None]
@@ -84,7 +80,7 @@ class BodyPanel:
         row = self.layout.row(align=True)
         header_switch(row, context)
         if not rows.is_narrow():  # the name would be below them
-            draw_links(row, icons_only=True)
+            preferences.draw_links(row, icons_only=True)
 
     def draw(self, context: Context) -> None:
         layout = self.layout
@@ -120,7 +116,7 @@ class BodyPanel:
 def _answer(context: Context) -> Answer:
     objects = shown_objects(context)
     obj = context.object
-    is_sum = len(objects) > 1 or obj is not None and armatures.stands_for_meshes(obj)
+    is_sum = len(objects) > 1 or obj is not None and tracking.armatures.stands_for_meshes(obj)
     return _of_several(context) if is_sum else _of_one(context, objects[0])
 
 
@@ -142,7 +138,7 @@ def _of_one(context: Context, obj: Object) -> Answer:
         state = live, "REC"
     findings = () if shown is None else shown.findings
     now = current_numbers(obj)
-    if now is not None and now.refusal is not None and outcome.last() is None:
+    if now is not None and now.refusal is not None and stored.outcome.last() is None:
         findings = now.refusal, *findings
     return Answer(
         obj.name,
@@ -159,12 +155,11 @@ def _of_one(context: Context, obj: Object) -> Answer:
 
 
 def _of_several(context: Context) -> Answer:
-    """Return the selected objects, or the meshes of a posed armature, as one body."""
     shown = total(context)
     active = context.object
     count = shown.count + len(shown.missing)
     posed = None
-    if active is not None and armatures.stands_for_meshes(active):
+    if active is not None and tracking.armatures.stands_for_meshes(active):
         posed = displayed(active, context.scene)
         name = localized("{:s}: {:d} Mesh" if count == 1 else "{:s}: {:d} Meshes")
         name = name.format(active.name, count)
@@ -217,7 +212,7 @@ def _outstanding(template: str, names: Sequence[str], count: int) -> str:
     return localized(template).format(localized("{} of {}").format(len(names), count))
 
 
-def _density(numbers: PlainBody, length: float | None, template: str, *counts: int) -> str:
+def _density(numbers: inertia.PlainBody, length: float | None, template: str, *counts: int) -> str:
     """Return the density behind a mass, or that nobody has set it."""
     if length:
         text = "{:.4g} kg/m".format(numbers.mass / length)
@@ -242,7 +237,7 @@ def _buttons(layout: UILayout, context: Context) -> None:
     buttons.scale_y = 1.4
     shown = shown_objects(context)
     selected = context.view_layer.objects.selected
-    subjects = [obj for obj in armatures.subjects(selected) if measurable(obj)]
+    subjects = [obj for obj in tracking.armatures.subjects(selected) if measurable(obj)]
     text = "Measure" if not subjects or len(shown) == 1 and subjects == shown else "Measure {:s}"
     name = (
         subjects[0].name if len(subjects) == 1 else localized("{:d} Objects").format(len(subjects))
@@ -257,7 +252,9 @@ def _buttons(layout: UILayout, context: Context) -> None:
 
 def _method(obj: Object, shown: Displayed) -> str:
     """Return the method; an unknown one, of another version of the add-on, by its stored text."""
-    key = method_key(shown.method, any(found.code == WALL_MEASURED for found in shown.findings))
+    key = method_key(
+        shown.method, any(found.code == wall.WALL_MEASURED for found in shown.findings)
+    )
     origin = (
         Source.POLYGONS if shown.method is None or key == str(shown.method) else shown.method.source
     )
@@ -283,7 +280,7 @@ class FindingsPanel:
             rows.remark(layout, "Mean density, from {cause}", icon="BLANK1", cause=source)
 
 
-def _questioned(context: Context) -> tuple[Object, PlainBody] | None:
+def _questioned(context: Context) -> tuple[Object, inertia.PlainBody] | None:
     """Return the object and its numbers if they raise the question of units."""
     objects = shown_objects(context)
     shown = displayed(objects[0], context.scene) if len(objects) == 1 else None
@@ -299,7 +296,7 @@ class RefusedPanel:
 
     @classmethod
     def poll(cls, _context: Context) -> bool:
-        return outcome.last() is not None
+        return stored.outcome.last() is not None
 
     def draw(self, context: Context) -> None:
         remedies.last_action(self.layout, context)
@@ -325,19 +322,19 @@ class ApplyPanel:
         passive = row.operator("object.body_moments_rigid_bodies", text="Passive")
         passive.type = "PASSIVE"
         button = rows.button(column, "object.body_moments_set_rigid_body_mass", "RIGID_BODY")
-        button.add = not any(obj.rigid_body for obj in chosen_objects(context))
+        button.add = not any(obj.rigid_body for obj in chosen.chosen_objects(context))
         rows.button(layout, "object.body_moments_add_nodes", "GEOMETRY_NODES")
         rows.button(layout, "object.body_moments_sculpt_balance", "SCULPTMODE_HLT")
 
 
-VIEW3D_PT_body_moments, OBJECT_PT_body_moments = in_both_places(
+VIEW3D_PT_body_moments, OBJECT_PT_body_moments = places.in_both_places(
     BodyPanel, shown_for=lambda obj: True, of_all=True
 )
 CLASSES = (
     *(VIEW3D_PT_body_moments, OBJECT_PT_body_moments),
-    *in_both_places(ApplyPanel, "apply", shown_for=measurable, of_all=True),
-    *in_both_places(
+    *places.in_both_places(ApplyPanel, "apply", shown_for=measurable, of_all=True),
+    *places.in_both_places(
         FindingsPanel, "findings", options=frozenset(), shown_for=lambda obj: True, of_all=True
     ),
-    *in_both_places(RefusedPanel, "refused", options={"HIDE_HEADER"}),
+    *places.in_both_places(RefusedPanel, "refused", options={"HIDE_HEADER"}),
 )

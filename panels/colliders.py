@@ -16,12 +16,10 @@ from ..blender.read.visibility import measurable
 from ..blender.scale import meters_per_unit
 from ..blender.session.selected import subject
 from ..blender.session.stored.collider_tolerance import is_beyond_tolerance, tolerance_remedy
-from ..blender.session.tracking.staleness import stale_reason
-from ..blender.session.tracking.stamps import of_colliders
+from ..blender.session.tracking import staleness, stamps
 from ..blender.settings.given import COLLIDER, COLLIDERS
 from ..operators.setup.colliders import SHAPES
-from . import rows
-from .places import in_both_places
+from . import places, rows
 
 # Ratios to numbers that are zero are not stored.
 KEYS = {
@@ -86,7 +84,11 @@ class CollidersPanel:
             _repeat(again, stored, name)
         if getattr(context.space_data, "type", "") == "VIEW_3D":
             layout.prop(context.space_data.shading, "wireframe_color_type", text="Wire Color")
-        reason = None if stored is None else stale_reason(body, context.scene, of_colliders)
+        reason = (
+            None
+            if stored is None
+            else staleness.stale_reason(body, context.scene, stamps.of_colliders)
+        )
         rows.stale_state(layout, reason)
         if stored is None:
             rows.remark(layout, "Engines take mass, center and inertia from colliders.")
@@ -153,4 +155,4 @@ def _body(obj: Object) -> Object:
     return obj.parent if COLLIDER in obj and obj.parent is not None else obj
 
 
-CLASSES = in_both_places(CollidersPanel, "colliders", shown_for=measurable, of_all=True)
+CLASSES = places.in_both_places(CollidersPanel, "colliders", shown_for=measurable, of_all=True)

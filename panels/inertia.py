@@ -8,16 +8,11 @@ from __future__ import annotations
 
 from bpy.types import Context
 
-from ..blender.read.visibility import measurable
-from ..blender.session import stored
+from ..blender import read, write
+from ..blender.session import selected, stored, tracking
 from ..blender.session.displayed import displayed, shown_objects, total
-from ..blender.session.selected import subject
-from ..blender.session.tracking import armatures
-from ..blender.write.translations import localized
-from ..core.inertia import PlainBody
-from ..core.verdict import Finding
-from . import rows
-from .places import in_both_places
+from ..core import inertia, verdict
+from . import places, rows
 
 ERROR_OF_A_DIFFERENCE = (
     6.0  # each principal moment is off by at most 3 times the error of a tensor entry
@@ -49,7 +44,9 @@ class InertiaPanel:
             rows.heading(column, "Principal Axes", "", shown.axes)
         for place, label in enumerate(rows.PRINCIPAL_LABELS):
             rows.direction(column, label, None if shown is None else shown.axes[place])
-        rows.state(column, "" if shown is None else localized(_equal_moments(shown)))
+        rows.state(
+            column, "" if shown is None else write.translations.localized(_equal_moments(shown))
+        )
         gyration = None if shown is None else shown.gyration
         rows.group(layout, "Radii of Gyration", rows.PRINCIPAL_LABELS, "length", gyration)
         body = rows.fold(layout, "body_moments_tensor", "Inertia Tensor", closed=False)
@@ -63,7 +60,7 @@ class InertiaPanel:
             )
 
 
-def _equal_moments(shown: PlainBody) -> str:
+def _equal_moments(shown: inertia.PlainBody) -> str:
     error = shown.error_bound["inertia"] + shown.error_bound["input"]["inertia"]
     pairs = zip(shown.moments, shown.moments[1:])
     equal = tuple(b - a <= ERROR_OF_A_DIFFERENCE * error for a, b in pairs)
@@ -71,16 +68,15 @@ def _equal_moments(shown: PlainBody) -> str:
 
 
 def _are_several(context: Context) -> bool:
-    """Return whether the numbers are the sum of the selected objects, in the world frame."""
-    obj = subject(context)
-    is_posed = obj is not None and armatures.stands_for_meshes(obj)
+    obj = selected.subject(context)
+    is_posed = obj is not None and tracking.armatures.stands_for_meshes(obj)
     return not is_posed and len(shown_objects(context)) > 1
 
 
-def _shown(context: Context) -> PlainBody | None:
+def _shown(context: Context) -> inertia.PlainBody | None:
     if _are_several(context):
         return total(context).numbers
-    obj = subject(context)
+    obj = selected.subject(context)
     current = None if obj is None else displayed(obj, context.scene)
     return None if current is None else current.in_frame(context.scene.body_moments.frame)
 
@@ -93,7 +89,7 @@ class ReferencePanel:
     def draw(self, context: Context) -> None:
         layout, scene = self.layout, context.scene
         settings = scene.body_moments_reference
-        obj = subject(context)
+        obj = selected.subject(context)
         column = layout.column()
         rows.setting(column, settings, "about")
         if settings.about == "OBJECT":
@@ -117,7 +113,7 @@ class ReferencePanel:
         )
         if result is None:
             return
-        if isinstance(result, Finding):
+        if isinstance(result, verdict.Finding):
             rows.message(layout, result)
             return
         if settings.about == "AXIS":
@@ -139,11 +135,11 @@ class ReferencePanel:
 
 
 CLASSES = (
-    *in_both_places(
+    *places.in_both_places(
         InertiaPanel,
         "inertia",
-        shown_for=lambda obj: measurable(obj) or obj.type in ("EMPTY", "ARMATURE"),
+        shown_for=lambda obj: read.visibility.measurable(obj) or obj.type in ("EMPTY", "ARMATURE"),
         of_all=True,
     ),
-    *in_both_places(ReferencePanel, "reference", parent="inertia"),
+    *places.in_both_places(ReferencePanel, "reference", parent="inertia"),
 )

@@ -20,8 +20,7 @@ from ..operators.setup.presets import (
     OBJECT_OT_body_moments_preset_apply,
     OBJECT_OT_body_moments_set_material,
 )
-from . import rows
-from .places import AmongProperties
+from . import places, rows
 
 
 class OBJECT_MT_body_moments_materials(Menu):
@@ -127,7 +126,7 @@ class OBJECT_PT_body_moments_presets(PresetPanel, Panel):
         row.operator(self.preset_add_operator, text="", icon="ADD").name = manager.preset_name
 
 
-class MATERIAL_PT_body_moments(AmongProperties, Panel):
+class MATERIAL_PT_body_moments(places.AmongProperties, Panel):
     """A material's density, for objects that take theirs from their materials"""
 
     bl_context = "material"

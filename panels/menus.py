@@ -77,8 +77,6 @@ PAGES = (
 
 
 class _Groups:
-    """Base of menus that are groups of operators."""
-
     layout: UILayout
     GROUPS: tuple[tuple[Entry, ...], ...] = ()
 

@@ -15,9 +15,7 @@ from collections.abc import Callable, Set
 
 from bpy.types import Context, Object, Panel
 
-from ..blender.session.displayed import shown_objects
-from ..blender.session.selected import subject
-from ..blender.settings.chosen import chosen_objects
+from ..blender import session, settings
 
 # posed objects first, then the order of CAD's mass property dialogs; panels whose height depends on
 # results are below those that always have the same rows
@@ -78,14 +76,20 @@ def in_both_places(
 
     def draw(panel: Panel, context: Context) -> None:
         panel.layout.use_property_decorate = False
-        if shown_for is not None and not of_all and len(shown_objects(context)) > 1:
-            panel.layout.label(text=subject(context).name, icon="OBJECT_DATA", translate=False)
+        if (
+            shown_for is not None
+            and not of_all
+            and len(session.displayed.shown_objects(context)) > 1
+        ):
+            panel.layout.label(
+                text=session.selected.subject(context).name, icon="OBJECT_DATA", translate=False
+            )
         contents.draw(panel, context)
 
     def poll(_cls: type[Panel], context: Context) -> bool:
         if of_all:
-            return any(map(shown_for, chosen_objects(context)))
-        obj = subject(context)
+            return any(map(shown_for, settings.chosen.chosen_objects(context)))
+        obj = session.selected.subject(context)
         return obj is not None and shown_for(obj)
 
     shared: dict[str, object] = {

@@ -120,9 +120,6 @@ def _headline(context: Context, group: Group) -> str:
 
 
 def _remedies(context: Context, group: Group) -> tuple[str, ...]:
-    """Return the remedies of a group about the subject alone; otherwise its objects can be
-    selected.
-    """
     if group.finding.values.get("objects"):
         return (SELECT,)  # a caveat about a total or an assembly
     obj = subject(context)  # a collection may be shown without an object

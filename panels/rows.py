@@ -22,8 +22,7 @@ from bpy.types import PropertyGroup, UILayout
 from ..blender.session.selected import is_mixed
 from ..blender.write.translations import localized, localized_sentence
 from ..blender.write.units import SI_UNITS, Units
-from ..core.inertia import ENTRIES, PlainBody
-from ..core.measurement import plain
+from ..core import inertia, measurement
 from ..core.verdict import Finding, Severity, Verdict, fill, severity
 
 # share of a row for its label, for one of up to 3 letters, and for one of 1 letter
@@ -57,7 +56,7 @@ VERDICTS = {  # icon and word; the form says it, not the color alone
 }
 AXIS_LABELS = ("X", "Y", "Z")
 PRINCIPAL_LABELS = ("1", "2", "3")
-TENSOR_LABELS = tuple("I" + name for name in ENTRIES)
+TENSOR_LABELS = tuple("I" + name for name in inertia.ENTRIES)
 VALUE_SHARE = 0.6  # share of a row that a setting takes beside its label
 WIDEST_COSINE = "−0.0000"  # rows of directions have one form, whatever their signs
 BUTTON_MARGIN = "m"  # a letter as wide as the space around a button's text
@@ -162,7 +161,7 @@ def values(
     )
 
 
-def center(layout: UILayout, label: str, numbers: PlainBody | None) -> None:
+def center(layout: UILayout, label: str, numbers: inertia.PlainBody | None) -> None:
     """Draw the center of mass; a coordinate that is mere rounding, relative to the body's size, is
     shown as 0.
     """
@@ -203,7 +202,7 @@ def heading(layout: UILayout, label: str, quantity: str, si: Sequence[float]) ->
     """Draw a heading with a button that copies all values below it."""
     row = layout.row(align=True)
     _title(row, localized(label))
-    _copy(row, repr(plain(si)), SI_UNITS.get(quantity, ""))
+    _copy(row, repr(measurement.plain(si)), SI_UNITS.get(quantity, ""))
 
 
 def title(layout: UILayout, label: str) -> None:
@@ -238,7 +237,7 @@ def direction(layout: UILayout, label: str, vector: Sequence[float] | None) -> N
     cells = split.grid_flow(row_major=True, columns=3, even_columns=True, align=True)
     for text in cosines:
         right(cells, text)
-    _copy(row, "" if vector is None else repr(plain(vector)), "")
+    _copy(row, "" if vector is None else repr(measurement.plain(vector)), "")
 
 
 def table(layout: UILayout, cells: Sequence[Cell]) -> None:
@@ -290,7 +289,6 @@ def _form(labels: Sequence[str], shown: Sequence[str]) -> tuple[float, bool]:
 
 
 def _title(layout: UILayout, text: str) -> None:
-    """Draw a label, already translated, in as many lines as it needs."""
     room = _room()
     if room is None or _length(text) <= room:
         layout.label(text=text, translate=False)

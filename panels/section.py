@@ -8,16 +8,10 @@ from math import degrees
 
 from bpy.types import Context, Object, UILayout
 
-from ..blender.read.visibility import SECTION_TYPES, measurable
-from ..blender.session.selected import subject
-from ..blender.session.tracking.staleness import stale_reason
-from ..blender.session.tracking.stamps import of_section
-from ..blender.write import section as record
-from ..blender.write.translations import localized
-from ..blender.write.units import number
+from ..blender import read, session, write
+from ..blender.session.tracking import staleness, stamps
 from ..core.verdict import Group
-from . import remedies, rows
-from .places import in_both_places
+from . import places, remedies, rows
 
 FLAT_RTOL = (
     1e-5  # thickness of a flat shape by its width; other shapes have sections of selected faces
@@ -31,17 +25,17 @@ class SectionPanel:
     bl_label = "Section"
 
     def draw(self, context: Context) -> None:
-        obj, layout = subject(context), self.layout
+        obj, layout = session.selected.subject(context), self.layout
         if not _may_have_section(obj):
             return  # its sub-panel is for other shapes, too
         row = layout.row(align=True)
         rows.button(row, "object.body_moments_measure_section", "FACESEL", short="Measure")
         row.operator("object.body_moments_copy", text="", icon="COPYDOWN").what = "SECTION"
-        stored = record.stored(obj)
+        stored = write.section.stored(obj)
         if stored is None:
             layout.label(text="Not Measured", icon="RADIOBUT_OFF")
             return
-        _verdict(layout, stored, stale_reason(obj, context.scene, of_section))
+        _verdict(layout, stored, staleness.stale_reason(obj, context.scene, stamps.of_section))
         groups = [Group(found) for found in stored.findings]
         remedies.lines(layout, context, groups, can_accept=False)
         _numbers(layout, stored.section)
@@ -49,31 +43,26 @@ class SectionPanel:
         remedies.notes(layout, "body_moments_section_notes", groups)
 
 
-def _may_be_cut(obj: Object) -> bool:
-    """Return whether the sub-panel of levels, and of cut and fill, is for this object."""
-    return obj.type in SECTION_TYPES and (measurable(obj) or _may_have_section(obj))
-
-
 def _may_have_section(obj: Object) -> bool:
-    if obj.type not in SECTION_TYPES:
+    if obj.type not in read.visibility.SECTION_TYPES:
         return False
     is_flat = min(obj.dimensions) <= FLAT_RTOL * max(obj.dimensions)
-    return is_flat or obj.mode == "EDIT" or record.KEY in obj
+    return is_flat or obj.mode == "EDIT" or write.section.KEY in obj
 
 
-def _verdict(layout: UILayout, stored: record.StoredSection, outdated: str | None) -> None:
+def _verdict(layout: UILayout, stored: write.section.StoredSection, outdated: str | None) -> None:
     column = layout.column(align=True)
     outlines = stored.section.outlines
     holes = stored.section.holes
     counts = ((outlines, "1 Outline", "{:d} Outlines"), (holes, "1 Hole", "{:d} Holes"))
     parts = [
-        localized(singular if count == 1 else plural).format(count)
+        write.translations.localized(singular if count == 1 else plural).format(count)
         for count, singular, plural in counts
         if count
     ]
     rows.sentence(
         column,
-        "{:s}: {:s}".format(localized(stored.description), ", ".join(parts)),
+        "{:s}: {:s}".format(write.translations.localized(stored.description), ", ".join(parts)),
         icon="CHECKMARK",
     )
     rows.stale_row(column, outdated)
@@ -94,7 +83,7 @@ def _numbers(layout: UILayout, section) -> None:
         column.label(text="Every Axis Is Principal", icon="INFO")
     else:
         angle = degrees(section.angle)
-        shown = "{:s}°".format(number(0.0 if abs(angle) < 1e-6 else angle))
+        shown = "{:s}°".format(write.units.number(0.0 if abs(angle) < 1e-6 else angle))
         rows.table(column, [("Angle from x to 1", shown, repr(section.angle), "rad")])
 
 
@@ -136,4 +125,11 @@ def _more_numbers(layout: UILayout, section) -> None:
         rows.error_bounds(body, sources, entries)
 
 
-CLASSES = in_both_places(SectionPanel, "section", shown_for=_may_be_cut)
+CLASSES = places.in_both_places(
+    SectionPanel,
+    "section",
+    shown_for=lambda obj: (
+        obj.type in read.visibility.SECTION_TYPES
+        and (read.visibility.measurable(obj) or _may_have_section(obj))
+    ),
+)

@@ -10,8 +10,7 @@ from bpy.props import BoolProperty, EnumProperty
 from bpy.types import Context, UIList
 
 from ..blender.session.displayed import SortBy, Verdict, drawn, listed_masses, listing
-from . import rows
-from .places import in_both_places
+from . import places, rows
 
 LINES = 5  # height of the list, before it scrolls
 
@@ -92,4 +91,4 @@ class SelectionPanel:
         rows.button(column, "object.body_moments_save_numbers", "FILE_TICK", short="Save")
 
 
-CLASSES = (BODY_MOMENTS_UL_measured, *in_both_places(SelectionPanel, "selection"))
+CLASSES = (BODY_MOMENTS_UL_measured, *places.in_both_places(SelectionPanel, "selection"))

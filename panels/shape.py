@@ -8,15 +8,11 @@ from __future__ import annotations
 
 from bpy.types import Context, Object, UILayout
 
+from ..blender import session, settings, write
 from ..blender.read.visibility import measurable
-from ..blender.session.selected import subject
-from ..blender.session.tracking.staleness import stale_reason
-from ..blender.session.tracking.stamps import of_symmetry
-from ..blender.settings.preferences import shows_advanced
-from ..blender.write.translations import localized
+from ..blender.session.tracking import staleness, stamps
 from ..core.verdict import SIMILARITY, truncate
-from . import rows
-from .places import in_both_places
+from . import places, rows
 
 MAX_SHOWN = 12  # elements of a symmetry, and similar shapes
 KINDS = {"AXIS": "{:d}-Fold Axis", "PLANE": "Mirror Plane", "ROUND": "Axis of Revolution"}
@@ -44,10 +40,10 @@ class ShapePanel:
         rows.button(column, "object.body_moments_match_pose", "SNAP_ON")
         row = column.row(align=True)
         rows.button(row, "object.body_moments_find_similar", "VIEWZOOM", short="Similar")
-        if shows_advanced():
+        if settings.preferences.shows_advanced():
             row.operator("object.body_moments_find_in_library", text="", icon="FILEBROWSER")
         rows.button(column, "object.body_moments_link_copies", "LINKED")
-        _symmetry(layout, context, subject(context))
+        _symmetry(layout, context, session.selected.subject(context))
         _similar(layout, context)
 
 
@@ -57,7 +53,7 @@ def _symmetry(layout: UILayout, context: Context, obj: Object | None) -> None:
     stored = obj.body_moments_symmetry
     column = layout.column(align=True)
     rows.filled(column, "Symmetry {:s}", stored.group, icon="CHECKMARK")
-    rows.stale_row(column, stale_reason(obj, context.scene, of_symmetry))
+    rows.stale_row(column, staleness.stale_reason(obj, context.scene, stamps.of_symmetry))
     if stored.compatible != stored.group:
         text = "Moments to order 6 alone allow {group}"
         rows.remark(column, text, icon="BLANK1", group=stored.compatible)
@@ -107,9 +103,9 @@ def _similar(layout: UILayout, context: Context) -> None:
                 "object.body_moments_select_found", text=shape.name, icon=icon, translate=False
             )
             button.name = shape.name
-        words = localized(SIMILARITY.get(shape.verdict, shape.verdict))
+        words = write.translations.localized(SIMILARITY.get(shape.verdict, shape.verdict))
         size = " ×{:.4g}".format(shape.scale) if shape.verdict.startswith("scaled") else ""
         rows.right(row, "{:s}{:s}, {:.2g}".format(words, size, shape.distance))
 
 
-CLASSES = in_both_places(ShapePanel, "shape", shown_for=measurable, of_all=True)
+CLASSES = places.in_both_places(ShapePanel, "shape", shown_for=measurable, of_all=True)

@@ -13,15 +13,10 @@ from bpy.types import Context, UILayout
 
 from ..blender.read.visibility import measurable
 from ..blender.scale import meters_per_unit
-from ..blender.session import stored
-from ..blender.session.displayed import shown_objects
-from ..blender.session.selected import subject
-from ..blender.session.tracking import armatures
+from ..blender.session import displayed, selected, stored, tracking
 from ..blender.write.translations import localized
-from ..core.lazy import loaded_module
-from ..core.verdict import Finding
-from . import rows
-from .places import in_both_places
+from ..core import lazy, verdict
+from . import places, rows
 
 if TYPE_CHECKING:
     from ..core.statics import RestingPoses, Support
@@ -36,9 +31,9 @@ class StabilityPanel:
 
     def draw(self, context: Context) -> None:
         layout = self.layout
-        objects = shown_objects(context)
-        obj = objects[0] if len(objects) == 1 else subject(context)
-        stability = loaded_module(stored, "stability")
+        objects = displayed.shown_objects(context)
+        obj = objects[0] if len(objects) == 1 else selected.subject(context)
+        stability = lazy.loaded_module(stored, "stability")
         is_known = stability is not None and obj is not None and stability.is_known(obj)
         support = stability.support(obj, context.scene) if is_known else None
         tips_over_edge = support is not None and not support.stands and len(support.polygon) > 2
@@ -88,7 +83,7 @@ def _support(layout: UILayout, context: Context, support: Support | None, is_kno
     rows.table(column, cells)
 
 
-def _poses(layout: UILayout, poses: RestingPoses | Finding | None) -> None:
+def _poses(layout: UILayout, poses: RestingPoses | verdict.Finding | None) -> None:
     """Draw the most probable poses, in as many rows before they are known."""
     narrow = rows.is_narrow()
     column = layout.column(align=True)
@@ -100,7 +95,7 @@ def _poses(layout: UILayout, poses: RestingPoses | Finding | None) -> None:
     cell.label(text="Tips at")
     if not narrow:
         cell.label(icon="BLANK1")
-    known = () if poses is None or isinstance(poses, Finding) else poses.tipping_angles
+    known = () if poses is None or isinstance(poses, verdict.Finding) else poses.tipping_angles
     for place in range(MAX_POSES):
         row = column.row(align=True)
         row.enabled = place < len(known)
@@ -117,13 +112,13 @@ def _poses(layout: UILayout, poses: RestingPoses | Finding | None) -> None:
         )
     more = len(known) - MAX_POSES
     rows.state(column, localized("{:d} more").format(more) if more > 0 else "")
-    if isinstance(poses, Finding):
+    if isinstance(poses, verdict.Finding):
         rows.message(layout, poses)
 
 
-CLASSES = in_both_places(
+CLASSES = places.in_both_places(
     StabilityPanel,
     "stability",
-    shown_for=lambda obj: measurable(obj) or armatures.stands_for_meshes(obj),
+    shown_for=lambda obj: measurable(obj) or tracking.armatures.stands_for_meshes(obj),
     of_all=True,
 )

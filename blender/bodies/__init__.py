@@ -13,7 +13,11 @@ if TYPE_CHECKING:
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
+    Assembly="assembly.assembly",
     FlatShape="flat.flat_shape",
+    MeasuredSection="flat.flat",
+    Results="assembly.assembly",
+    Shape="shape.shape",
     THREADS="measure_body",
     assemble="assembly.assembly",
     comparable_shape_of="flat.flat_shape",

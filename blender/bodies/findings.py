@@ -22,11 +22,6 @@ OPEN_COMPONENTS_UNITED = warning(
     "open_components_united",
     "Open components were united; the result may not be the intended body. Close the mesh.",
 )
-DISPLAY_MESH_NEEDED = warning(
-    "display_mesh_needed",
-    "The display mesh was measured, as {purpose:word} needs polygons. Raise Resolution Preview for "
-    "accuracy.",
-)
 ZERO_SCALE = error(
     "zero_scale",
     "A zero scale flattens the object or its instances. Set their scale and their parents', or set "

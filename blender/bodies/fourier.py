@@ -30,12 +30,12 @@ from ...core.moments import Measure, affine_matrices, placed_boxes
 from ...core.numerics import Array
 from ...core.verdict import Procedure
 from ...core.verdict.finding import Finding, ReadError, finding
+from ..read.findings import DISPLAY_MESH_MEASURED
 from ..read.objects import read_object
 from ..read.visibility import shows_flat_region
 from ..settings.density import density_field
 from ..settings.options import MeasureOptions, object_settings
 from .findings import (
-    DISPLAY_MESH_NEEDED,
     FOURIER_APPROXIMATE,
     FOURIER_NO_EXTENT,
     FOURIER_OF_UNIFORM_DENSITY,
@@ -124,7 +124,7 @@ def object_transform(
     factor = resolved.thickness if shell and not area else 1.0
     findings = [*reading.findings, *body.findings]
     if reading.has_patches or (obj.type == "CURVE" and shell and shows_flat_region(obj)):
-        findings.append(finding(DISPLAY_MESH_NEEDED, purpose="a Fourier transform"))
+        findings.append(finding(DISPLAY_MESH_MEASURED, cause="a Fourier transform needs polygons"))
     if varies:
         findings.append(finding(FOURIER_OF_UNIFORM_DENSITY))
     return ObjectTransform(obj.name, transform, tuple(findings), factor)

@@ -29,12 +29,11 @@ from ...core.mesh import ConvexHull, convex_hull
 from ...core.solid import HOLES_CAPPED, INVERTED_COMPONENTS, measure_solid
 from ...core.verdict import FLIPPED_FACES, Method, Procedure
 from ...core.verdict.finding import EditRefusedError, ReadError, finding
-from ..read.findings import SCALE_ZERO_AXIS
+from ..read.findings import DISPLAY_MESH_MEASURED, SCALE_ZERO_AXIS
 from ..read.objects import read_object
 from ..read.visibility import shows_flat_region
 from .density.varying_density import weigh
 from .findings import (
-    DISPLAY_MESH_NEEDED,
     OPEN_COMPONENTS_UNITED,
     UNION_BY_BOOLEAN,
     UNION_FAILED,
@@ -66,15 +65,21 @@ def read(request: Request) -> Reading | None:
     if reading.has_patches:
         if density is None and request.settings.kind != "printed":
             return None
-        purpose = "walls and infill" if density is None else "a varying density"
-        reading.findings.append(finding(DISPLAY_MESH_NEEDED, purpose=purpose))
+        cause = (
+            "walls and infill need polygons"
+            if density is None
+            else "a varying density needs polygons"
+        )
+        reading.findings.append(finding(DISPLAY_MESH_MEASURED, cause=cause))
     elif (
         density is not None
         and request.settings.kind == "shell"
         and obj.type == "CURVE"
         and shows_flat_region(obj)
     ):
-        reading.findings.append(finding(DISPLAY_MESH_NEEDED, purpose="a varying density"))
+        reading.findings.append(
+            finding(DISPLAY_MESH_MEASURED, cause="a varying density needs polygons")
+        )
     return reading
 
 

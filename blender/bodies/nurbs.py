@@ -49,7 +49,8 @@ from ...core.nurbs import (
 from ...core.solid import OVERLAP_OF_INSTANCES, UNCHECKED
 from ...core.verdict import Method, Procedure, Source, least_trusted
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
-from .findings import DISPLAY_MESH_NEEDED, WALL_CREASES, ZERO_SCALE
+from ..read.findings import DISPLAY_MESH_MEASURED
+from .findings import WALL_CREASES, ZERO_SCALE
 from .mesh import mesh_body
 from .request import Request
 
@@ -164,7 +165,11 @@ def body(reading: Reading, request: Request) -> Body:
     ):
         united = mesh_body(reading, unit, shell=False, union=True, threads=threads)
         return replace(
-            united, findings=(finding(DISPLAY_MESH_NEEDED, purpose="a union"), *united.findings)
+            united,
+            findings=(
+                finding(DISPLAY_MESH_MEASURED, cause="a union needs polygons"),
+                *united.findings,
+            ),
         )
     rest = (
         mesh_body(meshes, unit, shell=False, union=False, threads=threads) if meshes.parts else None

@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 from ...core.bodies import Part, to_si
 from ...core.measurement import (
     DENSITY_FROM,
+    DENSITY_FROM_MASS,
+    DENSITY_FROM_VALUE,
     NO_VOLUME,
     ZERO_QUANTITY,
     Extent,
@@ -23,7 +25,7 @@ from ...core.measurement import (
     fingerprint,
     measure_total,
 )
-from ...core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
+from ...core.measurement.measurement import Measurement
 from ...core.mesh import Surface
 from ...core.moments import KNOWN_ORDER, Measure, Moments, are_similarities, sum_moments
 from ...core.numerics import Array, shortest_decimal

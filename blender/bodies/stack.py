@@ -19,8 +19,16 @@ from numpy.typing import NDArray
 from ...core.bodies import Reading
 from ...core.inertia import MassProperties, has_certain_total
 from ...core.inertia.third_moment_frames import third_moment_frames
-from ...core.measurement import Body, Settings, build_measurement, find_large_bounds, fingerprint
-from ...core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
+from ...core.measurement import (
+    DENSITY_FROM_MASS,
+    DENSITY_FROM_VALUE,
+    Body,
+    Settings,
+    build_measurement,
+    find_large_bounds,
+    fingerprint,
+)
+from ...core.measurement.measurement import Measurement
 from ...core.mesh import Surface
 from ...core.moments import Moments, are_similarities, are_singular, image
 from ...core.numerics import Array, Index, Mask, rotation_matrix

@@ -15,7 +15,6 @@ from ...core.verdict.findings import NO_FACES
 from .curves import is_round
 from .findings import (
     DISPLAY_MESH_FOR_MODIFIERS,
-    DISPLAY_MESH_FOR_WEIGHTS,
     DISPLAY_MESH_MEASURED,
     EDIT_MODE_SINGLE_SHAPE_KEY,
     HIDDEN_OBJECT_MEASURED,
@@ -200,13 +199,12 @@ def _spline_findings(evaluated, splines) -> Iterator[Finding]:
         yield from splines.findings
         return
     meshed = spline_modifiers(evaluated.original)[1]
-    count = nonpositive_weights(evaluated.data.splines)
     if meshed:
         yield finding(DISPLAY_MESH_FOR_MODIFIERS, modifiers=_names(meshed))
-    elif count:
-        yield finding(DISPLAY_MESH_FOR_WEIGHTS, count=count)
+    elif nonpositive_weights(evaluated.data.splines):
+        yield finding(DISPLAY_MESH_MEASURED, cause="some control points have no positive weight")
     else:
-        yield finding(DISPLAY_MESH_MEASURED)
+        yield finding(DISPLAY_MESH_MEASURED, cause="its control points are unknown")
 
 
 def _render_differences(obj, scene, exact: bool = False) -> Iterator[Finding]:

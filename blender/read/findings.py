@@ -119,24 +119,14 @@ DISPLAY_MESH_FOR_MODIFIERS = warning(
     "The display mesh was measured, as modifiers work on it: {modifiers}. Raise Resolution Preview "
     "for accuracy.",
 )
-DISPLAY_MESH_FOR_WEIGHTS = warning(
-    "display_mesh_for_weights",
-    "The display mesh was measured, as {count} control point has no positive weight. Raise the "
-    "weight above zero.",
-    "The display mesh was measured, as {count} control points have no positive weights. Raise the "
-    "weights above zero.",
-)
 DISPLAY_MESH_MEASURED = warning(
-    "display_mesh_measured", "The display mesh was measured. Raise Resolution Preview for accuracy."
+    "display_mesh_measured",
+    "The display mesh was measured, as {cause:word}. Raise Resolution Preview for accuracy.",
 )
 ATTRIBUTE_MISSING = error(
     "attribute_missing",
     "No attribute “{attribute}” with a float per vertex. Create it, use Convert Attribute, or "
     "change Attribute.",
-)
-VOLUME_WITHOUT_GRIDS = error(
-    "volume_without_grids",
-    "The volume has no grids. Choose a file, or add a modifier that makes grids.",
 )
 GRID_MISSING = error("grid_missing", "No grid “{grid}”; the volume has {grids}. Change Grid.")
 NO_SCALARS = "does not hold scalar numbers. Choose another grid"
@@ -149,7 +139,9 @@ IS_LEVEL_SET = (
 )
 GRID_UNSUPPORTED = error("grid_unsupported", "The grid “{grid}” {fault:word}.")
 NO_SCALAR_GRID = error(
-    "no_scalar_grid", "No grid holds scalar numbers; the volume has {grids}. Choose another volume."
+    "no_scalar_grid",
+    "No grid holds scalar numbers; the volume has {grids:word}. Choose another file, or add a "
+    "modifier that makes grids.",
 )
 GRID_UNREADABLE = error(
     "grid_unreadable",
@@ -181,6 +173,11 @@ SECTION_SPLINES_OPEN = warning(
     "section_splines_open",
     "{count} open spline encloses nothing and was left out. Use Toggle Cyclic.",
     "{count} open splines enclose nothing and were left out. Use Toggle Cyclic.",
+)
+SOLID_CHANGED = error(
+    "solid_changed",
+    "The shape was changed after it came from a STEP file, which holds its exact surfaces. Undo "
+    "the change, or import the file again.",
 )
 SCALE_ZERO_AXIS = error(
     "scale_zero_axis", "A scale is zero along an axis: its own, a delta or a parent's. Set it."

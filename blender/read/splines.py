@@ -22,7 +22,7 @@ from ...core.moments import FLOAT32_HALF_ULP
 from ...core.numerics import Array, NDArray
 from ...core.nurbs import Patch, blender_space, display_parameters, display_table
 from ...core.verdict.finding import ReadError, finding
-from .findings import CONTROL_POINTS_RECOVERED, SCALE_ZERO_AXIS, SPLINES_LEFT_OUT
+from .findings import CONTROL_POINTS_RECOVERED, SCALE_ZERO_AXIS, SOLID_CHANGED, SPLINES_LEFT_OUT
 from .mesh import read_array, vertex_points
 
 # relative to the largest coordinate: error of float32 evaluation, up to order 6 by order 6
@@ -89,13 +89,16 @@ def _shown_digest(data: Curve) -> str:
 
 
 def _kept_faces(original) -> SplineReading | None:
-    """Return the faces that an object shows, None if it was changed since, or shows none."""
+    """Return the faces of a file that an object shows, None if it shows none.
+
+    ReadError if it was changed since.
+    """
     data = original.data
     source = data.get(SOURCE)
     if source is not None:
         is_changed = any(spline_modifiers(original)) or data.shape_keys is not None
         if is_changed or _shown_digest(data) != source["shown"]:
-            return None
+            raise ReadError(SOLID_CHANGED, subject=original.name)
         if data.session_uid not in _faces_of_file:
             faces, rounding = read_source(source["source"], source["matrix"])
             _faces_of_file[data.session_uid] = SplineReading(faces, rounding, ())

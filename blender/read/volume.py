@@ -34,7 +34,6 @@ from .findings import (
     NO_SCALARS,
     SURFACELESS_LEFT_OUT,
     TEMPORARY_FOLDER_FULL,
-    VOLUME_WITHOUT_GRIDS,
 )
 from .objects import locate
 from .vdb import VdbGrid
@@ -128,7 +127,7 @@ def _volume(obj, depsgraph) -> tuple[bpy.types.Volume, bpy.types.GeometrySet] | 
     if not len(volume.grids):
         if obj.type != "VOLUME" or geometry.instances_pointcloud() is not None:
             return None
-        raise ReadError(VOLUME_WITHOUT_GRIDS, subject=obj.name)
+        raise ReadError(NO_SCALAR_GRID, subject=obj.name, grids="none")
     return volume, geometry
 
 

@@ -125,7 +125,7 @@ def _moved(
     """
     for ancestor in ancestors(body.obj):
         targets = [getattr(each, "target", None) for each in ancestor.constraints]
-        if empty in (ancestor, *targets):
+        if any(each == empty for each in (ancestor, *targets)):
             raise EditRefusedError(FOLLOWS_MOVED, follower=body.obj.name, target=empty.name)
     if _is_there(empty, body) and empty.parent == parent:
         return False

@@ -14,14 +14,11 @@ BALANCE_SETTINGS = (
     "Value, and Wall to Thin"
 )
 BALANCE_IMPOSSIBLE = error("balance_impossible", "Cannot be balanced: {cause:word}.")
-SHAPE_OF_MODIFIERS = error(
-    "shape_of_modifiers",
-    "The measured shape is made by {modifiers}, not by the mesh alone. Apply or hide them.",
-)
+OTHER_SHAPES = "shape keys, animation, constraints or instances"
 SHAPE_NOT_OF_MESH = error(
     "shape_not_of_mesh",
-    "The measured shape is made by shape keys, animation, constraints or instances. Apply or "
-    "remove them.",
+    "The measured shape is made by {makers:word}, not by the mesh alone. Apply, hide or remove "
+    "them.",
 )
 FOLLOWS_MOVED = error(
     "follows_moved",
@@ -32,7 +29,6 @@ MIRROR_IMAGE = error(
     "A mirror image of the active object, which it cannot match. Mirror it, or turn a flat shape "
     "over.",
 )
-SCAN_NON_FINITE = error("scan_non_finite", "Some samples are not finite. Remove them.")
 SURFACES_ROUNDED = note(
     "surfaces_rounded",
     "Blender stores control points as 32-bit numbers: points of the surfaces moved by up to "
@@ -96,9 +92,8 @@ DEPENDENT_SHAPE_CHANGES = error(
 )
 DATA_COPIED = note("data_copied", "The data was copied, as other objects use it.")
 FOLLOWER_MOVED = warning("follower_moved", "“{object}” follows by a constraint and moved along.")
-RIGID_BODY_NEEDS_MESH = error(
-    "rigid_body_needs_mesh", "Only meshes can be rigid bodies. Use Object > Convert > Mesh."
-)
+RIGID_BODY_NEEDS_MESH = "Only meshes can be rigid bodies. Use Object > Convert > Mesh"
+RIGID_BODY_UNFIT = error("rigid_body_unfit", "{fault:word}.")
 RIGID_BODY_MASS_TOO_SMALL = error(
     "rigid_body_mass_too_small",
     "The mass {mass:.3g} kg is below the {limit:.3g} kg of a rigid body. Raise Density.",

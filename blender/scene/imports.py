@@ -19,14 +19,13 @@ from typing import NamedTuple
 import bpy
 import numpy as np
 from bpy.types import Context, Curve, Object, Scene
-from bpy_extras.node_shader_utils import PrincipledBSDFWrapper
 
 from ...core.bodies import SplineReading
 from ...core.cad import MAX_ORDER, SurfaceBody, is_storable, read_surfaces
-from ...core.density import positions_text
+from ...core.density import DENSITY_NON_FINITE, positions_text
 from ...core.files import FILE_UNREADABLE, Limits
 from ...core.numerics import Array, NDArray, shortest_decimal
-from ...core.nurbs import Face, Patch, bezier_space
+from ...core.nurbs import Patch, bezier_space
 from ...core.scans import (
     Positions,
     Scan,
@@ -40,10 +39,11 @@ from ...core.scans import (
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..read.splines import keep_faces, keep_source
 from ..scale import meters_per_unit
-from .findings import SCAN_NON_FINITE, SURFACES_ROUNDED
+from .findings import SURFACES_ROUNDED
 
 MAX_DISTANCE = 16.0  # from the origin, in sizes: farther away float32 would lose more than a digit
-SHOWN_SAMPLES = 16  # per span, of surfaces that Blender's splines cannot be
+SHOWN_SAMPLES = 8  # per span, of surfaces that Blender's splines cannot be
+QUADS_PER_BAND = 64
 MIN_LOFTED_POINTS = 3  # along v: with fewer Blender does not loft
 GRID_NAME = "density"
 SAMPLES_PER_SLAB = 1 << 22  # samples at a time
@@ -200,10 +200,7 @@ def show_bodies(
     readings = {}
     made = []
     for body in bodies:
-        shown = (
-            [_band(list(map(_quads, body.patches)))] if body.source else map(_shown, body.patches)
-        )
-        obj, _ = surface_object(body.name, list(shown), factor)
+        obj, _ = surface_object(body.name, list(_shown(body)), factor)
         for spline in obj.data.splines:
             if spline.order_u == spline.order_v == 2:
                 spline.resolution_u = spline.resolution_v = 1
@@ -222,31 +219,36 @@ def show_bodies(
     return made
 
 
-def _shown(face: Face) -> Patch:
-    """Return a patch that Blender can hold and that looks like a face: the patch itself, or one
-    through samples.
+def _shown(body: SurfaceBody) -> Iterator[Patch]:
+    """Yield patches that Blender can hold and that look like a body: its own, or bands along
+    quadrilaterals.
     """
-    if not isinstance(face, Patch):
-        return _band([face.quads(SHOWN_SAMPLES)])
-    if max(space.order for space in face.spaces) <= MAX_ORDER and is_storable(face):
-        return face
-    points = face.samples(SHOWN_SAMPLES)
-    return Patch((bezier_space(len(points), 2), bezier_space(points.shape[1], 2)), points)
+    rows = []
+    for face in body.patches:
+        if not isinstance(face, Patch):
+            rows.append(face.quads(SHOWN_SAMPLES))
+        elif not body.source and is_storable(face) and _order(face) <= MAX_ORDER:
+            yield face
+        else:
+            grid = face.samples(SHOWN_SAMPLES)
+            corners = grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]
+            rows.append(np.stack(corners, axis=2).reshape(-1, 4, 3))
+    if not rows:
+        return
+    quads = np.concatenate(rows)
+    # Blender's effort grows with the square of a band's length, so all have the same short length.
+    spare = np.repeat(quads[-1:, :1], 4, axis=1)
+    quads = np.concatenate([quads, np.repeat(spare, -len(quads) % QUADS_PER_BAND, axis=0)])
+    yield from map(_band, quads.reshape(-1, QUADS_PER_BAND, 4, 3))
 
 
-def _quads(face: Face) -> Array:
-    """Return (n, 4, 3) corners of quadrilaterals that look like a face."""
-    if not isinstance(face, Patch):
-        return face.quads(SHOWN_SAMPLES)
-    grid = face.samples(SHOWN_SAMPLES)
-    return np.stack([grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]], axis=2).reshape(
-        -1, 4, 3
-    )
+def _order(face: Patch) -> int:
+    return max(space.order for space in face.spaces)
 
 
-def _band(quads: list[Array]) -> Patch:
-    """Return a band along all quadrilaterals, with folds of no width between them."""
-    a, b, c, d = np.moveaxis(np.concatenate(quads), 1, 0)
+def _band(quads: Array) -> Patch:
+    """Return a band along quadrilaterals, with folds of no width between them."""
+    a, b, c, d = np.moveaxis(quads, 1, 0)
     points = np.stack(
         [np.stack([a, b, c, d], axis=1), np.stack([a, a, d, d], axis=1)], axis=2
     ).reshape(-1, 2, 3)
@@ -260,8 +262,10 @@ def _material(color: Sequence[float]) -> bpy.types.Material:
     material = bpy.data.materials.get(name)
     if material is None:
         material = bpy.data.materials.new(name)
-        material.use_nodes = True
-        PrincipledBSDFWrapper(material, is_readonly=False).base_color = linear
+        material.diffuse_color = (*linear, 1.0)
+        for node in material.node_tree.nodes if material.node_tree else ():
+            if node.type == "BSDF_PRINCIPLED":
+                node.inputs["Base Color"].default_value = (*linear, 1.0)
     return material
 
 
@@ -292,7 +296,7 @@ def import_surfaces(path: Path, limits: Limits, unit: float, context: Context) -
         return ImportedSurfaces(objects, len(objects), 0, [*file.refused, *file.notes])
     made = import_bodies(file.bodies, context.collection, factor)
     patches = [patch for body in file.bodies for patch in body.patches]
-    order = max(space.order for patch in patches for space in patch.spaces)
+    order = max(map(_order, patches))
     moved = max(share for _, share in made)
     rounded = [finding(SURFACES_ROUNDED, share=moved)] if moved else []
     return ImportedSurfaces(
@@ -357,7 +361,7 @@ def write_volume(module: ModuleType, placed: PlacedScan, unit: float) -> float:
     exact = True
     for _, slab in _slabs(scan):
         if not np.isfinite(slab.min()) or not np.isfinite(slab.max()):
-            raise FileError(SCAN_NON_FINITE)
+            raise FileError(DENSITY_NON_FINITE)
         least = min(least, float(slab.min()))
         exact = exact and np.array_equal(slab.astype(np.float32), slab)
     kind, grid_of = (np.float32, module.FloatGrid) if exact else (np.float64, module.DoubleGrid)

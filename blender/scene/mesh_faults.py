@@ -14,7 +14,7 @@ from bpy.types import Object
 from ...core.measurement import Measurement
 from ...core.verdict import LINKED_OBJECT, EditRefusedError, welding_tolerance
 from ..read.mesh import vertex_points
-from .findings import SHAPE_OF_MODIFIERS
+from .findings import SHAPE_NOT_OF_MESH
 
 # Modifiers that only move vertices: the faults' indices are those of the mesh itself.
 DEFORMING_MODIFIERS = {
@@ -58,7 +58,7 @@ def require_editable_mesh(obj: Object) -> None:
         if modifier.show_viewport and modifier.type not in DEFORMING_MODIFIERS
     ]
     if changing:
-        raise EditRefusedError(SHAPE_OF_MODIFIERS, modifiers=changing)
+        raise EditRefusedError(SHAPE_NOT_OF_MESH, makers=changing)
 
 
 def defects_by_kind(measurement: Measurement) -> dict[str, np.ndarray]:

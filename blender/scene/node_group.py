@@ -11,7 +11,7 @@ Nodes compute in single precision: five to six digits.
 """
 
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import bpy
 from bpy.types import Context, GeometryNodeTree, Node, NodeSocket, Object
@@ -40,7 +40,7 @@ class _Builder(NamedTuple):
         kind: str,
         column: float,
         row: float = 0.0,
-        inputs: Mapping[str | int, object] | None = None,
+        inputs: Mapping[Any, object] | None = None,
         **settings: object,
     ) -> Node:
         node = self.tree.nodes.new(kind)

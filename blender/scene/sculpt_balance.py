@@ -40,8 +40,8 @@ from ..scale import meters_per_unit
 from .findings import (
     BALANCE_IMPOSSIBLE,
     BALANCE_SETTINGS,
+    OTHER_SHAPES,
     SHAPE_NOT_OF_MESH,
-    SHAPE_OF_MODIFIERS,
 )
 from .rigid_world import down
 from .transforms import FLOAT32
@@ -253,7 +253,7 @@ def _require_balanceable(obj: Object) -> None:
     if not obj.data.is_editable:
         raise EditRefusedError(LINKED_OBJECT)
     if obj.data.shape_keys is not None:
-        raise EditRefusedError(SHAPE_NOT_OF_MESH)
+        raise EditRefusedError(SHAPE_NOT_OF_MESH, makers=OTHER_SHAPES)
     if obj.body_moments.kind == "SHELL" and obj.body_moments.wall != "THIN":
         raise EditRefusedError(BALANCE_IMPOSSIBLE, cause=BALANCE_SETTINGS)
 
@@ -289,12 +289,8 @@ def _read_surface(context: Context, obj: Object, mesh: _Vertices | None) -> Part
     if reading.all_singular:
         raise EditRefusedError(SCALE_ZERO_AXIS)
     if reading.instance_count > 1:
-        raise EditRefusedError(SHAPE_NOT_OF_MESH)
+        raise EditRefusedError(SHAPE_NOT_OF_MESH, makers=OTHER_SHAPES)
     if mesh is not None and not np.array_equal(part.surface.points, mesh.start):
         shown = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
-        raise (
-            EditRefusedError(SHAPE_OF_MODIFIERS, modifiers=shown)
-            if shown
-            else EditRefusedError(SHAPE_NOT_OF_MESH)
-        )
+        raise EditRefusedError(SHAPE_NOT_OF_MESH, makers=shown or OTHER_SHAPES)
     return part

@@ -16,15 +16,11 @@ from ...core.numerics import Array
 from ...core.statics import Support, find_contacts, support_of_contacts
 from ...core.verdict import EditRefusedError, MeasureError, internal_error
 from ..bodies.assembly.assembly import measure_assembly
-from ..read.assembly import Member, MemberKind, members_of, settings_of
-from ..read.rig import is_skin_of
-from ..read.visibility import measurable
+from ..read import assembly, rig, visibility
 from ..scale import meters_per_unit
-from ..scene import fcurves
-from ..scene.rigid_world import down
-from ..write.properties import BALANCE_GROUP
-from ..write.reports import Refused
-from .findings import BALANCE_GROUP_EMPTY_GROUP, BALANCE_GROUP_WITHOUT_CONTACTS, NO_SUCH_NAME
+from ..scene import fcurves, rigid_world
+from ..write import properties, reports
+from .findings import BALANCE_GROUP_EMPTY, NO_SUCH_NAME
 from .live.motion import Motion
 from .stored import balance_groups
 
@@ -32,7 +28,7 @@ REACH = (
     0.01  # contact with the ground within this distance, relative to the contact objects' extent
 )
 
-SUMS = (MemberKind.COLLECTION, MemberKind.EMPTY)
+SUMS = (assembly.MemberKind.COLLECTION, assembly.MemberKind.EMPTY)
 
 
 class BalanceGroup:
@@ -52,12 +48,12 @@ class BalanceGroup:
         self._assembly: Collection | None = None  # the collection, if its mass is given
         self.objects = self._members(collection)
         self.feet = (
-            [obj for obj in _collection(contacts).all_objects if measurable(obj)]
+            [obj for obj in _collection(contacts).all_objects if visibility.measurable(obj)]
             if contacts
             else []
         )
         if contacts and not self.feet:
-            raise EditRefusedError(BALANCE_GROUP_WITHOUT_CONTACTS, collection=contacts)
+            raise EditRefusedError(BALANCE_GROUP_EMPTY, place=[contacts])
         self.centers: list[NDArray] = []
         self.supports: list[Support | None] = []
 
@@ -68,10 +64,10 @@ class BalanceGroup:
         context = self._context
         if collection:
             depsgraph = context.evaluated_depsgraph_get()
-            root = members_of(_collection(collection), depsgraph)
+            root = assembly.members_of(_collection(collection), depsgraph)
             objects: Iterable[Object] = counted(root)
             given = [
-                settings_of(member.data).mass_from == "MASS"
+                assembly.settings_of(member.data).mass_from == "MASS"
                 for member in root.walk()
                 if member.kind in SUMS
             ]
@@ -86,11 +82,11 @@ class BalanceGroup:
         for obj in objects:
             members.add(obj)
             if obj.type == "ARMATURE":
-                members |= {one for one in layer if is_skin_of(one, obj)}
+                members |= {one for one in layer if rig.is_skin_of(one, obj)}
                 members |= {one for one in layer if one.parent == obj and one.parent_type == "BONE"}
-        followed = [obj for obj in members & layer if measurable(obj)]
+        followed = [obj for obj in members & layer if visibility.measurable(obj)]
         if not followed:
-            raise EditRefusedError(BALANCE_GROUP_EMPTY_GROUP)
+            raise EditRefusedError(BALANCE_GROUP_EMPTY, place="the selection")
         return sorted(followed, key=lambda obj: obj.name_full)
 
     def follow(self, scene: Scene, frames: Sequence[float]) -> Generator[int, None, None]:
@@ -106,7 +102,7 @@ class BalanceGroup:
                 scene.frame_set(floor(frame), subframe=frame % 1.0)
                 self._add_frame(motion, self._context.evaluated_depsgraph_get())
                 yield done
-        except (MeasureError, Refused):
+        except (MeasureError, reports.Refused):
             raise
         except Exception as error:
             raise MeasureError(internal_error.finding_of(error)) from error
@@ -115,7 +111,7 @@ class BalanceGroup:
 
     def _add_frame(self, motion: Motion, depsgraph: Depsgraph) -> None:
         self.centers.append(self._center(motion, depsgraph))
-        gravity = down(depsgraph.scene)
+        gravity = rigid_world.down(depsgraph.scene)
         touching = np.zeros((0, 3))
         if self.feet:
             points = np.concatenate([motion.hull_points(obj, depsgraph) for obj in self.feet])
@@ -155,7 +151,7 @@ class BalanceGroup:
             empty.empty_display_type = "SPHERE"
             empty.show_in_front = True
             empty.empty_display_size = 0.05 * float(np.ptp(centers, axis=0).max())
-            empty[BALANCE_GROUP] = balance_groups.group_text(self.objects)
+            empty[properties.BALANCE_GROUP] = balance_groups.group_text(self.objects)
             context.scene.collection.objects.link(empty)
         balance_groups.store(
             empty,
@@ -177,12 +173,12 @@ def _collection(name: str) -> Collection:
     return collection
 
 
-def counted(member: Member) -> Iterator[Object]:
+def counted(member: assembly.Member) -> Iterator[Object]:
     """Yield the objects of an assembly that count; an instanced collection counts as its
     instancer.
     """
-    if member.is_measured or member.kind == MemberKind.INSTANCE:
+    if member.is_measured or member.kind == assembly.MemberKind.INSTANCE:
         yield member.data
-    if member.kind != MemberKind.INSTANCE:
+    if member.kind != assembly.MemberKind.INSTANCE:
         for below in member.members:
             yield from counted(below)

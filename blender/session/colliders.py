@@ -12,32 +12,17 @@ from typing import Any
 import numpy as np
 from bpy.types import Context, Depsgraph, Object
 
-from ...core.bodies import float64_matrix
-from ...core.colliders import (
-    Wanted,
-    correct_masses,
-    correct_vertices,
-    distances,
-    effect,
-    make_colliders,
-    uniform_masses,
-)
-from ...core.inertia import MassProperties
+from ...core import bodies, colliders, inertia, mesh, moments, robots, verdict
 from ...core.measurement import Measurement, digest, plain
-from ...core.mesh import Surface, convex_hull, join_surfaces
-from ...core.moments import are_singular
 from ...core.numerics import Array, polar_rotation
-from ...core.robots import Pose, Shape
-from ...core.verdict import ReadError
+from .. import read, write
 from ..bodies.measure_body import measure_body
 from ..bodies.stack import Measured
-from ..read.findings import OBJECT_WITHOUT_GEOMETRY, SCALE_ZERO_AXIS
 from ..read.fingerprint import colliders_digest, scale_products
 from ..scale import meters_per_unit
+from ..scene import changes
 from ..scene import colliders as scene
-from ..scene.changes import require_storable_data
 from ..settings.given import COLLIDER, COLLIDERS
-from ..write import properties
 from .tracking import staleness, stamps
 
 SAME = 1e-5  # relative: float32 matrices of turned copies differ by less
@@ -51,7 +36,7 @@ class Plan:
     """
 
     obj: Object
-    shapes: tuple[Shape, ...]
+    shapes: tuple[robots.Shape, ...]
     stretch: Array
     record: dict[str, Any]
     fingerprint: str
@@ -61,7 +46,7 @@ class Plan:
 def plan_colliders(
     obj: Object,
     depsgraph: Depsgraph,
-    wanted: Wanted,
+    wanted: colliders.Wanted,
     is_share: bool,
     correct: str,
     known: dict[str, Plan],
@@ -72,14 +57,14 @@ def plan_colliders(
     is_share: the tolerances are parts of the size. correct: "NONE", "MASSES" or "VERTICES". known:
     plans of this run by their keys, to which this one is added.
     """
-    require_storable_data(obj)
+    changes.require_storable_data(obj)
     measured = measure_body(obj, depsgraph)
     measurement = measured.measurement
     unit = meters_per_unit(depsgraph.scene)
     surface = _surface(obj, measured)
     stretch = scene.stretch_of(obj, measurement.rotation)
-    if are_singular(stretch[None])[0]:
-        raise ReadError(SCALE_ZERO_AXIS)
+    if moments.are_singular(stretch[None])[0]:
+        raise verdict.ReadError(read.findings.SCALE_ZERO_AXIS)
     body = measurement.in_object_frame()
     key = _mesh_key(obj, measured)
     if key in known:
@@ -87,17 +72,17 @@ def plan_colliders(
     if is_share:
         size = float(np.ptp(surface.points, axis=0).max())
         wanted = replace(wanted, outward=size * wanted.outward, inward=size * wanted.inward)
-    hull = convex_hull(surface.points)
-    shapes = yield from make_colliders(surface, body, wanted, hull)
+    hull = mesh.convex_hull(surface.points)
+    shapes = yield from colliders.make_colliders(surface, body, wanted, hull)
     shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
-    masses = uniform_masses(measurement.density, shapes)
+    masses = colliders.uniform_masses(measurement.density, shapes)
     if correct == "VERTICES":
         tolerances = wanted.outward, wanted.inward
-        shapes = yield from correct_vertices(body, shapes, surface, *tolerances)
+        shapes = yield from colliders.correct_vertices(body, shapes, surface, *tolerances)
         shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
-        masses = uniform_masses(measurement.density, shapes)
+        masses = colliders.uniform_masses(measurement.density, shapes)
     if correct == "MASSES":
-        masses = correct_masses(body, shapes)
+        masses = colliders.correct_masses(body, shapes)
     elif correct == "VERTICES" or wanted.shape.startswith("equal_"):
         masses = [mass * body.mass / sum(masses) for mass in masses]
     shapes = [replace(shape, mass=float(mass)) for shape, mass in zip(shapes, masses)]
@@ -109,8 +94,10 @@ def plan_colliders(
     if wanted.shape in LIMITED:
         record["tolerance"] = [wanted.outward, wanted.inward]
         record["limits"] = [wanted.pieces, wanted.vertices]
-    record |= zip(("outward", "inward", "distance_bound"), distances(surface, shapes, hull))
-    record |= effect(body, shapes, measurement.volume).as_record()
+    record |= zip(
+        ("outward", "inward", "distance_bound"), colliders.distances(surface, shapes, hull)
+    )
+    record |= colliders.effect(body, shapes, measurement.volume).as_record()
     record["body"] = _describe_body(body)
     known[key] = Plan(obj, tuple(shapes), stretch, plain(record), measurement.fingerprint, key)
     return known[key]
@@ -122,7 +109,7 @@ def _mesh_key(obj: Object, measured: Measured) -> str:
     """
     measurement = measured.measurement
     parts = []
-    to_frame = Pose(measurement.location, measurement.rotation).inverse()
+    to_frame = robots.Pose(measurement.location, measurement.rotation).inverse()
     for solid, matrices in getattr(measured.body, "solids", ()):
         linear = to_frame.rotation @ matrices[:, :3, :3]
         places = matrices[:, :3, 3] @ to_frame.rotation.T + to_frame.position
@@ -137,15 +124,15 @@ def _mesh_key(obj: Object, measured: Measured) -> str:
     return digest(settings + b"".join(np.ascontiguousarray(part).tobytes() for part in parts))
 
 
-def _surface(obj: Object, measured: Measured) -> Surface:
+def _surface(obj: Object, measured: Measured) -> mesh.Surface:
     """Return the measured surface, repaired if it is a solid's, in the object's frame in m."""
     measurement = measured.measurement
     pieces = [*measured.body.surfaces(measurement.kind == "shell")]
     if not pieces:
         kind = obj.bl_rna.properties["type"].enum_items[obj.type].name
-        raise ReadError(OBJECT_WITHOUT_GEOMETRY, subject=obj.name, type=kind)
-    to_frame = Pose(measurement.location, measurement.rotation).inverse()
-    return join_surfaces(pieces).transform(to_frame.rotation, to_frame.position)
+        raise verdict.ReadError(read.findings.OBJECT_WITHOUT_GEOMETRY, subject=obj.name, type=kind)
+    to_frame = robots.Pose(measurement.location, measurement.rotation).inverse()
+    return mesh.join_surfaces(pieces).transform(to_frame.rotation, to_frame.position)
 
 
 def store_colliders(context: Context, plans: Sequence[Plan], engine: str) -> list[Object]:
@@ -199,7 +186,7 @@ def colliders_kept_current(context: Context, objects: Iterable[Object]) -> Itera
     and results are stored anew.
     """
     kept = {
-        obj: float64_matrix(obj.matrix_world)
+        obj: bodies.float64_matrix(obj.matrix_world)
         for obj in objects
         if COLLIDERS in obj
         and staleness.stale_reason(obj, context.scene, stamps.of_colliders) is None
@@ -209,10 +196,10 @@ def colliders_kept_current(context: Context, objects: Iterable[Object]) -> Itera
     fresh = []
     for obj, before in kept.items():
         group = obj[COLLIDERS]
-        turn = polar_rotation(float64_matrix(obj.matrix_world)[None, :3, :3])[0][0].T
+        turn = polar_rotation(bodies.float64_matrix(obj.matrix_world)[None, :3, :3])[0][0].T
         turn = turn @ polar_rotation(before[None, :3, :3])[0][0]
         group["center_shift"] = (turn @ group["center_shift"]).tolist()
-        group["fingerprint"] = properties.fingerprint(obj) or group["fingerprint"]
+        group["fingerprint"] = write.properties.fingerprint(obj) or group["fingerprint"]
         group["digest"] = colliders_digest(obj)
         group["scale"] = scale_products(obj)
         staleness.note_edits(obj)
@@ -262,12 +249,12 @@ def collider_record(
     }
 
 
-def _describe_body(body: MassProperties) -> list[float]:
+def _describe_body(body: inertia.MassProperties) -> list[float]:
     """Return mass, center and inertia, in kg and m, so that a turned body is recognized."""
     return [body.mass, *body.center.tolist(), *body.inertia.ravel().tolist()]
 
 
-def _is_same_body(stored: Sequence[float], body: MassProperties) -> bool:
+def _is_same_body(stored: Sequence[float], body: inertia.MassProperties) -> bool:
     """Return whether a described body is this one, but for the rounding of turned matrices."""
     if len(stored) != 13 or not body.mass > 0.0:
         return False

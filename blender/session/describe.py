@@ -14,12 +14,9 @@ from bpy.types import Object
 
 from ...core.measurement import FRAMES, record
 from ...core.verdict import internal_error
-from ..bodies.measure_object import measure_many
-from ..bodies.stack import Measured
-from ..settings.options import MeasureOptions
-from ..write.remedies import REMEDIES, REPAIR, remedies_of
-from .stored.density import noted
-from .stored.results import store_measured
+from .. import settings, write
+from ..bodies import measure_object, stack
+from .stored import density, results
 
 WORDS = {
     "kind": ("solid", "shell", "printed", "wire"),
@@ -85,12 +82,14 @@ def describe(
     depsgraph = bpy.context.evaluated_depsgraph_get()
     found = [
         pair
-        for batch in measure_many(chosen, depsgraph, MeasureOptions(**options))
+        for batch in measure_object.measure_many(
+            chosen, depsgraph, settings.options.MeasureOptions(**options)
+        )
         for pair in batch
     ]
     if store:
         measured = [(obj, one) for obj, one in found if not isinstance(one, Exception)]
-        refused = store_measured(bpy.context, measured)
+        refused = results.store_measured(bpy.context, measured)
         found = [(obj, refused.get(obj, one)) for obj, one in found]
     is_overridden = "density" in options or "mass" in options
     return [_description(obj, one, frame, store, is_overridden) for obj, one in found]
@@ -134,7 +133,7 @@ def _chosen(objects: Object | str | Iterable[Object | str] | None) -> list[Objec
 
 def _description(
     obj: Object,
-    found: Measured | Exception,
+    found: stack.Measured | Exception,
     frame: str,
     is_stored: bool,
     is_overridden: bool,
@@ -152,7 +151,9 @@ def _description(
         entry |= record.described([internal_error.finding_of(found)])
     else:
         measurement = (
-            found.measurement if is_overridden else noted(obj, found.measurement, bpy.context.scene)
+            found.measurement
+            if is_overridden
+            else density.noted(obj, found.measurement, bpy.context.scene)
         )
         entry = record.record(replace(measurement, name=obj.name), frame)
         entry["numbers"] = {name: entry[name] for name in NUMBERS}
@@ -161,7 +162,9 @@ def _description(
             one
             | {
                 "elements": one.get("elements", [])[:MAX_ELEMENTS],
-                "remedies": [_call(remedy) for remedy in remedies_of(one["code"], obj.type)],
+                "remedies": [
+                    _call(remedy) for remedy in write.remedies.remedies_of(one["code"], obj.type)
+                ],
             }
         )
         for one in entry["findings"]
@@ -179,9 +182,8 @@ def _description(
 
 
 def _call(remedy: str) -> str:
-    """Return the call of a remedy, a key of REMEDIES or the idname of an operator."""
     return (
-        "bpy.ops.{}(remedy={!r})".format(REPAIR, remedy)
-        if remedy in REMEDIES
+        "bpy.ops.{}(remedy={!r})".format(write.remedies.REPAIR, remedy)
+        if remedy in write.remedies.REMEDIES
         else CALL.format(remedy)
     )

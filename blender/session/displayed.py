@@ -30,18 +30,13 @@ from ...core.verdict import (
     grouped,
     open_body_caveats,
 )
-from .. import read
-from ..read.fingerprint import has_transform
+from .. import read, write
 from ..scale import meters_per_unit
 from ..settings.chosen import chosen_objects, pinned_object
 from ..write import properties
-from ..write.units import Units
 from . import character, live, memory, stored
 from .live import following
-from .live.following import Lag, LiveResult
-from .tracking import armatures, handlers
-from .tracking.staleness import stale_reason
-from .tracking.stamps import Stale, of_results
+from .tracking import armatures, handlers, staleness, stamps
 
 ASSEMBLY = Method(Procedure.ASSEMBLY)
 BY_OTHERS = ("MATERIALS", "VOLUME")  # densities that change without an update of the object
@@ -65,9 +60,9 @@ class Displayed(NamedTuple):
     method: Method | None
     findings: Sequence[Finding]
     verdict: Verdict
-    reason: Stale | None = None
-    live: LiveResult | None = None
-    lag: Lag = Lag.NONE
+    reason: stamps.Stale | None = None
+    live: following.LiveResult | None = None
+    lag: following.Lag = following.Lag.NONE
     is_posed: bool = False
     is_plumbed: bool = False
     shows_axes: bool = True
@@ -127,14 +122,14 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
         method = measurement.method
         findings = stored.density.noted(obj, measurement, scene).findings
         lag = live.mapping.lag(obj)
-        reason = stale_reason(obj, scene, following.stamp_of)
-        is_behind = reason is not None or lag == Lag.BEHIND
+        reason = staleness.stale_reason(obj, scene, following.stamp_of)
+        is_behind = reason is not None or lag == following.Lag.BEHIND
     else:
         own = properties.stored(obj) if "body_mass" in obj else None
         method = properties.method(obj)
         findings = properties.findings(obj)
-        lag = Lag.NONE
-        reason = stale_reason(obj, scene)
+        lag = following.Lag.NONE
+        reason = staleness.stale_reason(obj, scene)
         is_behind = reason is not None
         now = None
     if own is None:
@@ -186,8 +181,12 @@ def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | No
         if shown is not None and not shown.is_posed:  # its own stored numbers are of the rest pose
             shown = _as_one(obj, scene, [drawn_bone(bone, scene) for bone in obj.pose.bones])
     else:
-        stamp = None if before is None or before.reason is not None else of_results(obj)
-        if before is not None and stamp is not None and has_transform(obj, stamp.transform):
+        stamp = None if before is None or before.reason is not None else stamps.of_results(obj)
+        if (
+            before is not None
+            and stamp is not None
+            and read.fingerprint.has_transform(obj, stamp.transform)
+        ):
             shown = before._replace(world=before.numbers.in_world(obj.matrix_world, before.unit))
         else:
             shown = displayed(obj, scene) if "body_mass" in obj or obj in memory.followed else None
@@ -235,7 +234,7 @@ def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
     world = own.in_world(armature.matrix_world @ bone.matrix, unit)
     method = properties.method(bone)
     findings = properties.findings(armature)
-    reason = stale_reason(armature, scene)
+    reason = staleness.stale_reason(armature, scene)
     verdict = find_verdict(method, findings) if reason is None else Verdict.OUT_OF_DATE
     return Displayed(own, world, unit, method, findings, verdict, reason)
 
@@ -280,7 +279,7 @@ def _weighed(armature: Object, scene: Scene) -> Displayed | None:
     unit = meters_per_unit(scene)
     method = properties.method(armature)
     findings = properties.findings(armature)
-    reason = stale_reason(armature, scene)
+    reason = staleness.stale_reason(armature, scene)
     verdict = find_verdict(method, findings) if reason is None else Verdict.OUT_OF_DATE
     own = weight.body.in_object(armature.matrix_world, unit)
     shows_axes = armature.body_moments_weight.show_axes
@@ -397,7 +396,7 @@ def listed_masses(scene: Scene, view_layer: ViewLayer) -> dict[int, str]:
     """Return texts of the masses of a view layer's measured objects by session uid, with common
     unit and decimals.
     """
-    units = Units.from_settings(scene.unit_settings)
+    units = write.units.Units.from_settings(scene.unit_settings)
 
     def list_masses() -> dict[int, str]:
         objects = list(view_layer.objects)

@@ -14,17 +14,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from bpy.types import Context, Object
 
-from ...core.bodies import PocketRoom, find_cores, print_body, to_si
-from ...core.measurement import Pocket
+from ...core import bodies, measurement, statics, verdict
 from ...core.numerics import Array, shortest_decimal
-from ...core.statics import (
-    ballast_margins,
-    ground_axes,
-    infill_range,
-    largest_margin,
-    least_ballast,
-)
-from ...core.verdict import MeasureError
 from ..bodies import mesh
 from ..bodies.request import Request
 from ..scene.rigid_world import down
@@ -45,7 +36,7 @@ class PrintBalance(NamedTuple):
     infill: float
     margin: float
     suffices: bool
-    pocket: Pocket | None = None
+    pocket: measurement.Pocket | None = None
 
 
 def balance_print(
@@ -65,7 +56,7 @@ def balance_print(
     the base. change: "INFILL", "WALLS" (they stay if the infill alone suffices), or "BALLAST", with
     its density in kg/m³. Raises MeasureError.
     """
-    axes = ground_axes(down(context.scene))[:, :2]
+    axes = statics.ground_axes(down(context.scene))[:, :2]
     if point is not None:
         turn = np.pi / 4.0 * np.arange(8)
         ring = np.column_stack([np.cos(turn), np.sin(turn)])
@@ -76,7 +67,7 @@ def balance_print(
     settings = replace(request.settings, kind="printed")
     if change != "BALLAST" and settings.printed.pocket is None:
         settings = replace(settings, mass=None, density=1.0)
-    to_body = to_si([request.surfaces.matrix], settings.unit)[0]
+    to_body = bodies.to_si([request.surfaces.matrix], settings.unit)[0]
     made = mesh.mesh_body(
         request.surfaces,
         settings.unit,
@@ -91,7 +82,7 @@ def balance_print(
     def placed(**values: Any) -> Array:
         """Return the mass and its first moments along the ground, in Blender units."""
         printed = settings.printed._replace(**values)
-        mass = print_body(made, replace(settings, printed=printed), to_body).mass
+        mass = bodies.print_body(made, replace(settings, printed=printed), to_body).mass
         first = mass.about_point(about).raw[1:4] if mass is not None else np.zeros(3)
         total = 0.0 if mass is None else mass.total
         return np.array([total, *(first @ axes / settings.unit)])
@@ -106,11 +97,11 @@ def balance_print(
     now = settings.printed
     if change == "BALLAST":
         if settings.mass is not None:
-            placed(pocket=Pocket((0.0, 0.0, 0.0), 0.0, 0.0))  # refused
+            placed(pocket=measurement.Pocket((0.0, 0.0, 0.0), 0.0, 0.0))  # refused
         mass = placed(pocket=None)
         excess = ballast - now.infill / 100.0 * (settings.density or 0.0)
-        cores, outsides = find_cores(made, now)
-        room = PocketRoom([one.surface for one in cores], outsides, now.line_width)
+        cores, outsides = bodies.find_cores(made, now)
+        room = bodies.PocketRoom([one.surface for one in cores], outsides, now.line_width)
         center, radius, reached = _place_pocket(
             room,
             lambda places: (places / settings.unit - middle) @ axes,
@@ -122,30 +113,30 @@ def balance_print(
             axes,
         )
         local = np.linalg.solve(to_body, [*center, 1.0])[:3]
-        pocket = Pocket(tuple(local.tolist()), radius, ballast) if radius else None
+        pocket = measurement.Pocket(tuple(local.tolist()), radius, ballast) if radius else None
         return stated(PrintBalance(now.walls, now.infill, reached, reached >= margin, pocket))
     best = None
     nearest = sorted(range(1, MAX_WALLS + 1), key=lambda count: abs(count - now.walls))
     for walls in nearest if change == "WALLS" else [now.walls]:
         try:
             empty, full = (placed(infill=infill, walls=walls) for infill in (0.0, 100.0))
-        except MeasureError:
+        except verdict.MeasureError:
             if walls == now.walls:
                 raise
             continue  # thicker than the part
-        allowed = infill_range(flat, empty, full - empty, margin)
+        allowed = statics.infill_range(flat, empty, full - empty, margin)
         if allowed is not None:
             low, high = (100.0 * share for share in allowed)
             infill = float(np.clip(now.infill, low, high))
             return PrintBalance(walls, _shorten(infill, low, high), margin, True)
-        reached, share = largest_margin(flat, empty, full - empty)
+        reached, share = statics.largest_margin(flat, empty, full - empty)
         if best is None or reached > best.margin:
             best = PrintBalance(walls, 100.0 * share, reached, False, now.pocket)
     return best and stated(best)
 
 
 def _place_pocket(
-    room: PocketRoom,
+    room: bodies.PocketRoom,
     to_flat: Callable[[Array], Array],
     corners: Array,
     mass: Array,
@@ -179,14 +170,16 @@ def _place_pocket(
         places = grid @ frame.T
         flat = to_flat(places)
         largest = FILLED * room.radii(places)
-        least = np.cbrt(least_ballast(corners, mass, flat, margin, sign) / (per_radius or 1.0))
+        least = np.cbrt(
+            statics.least_ballast(corners, mass, flat, margin, sign) / (per_radius or 1.0)
+        )
         fits = (least <= largest) & (per_radius > 0.0)
         if fits.any():
             at = int(np.where(fits, least, np.inf).argmin())
             found = places[at], float(least[at]), margin
         else:
             added = sign * per_radius * SHARES[:, None] * largest**3
-            margins = np.array([ballast_margins(corners, mass, flat, one) for one in added])
+            margins = np.array([statics.ballast_margins(corners, mass, flat, one) for one in added])
             share, at = np.unravel_index(margins.argmax(), margins.shape)
             radius = float(np.cbrt(SHARES[share]) * largest[at])
             found = max(found, (places[at], radius, float(margins[share, at])), key=itemgetter(2))

@@ -19,36 +19,14 @@ from ...core.inertia import combine
 from ...core.measurement import NO_VOLUME
 from ...core.mesh import convex_hull, triangle_areas
 from ...core.verdict import EditRefusedError, Finding, MeasureError, Procedure
+from .. import read, scene, settings
 from ..bodies.measure_object import measured_in_turn
 from ..bodies.stack import Measured as MeasuredObject
-from ..read.mesh import mesh_surface
-from ..read.tracking import tracking_paused
 from ..scale import meters_per_unit
-from ..scene import reframe
-from ..scene.changes import require_storable_data
-from ..scene.colliders import apply_for_bullet, colliders_by_body
-from ..scene.empties import PLACE_RTOL
-from ..scene.findings import OPEN_OBJECT, RIGID_BODY_MASS_TOO_SMALL, RIGID_BODY_NEEDS_MESH
-from ..scene.rigid_world import (
-    MIN_MASS,
-    add_joint,
-    add_rigid_bodies,
-    remove_joint,
-    require_rigid_world,
-)
-from ..scene.snap_targets import (
-    SnapTarget,
-    matrix_along_axes,
-    matrix_for_bullet,
-    target_of,
-)
-from ..scene.transforms import world
-from ..settings.given import COLLIDER
+from ..scene import changes, empties, findings, reframe, rigid_world, snap_targets, transforms
 from ..write import reports
+from . import stored, tracking
 from .colliders import colliders_kept_current
-from .stored import assembly
-from .stored.results import store_measured
-from .tracking import staleness
 
 # Blender's collision shapes of colliders that are primitives; all others are convex hulls.
 COLLISION_SHAPES = {"box": "BOX", "sphere": "SPHERE", "capsule": "CAPSULE", "cylinder": "CYLINDER"}
@@ -71,7 +49,7 @@ class Measured:
     """A measured body. density: mean density, kg/m³. parts: its objects with their measurements."""
 
     body: Body
-    target: SnapTarget
+    target: snap_targets.SnapTarget
     density: float
     parts: tuple[tuple[Object, MeasuredObject], ...]
 
@@ -105,7 +83,7 @@ def make_rigid_bodies(
                 measured[body.obj] = _measured(context, body, ask)
             except Exception as error:
                 found = error.finding.code if isinstance(error, MeasureError) else None
-                if type == "PASSIVE" and found in {OPEN_OBJECT, NO_VOLUME}:
+                if type == "PASSIVE" and found in {findings.OPEN_OBJECT, NO_VOLUME}:
                     floors += body.obj, *body.members  # no engine asks for their mass
                     step(done)
                     continue
@@ -113,14 +91,14 @@ def make_rigid_bodies(
             step(done)
     # Blender reports a rigid body as a change of the shape, and again when results are stored on it
     with (
-        assembly.kept_up_to_date(context),
+        stored.assembly.kept_up_to_date(context),
         colliders_kept_current(context, objects),
-        tracking_paused(),
+        read.tracking.tracking_paused(),
     ):
         failures += _place(context, measured, frame)
         new = _add(context, measured, type, shape)
         new_floors = [obj for obj in floors if obj.rigid_body is None]
-        add_rigid_bodies(context, new_floors, type)
+        rigid_world.add_rigid_bodies(context, new_floors, type)
         depsgraph = context.evaluated_depsgraph_get()
         for obj in floors:
             obj.rigid_body.type = "PASSIVE"
@@ -133,7 +111,9 @@ def make_rigid_bodies(
             )
         for obj, one in measured.items():
             obj.rigid_body.mass = one.target.mass
-        store_measured(context, [part for one in measured.values() for part in one.parts])
+        stored.results.store_measured(
+            context, [part for one in measured.values() for part in one.parts]
+        )
     return RigidBodies(measured, calculated, failures, floors)
 
 
@@ -144,7 +124,9 @@ def _place(context: Context, measured: dict[Object, Measured], frame: str) -> li
     failures: list[Finding] = []
     if frame == "KEEP":
         return failures
-    frame_of = matrix_for_bullet if frame == "ORIGIN" else matrix_along_axes
+    frame_of = (
+        snap_targets.matrix_for_bullet if frame == "ORIGIN" else snap_targets.matrix_along_axes
+    )
     for _ in range(2):  # a new scale may cut faces that are not flat into other triangles
         plans = []
         joints = {}
@@ -159,13 +141,13 @@ def _place(context: Context, measured: dict[Object, Measured], frame: str) -> li
                 failures.append(reports.failure(obj.name_full, error))
                 del measured[obj]
                 continue
-            move_only = np.array_equal(target[:3, :3], world(obj)[:3, :3])
+            move_only = np.array_equal(target[:3, :3], transforms.world(obj)[:3, :3])
             plans.append(reframe.Plan(obj, target, one.target.size, move_only=move_only))
         with reports.progress(len(plans)) as step:
             changed, refused = reframe.reframe(context, plans, step)
         for plan in changed:
             if joints[plan.obj] is not None:
-                remove_joint(context, plan.obj)
+                rigid_world.remove_joint(context, plan.obj)
         for obj, refusal in refused:
             failures.append(reports.failure(obj.name_full, refusal))
             del measured[obj]
@@ -174,7 +156,7 @@ def _place(context: Context, measured: dict[Object, Measured], frame: str) -> li
         ask = _measure_in_turn(context, [measured[plan.obj].body for plan in changed])
         for plan in changed:
             measured[plan.obj] = _measured(context, measured[plan.obj].body, ask)
-        staleness.mark_axes_changed(plan.obj for plan in changed if not plan.move_only)
+        tracking.staleness.mark_axes_changed(plan.obj for plan in changed if not plan.move_only)
     return failures
 
 
@@ -184,15 +166,17 @@ def _add(context: Context, measured: dict[Object, Measured], type: str, shape: s
     Return the objects that had no rigid body before.
     """
     parts = [part for one in measured.values() for part in (one.body.obj, *one.body.members)]
-    colliders = colliders_by_body(context.scene.objects) if shape == "KEEP" else {}
+    colliders = scene.colliders.colliders_by_body(context.scene.objects) if shape == "KEEP" else {}
     added = [collider for part in parts for collider in colliders.get(part, ())]
     new = [obj for obj in parts if obj.rigid_body is None]
     for collider in added:
-        apply_for_bullet(collider)
-    add_rigid_bodies(context, [*new, *(obj for obj in added if obj.rigid_body is None)], type)
+        scene.colliders.apply_for_bullet(collider)
+    rigid_world.add_rigid_bodies(
+        context, [*new, *(obj for obj in added if obj.rigid_body is None)], type
+    )
     for collider in added:
         collider.rigid_body.collision_shape = COLLISION_SHAPES.get(
-            collider[COLLIDER]["kind"], "CONVEX_HULL"
+            collider[settings.given.COLLIDER]["kind"], "CONVEX_HULL"
         )
     fresh = set(new)
     for one in measured.values():
@@ -205,8 +189,8 @@ def _add(context: Context, measured: dict[Object, Measured], type: str, shape: s
             elif shape != "KEEP":
                 part.rigid_body.collision_shape = shape
     for obj in (*new, *added):
-        scale = (obj.parent if COLLIDER in obj else obj).matrix_world.to_scale()
-        is_scaled = max(abs(size - 1.0) for size in scale) > PLACE_RTOL
+        scale = (obj.parent if settings.given.COLLIDER in obj else obj).matrix_world.to_scale()
+        is_scaled = max(abs(size - 1.0) for size in scale) > empties.PLACE_RTOL
         if is_scaled and obj.rigid_body.collision_shape == "CONVEX_HULL":
             # Blender shrinks hulls by the margin, times the scale; Bullet adds it without the scale
             obj.rigid_body.use_margin = True
@@ -218,7 +202,7 @@ def _is_convex_polygon(mesh: Mesh) -> bool:
     """Return whether a mesh is flat and fills its hull, on which compounds come to rest: on meshes
     Bullet rocks them for ever.
     """
-    surface = mesh_surface(mesh, edges=False)
+    surface = read.mesh.mesh_surface(mesh, edges=False)
     try:
         hull = convex_hull(surface.points, FLAT_RTOL)
     except MeasureError:
@@ -253,7 +237,9 @@ def _measure_in_turn(
 
 def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredObject]) -> Measured:
     """Measure a body as it is now; raise EditRefusedError if it cannot be a rigid body."""
-    require_rigid_world(context.scene, joints=body.obj.rigid_body_constraint is not None)
+    rigid_world.require_rigid_world(
+        context.scene, joints=body.obj.rigid_body_constraint is not None
+    )
     parts = [(body.obj, _measured_part(body.obj, ask))]
     for part in body.members:
         try:
@@ -265,25 +251,24 @@ def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredObje
         moments = [measurement.mass_moments for measurement in measurements]
         whole = combine(moments, preferred_axes=measurements[0].rotation)
         unit = meters_per_unit(context.scene)
-        target = SnapTarget.of_body(body.obj, whole, whole.principal, unit)
+        target = snap_targets.SnapTarget.of_body(body.obj, whole, whole.principal, unit)
     else:
-        target = target_of(context, *parts[0])
-    if target.mass < MIN_MASS:
-        raise EditRefusedError(RIGID_BODY_MASS_TOO_SMALL, mass=float(target.mass), limit=MIN_MASS)
+        target = snap_targets.target_of(context, *parts[0])
+    if target.mass < rigid_world.MIN_MASS:
+        raise EditRefusedError(
+            findings.RIGID_BODY_MASS_TOO_SMALL, mass=float(target.mass), limit=rigid_world.MIN_MASS
+        )
     volume = sum(measurement.volume for measurement in measurements)
     return Measured(body, target, target.mass / volume, tuple(parts))
 
 
 def _measured_part(part: Object, ask: Callable[[Object], MeasuredObject]) -> MeasuredObject:
-    """Measure a part of a body as it is now; raise EditRefusedError if it cannot belong to a rigid
-    body.
-    """
-    require_storable_data(part)
+    changes.require_storable_data(part)
     if part.type != "MESH":
-        raise EditRefusedError(RIGID_BODY_NEEDS_MESH)
+        raise EditRefusedError(findings.RIGID_BODY_UNFIT, fault=findings.RIGID_BODY_NEEDS_MESH)
     measured = ask(part)
     if measured.measurement.method.procedure == Procedure.OPEN:
-        raise EditRefusedError(OPEN_OBJECT)
+        raise EditRefusedError(findings.OPEN_OBJECT)
     return measured
 
 
@@ -313,7 +298,7 @@ def _joint_in_place(context: Context, obj: Object) -> Object | None:
     empty.rotation_mode = "QUATERNION"
     empty.location = location
     empty.rotation_quaternion = turn
-    copy = add_joint(context, empty, joint.type)
+    copy = rigid_world.add_joint(context, empty, joint.type)
     for prop in joint.bl_rna.properties:
         if not prop.is_readonly:
             setattr(copy, prop.identifier, getattr(joint, prop.identifier))

@@ -15,13 +15,11 @@ from bpy.props import StringProperty
 from bpy.types import Context, Object, PropertyGroup, Scene
 
 from ...core.density import DENSITY_UNITS
+from ..settings import given, properties
 from ..settings.chosen import chosen_objects, pinned_object
-from ..settings.given import COLLIDER, GivenPartProperties, has_density
-from ..settings.properties import COPIED_PROPERTIES, BodyMomentsObjectSettings, comparable
-from . import memory
-from .tracking import armatures
+from . import memory, tracking
 
-NAMES = (*COPIED_PROPERTIES, *("density_" + unit.lower() for unit in DENSITY_UNITS))
+NAMES = (*properties.COPIED_PROPERTIES, *("density_" + unit.lower() for unit in DENSITY_UNITS))
 SHAPE = {"kind", "wall", "thickness", "overlap", "density_from"}  # settings without use for volumes
 
 
@@ -32,7 +30,7 @@ def subject(context: Context) -> Object | None:
     active = context.object
     if active is not None and (active.mode != "OBJECT" or pinned_object(context) is not None):
         return active
-    shown = armatures.subjects(chosen_objects(context))
+    shown = tracking.armatures.subjects(chosen_objects(context))
     if active in shown:
         return active
     return shown[0] if len(shown) == 1 else None
@@ -44,7 +42,7 @@ def armature_of(context: Context) -> Object | None:
     """
     active = context.object
     chosen = [obj for obj in chosen_objects(context) if obj.type == "ARMATURE"]
-    if active in chosen or active is not None and armatures.stands_for_meshes(active):
+    if active in chosen or active is not None and tracking.armatures.stands_for_meshes(active):
         return active
     return chosen[0] if len(chosen) == 1 else None
 
@@ -59,9 +57,9 @@ def require_subject(context: Context) -> Object:
 def objects_with_settings(objects: Iterable[Object]) -> list[Object]:
     """Return the objects that have a density, colliders only if nothing else does, else empties."""
     objects = list(objects)
-    bodies = [obj for obj in objects if has_density(obj)]
+    bodies = [obj for obj in objects if given.has_density(obj)]
     return (
-        [obj for obj in bodies if COLLIDER not in obj]
+        [obj for obj in bodies if given.COLLIDER not in obj]
         or bodies
         or [obj for obj in objects if obj.type == "EMPTY"]
     )
@@ -101,7 +99,7 @@ def is_mixed(settings: PropertyGroup, name: str) -> bool:
         return False
     objects, mixed = _owners(bpy.context)
     if name not in mixed:
-        values = {comparable(getattr(obj.body_moments, name)) for obj in objects}
+        values = {properties.comparable(getattr(obj.body_moments, name)) for obj in objects}
         mixed[name] = len(values) > 1
     return mixed[name]
 
@@ -132,15 +130,13 @@ def _of_all(name: str, function: Any, keywords: dict[str, Any]) -> Any:
     return function(**(kept | {"options": set(), "get": read, "set": write}))
 
 
-def _find_volumes(_settings: PropertyGroup, _context: Context, _text: str) -> list[str]:
-    return [obj.name for obj in bpy.data.objects if obj.type == "VOLUME"]
-
-
 class BodyMomentsSelectionSettings(PropertyGroup):
     """Settings of the selected objects: each shows the first object's, and sets that of all."""
 
 
-ANNOTATIONS = GivenPartProperties.__annotations__ | BodyMomentsObjectSettings.__annotations__
+ANNOTATIONS = (
+    given.GivenPartProperties.__annotations__ | properties.BodyMomentsObjectSettings.__annotations__
+)
 BodyMomentsSelectionSettings.__annotations__ = {
     name: _of_all(name, ANNOTATIONS[name].function, ANNOTATIONS[name].keywords)
     for name in NAMES
@@ -151,7 +147,9 @@ BodyMomentsSelectionSettings.__annotations__["density_volume"] = StringProperty(
     description="Volume object whose grid is the density inside the solids",
     get=lambda _settings: getattr(owners(bpy.context)[0].body_moments.density_volume, "name", ""),
     set=lambda _settings, name: _set_all("density_volume", bpy.data.objects.get(name)),
-    search=_find_volumes,
+    search=lambda _settings, _context, _text: [
+        obj.name for obj in bpy.data.objects if obj.type == "VOLUME"
+    ],
 )
 CLASSES = (BodyMomentsSelectionSettings,)
 POINTERS = {(Scene, "body_moments_selection"): BodyMomentsSelectionSettings}

@@ -10,21 +10,18 @@ from bpy.types import Context, Object
 from numpy.typing import NDArray
 
 from ...core.verdict import Finding, internal_error
-from ..bodies.measure_object import measure_many, measured_in_turn
-from ..bodies.stack import Measured
+from ..bodies import measure_object, stack
 from ..read.tracking import tracking_paused
-from ..scene import reframe
-from ..scene.snap_targets import SnapTarget, target_of
+from ..scene import reframe, snap_targets
 from ..write import properties, reports
-from .stored import assembly
-from .stored.results import store_measured
+from .stored import assembly, results
 from .tracking import staleness
 
 
 def remeasure(
     context: Context,
     objects: Sequence[Object],
-    known: Mapping[Object, Measured] | None = None,
+    known: Mapping[Object, stack.Measured] | None = None,
 ) -> None:
     """Measure and store results anew after objects have moved; known: measurements of those that
     have not.
@@ -35,21 +32,21 @@ def remeasure(
         return
     measured = [(obj, known[obj]) for obj in stored if obj in known]
     unknown = [obj for obj in stored if obj not in known]
-    for together in measure_many(unknown, context.evaluated_depsgraph_get()):
+    for together in measure_object.measure_many(unknown, context.evaluated_depsgraph_get()):
         for obj, outcome in together:
             # stored results stay, and the panel shows that they are out of date
             if isinstance(outcome, Exception):
                 internal_error.finding_of(outcome)
             else:
                 measured.append((obj, outcome))
-    for refusal in store_measured(context, measured).values():
+    for refusal in results.store_measured(context, measured).values():
         internal_error.finding_of(refusal)
 
 
 def reframe_objects(
     context: Context,
     objects: Sequence[Object],
-    target_matrix: Callable[[Object, SnapTarget], NDArray | None],
+    target_matrix: Callable[[Object, snap_targets.SnapTarget], NDArray | None],
     move_only: bool,
     strict: bool = False,
 ) -> tuple[list[reframe.Plan], list[Finding]]:
@@ -58,20 +55,20 @@ def reframe_objects(
     """
 
     def plans_of(
-        chosen: Sequence[Object], right: dict[Object, Measured], by_shape: bool
+        chosen: Sequence[Object], right: dict[Object, stack.Measured], by_shape: bool
     ) -> tuple[list[reframe.Plan], list[Finding]]:
         """Return plans and refusals; measurements of unchanged objects with stored results go to
         `right`. by_shape: moments to sixth order choose among axes that lower ones leave open.
         """
         plans: list[reframe.Plan] = []
         failures: list[Finding] = []
-        measured = measured_in_turn(chosen, context.evaluated_depsgraph_get())
+        measured = measure_object.measured_in_turn(chosen, context.evaluated_depsgraph_get())
         with reports.progress(len(chosen)) as step:
             for done, obj in enumerate(chosen, 1):
                 try:
                     reframe.check(obj)
                     outcome = measured(obj)
-                    body = target_of(context, obj, outcome, strict, by_shape)
+                    body = snap_targets.target_of(context, obj, outcome, strict, by_shape)
                     target = target_matrix(obj, body)
                 except Exception as error:
                     failures.append(reports.failure(obj.name_full, error))
@@ -84,7 +81,7 @@ def reframe_objects(
         return plans, failures
 
     plans, failures = plans_of(objects, {}, not move_only)
-    known: dict[Object, Measured] = {}
+    known: dict[Object, stack.Measured] = {}
     with assembly.kept_up_to_date(context):
         with tracking_paused(), reports.progress(len(plans)) as step:
             changed, refused = reframe.reframe(context, plans, step)

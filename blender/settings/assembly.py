@@ -133,10 +133,6 @@ class BodyMomentsBoneSettings(PropertyGroup):
     )
 
 
-def _set_mass(settings: PropertyGroup, mass: float) -> None:
-    settings.mass = mass
-
-
 class BodyMomentsWeightSettings(PropertyGroup):
     """Settings of an armature's weight: what the viewport shows, its total mass and its ground."""
 
@@ -167,7 +163,7 @@ class BodyMomentsWeightSettings(PropertyGroup):
         step=10,
         precision=3,
         get=lambda settings: settings.mass or settings.id_data.get("body_mass", 0.0),
-        set=_set_mass,
+        set=lambda settings, mass: setattr(settings, "mass", mass),
     )
     show_axes: BoolProperty(
         name="Principal Axes",

@@ -12,14 +12,13 @@ from typing import TYPE_CHECKING, NamedTuple
 import bpy
 
 from ...core import density as density_engine
-from ...core.measurement.findings import DENSITY_FROM_VALUE
-from ...core.numerics import shortest_decimal
+from ...core import numerics
+from ...core.measurement import DENSITY_FROM_VALUE
 from ...core.verdict.finding import Finding, ReadError, finding
 from .findings import (
     DENSITY_FROM_POLYNOMIAL,
     DENSITY_SOURCE_MISSING,
     OBJECT_DENSITY_USED,
-    OBJECT_DENSITY_USED_FOR_MATERIALS,
 )
 from .given import GivenPart
 from .preferences import default_density
@@ -27,9 +26,6 @@ from .preferences import default_density
 if TYPE_CHECKING:
     from ...core.density import Polynomial
     from ...core.measurement import Measurement
-
-# Sources of density from the one value of an object, for all or some of its faces.
-_BY_OBJECT = {DENSITY_FROM_VALUE, OBJECT_DENSITY_USED, OBJECT_DENSITY_USED_FOR_MATERIALS}
 
 
 class DensityField(NamedTuple):
@@ -89,12 +85,12 @@ def object_density(settings: bpy.types.PropertyGroup, scene: bpy.types.Scene) ->
     the scene's.
     """
     default = None if settings.is_property_set("density") else default_density(scene)
-    return shortest_decimal(settings.density) if default is None else default
+    return numerics.shortest_decimal(settings.density) if default is None else default
 
 
 def material_density(material: bpy.types.Material | None) -> float | None:
     """Return a material's density in kg/m³; None if there is no material, or it has no density."""
-    density = 0.0 if material is None else shortest_decimal(material.body_moments.density)
+    density = 0.0 if material is None else numerics.shortest_decimal(material.body_moments.density)
     return density if density > 0.0 else None
 
 
@@ -103,8 +99,8 @@ def unset_density(
 ) -> str | None:
     """Return the density setting that a measurement uses and nobody has set, or None."""
     settings = obj.body_moments
-    used = {measurement.density_from.code, *(one.code for one in measurement.findings)}
-    if not used & _BY_OBJECT:
+    used_for_some = any(one.code == OBJECT_DENSITY_USED for one in measurement.findings)
+    if measurement.density_from != DENSITY_FROM_VALUE and not used_for_some:
         return None
     if measurement.kind == "wire":
         return None if settings.is_property_set("linear_density") else "linear_density"

@@ -10,17 +10,10 @@ DENSITY_SOURCE_MISSING = error(
 )
 OBJECT_DENSITY_USED = warning(
     "object_density_used",
-    "{count} of {total} faces has no material with a density and takes the object's {density:.7g} "
-    "kg/m³.",
-    "{count} of {total} faces have no material with a density and take the object's {density:.7g} "
-    "kg/m³.",
-)
-OBJECT_DENSITY_USED_FOR_MATERIALS = warning(
-    "object_density_used_for_materials",
-    "{count} of {total} faces takes the object's {density:.7g} kg/m³, as these materials have no "
-    "density: {materials}.",
-    "{count} of {total} faces take the object's {density:.7g} kg/m³, as these materials have no "
-    "density: {materials}.",
+    "{count} of {total} faces has no density of a material and takes the object's {density:.7g} "
+    "kg/m³. Materials without density: {materials:word}.",
+    "{count} of {total} faces have no density of a material and take the object's {density:.7g} "
+    "kg/m³. Materials without density: {materials:word}.",
 )
 DENSITY_FROM_POLYNOMIAL = note(
     "density_from_polynomial", "polynomial {polynomial}, in {frame:word} coordinates"

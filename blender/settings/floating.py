@@ -6,8 +6,7 @@ from bpy.props import FloatProperty
 from bpy.types import Object, PropertyGroup, Scene
 
 from ...core.density import BY_NAME
-from .given import choice_property
-from .hooks import part_changed
+from . import given, hooks
 
 LIQUIDS = {
     "SEA_WATER": "Sea Water",
@@ -19,7 +18,7 @@ LIQUIDS = {
 class BodyMomentsLiquidSettings(PropertyGroup):
     """The liquid of a scene."""
 
-    liquid: choice_property(
+    liquid: given.choice_property(
         "Liquid",
         "Liquid in which objects float",
         ("SEA_WATER", "Sea Water", "Sea water, 1023.343 kg/m³"),
@@ -45,7 +44,7 @@ class BodyMomentsLiquidSettings(PropertyGroup):
 class BodyMomentsTankSettings(PropertyGroup):
     """The part of an object in a floating body."""
 
-    role: choice_property(
+    role: given.choice_property(
         "Part",
         "Part of the object when it floats",
         ("BODY", "Body", "Its mass counts, and it displaces the liquid"),
@@ -56,7 +55,7 @@ class BodyMomentsTankSettings(PropertyGroup):
             "tank itself has no mass",
         ),
         ("FLOODED", "Flooded", "It is a space that the liquid around the body fills, too"),
-        update=part_changed,
+        update=hooks.part_changed,
     )
     fill: FloatProperty(
         name="Fill Level",
@@ -65,7 +64,7 @@ class BodyMomentsTankSettings(PropertyGroup):
         min=0.0,
         max=100.0,
         subtype="PERCENTAGE",
-        update=part_changed,
+        update=hooks.part_changed,
     )
 
 

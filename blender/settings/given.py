@@ -11,8 +11,7 @@ from typing import Any, NamedTuple
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty
 from bpy.types import Object, PropertyGroup
 
-from ...core.measurement import plain
-from ...core.numerics import shortest_decimal
+from ...core import measurement, numerics
 from .hooks import Hook, changed
 
 GIVEN_PROPERTIES = (
@@ -123,10 +122,12 @@ class GivenPart(NamedTuple):
         """
         center = inertia = None
         if settings.use_center:
-            center = tuple(unit * shortest_decimal(value) for value in settings.given_center)
+            center = tuple(
+                unit * numerics.shortest_decimal(value) for value in settings.given_center
+            )
         if settings.use_inertia:
-            xx, yy, zz = map(shortest_decimal, settings.given_inertia_diagonal)
-            xy, xz, yz = map(shortest_decimal, settings.given_inertia_products)
+            xx, yy, zz = map(numerics.shortest_decimal, settings.given_inertia_diagonal)
+            xy, xz, yz = map(numerics.shortest_decimal, settings.given_inertia_products)
             inertia = (xx, xy, xz), (xy, yy, yz), (xz, yz, zz)
         return cls(center, inertia)
 
@@ -136,7 +137,7 @@ class GivenPart(NamedTuple):
     @property
     def key(self) -> str:
         """A text that changes with the given values, "" if there are none."""
-        return repr(plain([self.center, self.inertia])) if self else ""
+        return repr(measurement.plain([self.center, self.inertia])) if self else ""
 
 
 def shows_collection(obj: Object) -> bool:

@@ -32,8 +32,6 @@ LISTS = (
 
 
 def _update(*hooks: list[Hook]) -> Hook:
-    """Return the update function of a property, which calls all of these hooks."""
-
     def call(settings: PropertyGroup, context: Context) -> None:
         for hook in chain(*hooks):
             hook(settings, context)

@@ -15,10 +15,8 @@ import bpy
 from bpy.props import BoolProperty, FloatProperty, IntProperty
 from bpy.types import AddonPreferences, Context, Scene, UILayout
 
-from ...core.density import BY_NAME, MATERIALS
-from ...core.numerics import shortest_decimal
-from .given import choice_property, density_property
-from .hooks import default_density_changed
+from ...core import density, numerics
+from . import given, hooks
 
 ADDON_ID = __name__.removesuffix(".blender.settings.preferences")
 MATERIAL_ITEMS = [
@@ -27,7 +25,7 @@ MATERIAL_ITEMS = [
         material.name,
         "{:.7g} kg/m³. Source: {:s}".format(material.density, material.source),
     )
-    for material in MATERIALS
+    for material in density.MATERIALS
 ]
 # To the website that the manifest names, else to the manual that the build puts beside the code.
 LINKS = {"Manual": ("index.html", "HELP"), "Report a Bug": ("faq.html#report-a-bug", "URL")}
@@ -44,13 +42,13 @@ COPIED = (
 class SceneDefaults:
     """Properties common to the preferences and the settings of a scene."""
 
-    frame: choice_property(
+    frame: given.choice_property(
         "Frame",
         "Axes and origin in which the center of mass, the axes and the tensor are shown",
         ("WORLD", "World", "World axes and origin"),
         ("OBJECT", "Object", "Location and rotation of the object, with unit scale"),
     )
-    density_unit: choice_property(
+    density_unit: given.choice_property(
         "Density Unit",
         "Unit in which densities are shown and entered",
         ("AUTO", "By Unit System", "kg/m³, in scenes with imperial units lb/ft³"),
@@ -66,24 +64,24 @@ class SceneDefaults:
         min=2,
         max=15,
     )
-    digit_grouping: choice_property(
+    digit_grouping: given.choice_property(
         "Digit Grouping",
         "What separates groups of three digits in numbers of five digits and more",
         ("SPACE", "Space", "20 000"),
         ("COMMA", "Comma", "20,000"),
         ("NONE", "None", "20000"),
     )
-    default_material: choice_property(
+    default_material: given.choice_property(
         "Default Material",
         "Material of objects whose density has not been set",
         ("NONE", "None", "1000 kg/m³, with a note"),
         ("CUSTOM", "Custom", "The density below"),
         *MATERIAL_ITEMS,
-        update=default_density_changed,
+        update=hooks.default_density_changed,
     )
-    default_density: density_property(
+    default_density: given.density_property(
         "Density in kg/m³ of objects whose density has not been set",
-        default_density_changed,
+        hooks.default_density_changed,
         name="Default Density",
         min=0.01,
     )
@@ -174,9 +172,11 @@ def default_density(scene: Scene) -> float | None:
     """
     settings = scene.body_moments
     if settings.default_material == "CUSTOM":
-        return shortest_decimal(settings.default_density)
+        return numerics.shortest_decimal(settings.default_density)
     return (
-        None if settings.default_material == "NONE" else BY_NAME[settings.default_material].density
+        None
+        if settings.default_material == "NONE"
+        else density.BY_NAME[settings.default_material].density
     )
 
 
@@ -185,7 +185,7 @@ def default_material(scene: Scene) -> str:
     if there is none.
     """
     name = scene.body_moments.default_material
-    return name if name in BY_NAME else ""
+    return name if name in density.BY_NAME else ""
 
 
 def manual_folder() -> Path:

@@ -111,7 +111,6 @@ def _density_in(unit: str, description: str):
 
 
 def _text(name: str, description: str, **special: Any) -> Any:
-    """Return a property with a text."""
     return StringProperty(name=name, description=description, update=changed, **special)
 
 

@@ -10,9 +10,7 @@ from bpy.props import BoolProperty, FloatVectorProperty, IntProperty, PointerPro
 from bpy.types import Object, PropertyGroup, Scene
 
 from ...core.measurement import MAX_ORDER
-from .given import choice_property
-from .preferences import BodyMomentsPreferences, SceneDefaults
-from .properties import TRANSLATION_CONTEXT
+from . import given, preferences, properties
 
 
 class BodyMomentsOverlaySettings(PropertyGroup):
@@ -40,7 +38,7 @@ class BodyMomentsOverlaySettings(PropertyGroup):
         description="Draw a line from the center of mass straight down or up to the floor, Z = 0",
         default=True,
     )
-    equivalent: choice_property(
+    equivalent: given.choice_property(
         "Equal Inertia",
         "Draw the body of uniform density that has the same mass and the same principal moments",
         ("NONE", "None", "Draw no equivalent body"),
@@ -84,7 +82,7 @@ class BodyMomentsOverlaySettings(PropertyGroup):
 class BodyMomentsReferenceSettings(PropertyGroup):
     """Settings of the reference of inertia and moments."""
 
-    about: choice_property(
+    about: given.choice_property(
         "About",
         "Point and axes that inertia and moments are referred to",
         ("CENTER", "Center of Mass", "The center of mass, along the world axes"),
@@ -93,7 +91,7 @@ class BodyMomentsReferenceSettings(PropertyGroup):
         ("CURSOR", "3D Cursor", "Location and axes of the 3D cursor"),
         ("OBJECT", "Other Object", "Origin and axes of another object"),
         ("AXIS", "Axis", "The axis from one point to another"),
-        translation_context=TRANSLATION_CONTEXT,
+        translation_context=properties.TRANSLATION_CONTEXT,
         default="WORLD",
     )
     object: PointerProperty(
@@ -116,7 +114,7 @@ class BodyMomentsReferenceSettings(PropertyGroup):
     )
 
 
-class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
+class BodyMomentsSceneSettings(preferences.SceneDefaults, PropertyGroup):
     """The scene's settings: the display of numbers, and the initial settings of objects."""
 
     overlay: PointerProperty(name="Overlay", type=BodyMomentsOverlaySettings)
@@ -132,14 +130,14 @@ class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
     )
     moments_order: IntProperty(
         name="Order",
-        translation_context=TRANSLATION_CONTEXT,
+        translation_context=properties.TRANSLATION_CONTEXT,
         description="Highest p + q + r of the computed moments ∫ x^p y^q z^r",
         default=4,
         min=1,
         max=MAX_ORDER,
         soft_max=20,
     )
-    moments_of: choice_property(
+    moments_of: given.choice_property(
         "Domain",
         "What the moments integrate over",
         ("VOLUME", "Volume", "Volume. For shells, area times thickness"),
@@ -151,7 +149,7 @@ class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
         ),
         ("FLAT", "Area", "Area of a flat shape in its own plane, ∫ x^p y^q dA"),
     )
-    moments_about: choice_property(
+    moments_about: given.choice_property(
         "About",
         "Point that the coordinates are relative to",
         ("ORIGIN", "Frame Origin", "Origin of the chosen frame"),
@@ -168,12 +166,12 @@ class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
             "then Flusser's",
         ),
         ("REFERENCE", "Reference", "Point and axes that Inertia about Reference refers to"),
-        translation_context=TRANSLATION_CONTEXT,
+        translation_context=properties.TRANSLATION_CONTEXT,
     )
 
 
 CLASSES = (
-    BodyMomentsPreferences,
+    preferences.BodyMomentsPreferences,
     BodyMomentsOverlaySettings,
     BodyMomentsReferenceSettings,
     BodyMomentsSceneSettings,

@@ -19,8 +19,7 @@ import bpy
 
 from ... import core
 from ...core.inertia import BOUND_KEYS, COLUMNS, ROWS, PlainBody, rotation_axes
-from ...core.measurement import plain
-from ...core.measurement.findings import DENSITY_FROM_MASS, DENSITY_FROM_VALUE
+from ...core.measurement import UNIFORM_DENSITIES, plain
 from ...core.verdict import (
     LINKED_OBJECT,
     EditRefusedError,
@@ -35,9 +34,6 @@ from ...core.verdict import (
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
-    from ...core.inertia import MassProperties
-    from ...core.measurement import Measurement
 
 DESCRIPTIONS = {
     "body_mass": "Mass in kg",
@@ -115,7 +111,7 @@ OPTIONAL = (
 ROUNDING = 2.0**-52  # relative, for a product of two rounded numbers
 
 
-def store(obj: Owner, measurement: Measurement) -> None:
+def store(obj: Owner, measurement: core.measurement.Measurement) -> None:
     """Write all results on an object, a collection or a pose bone.
 
     Raises EditRefusedError if it cannot hold them.
@@ -123,7 +119,7 @@ def store(obj: Owner, measurement: Measurement) -> None:
     store_values(obj, values_of(measurement))
 
 
-def values_of(measurement: Measurement) -> dict[str, Any]:
+def values_of(measurement: core.measurement.Measurement) -> dict[str, Any]:
     """Return the properties that hold a measurement."""
     body = measurement.in_object_frame()
     bound = measurement.error_bound
@@ -141,7 +137,7 @@ def values_of(measurement: Measurement) -> dict[str, Any]:
     values: dict[str, Any] = {
         key: getattr(measurement, key.removeprefix("body_")) for key in OPTIONAL
     }
-    if measurement.density_from.code not in (DENSITY_FROM_VALUE, DENSITY_FROM_MASS):
+    if measurement.density_from not in UNIFORM_DENSITIES:
         values["body_density_from"] = str(measurement.density_from)
         values["body_materials"] = "\n".join(measurement.materials) or None
     if measurement.printed is not None:
@@ -154,7 +150,7 @@ def values_of(measurement: Measurement) -> dict[str, Any]:
 
 
 def values_of_stack(
-    body: MassProperties,
+    body: core.inertia.MassProperties,
     density: NDArray,
     volume: NDArray,
     area: NDArray,
@@ -188,7 +184,6 @@ def values_of_stack(
 
 
 def _texts(method: Method, found: Iterable[Finding], mark: str) -> dict[str, str]:
-    """Return the texts stored beside the numbers."""
     return {
         "body_method": str(method),
         "body_warnings": warning_lines(found),
@@ -276,12 +271,8 @@ def _set(obj: Owner, key: str, value: object) -> None:
     is_new = key not in obj  # otherwise it has its description
     obj[key] = value
     if is_new and not isinstance(value, str):
-        obj.id_properties_ui(key).update(description=_description(key, type(obj)), precision=6)
-
-
-@lru_cache
-def _description(key: str, owner: type) -> str:
-    return DESCRIPTIONS[key].format(frame=FRAMES[owner])
+        description = DESCRIPTIONS[key].format(frame=FRAMES[type(obj)])
+        obj.id_properties_ui(key).update(description=description, precision=6)
 
 
 def store_reference(obj: Owner, values: dict) -> None:

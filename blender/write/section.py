@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from math import degrees
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import bpy
 
@@ -19,9 +19,6 @@ from ... import core
 from ...core.verdict import Finding, Severity, sentence, severity
 from .properties import findings_in, findings_text, warning_lines
 from .units import clean, report_line, report_number, report_vector, rounded_up
-
-if TYPE_CHECKING:
-    from ...core.flat import Section
 
 KEY = "body_section"
 BOUND_KEYS = ("area", "perimeter", "centroid", "second")
@@ -46,7 +43,7 @@ ABOUT = ("x", "y", "1", "2")
 class StoredSection(NamedTuple):
     """A stored section; `unit` is in meters per Blender unit at its measurement."""
 
-    section: Section
+    section: core.flat.Section
     description: str
     findings: tuple[Finding, ...]
     fingerprint: str
@@ -55,7 +52,7 @@ class StoredSection(NamedTuple):
 
 def store(
     obj: bpy.types.Object,
-    section: Section,
+    section: core.flat.Section,
     what: str,
     findings: tuple[Finding, ...],
     fingerprint: str,

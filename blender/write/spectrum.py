@@ -12,9 +12,8 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core import fourier, measurement
 from ...core.files.whole_file import whole_file
-from ...core.fourier import Spectrum
-from ...core.measurement import SPECTRUM_ARRAYS
 
 IMAGE_MARK = (
     "body_fourier"  # property of the images that may be overwritten; its value is their name
@@ -25,7 +24,7 @@ SLICE_GAP = 2  # pixels between slices
 
 def save(
     path: Path,
-    spectrum: Spectrum,
+    spectrum: fourier.Spectrum,
     frame: str,
     check: Callable[[Path], None] | None = None,
     plane: Mapping[str, Any] | None = None,
@@ -46,7 +45,7 @@ def save(
             spectrum.method,
             frame,
         )
-        np.savez(file, **dict(zip(SPECTRUM_ARRAYS, arrays)), **(plane or {}))
+        np.savez(file, **dict(zip(measurement.SPECTRUM_ARRAYS, arrays)), **(plane or {}))
 
 
 def picture(

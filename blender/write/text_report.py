@@ -13,11 +13,9 @@ from collections.abc import Callable, Collection, Iterable, Sequence
 from math import sqrt
 from typing import Any
 
+from ...core import measurement, verdict, wall
 from ...core.inertia import TENSOR, PlainBody, add_bodies, principal_axes, tensor_rows
-from ...core.measurement import described, document, plain, visible
-from ...core.verdict import HEALTH, METHODS, Method, Procedure, method_key
 from ...core.verdict.finding import Finding, ReadError, finding
-from ...core.wall import WALL_MEASURED
 from ..scale import meters_per_unit
 from . import properties
 from .findings import NO_STORED_RESULTS, STALE_RESULTS
@@ -59,8 +57,8 @@ def stored_document(
             inputs = entry["error_bound"]["input"]
             inputs["center_of_mass"] += place_error(obj) * unit
         entries.append(entry)
-    total = _stored_total(entries, bodies) | described(caveats)
-    return document(entries, total, errors, file=file, blender=blender, frame=frame)
+    total = _stored_total(entries, bodies) | measurement.described(caveats)
+    return measurement.document(entries, total, errors, file=file, blender=blender, frame=frame)
 
 
 def text(file_document: dict[str, Any]) -> str:
@@ -81,14 +79,15 @@ def text(file_document: dict[str, Any]) -> str:
         lines += [
             "{}{}: {}".format(INDENT, one["name"] or "File", one["reason"]) for one in entries
         ]
-    return "".join(visible(line) + "\n" for line in lines)
+    return "".join(measurement.visible(line) + "\n" for line in lines)
 
 
 def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
-    """Yield the lines of one object, or of a total."""
     if "method" in entry:
-        walled = any(found["code"] == WALL_MEASURED for found in entry.get("findings", ()))
-        _, explanation = METHODS.get(method_key(Method.parse(entry["method"]), walled), ("", ""))
+        walled = any(found["code"] == wall.WALL_MEASURED for found in entry.get("findings", ()))
+        _, explanation = verdict.METHODS.get(
+            verdict.method_key(verdict.Method.parse(entry["method"]), walled), ("", "")
+        )
         yield report_line("Verdict", ": ".join(filter(None, (entry["method"], explanation))))
         counts = list(_counts(entry.get("health", {})))
         if counts:
@@ -126,7 +125,7 @@ def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
 
 
 def _counts(health: dict[str, Any]) -> Iterable[str]:
-    for name, (one, several) in HEALTH.items():
+    for name, (one, several) in verdict.HEALTH.items():
         count = health.get(name, 0)
         count = len(count) if isinstance(count, list) else count
         if count:
@@ -180,7 +179,7 @@ def _stored_record(obj: Any, stored: PlainBody, outdated: bool) -> dict[str, Any
     """
     method = properties.method(obj)
     findings = properties.findings(obj)
-    kinds = {Procedure.SHELL: "shell", Procedure.WIRE: "wire"}
+    kinds = {verdict.Procedure.SHELL: "shell", verdict.Procedure.WIRE: "wire"}
     source = properties.density_from(obj)
     if outdated:
         findings = (finding(STALE_RESULTS), *findings)
@@ -204,14 +203,14 @@ def _stored_record(obj: Any, stored: PlainBody, outdated: bool) -> dict[str, Any
             **stored.error_bound,
             **({"estimated": True} if properties.is_estimated(obj) else {}),
         },
-        **described(findings),
+        **measurement.described(findings),
     }
     length, display = (properties.optional(obj, key) for key in properties.OPTIONAL)
     if length is not None:
         entry |= {"length": length, "linear_density": stored.mass / length}
     if display is not None:
         entry["display_mesh"] = {"volume": display, "difference": display - stored.volume}
-    return plain(entry)
+    return measurement.plain(entry)
 
 
 def _stored_total(entries: Sequence[dict[str, Any]], bodies: Sequence[PlainBody]) -> dict[str, Any]:
@@ -224,4 +223,4 @@ def _stored_total(entries: Sequence[dict[str, Any]], bodies: Sequence[PlainBody]
     if whole is not None:
         total |= {"center_of_mass": whole.center, "inertia": tensor_rows(whole.inertia)}
         total |= {"principal_moments": whole.moments, "symmetry": principal_axes(whole.inertia)[2]}
-    return plain(total)
+    return measurement.plain(total)

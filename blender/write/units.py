@@ -168,7 +168,6 @@ class Units(NamedTuple):
 
     @property
     def _has_default_mass(self) -> bool:
-        """True if the scene has the default unit of mass."""
         return self.system == "METRIC" and self.mass == "KILOGRAMS"
 
     @property

@@ -23,14 +23,12 @@ from ...core.files import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..findings import FILE_NEWER_VERSION, FILE_VERSION_UNSUPPORTED
 from ..supervisor.listing import BLEND, USD
-from .finite import check_numbers
+from . import finite, placing, suffixes
 from .import_fbx import import_fbx
 from .import_gltf import import_gltf
 from .import_usd import import_usd
 from .importers import import_3mf, import_cad, import_mesh, import_obj
-from .placing import measure_at
 from .references import Opened
-from .suffixes import check_file, file_suffix
 
 _OLDEST = (2, 50)  # reading files of older versions can damage their content
 _KNOWN_FORMAT = 1  # version of the .blend format
@@ -65,13 +63,13 @@ def open_file(path: str, frame: float | None = None) -> Opened:
 
 
 def _opened(path: str, frame: float | None) -> Opened:
-    kind = file_suffix(path)
-    check_file(path)
-    check_numbers(path, kind)
+    kind = suffixes.file_suffix(path)
+    suffixes.check_file(path)
+    finite.check_numbers(path, kind)
     absolute = os.path.abspath(path)
     if kind == BLEND:  # it replaces the open scene
         _open_blend(absolute)
-        return Opened() if frame is None else Opened(notes=measure_at(frame))
+        return Opened() if frame is None else Opened(notes=placing.measure_at(frame))
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     try:
         found = (

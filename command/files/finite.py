@@ -17,26 +17,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.cad import check_obj_text
-from ...core.files import (
-    FBX_MAGIC,
-    MALFORMED,
-    MAX_FLOAT32,
-    SHORT,
-    Data,
-    GltfFile,
-    fbx_array,
-    find_number_fault,
-    map_file,
-    refuse_line,
-    refuse_non_finite,
-)
+from ...core import cad, files
 
 # The end of a node's head: its name behind its length, and the type of its first property, an
 # array.
 _FBX_VERTICES = re.compile(rb"\x08Vertices(?=[df])")
 _FBX_ARRAY = re.compile(rb"Vertices(?<!\wVertices)\s*:(?:\s*\*\d+\s*\{\s*a\s*:)?")
-_FBX_NUMBERS = re.compile(rb"(?>(?:[\s,]*+%b(?=[\s,}]|\Z))*)[\s,]*+" % SHORT)
+_FBX_NUMBERS = re.compile(rb"(?>(?:[\s,]*+%b(?=[\s,}]|\Z))*)[\s,]*+" % files.SHORT)
 _FBX_WORD = re.compile(rb"[^\s,:{}]++(?!\s*:)")  # not the name of what follows
 _VALUES = ("matrix", "translation", "rotation", "scale", "weights")  # of nodes and meshes
 
@@ -48,58 +35,60 @@ def check_numbers(path: str, kind: str) -> None:
     """
     check = _CHECKS.get(kind)
     if check is not None:
-        check(map_file(path), path)
+        check(files.map_file(path), path)
 
 
-def check_fbx(data: Data, _path: str) -> None:
+def check_fbx(data: files.Data, _path: str) -> None:
     """Raise FileError if a vertex of a mesh or of its shape keys is not finite."""
-    if data[: len(FBX_MAGIC)] != FBX_MAGIC:
+    if data[: len(files.FBX_MAGIC)] != files.FBX_MAGIC:
         _check_ascii_fbx(data)
         return
     for vertices in _FBX_VERTICES.finditer(data):
-        with suppress(*MALFORMED):
+        with suppress(*files.MALFORMED):
             count, first = 0, 0
-            for begin, numbers in fbx_array(data, vertices.end()):
+            for begin, numbers in files.fbx_array(data, vertices.end()):
                 more, row = bad_in_table(numbers[:, None])
                 first = first if count else (begin + row) // 3
                 count += more
-            refuse_non_finite(count, "vertex", first)
+            files.refuse_non_finite(count, "vertex", first)
 
 
-def _check_ascii_fbx(data: Data) -> None:
+def _check_ascii_fbx(data: files.Data) -> None:
     for array in _FBX_ARRAY.finditer(data):
         is_named = data[max(0, array.start() - 100) : array.start()].rpartition(b"\n")[2].strip()
         numbers = None if is_named else _FBX_NUMBERS.match(data, array.end())
         while numbers is not None:
             word = _FBX_WORD.match(data, numbers.end())
-            fault = None if word is None else find_number_fault(word[0], True)
+            fault = None if word is None else files.find_number_fault(word[0], True)
             if fault is not None:
-                refuse_line(data, numbers.end(), fault)
+                files.refuse_line(data, numbers.end(), fault)
             numbers = None if word is None else _FBX_NUMBERS.match(data, word.end())
 
 
-def check_gltf(data: Data, path: str) -> None:
+def check_gltf(data: files.Data, path: str) -> None:
     """Raise FileError if a number in a node or in an accessor that places points is not finite."""
-    with suppress(*MALFORMED):
-        file = GltfFile(data, path)
+    with suppress(*files.MALFORMED):
+        file = files.GltfFile(data, path)
         for number, node in enumerate(file.document.get("nodes", [])):
             _check_values(node, "node", number)
         for number, mesh in enumerate(file.document.get("meshes", [])):
             _check_values(mesh, "mesh", number)
         for number, mesh in _placing_accessors(file.document).items():
             where = "accessor {}".format(number) if mesh is None else "mesh “{}”".format(mesh)
-            with suppress(*MALFORMED):  # others may be whole
+            with suppress(*files.MALFORMED):  # others may be whole
                 accessor = file.document["accessors"][number]
                 count, first = bad_in_table(file.table(accessor))
                 rows, values = file.sparse(accessor)
                 more, row = bad_in_table(values)
                 count, first = count + more, int(rows[row]) if more and not count else first
-                refuse_non_finite(count, where + ", row", first)
+                files.refuse_non_finite(count, where + ", row", first)
 
 
 def _check_values(entry: dict[str, Any], kind: str, number: int) -> None:
-    count = sum(not abs(value) < MAX_FLOAT32 for key in _VALUES for value in entry.get(key, ()))
-    refuse_non_finite(count, kind, entry.get("name") or number)
+    count = sum(
+        not abs(value) < files.MAX_FLOAT32 for key in _VALUES for value in entry.get(key, ())
+    )
+    files.refuse_non_finite(count, kind, entry.get("name") or number)
 
 
 def _placing_accessors(document: dict[str, Any]) -> dict[int, str | None]:
@@ -134,16 +123,16 @@ def bad_in_table(rows: NDArray) -> tuple[int, int]:
         if (
             rows.dtype.kind != "f"
             or not rows.size
-            or rows.max() < MAX_FLOAT32
-            and rows.min() > -MAX_FLOAT32
+            or rows.max() < files.MAX_FLOAT32
+            and rows.min() > -files.MAX_FLOAT32
         ):
             return 0, 0
-        bad = ~(np.abs(rows) < MAX_FLOAT32)
+        bad = ~(np.abs(rows) < files.MAX_FLOAT32)
     return int(np.count_nonzero(bad)), int(np.argmax(bad.any(axis=1)))
 
 
-_CHECKS: dict[str, Callable[[Data, str], None]] = {
-    ".obj": lambda data, _path: check_obj_text(data),
+_CHECKS: dict[str, Callable[[files.Data, str], None]] = {
+    ".obj": lambda data, _path: cad.check_obj_text(data),
     **dict.fromkeys((".glb", ".gltf"), check_gltf),
     ".fbx": check_fbx,
 }

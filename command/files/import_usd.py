@@ -17,16 +17,12 @@ import numpy as np
 from bpy.types import Object
 from numpy.typing import NDArray
 
-from ...blender.read.places import set_places
-from ...blender.scene.findings import SURFACES_ROUNDED
-from ...blender.scene.imports import surface_data
-from ...core.cad import UPRIGHT, revolved_solid
-from ...core.files import FILE_UNREADABLE
+from ...blender import read, scene
+from ...core import cad, files
 from ...core.numerics import Array
 from ...core.verdict.finding import FileError, Finding, finding
 from ..findings import FILE_HIDES, FRAME_MEASURED, USD_CAGE, USD_UNREAD
-from .placing import place_objects, set_frame
-from .references import Opened, reported_references
+from . import placing, references
 
 _SHEAR = 1e-6  # cosine of the angle between two axes; larger than the rounding of float32
 
@@ -57,7 +53,7 @@ _PURPOSES = {
 }
 
 
-def import_usd(path: str, frame: float | None) -> Opened:
+def import_usd(path: str, frame: float | None) -> references.Opened:
     """Import a USD file: each object at the place that the file states at the frame, by default its
     first, solids as exact surfaces, hidden prims as objects that are not rendered. Raise FileError.
     """
@@ -73,7 +69,6 @@ def import_usd(path: str, frame: float | None) -> Opened:
 
 
 def _is_special(prim: _Prim) -> bool:
-    """Return whether an object of an instance cannot be shown as Blender's importer does."""
     axes = prim.place[:3, :3]
     lengths = np.linalg.norm(axes, axis=0)
     is_sheared = (
@@ -112,21 +107,23 @@ def _import(
     bpy.utils.expose_bundled_modules()
     bpy.utils.register_class(BODY_MOMENTS_USD_prims)
     try:
-        missing = reported_references(lambda: bpy.ops.wm.usd_import(filepath=path, **options))
+        missing = references.reported_references(
+            lambda: bpy.ops.wm.usd_import(filepath=path, **options)
+        )
     finally:
         bpy.utils.unregister_class(BODY_MOMENTS_USD_prims)
     if not results or isinstance(results[0], ImportError):
-        raise FileError(FILE_UNREADABLE, error="this Blender lacks the Python modules of USD")
+        raise FileError(files.FILE_UNREADABLE, error="this Blender lacks the Python modules of USD")
     if isinstance(results[0], Exception):
         raise results[0]
     unit, prims, unread, start = results[0]
     if start is not None:
-        set_frame(start)
+        placing.set_frame(start)
     if unread:
         missing = (*missing, finding(USD_UNREAD, names=unread))
     bpy.context.scene.unit_settings.scale_length = unit
     if not abs(bpy.context.scene.unit_settings.scale_length - unit) <= 1e-6 * unit:
-        raise FileError(FILE_UNREADABLE, error="its metersPerUnit is {}".format(unit))
+        raise FileError(files.FILE_UNREADABLE, error="its metersPerUnit is {}".format(unit))
     return prims, missing, start
 
 
@@ -152,7 +149,7 @@ class _Stage:
         self._places = self._geom.XformCache(self._time)
         self.unit = self._geom.GetStageMetersPerUnit(stage)
         self._to_scene = (
-            UPRIGHT if self._geom.GetStageUpAxis(stage) == self._geom.Tokens.y else np.eye(4)
+            cad.UPRIGHT if self._geom.GetStageUpAxis(stage) == self._geom.Tokens.y else np.eye(4)
         )
 
     def _first_time(self) -> float | None:
@@ -324,8 +321,7 @@ class _Stage:
 
 def _correct(
     prims: Mapping[str, _Prim], missing: tuple[Finding, ...], start: float | None
-) -> Opened:
-    """Correct the objects by their prims, and return the findings."""
+) -> references.Opened:
     bpy.context.view_layer.update()
     hidden: dict[str, Finding] = {}
     notes = () if start is None else (finding(FRAME_MEASURED, frame=start),)
@@ -338,12 +334,14 @@ def _correct(
             hidden[name] = finding(FILE_HIDES, cause=prim.hidden)
         if prim.scheme is not None:
             findings[name] = (finding(USD_CAGE, scheme=prim.scheme),)
-        patch = None if prim.solid is None else revolved_solid(*prim.solid)
+        patch = None if prim.solid is None else cad.revolved_solid(*prim.solid)
         if prim.solid is not None and patch is not None:
             if prim.solid not in surfaces:
-                surfaces[prim.solid] = surface_data(name, [patch], 1.0)[:2]
+                surfaces[prim.solid] = scene.imports.surface_data(name, [patch], 1.0)[:2]
             data, moved = surfaces[prim.solid]
-            findings[name] = (finding(SURFACES_ROUNDED, share=moved),) if moved else ()
+            findings[name] = (
+                (finding(scene.findings.SURFACES_ROUNDED, share=moved),) if moved else ()
+            )
             _replace(obj, data)
         elif prim.points is not None and len(prim.points) == len(obj.data.vertices):
             obj.modifiers.clear()
@@ -351,7 +349,9 @@ def _correct(
             obj.data.attributes["position"].data.foreach_set(
                 "vector", prim.points.astype(np.float32).ravel()
             )
-    place_objects({name: prim.place for name, prim in prims.items() if prim.members is None})
+    placing.place_objects(
+        {name: prim.place for name, prim in prims.items() if prim.members is None}
+    )
     for name, prim in prims.items():
         if prim.members is not None:
             _show_members(name, prim)
@@ -363,11 +363,10 @@ def _correct(
                 bpy.context.scene.collection.objects.link(obj)
             obj.hide_render = False
     bpy.context.view_layer.update()
-    return Opened(missing, notes, findings, hidden)
+    return references.Opened(missing, notes, findings, hidden)
 
 
 def _rendered() -> set[bpy.types.Collection]:
-    """Return the collections of the scene that are rendered."""
     waiting = [bpy.context.scene.collection]
     found = set()
     while waiting:
@@ -389,14 +388,14 @@ def _show_members(name: str, prim: _Prim) -> None:
         copy = bpy.data.objects[member].copy()
         copy.parent = None
         copy.hide_render = copy.hide_viewport = False
-        set_places(copy, matrices)
+        read.places.set_places(copy, matrices)
         collection.objects.link(copy)
     obj = bpy.data.objects.new(name, None)
     obj.instance_type, obj.instance_collection = "COLLECTION", collection
     obj.hide_render = is_hidden
     for home in homes:
         home.objects.link(obj)
-    place_objects({name: prim.place})
+    placing.place_objects({name: prim.place})
 
 
 def _replace(obj: Object, data: bpy.types.Curve) -> None:

@@ -17,24 +17,11 @@ import numpy as np
 from mathutils import Matrix
 from numpy.typing import NDArray
 
-from ...blender.bodies.union import subtract
-from ...blender.scene.imports import show_bodies
+from ...blender import bodies, scene
 from ...blender.settings.properties import set_print
-from ...core.cad import FACES_NOT_READ, SurfaceFile, has_surfaces, read_surfaces
-from ...core.files import file_limits
+from ...core import cad, files, polyhedron, streams, verdict
 from ...core.mesh import Surface
-from ...core.polyhedron import box_center
 from ...core.solid import UNCHECKED, measure_solid
-from ...core.streams import (
-    KINDS,
-    NEGATIVE_PARTS_CUT,
-    NEGATIVE_PARTS_UNFIT,
-    FileMesh,
-    Placed,
-    box_of_blocks,
-    read_3mf,
-)
-from ...core.verdict import Procedure
 from ...core.verdict.finding import FileError, Finding, finding
 from ..findings import FILE_HIDES, PRINT_SETTINGS
 from .references import Opened
@@ -51,14 +38,14 @@ def import_mesh(path: str) -> None:
 
     If float32 would move points noticeably, the object stands at the center of their box.
     """
-    mesh = KINDS[Path(path).suffix.lower()](Path(path)).mesh()
+    mesh = streams.KINDS[Path(path).suffix.lower()](Path(path)).mesh()
     center = np.zeros(3)
     if len(mesh.points):
-        low, high = box_of_blocks([mesh.points], "vertex")
+        low, high = streams.box_of_blocks([mesh.points], "vertex")
         with np.errstate(over="ignore"):
             moved = np.abs(mesh.points.astype(np.float32) - mesh.points).max()
         if moved > _MOVED * (high - low).max():
-            center = box_center(low, high, np.dtype(np.float32))
+            center = polyhedron.box_center(low, high, np.dtype(np.float32))
             mesh = replace(mesh, points=mesh.points - center)
     obj = bpy.data.objects.new(mesh.name, blender_mesh(mesh))
     obj.location = center
@@ -66,11 +53,11 @@ def import_mesh(path: str) -> None:
     bpy.context.view_layer.update()
 
 
-def blender_mesh(found: FileMesh) -> bpy.types.Mesh:
+def blender_mesh(found: streams.FileMesh) -> bpy.types.Mesh:
     """Return a file's mesh as data of Blender. FileError if a coordinate is too large for it."""
     with np.errstate(over="ignore"):
         points = found.points.astype(np.float32)
-    box_of_blocks([points], "vertex")
+    streams.box_of_blocks([points], "vertex")
     mesh = bpy.data.meshes.new(found.name)
     mesh.vertices.add(len(points))
     if len(points):  # Attributes are set several times faster than properties.
@@ -91,7 +78,7 @@ def blender_mesh(found: FileMesh) -> bpy.types.Mesh:
 
 def import_3mf(path: str) -> Opened:
     """Add the file's objects to the scene, and set its unit to the file's. Raises FileError."""
-    placed, unit = read_3mf(path, file_limits())
+    placed, unit = streams.read_3mf(path, files.file_limits())
     hidden: dict[str, Finding] = {}
     bpy.context.scene.unit_settings.scale_length = unit
     meshes: dict[tuple[str, str], bpy.types.Mesh] = {}
@@ -108,7 +95,7 @@ def import_3mf(path: str) -> Opened:
         else:
             _set_print(obj.body_moments, one.print_settings)
         if negative:
-            remarks.append(finding(NEGATIVE_PARTS_CUT, names=negative))
+            remarks.append(finding(streams.NEGATIVE_PARTS_CUT, names=negative))
         notes[obj.name] = tuple(remarks)
         if one.hidden:
             obj.hide_render = True
@@ -127,7 +114,6 @@ def import_3mf(path: str) -> Opened:
 
 
 def _set_print(settings: bpy.types.PropertyGroup, found: Mapping[str, float]) -> None:
-    """Set an object's settings to those of a slicer's project, if it has any."""
     if found:
         settings.kind = "PRINTED"
     if "density" in found:
@@ -136,8 +122,8 @@ def _set_print(settings: bpy.types.PropertyGroup, found: Mapping[str, float]) ->
 
 
 def _without_negative_parts(
-    placed: list[Placed], errors: list[Finding]
-) -> Iterator[tuple[Placed, list[str]]]:
+    placed: list[streams.Placed], errors: list[Finding]
+) -> Iterator[tuple[streams.Placed, list[str]]]:
     """Yield the meshes with negative parts cut away, and the names of these; a mesh that cannot be
     cut is left out, with an error.
     """
@@ -154,7 +140,9 @@ def _without_negative_parts(
         inverse = np.linalg.inv(one.matrix)
         surfaces = [_closed_surface(part, inverse @ part.matrix) for part in (one, *cutters)]
         closed = [surface for surface in surfaces if surface is not None]
-        left = subtract(closed[0], closed[1:]) if len(closed) == len(surfaces) else None
+        left = (
+            bodies.union.subtract(closed[0], closed[1:]) if len(closed) == len(surfaces) else None
+        )
         if left is not None and left.triangle_count:
             triangles = left.all_triangles()[0].astype(np.int64)
             yield replace(one, key=(number,), points=left.points, triangles=triangles), names
@@ -162,27 +150,30 @@ def _without_negative_parts(
         cause = "they cover all of it"
         if left is None:
             cause = "the surfaces are not closed, or Blender's Boolean fails with them"
-        errors.append(finding(NEGATIVE_PARTS_UNFIT, names=names, object=one.name, cause=cause))
+        errors.append(
+            finding(streams.NEGATIVE_PARTS_UNFIT, names=names, object=one.name, cause=cause)
+        )
 
 
-def _closed_surface(part: Placed, matrix: NDArray) -> Surface | None:
+def _closed_surface(part: streams.Placed, matrix: NDArray) -> Surface | None:
     """Return a part in its place with faces outward, or None if it is not closed."""
     surface = Surface.from_triangles(part.points, part.triangles)
     solid = measure_solid(surface.transform(matrix[:3, :3], matrix[:3, 3]))
-    is_closed = solid.method in (Procedure.EXACT, Procedure.REORIENTED)
+    is_closed = solid.method in (verdict.Procedure.EXACT, verdict.Procedure.REORIENTED)
     return solid.repaired_surface if is_closed else None
 
 
-def _mesh(one: Placed) -> bpy.types.Mesh:
-    """Return the mesh as stored in the file, without repair."""
+def _mesh(one: streams.Placed) -> bpy.types.Mesh:
     return blender_mesh(
-        FileMesh(one.name, one.points, one.triangles.ravel(), np.full(len(one.triangles), 3))
+        streams.FileMesh(
+            one.name, one.points, one.triangles.ravel(), np.full(len(one.triangles), 3)
+        )
     )
 
 
 def import_cad(path: str) -> Opened:
     """Add the surfaces of a file to the scene, in meters. Raises FileError and OSError."""
-    return _added(read_surfaces(path, file_limits(), for_blender=False))
+    return _added(cad.read_surfaces(path, files.file_limits(), for_blender=False))
 
 
 def import_obj(path: str) -> Opened:
@@ -190,13 +181,13 @@ def import_obj(path: str) -> Opened:
 
     Raises FileError and OSError.
     """
-    if not has_surfaces(path):
+    if not cad.has_surfaces(path):
         bpy.ops.wm.obj_import(filepath=path)
         return Opened()
     with open(path, "rb") as file:
         has_faces = any(_OBJ_MESH.match(line) for line in file)
     try:
-        opened = _added(read_surfaces(path, file_limits(), for_blender=False))
+        opened = _added(cad.read_surfaces(path, files.file_limits(), for_blender=False))
     except FileError as error:
         if not has_faces:
             raise
@@ -206,10 +197,10 @@ def import_obj(path: str) -> Opened:
     return opened
 
 
-def _added(file: SurfaceFile) -> Opened:
+def _added(file: cad.SurfaceFile) -> Opened:
     unit = 1.0 if file.unit is None else file.unit
-    made = show_bodies(file.bodies, bpy.context.scene.collection, unit)
+    made = scene.imports.show_bodies(file.bodies, bpy.context.scene.collection, unit)
     bpy.context.view_layer.update()
-    unread = (finding(FACES_NOT_READ, count=file.unread),) if file.unread else ()
+    unread = (finding(cad.FACES_NOT_READ, count=file.unread),) if file.unread else ()
     by_object: dict[str, tuple[Finding, ...]] = {obj.name: unread for obj in made}
     return Opened(file.refused, file.notes, by_object)

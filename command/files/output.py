@@ -21,23 +21,19 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, NoReturn
 
+from ...core import measurement, robots, verdict
 from ...core.files.whole_file import whole_file
-from ...core.measurement import FLAT_SPECTRUM_ARRAYS, SPECTRUM_ARRAYS, print_message, to_csv
-from ...core.robots import FORMATS as ROBOT_FORMATS
 from ...core.robots.write.marker import is_audit, is_ours
-from ...core.verdict import system_reason
-from ..options.arguments import TARGETS
-from ..options.arguments import fail as fail_measure
-from ..options.option_types import FORMATS
+from ..options import arguments, option_types
 
 _STDOUT = {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}  # its descriptor may not be 1 any more
 _HEAD = 1 << 16  # bytes that hold a header, or the beginning of a document
 _BEGINNING = re.compile(
     rb'(\s*\[?\s*\{\s*"schema"\s*:\s*"body-moments[a-z-]*/)|<!doctype html><!-- Body Moments'
 )
-_SPECTRUM = {name + ".npy" for name in SPECTRUM_ARRAYS}
-_FLAT_SPECTRUM = _SPECTRUM | {name + ".npy" for name in FLAT_SPECTRUM_ARRAYS}
-_COLUMNS = next(csv.reader(to_csv([])))
+_SPECTRUM = {name + ".npy" for name in measurement.SPECTRUM_ARRAYS}
+_FLAT_SPECTRUM = _SPECTRUM | {name + ".npy" for name in measurement.FLAT_SPECTRUM_ARRAYS}
+_COLUMNS = next(csv.reader(measurement.to_csv([])))
 _LAST = 2  # columns at the end, behind optional ones
 Fail = Callable[[str], NoReturn]  # ends a command with the reason and its usage
 
@@ -92,7 +88,9 @@ def write_result(
             with whole_file(path, check) as file:
                 file.writelines(pieces)
     except OSError as error:
-        print_message("the result cannot be written: {}".format(system_reason(error)))
+        measurement.print_message(
+            "the result cannot be written: {}".format(verdict.system_reason(error))
+        )
         return False
     return True
 
@@ -103,10 +101,10 @@ def write_documents(
     """Write documents, which may be iterated twice, in the requested format, and return whether it
     succeeded; None if there is no robot to write, and a file at --output stays as it was.
     """
-    if options.format in ROBOT_FORMATS and not any("robot" in one for one in documents):
-        print_message("no robot was written, and no file was replaced")
+    if options.format in robots.FORMATS and not any("robot" in one for one in documents):
+        measurement.print_message("no robot was written, and no file was replaced")
         return None
-    text = FORMATS[options.format](documents)
+    text = option_types.FORMATS[options.format](documents)
     return write_result(text, options.output, channel, guard(options.force))
 
 
@@ -161,12 +159,12 @@ def _is_spectrum(path: Path) -> bool:
 
 
 def check_targets(
-    options: Namespace, read: Sequence[str | Path], fail: Fail = fail_measure
+    options: Namespace, read: Sequence[str | Path], fail: Fail = arguments.fail
 ) -> None:
     """Call `fail` with a message if a result cannot be written, or would replace an input or a
     foreign file.
     """
-    for option in TARGETS:
+    for option in arguments.TARGETS:
         target = getattr(options, option, None)
         if target is None or is_stdout(target):
             continue
@@ -174,7 +172,7 @@ def check_targets(
             refusal = _find_refusal(target, read, options.force)
         except OSError as error:  # a name that is too long, a folder that may not be entered
             refusal = "{}: {}. Use another name".format(
-                error.filename or target, system_reason(error)
+                error.filename or target, verdict.system_reason(error)
             )
         if refusal:
             fail("argument --{}: {}".format(option.replace("_", "-"), refusal))

@@ -14,9 +14,7 @@ from pathlib import Path
 
 import bpy
 
-from ...blender.read.assembly import Root
-from ...blender.settings.given import shows_collection
-from ...blender.write.findings import FILE_NOT_WRITTEN
+from ...blender import read, settings, write
 from ...core.files import partial_file, replace
 from ...core.measurement import Measurement
 from ...core.verdict.finding import FileError, Finding, finding
@@ -50,7 +48,9 @@ class Place:
         try:
             return cls(real, _digest(real))
         except OSError as error:
-            raise FileError(FILE_NOT_WRITTEN, file=real.name, error=reason(error)) from error
+            raise FileError(
+                write.findings.FILE_NOT_WRITTEN, file=real.name, error=reason(error)
+            ) from error
 
     def save(self) -> None:
         """Save the open scene, whole or not at all.
@@ -75,7 +75,9 @@ class Place:
                     )
                 replace(partial, self.path)
         except (RuntimeError, OSError) as error:
-            raise FileError(FILE_NOT_WRITTEN, file=self.path.name, error=reason(error)) from error
+            raise FileError(
+                write.findings.FILE_NOT_WRITTEN, file=self.path.name, error=reason(error)
+            ) from error
 
 
 def _digest(path: Path) -> bytes:
@@ -98,11 +100,13 @@ def save_copy(path: str) -> None:
             _save_as(partial)
             replace(partial, target)
     except (RuntimeError, OSError) as error:
-        raise FileError(FILE_NOT_WRITTEN, file=target.name, error=reason(error)) from error
+        raise FileError(
+            write.findings.FILE_NOT_WRITTEN, file=target.name, error=reason(error)
+        ) from error
 
 
 def write_assets(
-    measured: Mapping[Root, Measurement], path: str, where: str
+    measured: Mapping[read.assembly.Root, Measurement], path: str, where: str
 ) -> tuple[bool, list[Finding]]:
     """Store measurements in the metadata of the measured assets of the open file.
 
@@ -130,7 +134,7 @@ def _store(data: bpy.types.AssetMetaData, measurement: Measurement) -> None:
     data["body_method"] = str(measurement.method)
 
 
-def _without_numbers(known: set[Root]) -> Iterator[Finding]:
+def _without_numbers(known: set[read.assembly.Root]) -> Iterator[Finding]:
     """Yield a finding if assets of the open file have geometry and were not measured."""
     geometry = (bpy.data.meshes, bpy.data.curves, bpy.data.metaballs, bpy.data.volumes)
     roots = [
@@ -148,7 +152,7 @@ def _without_numbers(known: set[Root]) -> Iterator[Finding]:
         yield finding(ASSETS_NOT_MEASURED, names=names)
 
 
-def _has_geometry(root: Root) -> bool:
+def _has_geometry(root: read.assembly.Root) -> bool:
     if isinstance(root, bpy.types.Collection):
         return any(map(_has_geometry, root.all_objects))
-    return root.type in _WITH_GEOMETRY or shows_collection(root)
+    return root.type in _WITH_GEOMETRY or settings.given.shows_collection(root)

@@ -7,15 +7,8 @@ from __future__ import annotations
 import zipfile
 from pathlib import Path
 
-from ...core.files import (
-    DAMAGE_INCOMPLETE,
-    FILE_TYPE,
-    FILE_UNREADABLE,
-    check_regular,
-    damaged,
-)
+from ...core import files, verdict
 from ...core.scans import formats as scans
-from ...core.verdict import FileError, system_reason
 from ..supervisor.listing import BLEND, IMPORTED
 
 STREAMED = (".stl", ".ply")  # formats that can be measured in blocks
@@ -30,15 +23,19 @@ def check_file(path: str) -> None:
     """Raise FileError if a file cannot be opened, or is visibly cut short."""
     kind = file_suffix(path)
     if kind != BLEND and kind not in IMPORTED:
-        raise FileError(FILE_TYPE, suffixes=" ".join((BLEND, *IMPORTED, *scans.SUFFIXES)))
-    check_regular(path)
+        raise verdict.FileError(
+            files.FILE_TYPE, suffixes=" ".join((BLEND, *IMPORTED, *scans.SUFFIXES))
+        )
+    files.check_regular(path)
     try:
         with open(path, "rb") as file:
             is_empty = not file.read(1)
     except OSError as error:
-        raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
+        raise verdict.FileError(
+            files.FILE_UNREADABLE, error=verdict.system_reason(error)
+        ) from error
     if is_empty:
-        raise FileError(FILE_UNREADABLE, error="it is empty")
+        raise verdict.FileError(files.FILE_UNREADABLE, error="it is empty")
     if kind == ".usdz":
         _check_usdz(Path(path))
 
@@ -66,6 +63,6 @@ def _check_usdz(path: Path) -> None:
         OSError,
         ValueError,
     ) as error:
-        raise damaged(
-            path, DAMAGE_INCOMPLETE, kind="archive", error=str(error).rstrip(".")
+        raise files.damaged(
+            path, files.DAMAGE_INCOMPLETE, kind="archive", error=str(error).rstrip(".")
         ) from error

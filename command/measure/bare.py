@@ -19,6 +19,7 @@ from typing import Any, TypeVar
 
 from ...blender.session.findings import NO_SUCH_NAME
 from ...blender.write.thumbnail import thumbnail
+from ...core import cad, floating, robots, streams, verdict
 from ...core.bodies import (
     DENSITY_DEFAULTED,
     SHAPE_OF_GRID,
@@ -32,21 +33,10 @@ from ...core.bodies import (
     measure_reading,
     read_mesh,
 )
-from ...core.cad import (
-    FACES_NOT_READ,
-    SurfaceBody,
-    has_surfaces,
-    read_meshes,
-    read_surfaces,
-)
 from ...core.files import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
-from ...core.floating import settle
 from ...core.measurement import Measurement, PrintSettings, Settings, record
-from ...core.robots import FORMATS as ROBOT_FORMATS
-from ...core.scans import LABEL_ABSENT, Label, read_label_table
+from ...core.scans import LABEL_ABSENT, UNIT_ASSUMED, Label, read_label_table
 from ...core.scans import formats as scans
-from ...core.streams import FileMesh
-from ...core.verdict import open_body_caveats
 from ...core.verdict.finding import (
     FileError,
     Finding,
@@ -64,18 +54,9 @@ from ..findings import (
     OPTIONS_UNUSED,
     RESULTS_NOT_STORED,
     STREAM_OPTIONS,
-    UNIT_ASSUMED,
 )
-from ..options.arguments import (
-    NEEDS_BLENDER,
-    boolean_and_wire,
-    options_of_blender,
-    options_of_polygons,
-    words,
-)
-from ..options.checks import OF_ARRAYS, body_findings, density_of, file_findings, unused
-from ..supervisor.listing import CAD, UNITLESS
-from ..supervisor.processes import has_blender
+from ..options import arguments, checks
+from ..supervisor import listing, processes
 from .cuts import cut_entries, is_open_sheet
 from .entries import Contents, failure
 from .floating import floating_entry
@@ -95,7 +76,7 @@ _NOT_OF_STREAMS = (
 )
 
 
-Named = TypeVar("Named", FileMesh, SurfaceBody)
+Named = TypeVar("Named", streams.FileMesh, cad.SurfaceBody)
 
 
 class BareFile:
@@ -126,13 +107,13 @@ class BareFile:
         """Measure the bodies in the file. Raises MeasureError."""
         if self._is_scan or is_streamed(self._path, self.options, self._memory):
             self._measure_whole(contents)
-        elif file_suffix(self._path) in CAD:
+        elif file_suffix(self._path) in listing.CAD:
             check_file(self._path)
             self._measure_cad(contents)
         else:
             check_file(self._path)
             self._measure_meshes(contents)
-        contents.caveats += open_body_caveats(
+        contents.caveats += verdict.open_body_caveats(
             (label, one.method) for label, _, one in contents.measured
         )
 
@@ -143,7 +124,7 @@ class BareFile:
 
     def complete(self, document: dict[str, Any], contents: Contents) -> dict[str, Any]:
         """Return a document with its text as a robot, if one is requested, which needs Blender."""
-        if self.options.format not in ROBOT_FORMATS:
+        if self.options.format not in robots.FORMATS:
             return document
         wanted = measure.scene.measure_options(self.options, self._threads)
         return measure.robots.complete(
@@ -158,7 +139,7 @@ class BareFile:
         options = self.options
         return Settings(
             kind=options.kind or "solid",
-            density=density_of(options),
+            density=checks.density_of(options),
             mass=options.mass,
             thickness=options.thickness or 0.0,
             wall=options.wall or "thin",
@@ -169,9 +150,8 @@ class BareFile:
         )
 
     def _mesh_settings(self) -> tuple[Settings, list[Finding]]:
-        """Return the settings of meshes, and the findings about the file."""
         settings = replace(self._settings(), unit=self.options.unit_scale or 1.0)
-        findings = [*file_findings(self._path, self.options)]
+        findings = [*checks.file_findings(self._path, self.options)]
         if settings.density is None and settings.mass is None:
             settings = replace(settings, density=DEFAULT_DENSITY)
             findings.append(finding(DENSITY_DEFAULTED, density="1000 kg/m³"))
@@ -189,7 +169,6 @@ class BareFile:
         return [name for name in names if name in wanted]
 
     def _measure_whole(self, contents: Contents) -> None:
-        """Measure the samples of a file, or its faces in blocks."""
         is_scan = self._is_scan
         name = os.path.basename(self._path)[: -len(file_suffix(self._path))]
         if is_scan and self.options.label is not None:
@@ -202,19 +181,20 @@ class BareFile:
             return
         count = self._progress(self._path, "samples" if is_scan else "faces")
         measurement = (
-            self._measure_array(name, count) if is_scan else self._measure_stream(name, count)
+            measure_array(self._path, name, self._array_options(), self._settings(), count)
+            if is_scan
+            else self._measure_stream(name, count)
         )
         requested = [more for more in ("pose", "signature") if getattr(self.options, more)]
-        shapeless = unused(requested)
+        shapeless = checks.unused(requested)
         if is_scan:
             shapeless = [finding(SHAPE_OF_GRID)] * bool(requested)
         floats = ["float"] if self.options.float else []
         more = dict.fromkeys([*requested, *["thumbnail"] * bool(self.options.thumbnails)])
         more |= dict.fromkeys(["floating"] * len(floats))
-        self._add(contents, measurement, [*shapeless, *unused(floats)], more)
+        self._add(contents, measurement, [*shapeless, *checks.unused(floats)], more)
 
     def _measure_labels(self, name: str, contents: Contents) -> None:
-        """Measure the labels of a label map, each with a record of its own."""
         options = self.options
         settings, findings = self._mesh_settings()
         table = {}
@@ -233,7 +213,7 @@ class BareFile:
             raise FileError(LABEL_ABSENT, file=options.label_table.name, **values)
         findings = [one for one in findings if one.code not in (UNIT_ASSUMED, OPTIONS_UNUSED)]
         requested = ("spline_order", "density_scale", "pose", "signature", "fourier")
-        findings += unused(one for one in requested if getattr(options, one))
+        findings += checks.unused(one for one in requested if getattr(options, one))
         chosen = self._chosen([one.name for one, _ in measured], contents)
         for one, more in measured:
             density = table.get(more["label"]["value"], Label()).density
@@ -241,13 +221,10 @@ class BareFile:
             if one.name in chosen:
                 self._add(contents, one, own, more)
 
-    def _measure_array(self, name: str, progress: Callable[[int], None]) -> Measurement:
-        return measure_array(self._path, name, self._array_options(), self._settings(), progress)
-
     def _array_options(self) -> ArrayOptions:
         taken = {
             one: getattr(self.options, one)
-            for one in (*OF_ARRAYS, "unit_scale", "limits", "threshold")
+            for one in (*checks.OF_ARRAYS, "unit_scale", "limits", "threshold")
         }
         taken["positions"] = dict(self.options.positions or ())
         return ArrayOptions(**{one: value for one, value in taken.items() if value is not None})
@@ -258,22 +235,22 @@ class BareFile:
         given = [
             one for one in _NOT_OF_STREAMS if getattr(options, one) not in (None, "thin", "value")
         ]
-        given += [*boolean_and_wire(options), *["kind"] * (options.kind == "printed")]
+        given += [*arguments.boolean_and_wire(options), *["kind"] * (options.kind == "printed")]
         if given:
-            raise QueryError(STREAM_OPTIONS, options=words(given))
+            raise QueryError(STREAM_OPTIONS, options=arguments.words(given))
         settings, findings = self._mesh_settings()
         return measure_mesh_file(self._path, name, settings, tuple(findings), progress)
 
     def _measure_cad(self, contents: Contents) -> None:
         """Measure the bodies of a CAD file, each with a name of its own."""
         try:
-            file = read_surfaces(self._path, self.options.limits, for_blender=False)
+            file = cad.read_surfaces(self._path, self.options.limits, for_blender=False)
         except OSError as error:
             raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
         contents.errors += [failure(None, refused) for refused in file.refused]
         settings, findings = self._mesh_settings()
         settings = replace(settings, unit=file.unit or settings.unit)
-        findings += [finding(FACES_NOT_READ, count=file.unread)] * bool(file.unread)
+        findings += [finding(cad.FACES_NOT_READ, count=file.unread)] * bool(file.unread)
         bodies = _with_own_names(file.bodies)
         chosen = self._chosen([body.name for body in bodies], contents)
         for body in bodies:
@@ -285,11 +262,12 @@ class BareFile:
                     contents.errors.append(failure(body.name, refusal.finding))
 
     def _measure_meshes(self, contents: Contents) -> None:
-        """Measure the meshes of a file, each with a name of its own."""
         try:
-            if file_suffix(self._path) == ".obj" and has_surfaces(self._path):
-                raise FileError(FILE_UNREADABLE, error=NEEDS_BLENDER.format("its surfaces need"))
-            meshes, upright = read_meshes(self._path)
+            if file_suffix(self._path) == ".obj" and cad.has_surfaces(self._path):
+                raise FileError(
+                    FILE_UNREADABLE, error=arguments.NEEDS_BLENDER.format("its surfaces need")
+                )
+            meshes, upright = cad.read_meshes(self._path)
         except OSError as error:
             raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
         if not meshes:
@@ -318,7 +296,7 @@ class BareFile:
                 if self.options.float:
                     of_mass = measurement.mass_properties
                     settled = partial(
-                        settle,
+                        floating.settle,
                         [body],
                         of_mass.mass,
                         of_mass.center,
@@ -351,7 +329,7 @@ class BareFile:
     ) -> None:
         """Add a measurement and its record. findings: about its file. more: parts of the record."""
         options = self.options
-        findings = (*measurement.findings, *findings, *body_findings(options, measurement))
+        findings = (*measurement.findings, *findings, *checks.body_findings(options, measurement))
         measurement = replace(measurement, findings=findings)
         surface = measurement.area_moments if options.surface_moments else None
         contents.objects.append(
@@ -379,19 +357,19 @@ def is_bare(path: str, options: Namespace, memory: int | None) -> bool:
     """Return whether a file is measured without Blender. memory: bytes that measuring it may take,
     None for any.
     """
-    if scans.scan_suffix(path) or not has_blender():
+    if scans.scan_suffix(path) or not processes.has_blender():
         return True
     suffix = file_suffix(path)
     if suffix in (".step", ".stp"):
-        return not options_of_polygons(options)
-    if suffix not in UNITLESS:
+        return not arguments.options_of_polygons(options)
+    if suffix not in listing.UNITLESS:
         return False
     if is_streamed(path, options, memory):
         return True
-    if options_of_blender(options, False):
+    if arguments.options_of_blender(options, False):
         return False
     with suppress(OSError, ValueError):  # Reading reports the error.
-        return suffix != ".obj" or not has_surfaces(path)
+        return suffix != ".obj" or not cad.has_surfaces(path)
     return True
 
 

@@ -16,19 +16,16 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ...core.files import MALFORMED, GltfFile, file_limits, map_file
-from ...core.scans import data_file, read_header
-from ...core.verdict import MeasureError
+from ...core import files, scans, verdict
 from ..interruption import Progress
-from ..options.arguments import parse
-from ..options.checks import prepare
+from ..options import arguments, checks
 from ..supervisor.journal import state
 from ..supervisor.lifeline import Lifeline
 from .run import Run, blender_version
 
 # Errors about a file with an impossible name, unreadable or damaged, which counts as without
 # references.
-_UNREADABLE = (OSError, RuntimeError, MeasureError, *MALFORMED)
+_UNREADABLE = (OSError, RuntimeError, verdict.MeasureError, *files.MALFORMED)
 _ASSET = re.compile(rb"@@@(.+?)@@@|@([^@\n]+)@")
 
 
@@ -36,11 +33,11 @@ def serve(line: Lifeline) -> None:
     """Measure files on request, until the supervisor closes the pipe, which ends the process."""
     messages = line.messages()
     setup = next(messages)
-    options = parse(setup["words"])
+    options = arguments.parse(setup["words"])
     said = io.StringIO()
     try:
         with redirect_stderr(said):
-            prepare(options)
+            checks.prepare(options)
     except SystemExit:
         line.answer({"usage": said.getvalue()})
         return
@@ -90,12 +87,12 @@ def references(path: str, opened: Iterable[str] = ()) -> set[Path]:
 
 
 def _of_nrrd(path: Path) -> Iterator[str]:
-    fields, _ = read_header(path, file_limits())
-    yield data_file(fields) or path.name
+    fields, _ = scans.read_header(path, files.file_limits())
+    yield scans.data_file(fields) or path.name
 
 
 def _of_gltf(path: Path) -> Iterator[str]:
-    yield from GltfFile(map_file(path), str(path)).references()
+    yield from files.GltfFile(files.map_file(path), str(path)).references()
 
 
 def _of_usd(path: Path) -> Iterator[str]:

@@ -8,21 +8,16 @@ With asset metadata, collections that are assets are included.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 import bpy
-from bpy.types import Scene
 
+from ...blender import bodies, read, settings
 from ...blender.bodies.assembly.assembly import Assembly, measure_assembly
-from ...blender.bodies.rig import Rig, measure_rig
 from ...blender.read.assembly import Root, is_assembly, settings_of
-from ...blender.read.places import member_error, place_error
-from ...blender.session.stored import assembly as stored_assembly
-from ...blender.session.stored import results
-from ...blender.settings.options import MeasureOptions
+from ...blender.session import stored
 from ...core.measurement import Measurement, record
 from ...core.verdict import MeasureError, Procedure
 from .entries import Contents
@@ -36,7 +31,7 @@ class Combined:
 
     unit: float = 1.0
     assemblies: list[Assembly] = field(default_factory=list)
-    rigs: list[Rig] = field(default_factory=list)
+    rigs: list[bodies.rig.Rig] = field(default_factory=list)
     more: dict[Root, dict[str, Any]] = field(default_factory=dict)
 
     def measurements(self) -> dict[Root, Measurement]:
@@ -49,7 +44,7 @@ class Combined:
             record.record(
                 replace(
                     assembly.measurement,
-                    place_error=self.unit * member_error(assembly.root.member)[0],
+                    place_error=self.unit * read.places.member_error(assembly.root.member)[0],
                 ),
                 frame,
                 more=self.more.get(assembly.root.member.data),
@@ -58,8 +53,8 @@ class Combined:
         ]
         bones = []
         for rig in self.rigs:
-            of_meshes = max(map(place_error, rig.objects), default=0.0)
-            moved = self.unit * (of_meshes + place_error(rig.armature))
+            of_meshes = max(map(read.places.place_error, rig.objects), default=0.0)
+            moved = self.unit * (of_meshes + read.places.place_error(rig.armature))
             bones += [
                 record.record(
                     replace(part.measurement, place_error=moved),
@@ -76,13 +71,15 @@ class Combined:
         """Store the results on their assemblies and rigs."""
         for assembly in self.assemblies:
             with contents.attempt(assembly.measurement.name):
-                stored_assembly.store(bpy.context, assembly)
+                stored.assembly.store(bpy.context, assembly)
         for rig in self.rigs:
             with contents.attempt(rig.armature.name):
-                results.store_rig(rig)
+                stored.results.store_rig(rig)
 
 
-def measure_combined(options: MeasureOptions, contents: Contents, assets: bool) -> Combined:
+def measure_combined(
+    options: settings.options.MeasureOptions, contents: Contents, assets: bool
+) -> Combined:
     """Measure the assemblies and the rigs of the open scene that have results or a given mass.
 
     `options` override the members' settings; `contents` gets the failures; `assets` adds assets
@@ -97,7 +94,10 @@ def measure_combined(options: MeasureOptions, contents: Contents, assets: bool) 
             measure_assembly(root, bpy.context.evaluated_depsgraph_get(), wanted)
         )
 
-    roots = dict.fromkeys(_roots(scene))
+    by_name = sorted(scene.objects, key=lambda obj: obj.name)
+    empties = [obj for obj in by_name if obj.type == "EMPTY" and is_assembly(obj)]
+    collections = scene.collection, *scene.collection.children_recursive
+    roots = dict.fromkeys((*collections, *empties))
     measured = [
         root
         for root in roots
@@ -110,18 +110,8 @@ def measure_combined(options: MeasureOptions, contents: Contents, assets: bool) 
         if root.asset_data is not None and root.library is None and root not in measured:
             with suppress(MeasureError):  # assemblies of lamps, or of objects that are left out
                 add_assembly(root)
-    for armature in sorted(scene.objects, key=lambda obj: obj.name):
+    for armature in by_name:
         if armature.type == "ARMATURE" and armature.get("body_method") == Procedure.ASSEMBLY:
             with contents.attempt(armature.name):
-                found.rigs.append(measure_rig(bpy.context, armature))
+                found.rigs.append(bodies.rig.measure_rig(bpy.context, armature))
     return found
-
-
-def _roots(scene: Scene) -> Iterator[Root]:
-    """Yield all collections of a scene, and the empties that are assemblies of their children."""
-    empties = (obj for obj in scene.objects if obj.type == "EMPTY" and is_assembly(obj))
-    yield from (
-        scene.collection,
-        *scene.collection.children_recursive,
-        *sorted(empties, key=lambda obj: obj.name),
-    )

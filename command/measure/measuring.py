@@ -16,31 +16,23 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ...blender.bodies.flat.flat import area_findings, clearer_refusal, flat_region
-from ...blender.bodies.flat.flat_shape import flat_shape_of
-from ...blender.bodies.fourier import flat_transform, object_transform
+from ...blender import read, session, write
+from ...blender.bodies import fourier, stack
+from ...blender.bodies.flat import flat, flat_shape
 from ...blender.bodies.measure_object import measure_object, measured_in_turn
 from ...blender.bodies.shape.shape import NoShapeError, shape_of
-from ...blender.bodies.stack import Measured
-from ...blender.read.assembly import left_out_reasons
-from ...blender.read.objects import read_object
-from ...blender.read.visibility import measurable, measurable_objects
+from ...blender.read import assembly, visibility
 from ...blender.scale import meters_per_unit
-from ...blender.session.findings import NO_SUCH_NAME
 from ...blender.settings.given import shows_collection
 from ...blender.settings.options import MeasureOptions
-from ...blender.write import spectrum
 from ...blender.write.thumbnail import thumbnail
-from ...core.bodies import NEEDS_POLYGONS, SHAPE_UNAVAILABLE
-from ...core.files import OTHERS_LEFT_OUT
+from ...core import bodies, files, verdict
 from ...core.measurement import Measurement, flat_record
 from ...core.moments import flusser_invariants, hu_invariants, normalize
-from ...core.verdict import Source
 from ...core.verdict.finding import Finding, MeasureError, QueryError, finding
 from ..files.output import guard
-from ..findings import NO_MEASURABLE_OBJECT, NOTHING_RENDERED, SIGNATURE_OF_DISPLAY_MESH
-from ..options.checks import unused
-from ..options.option_types import split_source
+from ..findings import NO_SHAPES, NOTHING_MEASURED, NOTHING_RENDERED, SIGNATURE_OF_DISPLAY_MESH
+from ..options import checks, option_types
 from .entries import failure
 
 LEAST_ORDER = 2  # moments to this order are always computed
@@ -49,7 +41,7 @@ HU_ORDER = 3  # order for Hu's invariants
 
 def measured_together(
     objects: Sequence[bpy.types.Object], options: Namespace, measure_options: MeasureOptions
-) -> Callable[[bpy.types.Object], Measured] | None:
+) -> Callable[[bpy.types.Object], stack.Measured] | None:
     """Return a function that measures objects in batches, or None if they have to be measured one
     by one.
 
@@ -87,11 +79,11 @@ def measure_shape(
     findings: tuple[Finding, ...] = ()
     if options.signature and shape.has_surface:
         more["signature"] = shape.signature().as_record()
-        if shape.measurement.method.source == Source.NURBS:
+        if shape.measurement.method.source == verdict.Source.NURBS:
             findings = (finding(SIGNATURE_OF_DISPLAY_MESH),)
     elif options.signature:
         more["signature"] = None
-        findings = (finding(SHAPE_UNAVAILABLE, cause=NEEDS_POLYGONS),)
+        findings = (finding(bodies.SHAPE_UNAVAILABLE, cause=bodies.NEEDS_POLYGONS),)
     return shape.measurement, more, findings
 
 
@@ -103,7 +95,7 @@ def thumbnail_of(obj: bpy.types.Object, measurement: Measurement, unit: float | 
     depsgraph = bpy.context.evaluated_depsgraph_get()
     unit = unit or meters_per_unit(depsgraph.scene)
     try:
-        surface = read_object(obj, depsgraph, edges=False).join()
+        surface = read.objects.read_object(obj, depsgraph, edges=False).join()
     except MeasureError:  # such as a grid of densities
         return None
     triangles = surface.all_triangles()[0]
@@ -128,15 +120,19 @@ def write_transform(
     depsgraph = bpy.context.evaluated_depsgraph_get()
     if options.flat:
         unit = measure_options.unit_scale
-        under_way = flat_transform(obj, depsgraph, options.waves, frame=options.frame, unit=unit)
+        under_way = fourier.flat_transform(
+            obj, depsgraph, options.waves, frame=options.frame, unit=unit
+        )
     else:
-        under_way = object_transform(
+        under_way = fourier.object_transform(
             obj, depsgraph, measure_options, options.waves, frame=options.frame
         )
     for _ in under_way.steps():
         pass
     transform, findings = under_way.result()
-    spectrum.save(options.fourier, transform, options.frame, guard(options.force), under_way.arrays)
+    write.spectrum.save(
+        options.fourier, transform, options.frame, guard(options.force), under_way.arrays
+    )
     return findings
 
 
@@ -154,14 +150,14 @@ def record_of_flat(
     """
     depsgraph = bpy.context.evaluated_depsgraph_get()
     order = options.order
-    posed = unused(name for name in ("pose", "float") if getattr(options, name))
+    posed = checks.unused(name for name in ("pose", "float") if getattr(options, name))
     more: dict[str, Any] = {"pose": None} if options.pose else {}
     invariants = []
     try:
-        region = flat_region(obj, depsgraph, selected=False, unit=unit)
+        region = flat.flat_region(obj, depsgraph, selected=False, unit=unit)
         moments = region.moments(max(order or 0, LEAST_ORDER))
         more |= (
-            {"signature": flat_shape_of(obj, depsgraph, unit).signature().as_record()}
+            {"signature": flat_shape.flat_shape_of(obj, depsgraph, unit).signature().as_record()}
             if options.signature
             else {}
         )
@@ -169,13 +165,13 @@ def record_of_flat(
             normalized = normalize(moments)
             invariants = [*hu_invariants(normalized), *flusser_invariants(normalized)]
     except MeasureError as error:
-        raise clearer_refusal(refusal, error) from None
+        raise flat.clearer_refusal(refusal, error) from None
     return flat_record(
         label,
         obj.type,
         region.plane,
         moments,
-        (*region.findings, *area_findings(region, moments.total), *posed, *findings),
+        (*region.findings, *flat.area_findings(region, moments.total), *posed, *findings),
         order=order,
         invariants=invariants,
         more=more,
@@ -186,7 +182,7 @@ def record_of_flat(
 
 def why_nothing(left_out: int) -> Finding:
     """Return the reason why a file without errors has no records."""
-    return finding(NOTHING_RENDERED, count=left_out) if left_out else finding(NO_MEASURABLE_OBJECT)
+    return finding(NOTHING_MEASURED, cause=NOTHING_RENDERED if left_out else NO_SHAPES)
 
 
 def objects_to_measure(
@@ -207,8 +203,8 @@ def objects_to_measure(
     # A linked object may have a local one's name; the full name has the library too.
     labels = {obj: obj.name if same[obj.name] == 1 else obj.name_full for obj in scene.objects}
     if names is None:
-        candidates = {*measurable_objects(layer), *_excluded(scene, layer)}
-        reasons = {} if everything else left_out_reasons(scene, layer)
+        candidates = {*visibility.measurable_objects(layer), *_excluded(scene, layer)}
+        reasons = {} if everything else assembly.left_out_reasons(scene, layer)
         chosen = [
             (label, obj)
             for obj, label in labels.items()
@@ -226,7 +222,9 @@ def objects_to_measure(
         matches = matches or [(label, obj) for obj, label in labels.items() if obj.name == name]
         chosen += [pair for pair in matches if pair not in chosen]
         if not matches:
-            errors.append(failure(name, finding(NO_SUCH_NAME, kind="object", name=name)))
+            errors.append(
+                failure(name, finding(session.findings.NO_SUCH_NAME, kind="object", name=name))
+            )
     return chosen, [], errors
 
 
@@ -237,7 +235,9 @@ def _excluded(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> set[bpy.typ
     """
     instanced = {obj.instance_collection for obj in scene.objects if shows_collection(obj)}
     members = {member for collection in instanced for member in collection.all_objects}
-    return {obj for obj in {*scene.objects} - {*layer.objects} - members if measurable(obj)}
+    return {
+        obj for obj in {*scene.objects} - {*layer.objects} - members if visibility.measurable(obj)
+    }
 
 
 def other_scenes(scene: bpy.types.Scene) -> Iterator[Finding]:
@@ -246,10 +246,10 @@ def other_scenes(scene: bpy.types.Scene) -> Iterator[Finding]:
     other_scenes = [
         other.name
         for other in bpy.data.scenes
-        if any(measurable(obj) for obj in {*other.objects} - here)
+        if any(visibility.measurable(obj) for obj in {*other.objects} - here)
     ]
     if other_scenes:
-        yield finding(OTHERS_LEFT_OUT, kind="scene", name=scene.name, others=other_scenes)
+        yield finding(files.OTHERS_LEFT_OUT, kind="scene", name=scene.name, others=other_scenes)
 
 
 def set_density(obj: bpy.types.Object, options: Namespace) -> None:
@@ -271,7 +271,7 @@ def set_density(obj: bpy.types.Object, options: Namespace) -> None:
         settings.density_from = "POLYNOMIAL"
         settings.density_polynomial = options.polynomial
     elif options.density_from is not None:
-        source, name = split_source(options.density_from)
+        source, name = option_types.split_source(options.density_from)
         settings.mass_from = "DENSITY"
         settings.density_from = source.upper()
         if source == "attribute":
@@ -279,5 +279,5 @@ def set_density(obj: bpy.types.Object, options: Namespace) -> None:
         elif source == "volume":
             volume = bpy.context.scene.objects.get(name)
             if volume is None or volume.type != "VOLUME":
-                raise QueryError(NO_SUCH_NAME, kind="Volume object", name=name)
+                raise QueryError(session.findings.NO_SUCH_NAME, kind="Volume object", name=name)
             settings.density_volume = volume

@@ -15,21 +15,17 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from ...core.bodies import DENSITY_DEFAULTED
-from ...core.files import FILE_MISSING
+from ...core import bodies, files
 from ...core.measurement import document, print_message, record
 from ...core.verdict import MeasureError, internal_error
-from .. import measure
-from ..findings import FILE_VERSION_UNSUPPORTED
-from ..interruption import Progress, check_interruption
+from .. import findings, interruption, measure
 from ..options.arguments import run_of
-from .bare import BareFile, is_bare
-from .entries import Contents, failure, said_once
+from . import bare, entries
 
 THREADS = os.cpu_count() or 1  # for long measurements
 _STATUSES: dict[str, str] = {
-    FILE_MISSING: "missing",
-    FILE_VERSION_UNSUPPORTED: "unsupported_version",
+    files.FILE_MISSING: "missing",
+    findings.FILE_VERSION_UNSUPPORTED: "unsupported_version",
 }
 
 
@@ -52,7 +48,7 @@ class Run:
     options: Namespace
     threads: int = THREADS
     memory: int | None = None
-    progress: Callable[[str, str], Callable[[int], None]] = Progress
+    progress: Callable[[str, str], Callable[[int], None]] = interruption.Progress
     documents: list[dict[str, Any]] = field(default_factory=list)
     internal_errors: int = 0
     has_saved: bool = field(init=False)
@@ -75,19 +71,19 @@ class Run:
     def document(self, path: str | None) -> dict[str, Any]:
         """Measure one file, or the open scene, and return its document."""
         options = self.options
-        contents = Contents(self.internal_error)
+        contents = entries.Contents(self.internal_error)
         status = None
-        if path is not None and is_bare(path, options, self.memory):
-            source = BareFile(path, options, self.threads, self.memory, self.progress)
+        if path is not None and bare.is_bare(path, options, self.memory):
+            source = bare.BareFile(path, options, self.threads, self.memory, self.progress)
         else:
             source = measure.scene.Scene(path, options, self.threads)
         file = path or measure.scene.open_name()
         try:
             source.measure(contents)
-            contents.caveats += said_once(contents.objects, DENSITY_DEFAULTED)
+            contents.caveats += entries.said_once(contents.objects, bodies.DENSITY_DEFAULTED)
             source.store(contents)
         except MeasureError as refusal:
-            contents.errors.append(failure(None, refusal.finding))
+            contents.errors.append(entries.failure(None, refusal.finding))
             status = _STATUSES.get(refusal.finding.code)
         except Exception as error:
             contents.errors.append(self.internal_error(None, error))
@@ -108,11 +104,11 @@ class Run:
             run=run_of(options),
         )
         made = source.complete(made, contents)
-        check_interruption()
+        interruption.check_interruption()
         return made
 
     def internal_error(self, name: str | None, error: Exception) -> dict[str, Any]:
         """Count an unexpected error if it is the program's fault, and return the entry about it."""
         reason = internal_error.finding_of(error)
         self.internal_errors += reason.code == internal_error.CODE
-        return failure(name, reason)
+        return entries.failure(name, reason)

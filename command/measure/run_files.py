@@ -23,27 +23,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ...core.files import hidden_path
+from ...core import files, robots
 from ...core.measurement import PROGRAM, counted, failed_document, print_message
-from ...core.robots import FORMATS as ROBOT_FORMATS
 from ...core.verdict.finding import Finding, finding, system_reason
+from .. import findings, parser
 from ..files import output
-from ..findings import FILE_CRASHED, FILE_TIMED_OUT, FILE_TOOK_MEMORY
-from ..options.arguments import (
-    ONE_FILE,
-    ONE_OBJECT,
-    check_blender,
-    fail,
-    files_of_options,
-    of_numbers,
-    run_of,
-    version,
-)
-from ..options.measure_parser import DEFAULT_TIMEOUT
-from ..parser import UsageError
-from ..supervisor import listing, processes
+from ..options import arguments, measure_parser
+from ..supervisor import lifeline, listing, processes
 from ..supervisor.journal import Journal, locked, state
-from ..supervisor.lifeline import end_with_window
 from ..supervisor.pool import ChildError, Limits, Pool, SetupError, TaskOutcome
 from ..supervisor.progress import Progress
 
@@ -54,12 +41,12 @@ def measure(options: Namespace, channel: int, opened: str | None) -> int:
 
     Raises SystemExit if the options are wrong, and KeyboardInterrupt.
     """
-    end_with_window()
+    lifeline.end_with_window()
     paths = files_of(options)
     if options.blender is None:
-        check_blender(options, paths)
+        arguments.check_blender(options, paths)
     command = processes.run_command(_blender(options), ["child"])
-    output.check_targets(options, files_of_options(options, paths, opened))
+    output.check_targets(options, arguments.files_of_options(options, paths, opened))
     with ExitStack() as ends:
         places = _Places(options, ends)
         run = _Supervised(options, paths, command, places)
@@ -93,17 +80,17 @@ def files_of(options: Namespace) -> list[str]:
         paths = [*listing.expand(options.files)]
         if options.manifest is not None:
             paths += listing.read(options.manifest, options.part)
-    except UsageError as error:
-        fail(str(error))
+    except parser.UsageError as error:
+        arguments.fail(str(error))
     except OSError as error:
-        fail("{}: {}".format(error.filename, system_reason(error)))
+        arguments.fail("{}: {}".format(error.filename, system_reason(error)))
     if options.range is not None:
         paths = paths[slice(*options.range)]
     if len(paths) != 1 and (options.files or options.manifest is not None):
         if options.fourier is not None:
-            fail(ONE_OBJECT)
-        if options.format in ROBOT_FORMATS:
-            fail(ONE_FILE.format(options.format))
+            arguments.fail(arguments.ONE_OBJECT)
+        if options.format in robots.FORMATS:
+            arguments.fail(arguments.ONE_FILE.format(options.format))
     return paths
 
 
@@ -134,7 +121,7 @@ class _Places:
             self.journal = folder / "journal"
             return
         target = Path(os.path.realpath(options.output))
-        folder = hidden_path(target, "body_moments.work")
+        folder = files.hidden_path(target, "body_moments.work")
         self.journal = target.with_name(target.name + ".journal")
         self.work = folder / "work"
         try:
@@ -147,18 +134,20 @@ class _Places:
                 kept += map(_old, self._replaced)
             for path in kept:
                 if not (options.force or output.is_replaceable(path)):
-                    fail(
+                    arguments.fail(
                         "argument --output: {} is in the way, and no result. Move it, or use "
                         "--force".format(path)
                     )
         except BlockingIOError:
-            fail(
+            arguments.fail(
                 "argument --output: another run is writing {}. Use another name, or wait".format(
                     target
                 )
             )
         except OSError as error:  # Such as a name that is too long with the suffix.
-            fail("argument --output: {}: {}".format(error.filename or target, system_reason(error)))
+            arguments.fail(
+                "argument --output: {}: {}".format(error.filename or target, system_reason(error))
+            )
 
     def set_aside(self) -> None:
         """Keep files of an earlier run as .old. Raises OSError."""
@@ -196,7 +185,7 @@ class _Supervised:
         self._count = max(1, min(options.jobs or cores, len(self.tasks)))
         given = options.memory_mb
         memory = processes.memory_share(self._count) if given is None else int(given * 1e6)
-        self._limits = Limits(options.timeout or DEFAULT_TIMEOUT, memory)
+        self._limits = Limits(options.timeout or measure_parser.DEFAULT_TIMEOUT, memory)
         threads = max(1, cores // self._count)
         self._setup = {"words": options.words, "threads": threads, "memory": memory}
 
@@ -225,13 +214,17 @@ class _Supervised:
 
     def _measure(self, pool: Pool, journal: Journal) -> None:
         blender = pool.about["blender"]
-        common = {"options": _digest(self._options), "addon": version(), "blender": blender}
+        common = {
+            "options": _digest(self._options),
+            "addon": arguments.version(),
+            "blender": blender,
+        }
         limits = {"seconds": self._limits.seconds, "memory": self._limits.memory}
         known = []
         if self._options.resume:
             entries = {path: journal.entries.get(path) for path in self.tasks}
             keys = {path: ({"path": path} | state(path) | common) for path in self.tasks}
-            given = run_of(self._options)["options"]
+            given = arguments.run_of(self._options)["options"]
             retried = self._options.retry_failed
             reasons = {
                 path: entry.reason_to_measure(keys[path], given, limits, retried)
@@ -282,13 +275,17 @@ class _Supervised:
             outcome.status = "crashed"
             outcome.how = "no answer"
         if outcome.status == "timeout":
-            reason = finding(FILE_TIMED_OUT, seconds=self._limits.seconds)
+            reason = finding(findings.FILE_TIMED_OUT, seconds=self._limits.seconds)
         elif outcome.status == "memory":
             assert self._limits.memory is not None
-            reason = finding(FILE_TOOK_MEMORY, megabytes=self._limits.memory / 1e6)
+            reason = finding(findings.FILE_TOOK_MEMORY, megabytes=self._limits.memory / 1e6)
         else:
-            reason = finding(FILE_CRASHED, how=outcome.how, count=outcome.attempts)
-        values = {"blender": blender, "frame": self._options.frame, "run": run_of(self._options)}
+            reason = finding(findings.FILE_CRASHED, how=outcome.how, count=outcome.attempts)
+        values = {
+            "blender": blender,
+            "frame": self._options.frame,
+            "run": arguments.run_of(self._options),
+        }
         document = failed_document(outcome.task, str(reason), outcome.status, **values)
         return outcome.status, reason, json.dumps(document).encode()
 
@@ -335,6 +332,7 @@ def _digest(options: Namespace) -> str:
     """
     positions = [state(path) for _, path in options.positions or ()]
     text = json.dumps(
-        [of_numbers(options), positions, os.environ.get("BODY_MOMENTS_LIMITS", "")], sort_keys=True
+        [arguments.of_numbers(options), positions, os.environ.get("BODY_MOMENTS_LIMITS", "")],
+        sort_keys=True,
     )
     return hashlib.sha256(text.encode()).hexdigest()[:16]

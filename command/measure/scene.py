@@ -14,34 +14,22 @@ from typing import Any
 
 import bpy
 
-from ...blender import session
-from ...blender.bodies.cuts import cut_fill_against
+from ...blender import read, session, write
+from ...blender.bodies import cuts, overlaps, stack
 from ...blender.bodies.flat.flat import NO_BODY
 from ...blender.bodies.measure_body import measure_body
-from ...blender.bodies.overlaps import overlap_caveats
-from ...blender.bodies.stack import Measured
-from ...blender.read.assembly import operands_of, total_caveats
-from ...blender.read.places import place_error
-from ...blender.read.tracking import tracking_paused
-from ...blender.read.visibility import measurable
 from ...blender.scale import meters_per_unit
-from ...blender.session.findings import NO_SUCH_NAME
 from ...blender.session.stored import floating
 from ...blender.session.tracking.staleness import mark_up_to_date
+from ...blender.settings import density, given
 from ...blender.settings import properties as settings
-from ...blender.settings.density import unset_density
-from ...blender.settings.given import COLLIDERS
 from ...blender.settings.options import MeasureOptions
-from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...blender.write.properties import store
-from ...core.bodies import DENSITY_DEFAULTED
-from ...core.cad import FACES_NOT_READ
+from ...core import bodies, cad, mesh, verdict
 from ...core.cuts import CutFill
 from ...core.files import FILE_UNREADABLE
 from ...core.floating import Flotation
 from ...core.measurement import Measurement, record
-from ...core.mesh import Surface
-from ...core.verdict import open_body_caveats
 from ...core.verdict.finding import (
     FileError,
     Finding,
@@ -50,11 +38,8 @@ from ...core.verdict.finding import (
     finding,
     system_reason,
 )
+from ..files import placing, references, saving, suffixes
 from ..files.files import newer_version, open_file, requested_file
-from ..files.placing import measure_at
-from ..files.references import Opened, blocked_scripts, missing_links, scripts_of_open_file
-from ..files.saving import Place, write_assets
-from ..files.suffixes import file_suffix
 from ..findings import (
     FOURIER_OBJECT_COUNT,
     MEASURED_AS_SHELL,
@@ -65,8 +50,7 @@ from ..findings import (
 )
 from ..options.checks import body_findings, density_of, file_findings, is_unitless
 from ..supervisor.listing import BLEND
-from . import robots
-from .combined import Combined, measure_combined
+from . import combined, robots
 from .cuts import cut_entries, is_open_sheet
 from .entries import Contents, failure
 from .floating import floating_entry
@@ -115,7 +99,7 @@ class Scene:
     def __init__(self, path: str | None, options: Namespace, threads: int) -> None:
         self._path, self.options = path, options
         self._wanted = measure_options(options, threads)
-        self._combined = Combined()
+        self._combined = combined.Combined()
         self._afloat: dict[bpy.types.Object, list[bpy.types.Object]] = {}
         self._is_open = self.has_opened = self.has_saved = False
 
@@ -132,21 +116,23 @@ class Scene:
         chosen, contents.left_out, contents.errors = objects_to_measure(
             options.object, options.all, opened.hidden
         )
-        contents.errors += [failure(None, reason) for reason in (*opened.errors, *missing_links())]
+        contents.errors += [
+            failure(None, reason) for reason in (*opened.errors, *references.missing_links())
+        ]
         self._measure_each(chosen, opened, contents)
-        contents.caveats += scripts_of_open_file() if path is None else ()
-        contents.caveats += open_body_caveats(
+        contents.caveats += references.scripts_of_open_file() if path is None else ()
+        contents.caveats += verdict.open_body_caveats(
             (label, one.method) for label, _, one in contents.measured
         )
         if options.object is None:  # A user who names objects knows what their total means.
-            contents.caveats += total_caveats(
+            contents.caveats += read.assembly.total_caveats(
                 [obj for _, obj, _ in contents.measured], bpy.context.view_layer
             )
-            contents.caveats += overlap_caveats(
+            contents.caveats += overlaps.overlap_caveats(
                 [obj for _, obj, _ in contents.measured], bpy.context.evaluated_depsgraph_get()
             )
             contents.caveats += other_scenes(bpy.context.scene)
-            self._combined = measure_combined(
+            self._combined = combined.measure_combined(
                 self._wanted, contents, options.asset_metadata is not None
             )
             if options.float:
@@ -163,16 +149,18 @@ class Scene:
             self._store(contents)
             self._combined.store(contents)
         is_changed = options.write
-        if options.asset_metadata and path is not None and file_suffix(path) == BLEND:
+        if options.asset_metadata and path is not None and suffixes.file_suffix(path) == BLEND:
             of_objects = {obj: one for _, obj, one in contents.measured}
-            in_file, told = write_assets(
+            in_file, told = saving.write_assets(
                 of_objects | self._combined.measurements(), path, options.asset_metadata
             )
             is_changed = is_changed or in_file
             contents.caveats += told
         if is_changed:
             if self._place is None:
-                raise FileError(FILE_NOT_WRITTEN, file=path or open_name(), error="it is gone")
+                raise FileError(
+                    write.findings.FILE_NOT_WRITTEN, file=path or open_name(), error="it is gone"
+                )
             self._place.save()
             self.has_saved = True
 
@@ -190,27 +178,37 @@ class Scene:
         """Return the files that Blender has read with the open file."""
         return bpy.utils.blend_paths(absolute=True, packed=False) if self.has_opened else []
 
-    def _place_of_results(self) -> Place | None:
+    def _place_of_results(self) -> saving.Place | None:
         """Return the .blend file in which results will be saved, None if there is none.
 
         Raises FileError.
         """
         is_saved = self.options.write or self.options.asset_metadata == "file"
-        is_blend = self._path is None or file_suffix(self._path) == BLEND
+        is_blend = self._path is None or suffixes.file_suffix(self._path) == BLEND
         target = self._path or bpy.data.filepath
-        return Place.of_file(target) if is_saved and is_blend and os.path.isfile(target) else None
+        return (
+            saving.Place.of_file(target)
+            if is_saved and is_blend and os.path.isfile(target)
+            else None
+        )
 
     def _measure_each(
-        self, chosen: list[tuple[str, bpy.types.Object]], opened: Opened, contents: Contents
+        self,
+        chosen: list[tuple[str, bpy.types.Object]],
+        opened: references.Opened,
+        contents: Contents,
     ) -> None:
-        """Add the records and measurements of bodies, and the records of flat shapes."""
         of_file = (
             *opened.notes,
             *file_findings(self._path, self.options),
-            *blocked_scripts(),
+            *references.blocked_scripts(),
             *newer_version(),
         )
-        operands = operands_of(bpy.context.scene.objects) if self.options.object is None else {}
+        operands = (
+            read.assembly.operands_of(bpy.context.scene.objects)
+            if self.options.object is None
+            else {}
+        )
         left_out = {entry["name"] for entry in contents.left_out}
         objects = [obj for _, obj in chosen]
         for body in floating.bodies_of(objects, False) if self.options.float else ():
@@ -230,7 +228,7 @@ class Scene:
         self,
         label: str,
         obj: bpy.types.Object,
-        in_turn: Callable[[bpy.types.Object], Measured] | None,
+        in_turn: Callable[[bpy.types.Object], stack.Measured] | None,
         findings: tuple[Finding, ...],
         contents: Contents,
     ) -> None:
@@ -261,7 +259,7 @@ class Scene:
                 measurement, more, of_shape = measure_shape(obj, self.options, wanted)
                 of_shape = (*of_shape, finding(MEASURED_AS_SHELL))
             elif refusal.finding.code in NO_BODY and any(
-                one.code == FACES_NOT_READ for one in findings
+                one.code == cad.FACES_NOT_READ for one in findings
             ):
                 return  # The file's errors name the faces that are missing.
             elif order is None:
@@ -279,11 +277,13 @@ class Scene:
             *(*measurement.findings, *of_shape, *findings),
             *(*self._default_density(obj, measurement), *body_findings(self.options, measurement)),
         )
-        moved = place_error(obj) * (self._wanted.unit_scale or meters_per_unit(bpy.context.scene))
+        moved = read.places.place_error(obj) * (
+            self._wanted.unit_scale or meters_per_unit(bpy.context.scene)
+        )
         named = replace(measurement, name=label, findings=findings, place_error=moved)
         colliders = (
             session.colliders.collider_record(obj, measurement, bpy.context)
-            if COLLIDERS in obj
+            if given.COLLIDERS in obj
             else None
         )
         more |= {} if colliders is None else {"colliders": colliders}
@@ -311,11 +311,11 @@ class Scene:
         entries: dict[str, Any] = {}
         findings: tuple[Finding, ...] = ()
 
-        def against_object(name: str, surface: Surface) -> CutFill:
+        def against_object(name: str, surface: mesh.Surface) -> CutFill:
             other = scene.objects.get(name)
             if other is None:
-                raise QueryError(NO_SUCH_NAME, kind="object", name=name)
-            return cut_fill_against(other, surface, depsgraph, unit)
+                raise QueryError(session.findings.NO_SUCH_NAME, kind="object", name=name)
+            return cuts.cut_fill_against(other, surface, depsgraph, unit)
 
         if self.options.below is not None or self.options.against is not None:
             body = measure_body(obj, depsgraph, wanted).body
@@ -335,7 +335,11 @@ class Scene:
             objects = [root, *root.children_recursive]
             if isinstance(root, bpy.types.Collection):
                 objects = root.all_objects
-            members = [obj for obj in objects if measurable(obj) and obj.name not in left_out]
+            members = [
+                obj
+                for obj in objects
+                if read.visibility.measurable(obj) and obj.name not in left_out
+            ]
             self._combined.more[root] = self._floating(members, assembly.measurement, contents)[0]
 
     def _floating(
@@ -365,13 +369,14 @@ class Scene:
             or self.options.material is not None
         ):
             return
-        unset = unset_density(obj, measurement, bpy.context.scene)
+        unset = density.unset_density(obj, measurement, bpy.context.scene)
         if unset is not None:
             yield finding(
-                DENSITY_DEFAULTED, density="1 kg/m" if unset == "linear_density" else "1000 kg/m³"
+                bodies.DENSITY_DEFAULTED,
+                density="1 kg/m" if unset == "linear_density" else "1000 kg/m³",
             )
 
-    def _open(self) -> Opened:
+    def _open(self) -> references.Opened:
         """Open the path, if there is one, and return the findings.
 
         FileError if Blender has not loaded its file.
@@ -383,7 +388,11 @@ class Scene:
         if open_name() and not bpy.data.filepath:
             raise FileError(FILE_UNREADABLE, error="it is missing or incomplete")
         frame = self.options.at_frame
-        return Opened() if frame is None else Opened(notes=measure_at(frame))
+        return (
+            references.Opened()
+            if frame is None
+            else references.Opened(notes=placing.measure_at(frame))
+        )
 
     def _fourier(
         self, chosen: list[tuple[str, bpy.types.Object]], contents: Contents
@@ -404,7 +413,10 @@ class Scene:
             yield failure(label, _unavailable("Fourier transform", refusal))
         except OSError as error:
             file = str(self.options.fourier)
-            yield failure(label, finding(FILE_NOT_WRITTEN, file=file, error=system_reason(error)))
+            yield failure(
+                label,
+                finding(write.findings.FILE_NOT_WRITTEN, file=file, error=system_reason(error)),
+            )
         except Exception as error:
             yield contents.internal(label, error)
 
@@ -414,16 +426,21 @@ class Scene:
         It follows all measurements, as drivers may read results. Given settings are stored too, so
         that results fit.
         """
-        if not bpy.data.filepath or self._path is not None and file_suffix(self._path) != BLEND:
+        if (
+            not bpy.data.filepath
+            or self._path is not None
+            and suffixes.file_suffix(self._path) != BLEND
+        ):
             raise FileError(RESULTS_NOT_STORED, cause=NEEDS_BLEND)
         for label, obj, one in contents.measured:
             with contents.attempt(label):
                 store(obj, one)
-                with tracking_paused():  # the stored results already belong to these settings
+                with (
+                    read.tracking.tracking_paused()
+                ):  # the stored results already belong to these settings
                     settings.apply_options(obj.body_moments, self._wanted, bpy.context.scene)
         mark_up_to_date(bpy.context, [obj for _, obj, _ in contents.measured])
 
 
 def _unavailable(part: str, refusal: MeasureError) -> Finding:
-    """Return the finding that a part of a record is missing, with the cause."""
     return finding(PART_UNAVAILABLE, part=part, cause=refusal.finding.as_record())

@@ -18,10 +18,8 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
-from ...core.robots import FORMATS as ROBOT_FORMATS
-from ...core.scans import scan_suffix
-from ..supervisor.listing import CAD, UNITLESS
-from ..supervisor.processes import has_blender
+from ...core import robots, scans
+from ..supervisor import listing, processes
 from .measure_parser import DEFAULT_ORDER, measure_parser
 
 TARGETS = ("output", "fourier", "write_baseline")  # options whose files are written
@@ -65,7 +63,7 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
     options.resume |= options.retry_failed
     if file_needed and not has_files:
         fail("a FILE is needed")
-    if options.format in ROBOT_FORMATS:
+    if options.format in robots.FORMATS:
         if len(options.files) > 1:
             fail(ONE_FILE.format(options.format))
         options.frame = "object"  # frame of the links
@@ -76,7 +74,7 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
         ]
         if options.links == "bone" and given:
             fail("--links bone takes what the bones' settings say, and no --{}".format(given[0]))
-        binary = ROBOT_FORMATS[options.format].binary_suffixes
+        binary = robots.FORMATS[options.format].binary_suffixes
         if options.output is not None and options.output.suffix.lower() in binary:
             fail(
                 "argument --output: {} is written as text. Use .gltf, .usd or .usda".format(
@@ -123,7 +121,7 @@ def words(names: Iterable[str]) -> list[str]:
 def of_numbers(options: argparse.Namespace) -> dict[str, Any]:
     """Return the options that influence records by name, as JSON would return them."""
     names = _defaults().keys() - _OF_RUNS | (
-        {"format"} if options.format in ROBOT_FORMATS else set()
+        {"format"} if options.format in robots.FORMATS else set()
     )
     return {name: _as_json(getattr(options, name)) for name in sorted(names)}
 
@@ -169,7 +167,6 @@ def files_of_options(
 
 
 def _check_labels(options: argparse.Namespace) -> None:
-    """End with a message if the options of label maps do not go together."""
     if options.label is not None and options.threshold is not None:
         fail("arguments --label and --threshold exclude each other")
     if options.label_table is not None and options.label is None:
@@ -177,7 +174,6 @@ def _check_labels(options: argparse.Namespace) -> None:
 
 
 def _check_fourier(options: argparse.Namespace) -> None:
-    """End with a message if the options of the transform do not go together."""
     target = options.fourier
     if target is None:
         for name in ("q", "grid", "qmax"):
@@ -233,7 +229,7 @@ def join_negative_values(argv: list[str]) -> list[str]:
 
 def options_of_blender(options: argparse.Namespace, is_scan: bool) -> list[str]:
     """Return the given options for which a mesh, or a scan, has to be an object in Blender."""
-    robot = ["format"] * (options.format in ROBOT_FORMATS)
+    robot = ["format"] * (options.format in robots.FORMATS)
     if is_scan:
         return robot
     names_object = isinstance(options.against, str) and options.against != RIM
@@ -262,14 +258,16 @@ def boolean_and_wire(options: argparse.Namespace) -> list[str]:
 
 def check_blender(options: argparse.Namespace, paths: Sequence[str]) -> None:
     """End with a message if a file or an option needs Blender, and there is none."""
-    if has_blender():
+    if processes.has_blender():
         return
     for path in paths:
-        is_scan = bool(scan_suffix(path))
+        is_scan = bool(scans.scan_suffix(path))
         suffix = Path(path).suffix.lower()
         given = words(
-            options_of_polygons(options) if suffix in CAD else options_of_blender(options, is_scan)
+            options_of_polygons(options)
+            if suffix in listing.CAD
+            else options_of_blender(options, is_scan)
         )
-        if given or not (is_scan or suffix in (*UNITLESS, *CAD)):
+        if given or not (is_scan or suffix in (*listing.UNITLESS, *listing.CAD)):
             what = ", ".join(given) if given else "“{}”".format(path)
             fail(NEEDS_BLENDER.format(what + (" need" if len(given) > 1 else " needs")))

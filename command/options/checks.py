@@ -13,21 +13,18 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from zipfile import is_zipfile
 
-from ...core.density import BY_NAME, parse_polynomial
-from ...core.files import file_limits
+from ...core import density, files, scans
 from ...core.fourier.wave_vectors import FrequencyGrid, wave_vectors
 from ...core.measurement import Measurement
 from ...core.numerics import Array
-from ...core.scans import map_array
 from ...core.verdict.finding import Finding, MeasureError, finding, system_reason
 from ..files.suffixes import file_suffix
-from ..findings import OPTIONS_UNUSED, UNIT_ASSUMED
+from ..findings import OPTIONS_UNUSED
 from ..parser import UsageError
 from ..supervisor.listing import UNITLESS
-from .arguments import fail, words
-from .option_types import MAX_GRID
+from . import arguments, option_types
 
-MAX_WAVE_VECTORS = MAX_GRID**3
+MAX_WAVE_VECTORS = option_types.MAX_GRID**3
 OF_ARRAYS = ("spacing", "origin", "spline_order", "density_scale", "positions")
 
 
@@ -36,20 +33,20 @@ def prepare(options: Namespace) -> None:
     of the transform.
     """
     try:
-        if options.material is not None and options.material not in BY_NAME:
-            known = ", ".join(sorted(BY_NAME))
+        if options.material is not None and options.material not in density.BY_NAME:
+            known = ", ".join(sorted(density.BY_NAME))
             raise UsageError(
                 "There is no material “{}”. Known are {}".format(options.material, known)
             )
         if options.polynomial is not None:
-            parse_polynomial(options.polynomial)
-        options.limits = replace(file_limits(), allow_outside=options.allow_outside)
+            density.parse_polynomial(options.polynomial)
+        options.limits = replace(files.file_limits(), allow_outside=options.allow_outside)
     except (MeasureError, UsageError) as error:
-        fail(str(error))
+        arguments.fail(str(error))
     try:
         options.waves = wave_vectors_of(options)
     except (MeasureError, UsageError) as error:
-        fail("argument --{}: {}".format("grid" if options.q is None else "q", error))
+        arguments.fail("argument --{}: {}".format("grid" if options.q is None else "q", error))
 
 
 def wave_vectors_of(options: Namespace) -> FrequencyGrid | Array | None:
@@ -66,7 +63,7 @@ def wave_vectors_of(options: Namespace) -> FrequencyGrid | Array | None:
     try:
         if not path.is_file() or is_zipfile(path):
             raise UsageError("{} is not a .npy file".format(path))
-        array = map_array(path)
+        array = scans.map_array(path)
     except OSError as error:
         raise UsageError("{} cannot be read: {}".format(path, system_reason(error))) from error
     if array.size > 3 * MAX_WAVE_VECTORS:
@@ -76,7 +73,9 @@ def wave_vectors_of(options: Namespace) -> FrequencyGrid | Array | None:
 
 def density_of(options: Namespace) -> float | None:
     """Return the density that was given as a number or as a material's name, else None."""
-    return options.density if options.material is None else BY_NAME[options.material].density
+    return (
+        options.density if options.material is None else density.BY_NAME[options.material].density
+    )
 
 
 def is_unitless(path: str | None) -> bool:
@@ -85,7 +84,7 @@ def is_unitless(path: str | None) -> bool:
 
 def unused(names: Iterable[str]) -> Iterator[Finding]:
     """Yield a finding if there are unused options."""
-    if options := words(names):
+    if options := arguments.words(names):
         yield finding(OPTIONS_UNUSED, options=options)
 
 
@@ -95,7 +94,7 @@ def file_findings(path: str | None, options: Namespace) -> Iterator[Finding]:
     """
     names = [*OF_ARRAYS, "label_table", *([] if is_unitless(path) else ["unit_scale"])]
     if is_unitless(path) and options.unit_scale is None:
-        yield finding(UNIT_ASSUMED)
+        yield finding(scans.UNIT_ASSUMED, unit="m")
     yield from unused(name for name in names if getattr(options, name) is not None)
 
 

@@ -16,7 +16,6 @@ from ...core.measurement import FRAMES
 from ...core.robots import FORMATS as ROBOT_FORMATS
 from ..parser import COMMANDS, Parser
 from . import option_types as types
-from .option_types import FORMATS
 
 DEFAULT_ORDER = 2  # For --surface-moments without --order: the order that inertia needs.
 DEFAULT_TIMEOUT = 1800.0  # seconds for one file
@@ -56,7 +55,6 @@ def measure_parser() -> Parser:
 
 
 def _add_settings(parser: Parser) -> None:
-    """Add options for the choice of objects and their material."""
     parser.value(
         "--object",
         str,
@@ -122,7 +120,6 @@ def _add_settings(parser: Parser) -> None:
 
 
 def _add_of_files(parser: Parser) -> None:
-    """Add options for information missing in files."""
     text = "meters per unit in files that carry no unit: .stl, .obj, .ply, arrays (1)"
     parser.value("--unit-scale", types.positive, "S", text)
     parser.value(
@@ -193,7 +190,6 @@ def _add_of_files(parser: Parser) -> None:
 
 
 def _add_results(parser: Parser) -> None:
-    """Add options for the contents of results and their output."""
     parser.choice(
         "--frame", FRAMES, "of centers, tensors, axes and moments (world)", default="world"
     )
@@ -271,7 +267,7 @@ def _add_results(parser: Parser) -> None:
         "--thumbnails", "add a small picture of each body with its principal axes, for `report`"
     )
     parser.value(
-        "--format", types.format_name, "{" + ",".join(FORMATS) + "}", "(json)", default="json"
+        "--format", types.format_name, "{" + ",".join(types.FORMATS) + "}", "(json)", default="json"
     )
     robots = ", ".join(ROBOT_FORMATS) + ": "
     parser.flag(
@@ -320,7 +316,6 @@ def _add_results(parser: Parser) -> None:
 
 
 def _add_supervision(parser: Parser) -> None:
-    """Add options for measuring many files."""
     parser.value("--manifest", Path, "LIST", "measure the files of a list that `manifest` has made")
     parser.value(
         "--range", types.file_range, "A:B", "of the files, only numbers A to B - 1, counted from 0"

@@ -9,13 +9,10 @@ from __future__ import annotations
 
 import math
 from argparse import ArgumentTypeError
-from collections.abc import Callable, Iterable, Iterator
-from typing import Any
+from collections.abc import Callable
 
-from ...core.density import BY_NAME
-from ...core.files import parse_number, parse_whole
+from ...core import density, files, robots
 from ...core.measurement import PrintSettings, documents
-from ...core.robots import FORMATS as ROBOT_FORMATS
 from ..parser import COMMANDS
 
 # Equal to the values in the core, which needs numpy: the process that supervises others may have
@@ -35,13 +32,11 @@ _NAMED = {
 }
 
 
-def _to_robot(file_documents: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """Yield the robot description of each file, as written by the process that measured it."""
-    return (one.get("robot", "") for one in file_documents)
-
-
-# Functions from documents, which may be iterated twice, to pieces of text.
-FORMATS = documents.FORMATS | dict.fromkeys(ROBOT_FORMATS, _to_robot)
+# Functions from documents, which may be iterated twice, to pieces of text. Robots are written by
+# the processes that measure the files.
+FORMATS = documents.FORMATS | dict.fromkeys(
+    robots.FORMATS, lambda of_files: (one.get("robot", "") for one in of_files)
+)
 
 
 def command(text: str) -> str:
@@ -54,7 +49,7 @@ def command(text: str) -> str:
 def _float(text: str) -> float:
     """Return the number, or NaN for other text."""
     try:
-        return parse_number(text.strip())
+        return files.parse_number(text.strip())
     except ValueError:
         return math.nan
 
@@ -66,7 +61,7 @@ def _bounded(name: str, least: int, most: int) -> Callable[[str], int]:
 
     def parse(text: str) -> int:
         try:
-            value = parse_whole(text.strip())
+            value = files.parse_whole(text.strip())
         except ValueError:
             value = least - 1
         if not least <= value <= most:
@@ -137,7 +132,7 @@ def print_settings(text: str) -> tuple[tuple[str, float], ...]:
 def label(text: str) -> int | str:
     """Return the number of a label, or “all”."""
     try:
-        return text if text == "all" else parse_whole(text.strip())
+        return text if text == "all" else files.parse_whole(text.strip())
     except ValueError:
         raise ArgumentTypeError("{!r} is not a whole number or all".format(text)) from None
 
@@ -198,7 +193,7 @@ def source(text: str) -> str:
 
 def liquid(text: str) -> float:
     """Return the density of a liquid, kg/m³, from its name or as a number."""
-    liquids = {name: one for name, one in BY_NAME.items() if one.category == "Liquids"}
+    liquids = {name: one for name, one in density.BY_NAME.items() if one.category == "Liquids"}
     for name, material in liquids.items():
         if text.casefold() in (name.casefold(), name.partition(",")[0].casefold()):
             return material.density

@@ -185,7 +185,6 @@ def _flat_values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
 
 
 def _tensor(name: str, rows: Matrix, bound: float) -> dict[str, Number]:
-    """Return the six numbers of a symmetric tensor."""
     largest = _largest(sum(rows, []))
     pairs = [(i, j) for i in range(3) for j in range(i, 3)]
     return {
@@ -202,7 +201,6 @@ def _number(value: float | None) -> float:
 
 
 def _moments(moments: dict[str, Any]) -> dict[str, Number]:
-    """Return the moments of every domain, by their powers."""
     found: dict[str, Number] = {}
     for domain in (name for name in _DOMAINS if name in moments):
         values = moments[domain]
@@ -229,7 +227,6 @@ def _product(first: Matrix, second: Matrix) -> Matrix:
 
 
 def _bound(entry: dict[str, Any], name: str) -> float:
-    """Return the bound of a number in a body's record."""
     # A given value has no bound, and does not differ.
     if name in (
         "mass",
@@ -243,7 +240,6 @@ def _bound(entry: dict[str, Any], name: str) -> float:
 
 
 def _bound_about(entry: dict[str, Any], distance: float) -> float:
-    """Return the bound of a tensor about a point at this distance from the center of mass."""
     shift = distance * _bound(entry, "mass") + 2.0 * (entry["mass"] or 0.0) * _bound(
         entry, "center_of_mass"
     )

@@ -15,19 +15,7 @@ from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from ...core.measurement import (
-    bound_of,
-    check_document,
-    check_journal_line,
-    count_findings,
-    counted,
-    parse_json,
-    to_csv,
-    to_html,
-    to_json_lines,
-    visible,
-)
-from ...core.verdict import system_reason
+from ...core import measurement, verdict
 from ..options.option_types import count, positive
 from ..parser import COMMANDS, Parser, UsageError
 from ..supervisor import journal, listing
@@ -128,7 +116,7 @@ def _merge(options: argparse.Namespace) -> tuple[Iterable[str], int]:
         documents = dict(
             sorted(documents.items(), key=lambda item: place[os.path.abspath(item[0] or "")])
         )
-    return to_json_lines(documents.values()), 0
+    return measurement.to_json_lines(documents.values()), 0
 
 
 def _read_file(path: str) -> Iterator[Entry]:
@@ -141,16 +129,16 @@ def _read_file(path: str) -> Iterator[Entry]:
             begin = file.read(2)
             file.seek(0)
             if begin[:1] == "[" or begin == "{\n":
-                whole = parse_json(file.read())
+                whole = measurement.parse_json(file.read())
                 for number, entry in enumerate(whole if isinstance(whole, list) else [whole], 1):
                     yield _entry(entry, "document {}".format(number))
                 return
             for number, line in enumerate(file, 1):
                 if line.strip():
-                    yield _entry(parse_json(line, number), "line {}".format(number))
+                    yield _entry(measurement.parse_json(line, number), "line {}".format(number))
     except OSError as error:
         raise UsageError(
-            "The results {} cannot be read: {}".format(path, system_reason(error))
+            "The results {} cannot be read: {}".format(path, verdict.system_reason(error))
         ) from error
     except ValueError as error:
         text = "{} is not a result of body_moments: {}. Name what “measure” has written"
@@ -164,7 +152,7 @@ def _entry(record: Any, place: str) -> Entry:
     """
     is_line = isinstance(record, dict) and record.get("schema") == journal.SCHEMA
     try:
-        (check_journal_line if is_line else check_document)(record)
+        (measurement.check_journal_line if is_line else measurement.check_document)(record)
     except ValueError as error:
         raise ValueError("{}: {}".format(place, error)) from error
     return (record["document"], record) if is_line else (record, {})
@@ -174,7 +162,7 @@ def _manifest(options: argparse.Namespace) -> tuple[Iterable[str], int]:
     try:
         paths = [*dict.fromkeys(listing.expand(options.paths))]
     except OSError as error:
-        raise UsageError("{}: {}".format(error.filename, system_reason(error))) from error
+        raise UsageError("{}: {}".format(error.filename, verdict.system_reason(error))) from error
     # Relative names in a list start from its folder.
     if options.output and options.output.parent != Path():
         paths = [os.path.abspath(path) for path in paths]
@@ -201,17 +189,17 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
             slowest = sorted([*slowest, (float(about["seconds"]), str(file))], reverse=True)[
                 :_LISTED
             ]
-        codes += count_findings(document)
+        codes += measurement.count_findings(document)
         for entry in (*document["objects"], *document.get("flat", ())):
             methods[entry.get("method", "flat")] += 1
             name = "volume" if entry.get("volume") else "area"
-            bound = bound_of(entry, name)
+            bound = measurement.bound_of(entry, name)
             size = entry[name]
             if bound is not None and size:
                 share = bound / abs(size), "{}: {}".format(file, entry["name"])
                 widest = sorted([*widest, share], reverse=True)[:_LISTED]
-    lines = ["{}: {}".format(counted(statuses.total(), "file"), _counted(statuses))]
-    lines += ["{}: {}".format(counted(methods.total(), "object"), _counted(methods))]
+    lines = ["{}: {}".format(measurement.counted(statuses.total(), "file"), _counted(statuses))]
+    lines += ["{}: {}".format(measurement.counted(methods.total(), "object"), _counted(methods))]
     more = ["and {} more".format(len(failed) - _LISTED)] if len(failed) > _LISTED else []
     lines += ["", "Not measured:", *failed[:_LISTED], *more] if failed else []
     if codes:
@@ -222,7 +210,7 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
     if widest:
         lines += ["", "Widest bounds of the volume or area, of its size:"]
         lines += ["{:>10.1e}  {}".format(*one) for one in widest]
-    return (visible(line) + "\n" for line in lines), 0
+    return (measurement.visible(line) + "\n" for line in lines), 0
 
 
 def _compare(options: argparse.Namespace) -> tuple[Iterable[str], int]:
@@ -232,7 +220,9 @@ def _compare(options: argparse.Namespace) -> tuple[Iterable[str], int]:
     lines, failed = compare.differences(first, second, options.tolerance, options.align)
     shown = [] if options.quiet and not failed else lines
     return (
-        visible(line) + "\n" for line in shown if not (options.quiet and line.startswith("pass"))
+        measurement.visible(line) + "\n"
+        for line in shown
+        if not (options.quiet and line.startswith("pass"))
     ), int(failed)
 
 
@@ -243,8 +233,8 @@ def _counted(counts: Counter[str]) -> str:
 _COMMANDS: dict[str, Callable[[argparse.Namespace], tuple[Iterable[str], int]]] = {
     "manifest": _manifest,
     "merge": _merge,
-    "to-csv": lambda options: (to_csv(_documents(options)), 0),
+    "to-csv": lambda options: (measurement.to_csv(_documents(options)), 0),
     "summary": _summary,
     "compare": _compare,
-    "report": lambda options: (to_html(_documents(options)), 0),
+    "report": lambda options: (measurement.to_html(_documents(options)), 0),
 }

@@ -7,9 +7,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ...core.measurement import print_message, visible
-from ...core.shape import Entry, classify, rank, read_library
-from ...core.verdict import SIMILARITY, system_reason
+from ...core import measurement, shape, verdict
 from ..options.option_types import count
 from ..parser import Parser, UsageError
 
@@ -46,29 +44,34 @@ def answer(options: argparse.Namespace) -> tuple[list[str], int]:
     entries, failures = [], []
     for path in options.libraries:
         try:
-            readable, missing = read_library(path)
+            readable, missing = shape.read_library(path)
         except OSError as error:
-            raise UsageError("{} cannot be read: {}".format(path, system_reason(error))) from error
+            raise UsageError(
+                "{} cannot be read: {}".format(path, verdict.system_reason(error))
+            ) from error
         entries += readable
         failures += missing
     for failure in failures:
-        print_message(failure)
+        measurement.print_message(failure)
     query = _entry_by_name(entries, options.to)
     lines = [_COLUMNS.format("distance", "size", "", "name")]
     others = [entry for entry in entries if entry is not query]
-    ranked = rank(query.signature, others, options.any_size, options.any_hand)
+    ranked = shape.rank(query.signature, others, options.any_size, options.any_hand)
     for entry, likeness in ranked[: options.count]:
         distance = "{:.3e}".format(likeness.distance(options.any_size, options.any_hand))
-        similarity = SIMILARITY[classify(likeness)]
+        similarity = verdict.SIMILARITY[shape.classify(likeness)]
         lines.append(
             _COLUMNS.format(
-                distance, "{:.4g}".format(likeness.scale), similarity, visible(entry.label)
+                distance,
+                "{:.4g}".format(likeness.scale),
+                similarity,
+                measurement.visible(entry.label),
             )
         )
     return lines, 1 if failures else 0
 
 
-def _entry_by_name(entries: list[Entry], name: str) -> Entry:
+def _entry_by_name(entries: list[shape.Entry], name: str) -> shape.Entry:
     named = [entry for entry in entries if entry.name == name] or [
         entry for entry in entries if entry.label == name
     ]

@@ -21,8 +21,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO, Any
 
-from . import processes
-from .lifeline import MARK
+from . import lifeline, processes
 
 ATTEMPTS = 2  # for a file that ends its child; the second in a fresh child
 START_LIMIT = 300.0  # seconds in which a child must be ready
@@ -212,8 +211,8 @@ class Pool:
         # a child that answers nonsense counts as dead
         with suppress(ValueError, TypeError, AttributeError, OSError):
             while line := stream.readline():
-                if line.startswith(MARK):
-                    head = json.loads(line[len(MARK) :])
+                if line.startswith(lifeline.MARK):
+                    head = json.loads(line[len(lifeline.MARK) :])
                     size = head.get("bytes", 0)
                     data = stream.read(size)
                     if len(data) == size:
@@ -250,7 +249,6 @@ class Pool:
         return [TaskOutcome(task, "answered", attempts + 1, seconds, head, data, said=said)]
 
     def _give(self, child: _Child) -> None:
-        """Send the next task to an idle child, if there is one."""
         child.deadline = float("inf")
         tasks = self._again if self._again and child.is_fresh else self._tasks
         if tasks:
@@ -318,7 +316,6 @@ class Pool:
             return ""
 
     def _close(self, child: _Child) -> None:
-        """Close the pipes of a child that has ended, and remove its files."""
         for stream in (child.requests, child.answers):
             with suppress(OSError):
                 stream.close()

@@ -250,7 +250,6 @@ class _Status(ctypes.Structure):
 
 
 def _memory_on_windows(pid: int) -> int | None:
-    """Return the bytes of a process's private memory, or None if unknown."""
     with suppress(OSError, AttributeError):
         library = _library()
         library.OpenProcess.restype = ctypes.c_void_p
@@ -270,7 +269,6 @@ def _memory_on_windows(pid: int) -> int | None:
 
 
 def _windows_memory() -> int | None:
-    """Return the bytes of physical memory, or None if unknown."""
     with suppress(OSError, AttributeError):
         status = _Status(dwLength=ctypes.sizeof(_Status))
         if _library().GlobalMemoryStatusEx(ctypes.byref(status)):

@@ -3,6 +3,7 @@
 
 from typing import Any
 
+from .findings import DENSITY_NON_FINITE as DENSITY_NON_FINITE
 from .findings import GRID_TRANSFORM_SINGULAR as GRID_TRANSFORM_SINGULAR
 from .findings import LABELS_UNFIT as LABELS_UNFIT
 from .findings import POSITIONS_ONLY_AS_DENSITY as POSITIONS_ONLY_AS_DENSITY

@@ -11,15 +11,10 @@ POLYNOMIAL_BEYOND_NUMBERS = (
     "the object nearer to the origin"
 )
 POLYNOMIAL_UNUSABLE = error("polynomial_unusable", "The polynomial {fault:word}.")
-POLYNOMIAL_SYNTAX = error(
-    "polynomial_syntax",
-    "The polynomial cannot be read at “{part}”. Write products with *, as in 20*z.",
-)
-POLYNOMIAL_NOT_ALLOWED = error(
-    "polynomial_not_allowed",
-    "“{part}” is not allowed in a polynomial. Use numbers, x, y, z, +, -, *, division by a number, "
-    "whole "
-    "powers with **, and parentheses.",
+POLYNOMIAL_UNREADABLE = "cannot be read. Write products with *, as in 20*z"
+POLYNOMIAL_NOT_ALLOWED = (
+    "is not allowed in a polynomial. Use numbers, x, y, z, +, -, *, division by a number, whole "
+    "powers with **, and parentheses"
 )
 POLYNOMIAL_PART = error("polynomial_part", "“{part}” {fault:word}.")
 POLYNOMIAL_DEGREE = error(

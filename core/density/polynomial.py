@@ -34,8 +34,8 @@ from .findings import (
     POLYNOMIAL_EMPTY,
     POLYNOMIAL_NOT_ALLOWED,
     POLYNOMIAL_PART,
-    POLYNOMIAL_SYNTAX,
     POLYNOMIAL_TOO_LONG,
+    POLYNOMIAL_UNREADABLE,
     POLYNOMIAL_UNUSABLE,
 )
 
@@ -159,7 +159,9 @@ def parse_polynomial(text: str) -> Polynomial:
             if isinstance(error, SyntaxError) and error.lineno in (None, 1)
             else 0
         )
-        raise MeasureError(POLYNOMIAL_SYNTAX, part=text[start:][:20] or text[:20]) from error
+        raise MeasureError(
+            POLYNOMIAL_PART, fault=POLYNOMIAL_UNREADABLE, part=text[start:][:20] or text[:20]
+        ) from error
     except (RecursionError, MemoryError) as error:
         raise MeasureError(POLYNOMIAL_UNUSABLE, fault=POLYNOMIAL_TOO_LONG) from error
     try:
@@ -194,7 +196,7 @@ def _terms(node: ast.expr, text: str) -> dict[Exponents, Fraction]:
         return {powers: sign * value for powers, value in _terms(node.operand, text).items()}
     if isinstance(node, ast.BinOp):
         return _validated(_operation(node, text), node, text)
-    raise MeasureError(POLYNOMIAL_NOT_ALLOWED, part=_source_text(node, text))
+    raise MeasureError(POLYNOMIAL_PART, fault=POLYNOMIAL_NOT_ALLOWED, part=_source_text(node, text))
 
 
 def _operation(node: ast.BinOp, text: str) -> dict[Exponents, Fraction]:
@@ -217,7 +219,7 @@ def _operation(node: ast.BinOp, text: str) -> dict[Exponents, Fraction]:
         return {powers: value / divisor for powers, value in left.items()}
     if isinstance(node.op, ast.Pow):
         return _power(left, _constant(right, node.right, text), node, text)
-    raise MeasureError(POLYNOMIAL_NOT_ALLOWED, part=_source_text(node, text))
+    raise MeasureError(POLYNOMIAL_PART, fault=POLYNOMIAL_NOT_ALLOWED, part=_source_text(node, text))
 
 
 def _power(

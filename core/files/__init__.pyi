@@ -16,7 +16,6 @@ from .fbx import fbx_array as fbx_array
 from .fbx import fbx_tree as fbx_tree
 from .findings import DAMAGE_CUT_SHORT as DAMAGE_CUT_SHORT
 from .findings import DAMAGE_INCOMPLETE as DAMAGE_INCOMPLETE
-from .findings import DAMAGE_INDEX as DAMAGE_INDEX
 from .findings import DAMAGE_SIZE as DAMAGE_SIZE
 from .findings import FILE_DAMAGED as FILE_DAMAGED
 from .findings import FILE_MISSING as FILE_MISSING

@@ -60,7 +60,6 @@ LINE_MISREAD = error(
     "file, or export it "
     "again.",
 )
-DAMAGE_INDEX = error("damage_index", "a face has a vertex that is not among its {vertices}")
 MISSING_REFERENCES = error(
     "missing_references",
     "The file refers to what cannot be found: {names}. Restore these files, or make linked data "

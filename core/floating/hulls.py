@@ -24,7 +24,7 @@ from ..mesh import (
     sort_components,
     uncancelled_sides,
 )
-from ..numerics import Array, Index, Mask
+from ..numerics import Array, Index, Mask, first_occurrence
 from ..solid import (
     COMPONENTS_OVERLAP,
     SELF_INTERSECTING,
@@ -204,8 +204,8 @@ def fill_hollows(hull: Hull, up: Array) -> Hull:
 
 def _same_triangles(points: Array, triangles: NDArray[np.integer], hollow: Hollow) -> Mask:
     """Return an (m,) mask of the triangles at the places of a hollow's walls."""
-    place = first_at_equal_position(np.concatenate([points, hollow.points]))
-    walls = np.sort(place[hollow.triangles + len(points)], axis=1)
-    every = np.concatenate([walls, np.sort(place[triangles], axis=1)])
-    same = np.unique(every, axis=0, return_inverse=True)[1].reshape(-1)
-    return np.isin(same[len(walls) :], same[: len(walls)])
+    place = first_at_equal_position(np.concatenate([hollow.points, points]))
+    every = np.concatenate([hollow.triangles, triangles + len(hollow.points)])
+    first = first_occurrence(*np.sort(place[every], axis=1).T)
+    count = len(hollow.triangles)
+    return first[count:] < count

@@ -17,8 +17,9 @@ from ..verdict import MeasureError
 from .findings import FLOAT_UNAVAILABLE, FLOODED_OUTSIDE
 from .flotation import STARTS, FloatingBody, Flotation, Tank, Vessel
 from .hulls import Hull, are_inside, fill_hollows, find_hull
-from .righting import RightingCurve, righting_curve
+from .righting import righting_curve
 
+CURVE = "angles", "arms", "trims", "energies", "stable_range", "capsize", "flooding"
 MAX_HULLS = 4  # kept: the wet one, and the last with hollows filled
 
 
@@ -180,17 +181,6 @@ def float_record(
         ],
     }
     if np.size(angles):
-        entry["gz"] = _curve_record(righting_curve(rest, angles))
+        curve = righting_curve(rest, angles)
+        entry["gz"] = {name: getattr(curve, name) for name in CURVE}
     return entry
-
-
-def _curve_record(curve: RightingCurve) -> dict[str, Any]:
-    return {
-        "angles": curve.angles,
-        "arms": curve.arms,
-        "trims": curve.trims,
-        "energies": curve.energies,
-        "stable_range": curve.stable_range,
-        "capsize": curve.capsize,
-        "flooding": curve.flooding,
-    }

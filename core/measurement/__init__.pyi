@@ -31,7 +31,10 @@ from .documents import table as table
 from .documents import to_csv as to_csv
 from .documents import to_json_lines as to_json_lines
 from .findings import DENSITY_FROM as DENSITY_FROM
+from .findings import DENSITY_FROM_MASS as DENSITY_FROM_MASS
+from .findings import DENSITY_FROM_VALUE as DENSITY_FROM_VALUE
 from .findings import NO_VOLUME as NO_VOLUME
+from .findings import UNIFORM_DENSITIES as UNIFORM_DENSITIES
 from .findings import WALL_UNSUPPORTED as WALL_UNSUPPORTED
 from .findings import ZERO_QUANTITY as ZERO_QUANTITY
 from .measurement import Body as Body

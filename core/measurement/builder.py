@@ -30,12 +30,14 @@ from ..verdict.finding import Finding, ReadError, finding
 from ..wall import NO_FACE_AREA
 from .findings import (
     DENSITY_FROM,
+    DENSITY_FROM_MASS,
+    DENSITY_FROM_VALUE,
     LARGE_BOUND,
     NO_VOLUME,
     WALL_UNSUPPORTED,
     ZERO_QUANTITY,
 )
-from .measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Body, Measurement
+from .measurement import Body, Measurement
 from .settings import Settings
 
 NO_AXES_FIXED = "isotropic"

@@ -3,9 +3,8 @@
 """Findings of `core/measurement`."""
 
 from ..verdict import error, note, warning
+from ..verdict.finding import finding
 
-DENSITY_FROM_VALUE = note("density_from_value", "one value")
-DENSITY_FROM_MASS = note("density_from_mass", "given mass")
 NO_VOLUME = error(
     "no_volume",
     "The faces enclose no volume. Set Kind to Shell, close the mesh, or use Measure Section for a "
@@ -23,3 +22,7 @@ LARGE_BOUND = warning(
     "vertices nearer to the object's origin.",
 )
 DENSITY_FROM = note("density_from", "{source:word}")
+# Sources of a density that is the same everywhere.
+DENSITY_FROM_VALUE = finding(DENSITY_FROM, source="one value")
+DENSITY_FROM_MASS = finding(DENSITY_FROM, source="given mass")
+UNIFORM_DENSITIES = DENSITY_FROM_VALUE, DENSITY_FROM_MASS

@@ -15,14 +15,8 @@ from ..mesh import Surface
 from ..moments import Measure, Moments
 from ..numerics import Array
 from ..verdict import MeshHealth, Method
-from ..verdict.finding import Finding, ReadError, finding
-from .findings import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, WALL_UNSUPPORTED
-
-# Sources of a density that is the same everywhere.
-UNIFORM_DENSITIES = DENSITY_FROM_VALUE, DENSITY_FROM_MASS = (
-    finding(DENSITY_FROM_VALUE),
-    finding(DENSITY_FROM_MASS),
-)
+from ..verdict.finding import Finding, ReadError
+from .findings import DENSITY_FROM_VALUE, UNIFORM_DENSITIES, WALL_UNSUPPORTED
 
 
 @dataclass(frozen=True, eq=False)

@@ -29,7 +29,8 @@ from ..numerics import Array
 from ..polyhedron import multi_indices
 from ..verdict import Finding, MeasureError, Severity, find_verdict, sentence, severity
 from .documents import TOTAL, plain
-from .measurement import UNIFORM_DENSITIES, Measurement
+from .findings import UNIFORM_DENSITIES
+from .measurement import Measurement
 
 MAX_ELEMENTS = 1000  # Limit for one finding.
 _FIRST = ((1, 0, 0), (0, 1, 0))

@@ -399,7 +399,9 @@ def convex_polygon(points: Array, tolerance: float = 0.0) -> Index:
             length > 0.0, length, 1.0
         )
         outside = height > max(least, 4.0 * np.finfo(np.float64).eps * np.abs(points).max())
-        rest, side, height = (values[outside] for values in (rest, side, height))
+        rest = rest[outside]
+        side = side[outside]
+        height = height[outside]
         if not len(rest):
             break
         order = np.lexsort((height, side))

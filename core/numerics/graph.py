@@ -16,8 +16,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from .array_types import Index
 
-# Links, or corners of faces, at a time: enough for threads to help; a multiple of 3 and 4, so that
-# no face is split.
+# Links at a time: enough for threads to help.
 EDGES_PER_BLOCK = 3 << 16
 NODES_PER_BLOCK = 1 << 14  # in the cache with the paths that lead from them
 

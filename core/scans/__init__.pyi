@@ -6,6 +6,7 @@ from typing import Any
 from .findings import LABEL_ABSENT as LABEL_ABSENT
 from .findings import SCAN_LABELS as SCAN_LABELS
 from .findings import SCAN_UNSTATED as SCAN_UNSTATED
+from .findings import UNIT_ASSUMED as UNIT_ASSUMED
 from .formats import AXES as AXES
 from .formats import EVEN as EVEN
 from .formats import Positions as Positions

@@ -36,10 +36,9 @@ SCAN_PLACEMENT_OVERRIDDEN = note(
 SCAN_UNSTATED = warning(
     "scan_unstated", "The file has no {part:word}: 1 was assumed. Use Set Spacing, or --{option}."
 )
-SCAN_IN_MILLIMETERS = warning(
-    "scan_in_millimeters",
-    "The file has no unit: 1 unit was taken as 1 mm, as other readers of {format} do. Use "
-    "--unit-scale, or state the unit.",
+UNIT_ASSUMED = warning(
+    "unit_assumed",
+    "The file has no unit: 1 unit was taken as 1 {unit}. Use --unit-scale, or state the unit.",
 )
 SCAN_LABELS = warning(
     "scan_labels",

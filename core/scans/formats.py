@@ -26,10 +26,10 @@ from ..verdict.finding import FileError, Finding, finding
 from .findings import (
     POSITIONS_COUNT,
     POSITIONS_NOT_ASCENDING,
-    SCAN_IN_MILLIMETERS,
     SCAN_OWN_UNIT,
     SCAN_PLACEMENT_OVERRIDDEN,
     SCAN_UNSTATED,
+    UNIT_ASSUMED,
 )
 from .nifti import read_nifti
 from .nrrd import read_nrrd
@@ -164,7 +164,7 @@ def sample_matrix(
         findings.append(
             finding(SCAN_UNSTATED, part="unit", option="unit-scale")
             if scan.usual_unit is None
-            else finding(SCAN_IN_MILLIMETERS, format="anatomical scans")
+            else finding(UNIT_ASSUMED, unit="mm")
         )
     return matrix, tuple(findings)
 

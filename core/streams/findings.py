@@ -4,10 +4,6 @@
 
 from ..verdict import error, note
 
-DAMAGE_PLY_ROWS = error(
-    "damage_ply_rows",
-    "it ends, or has something else than numbers, before its {count} rows of “{name}” do",
-)
 STL_CUT_SHORT = error(
     "stl_cut_short", "The STL file is cut short or damaged: it does not end {end:word}."
 )

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..files import (
     BLOCK,
-    DAMAGE_INDEX,
+    DAMAGE_INCOMPLETE,
     FILE_UNRECOGNIZED,
     FILE_WITHOUT_OBJECTS,
     SHORT,
@@ -44,7 +44,6 @@ from .file_mesh import (
     polygon_surface,
     strip_triangles,
 )
-from .findings import DAMAGE_PLY_ROWS
 from .ply_rows import (
     INDICES,
     MAX_HEADER,
@@ -84,7 +83,10 @@ class PlyFile:
                 least = sum(int(kind[1:]) for kind in kinds) if header.order else 2 * len(kinds) - 1
                 if element.rows * least > path.stat().st_size:
                     raise damaged(
-                        self._path, DAMAGE_PLY_ROWS, name=element.name, count=element.rows
+                        self._path,
+                        DAMAGE_INCOMPLETE,
+                        kind="table of numbers",
+                        error="{}, {} rows".format(element.name, element.rows),
                     )
             (self._vertices, *_) = (
                 element for element in header.elements if element.name == "vertex"
@@ -186,7 +188,9 @@ class PlyFile:
         first, last = (int(corners.min()), int(corners.max()) + 1) if corners.size else (0, 1)
         whole = given.dtype.kind != "f" or np.array_equal(corners, given)
         if corners.size and not (whole and 0 <= first < last <= count):
-            raise damaged(self._path, DAMAGE_INDEX, vertices=count)
+            raise damaged(
+                self._path, DAMAGE_INCOMPLETE, kind="mesh", error="a vertex beyond {}".format(count)
+            )
         return corners, first, last
 
     def _empty_points(self) -> NDArray[np.floating]:
@@ -216,7 +220,10 @@ class PlyFile:
                             yield element, rows, columns
                 except RowsError as error:
                     raise damaged(
-                        self._path, DAMAGE_PLY_ROWS, name=element.name, count=element.rows
+                        self._path,
+                        DAMAGE_INCOMPLETE,
+                        kind="table of numbers",
+                        error="{}, {} rows".format(element.name, element.rows),
                     ) from error
                 if element is wanted:
                     return

@@ -23,7 +23,6 @@ import numpy as np
 from ..files import (
     BLOCK,
     DAMAGE_INCOMPLETE,
-    DAMAGE_INDEX,
     DEFAULT_LIMITS,
     FILE_TOO_LARGE,
     FILE_UNREADABLE,
@@ -251,7 +250,12 @@ class _Package:
             points = np.frombuffer(found.points, np.float64).reshape(-1, 3)
             triangles = np.frombuffer(found.triangles, np.int64).reshape(-1, 3)
             if triangles.size and not (triangles.min() >= 0 and triangles.max() < len(points)):
-                raise damaged(self._path, DAMAGE_INDEX, vertices=len(points))
+                raise damaged(
+                    self._path,
+                    DAMAGE_INCOMPLETE,
+                    kind="mesh",
+                    error="a vertex beyond {}".format(len(points)),
+                )
             self._arrays[key] = points, triangles
         return self._arrays[key]
 

@@ -7,7 +7,7 @@ A template is a `str.format` template over the finding's values. `plural` is tak
 
     {share:percent}      a fraction, as 12.3%                {samples:size}   integers, as 2 x 3 x 4
     {thickness:length}   meters, as the scene shows them     {point:point}    three lengths
-    {side:word}          a word of ours, to be translated
+    {side:word}          words of ours, to be translated, or a list of names
     {names}              a list, the first 8: “A”, “B”, and 3 more
     {cause}, {causes}    another finding, or several ({"code", "values"}): their messages
     {elements}           its mesh elements (`Finding.elements`, `count` in all): 3, 5, 9, or 3 of
@@ -75,7 +75,7 @@ class _Formatter(string.Formatter):
             return "{:.3g}%".format(100.0 * value)
         if format_spec == "length":
             return self.lengths(value)
-        if format_spec == "word":
+        if format_spec == "word" and isinstance(value, str):
             return self.translate(value)
         if format_spec == "size":
             return " x ".join("{:d}".format(number) for number in value)

@@ -15,15 +15,10 @@ from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 from bpy.types import Context, Event, Menu, Operator, OperatorProperties, Scene
 
 from ...blender import bodies, read, session, write
-from ...blender.session import stored
-from ...blender.session.selected import subject
-from ...blender.session.tracking import staleness, stamps
-from ...blender.write import properties, reports
-from ...blender.write.translations import localized
-from ...core import measurement
-from ...core.robots import FORMATS
+from ...blender.session import selected, stored, tracking
+from ...blender.write import properties, reports, translations
+from ...core import measurement, robots, verdict
 from ...core.robots import write as robot_formats
-from ...core.verdict import Finding, Severity, open_body_caveats
 from .. import selection
 from .moments import reference_text
 
@@ -53,13 +48,13 @@ class OBJECT_OT_body_moments_copy_value(Operator):
 
     @classmethod
     def description(cls, _context: Context, values: OperatorProperties) -> str:
-        return localized("Copy {:s}\n\nUnit: {:s}").format(
-            values.value, values.unit or localized("none")
+        return translations.localized("Copy {:s}\n\nUnit: {:s}").format(
+            values.value, values.unit or translations.localized("none")
         )
 
     def execute(self, context: Context) -> set[str]:
         if not self.value:
-            reports.report(self, reports.phrase("No value to copy"), level=Severity.WARNING)
+            reports.report(self, reports.phrase("No value to copy"), level=verdict.Severity.WARNING)
             return {"CANCELLED"}
         copy_text(self, context, self.value, reports.phrase("Copied {value}", value=self.value))
         return {"FINISHED"}
@@ -70,9 +65,9 @@ def selected_document(context: Context) -> dict[str, Any]:
     doubtful ones.
     """
     objects = selection.selected_measurable(context)
-    outdated = {obj.name for obj in objects if staleness.stale_reason(obj, context.scene)}
+    outdated = {obj.name for obj in objects if tracking.staleness.stale_reason(obj, context.scene)}
     counted = [obj for obj in objects if properties.is_stored(obj)]
-    caveats = open_body_caveats((obj.name, properties.method(obj)) for obj in counted)
+    caveats = verdict.open_body_caveats((obj.name, properties.method(obj)) for obj in counted)
     caveats += read.assembly.total_caveats(counted, context.view_layer)
     caveats += bodies.overlap_caveats(counted, context.evaluated_depsgraph_get())
     version = ".".join(map(str, bpy.app.version))
@@ -115,14 +110,14 @@ def _table(context: Context) -> Copied | str:
     return "".join(measurement.FORMATS["csv"]([document])), done
 
 
-def _reference(context: Context) -> Copied | str | Finding:
-    obj, scene = subject(context), context.scene
+def _reference(context: Context) -> Copied | str | verdict.Finding:
+    obj, scene = selected.subject(context), context.scene
     result = (
         None
         if obj is None or not properties.is_stored(obj)
         else stored.reference.referred(obj, scene)
     )
-    if obj is None or result is None or isinstance(result, Finding):
+    if obj is None or result is None or isinstance(result, verdict.Finding):
         return result or MEASURE_FIRST
     choice = stored.reference.ReferenceChoice.from_settings(scene.body_moments_reference)
     return reference_text(obj.name, choice, result), reports.phrase(
@@ -131,18 +126,20 @@ def _reference(context: Context) -> Copied | str | Finding:
 
 
 def _section(context: Context) -> Copied | str:
-    obj = subject(context)
+    obj = selected.subject(context)
     section = None if obj is None else write.section.stored(obj)
     if obj is None or section is None:
         return "Measure a section first"
     text = write.section.text(
-        obj.name, section, staleness.stale_reason(obj, context.scene, stamps.of_section)
+        obj.name,
+        section,
+        tracking.staleness.stale_reason(obj, context.scene, tracking.stamps.of_section),
     )
     return text, reports.phrase("Copied the section of {object}", object=obj.name)
 
 
 def _moments(context: Context) -> Copied | str:
-    obj, scene = subject(context), context.scene
+    obj, scene = selected.subject(context), context.scene
     computed = None if obj is None else stored.moments.computed_moments(obj)
     if obj is None or computed is None:
         return "Compute the moments first"
@@ -184,7 +181,7 @@ ITEMS = (
     *((name, label, tip) for name, (label, tip, _) in COPIES.items()),
     *(
         (form.name, "Inertial as {:s}".format(form.short), form.copy_tip)
-        for form in FORMATS.values()
+        for form in robots.FORMATS.values()
     ),
 )
 
@@ -200,7 +197,7 @@ class OBJECT_OT_body_moments_copy(Operator):
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
-        findings: list[Finding] = []
+        findings: list[verdict.Finding] = []
         if self.what in COPIES:
             copied = COPIES[self.what][2](context)
         elif not (objects := selection.selected_measurable(context)) or context.mode != "OBJECT":

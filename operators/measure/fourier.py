@@ -10,31 +10,21 @@ import os
 from errno import ENOENT
 from math import pi
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy.types import Context, Event, Operator
 
 from ... import core
-from ...blender import bodies, settings, write
-from ...blender.read.visibility import measurable
-from ...blender.session.selected import require_subject, subject
+from ...blender import bodies, read, session, settings, write
 from ...blender.write import reports
-from ...blender.write.findings import FILE_NOT_WRITTEN
-from ...core.numerics import shortest_decimal
-from ...core.verdict import FileError, system_reason
-from .. import selection
-from ..modal import ModalSteps
-
-if TYPE_CHECKING:
-    from ...blender.bodies.fourier import ObjectTransform
-    from ...core.fourier import FrequencyGrid
+from ...core import numerics, verdict
+from .. import modal, selection
 
 SUFFIX = ".npz"
 
 
-class OBJECT_OT_body_moments_fourier(ModalSteps, Operator):
+class OBJECT_OT_body_moments_fourier(modal.ModalSteps, Operator):
     """Ask for a file and a grid, then write the Fourier transform of the active object."""
 
     bl_idname = "object.body_moments_fourier"
@@ -93,13 +83,13 @@ class OBJECT_OT_body_moments_fourier(ModalSteps, Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        obj = subject(context)
-        if obj is None or not measurable(obj):
+        obj = session.selected.subject(context)
+        if obj is None or not read.visibility.measurable(obj):
             return reports.unavailable(cls, "Make an object with a surface active")
         return True
 
     def invoke(self, context: Context, event: Event) -> set[str]:
-        obj = require_subject(context)
+        obj = session.selected.require_subject(context)
         if (
             not self.properties.is_property_set("of")
             and obj.body_moments.kind == "SOLID"
@@ -130,13 +120,15 @@ class OBJECT_OT_body_moments_fourier(ModalSteps, Operator):
         return selection.reporting(self, self._run, context, in_window)
 
     def _begin(self, context: Context) -> float:
-        obj = require_subject(context)
+        obj = session.selected.require_subject(context)
         depsgraph = context.evaluated_depsgraph_get()
         self._path = Path(bpy.path.abspath(bpy.path.ensure_ext(self.filepath, SUFFIX)))
         if not self._path.parent.is_dir():
-            raise FileError(FILE_NOT_WRITTEN, file=self._path.name, error=os.strerror(ENOENT))
+            raise verdict.FileError(
+                write.findings.FILE_NOT_WRITTEN, file=self._path.name, error=os.strerror(ENOENT)
+            )
         self._dimension, frame = 2 if self.of == "FLAT" else 3, self.frame.lower()
-        self._work: ObjectTransform
+        self._work: bodies.fourier.ObjectTransform
         if self.of == "FLAT":
             self._work = bodies.flat_transform(obj, depsgraph, self._grid, frame=frame)
         else:
@@ -148,12 +140,12 @@ class OBJECT_OT_body_moments_fourier(ModalSteps, Operator):
         self._steps = (done for done in self._work.steps())
         return 1.0
 
-    def _grid(self, size: float) -> FrequencyGrid:
+    def _grid(self, size: float) -> core.fourier.FrequencyGrid:
         """Return the grid for a body of this size in m.
 
         Without a given largest frequency, its step is π over the size.
         """
-        largest = shortest_decimal(self.largest) or pi / size * (self.count // 2)
+        largest = numerics.shortest_decimal(self.largest) or pi / size * (self.count // 2)
         return core.fourier.FrequencyGrid(self.count, largest, self._dimension)
 
     def _finish(self, context: Context) -> set[str]:
@@ -161,8 +153,10 @@ class OBJECT_OT_body_moments_fourier(ModalSteps, Operator):
         try:
             write.spectrum.save(self._path, transform, self.frame.lower(), plane=self._work.arrays)
         except OSError as error:
-            raise FileError(
-                FILE_NOT_WRITTEN, file=self._path.name, error=system_reason(error)
+            raise verdict.FileError(
+                write.findings.FILE_NOT_WRITTEN,
+                file=self._path.name,
+                error=verdict.system_reason(error),
             ) from error
         name = "Fourier Transform of {:s}".format(self._work.name)
         image = write.spectrum.picture(name, transform.values, self.count, self._dimension)

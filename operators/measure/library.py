@@ -10,7 +10,6 @@ import os
 import time
 from collections.abc import Generator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
@@ -18,14 +17,9 @@ from bpy.types import Context, Event, Operator
 
 from ... import command
 from ...blender.write import reports
-from ...core import measurement
-from ...core.verdict import Severity, system_reason
+from ...core import measurement, verdict
 from .. import selection
 from ..modal import ModalSteps
-
-if TYPE_CHECKING:
-    from ...command.supervisor.journal import Journal
-    from ...command.supervisor.processes import WholeRun
 
 RESULT, REPORT = "body_moments.jsonl", "body_moments.html"
 JOURNAL = RESULT + ".journal"
@@ -99,7 +93,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
             return selection.reporting(self, self._run, context, in_window)
         except OSError as error:
             return selection.refuse(
-                self, "No process can be started: {error}.", error=system_reason(error)
+                self, "No process can be started: {error}.", error=verdict.system_reason(error)
             )
 
     def modal(self, context: Context, event: Event) -> set[str]:
@@ -130,7 +124,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
         )
         return count
 
-    def _watch(self, run: WholeRun) -> Generator[float, None, None]:
+    def _watch(self, run: command.supervisor.WholeRun) -> Generator[float, None, None]:
         try:
             while run.exit_code is None:
                 time.sleep(_PAUSE)
@@ -158,7 +152,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
         counts = {"count": len(paths), "failed": failed, "file": str(self._folder / REPORT)}
         if failed:
             text = "Files measured: {count}, not or not fully: {failed}; report: {file}"
-            reports.report(self, reports.phrase(text, **counts), level=Severity.WARNING)
+            reports.report(self, reports.phrase(text, **counts), level=verdict.Severity.WARNING)
         else:
             texts = (
                 "{count} file measured; report: {file}",
@@ -171,7 +165,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
 class _Documents:
     """The documents of a journal, read again at each iteration."""
 
-    def __init__(self, journal: Journal, paths: list[str]) -> None:
+    def __init__(self, journal: command.supervisor.Journal, paths: list[str]) -> None:
         self._journal, self._paths = journal, paths
 
     def __iter__(self) -> Generator[dict, None, None]:

@@ -13,25 +13,21 @@ import bpy
 from bpy.props import EnumProperty
 from bpy.types import Context, Object, Operator
 
-from ...blender import bodies, session, write
+from ...blender import bodies, scene, session, write
 from ...blender.read.visibility import has_shape, measurable
-from ...blender.scene.changes import require_editable
-from ...blender.session import character, live, memory
-from ...blender.session.displayed import places, shown_objects
+from ...blender.session import character, displayed, live, memory
 from ...blender.session.tracking import armatures, staleness, stamps
 from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
 from ...blender.write import properties, reports
 from ...core.density import BY_NAME
 from ...core.verdict import internal_error, of_severity
 from ...core.verdict.finding import Finding, Severity, finding
-from .. import selection
-from ..findings import OBJECT_WARNINGS
-from ..modal import ModalSteps
+from .. import findings, modal, selection
 
 AS_SET = "AS_SET"
 
 
-class OBJECT_OT_body_moments_measure(ModalSteps, selection.OnSelection, Operator):
+class OBJECT_OT_body_moments_measure(modal.ModalSteps, selection.OnSelection, Operator):
     """Compute exact mass properties of the selected objects and store them as custom properties"""
 
     bl_idname = "object.body_moments_measure"
@@ -137,13 +133,13 @@ class OBJECT_OT_body_moments_measure(ModalSteps, selection.OnSelection, Operator
         ]
         measured = [obj for obj, _ in self._results if obj not in failed]
         shared = bodies.overlap_caveats(measured, context.evaluated_depsgraph_get())
-        memory.overlaps[context.scene] = places(measured), shared
+        memory.overlaps[context.scene] = displayed.places(measured), shared
         return self._report(len(measured), shared)
 
     def _report(self, count: int, notes: list[Finding]) -> set[str]:
         warnings = [
             finding(
-                OBJECT_WARNINGS,
+                findings.OBJECT_WARNINGS,
                 object=obj.name_full,
                 causes=[cause.as_record() for cause in causes],
             )
@@ -208,7 +204,7 @@ class OBJECT_OT_body_moments_live(Operator):
 
 def _subjects(context: Context) -> list[Object]:
     """Return the measurable objects that the panel is about."""
-    return [obj for obj in shown_objects(context) if measurable(obj)]
+    return [obj for obj in displayed.shown_objects(context) if measurable(obj)]
 
 
 class OBJECT_OT_body_moments_clear(selection.OnSelection, Operator):
@@ -240,7 +236,7 @@ class OBJECT_OT_body_moments_clear(selection.OnSelection, Operator):
         ]
 
         def remove(obj: Object) -> bool:
-            require_editable(obj)
+            scene.changes.require_editable(obj)
             staleness.note_edits(obj)
             clear = session.stored.results.clear_rig if obj.type == "ARMATURE" else properties.clear
             removed = "MASS" in self.kinds and clear(obj)

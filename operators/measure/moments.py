@@ -6,24 +6,17 @@ reference.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import bmesh
 from bpy.types import Context, Object, Operator
 from mathutils import Vector
 
-from ...blender import bodies
-from ...blender.read.visibility import SECTION_TYPES, measurable
-from ...blender.session import stored
-from ...blender.session.selected import require_subject, subject
+from ... import core
+from ...blender import bodies, read
+from ...blender.session import selected, stored
 from ...blender.write import properties, reports
 from ...core.inertia import tensor_rows
 from ...core.verdict import MeasureError, Severity, of_severity
 from .. import selection
-
-if TYPE_CHECKING:
-    from ...blender.session.stored.reference import ReferenceChoice
-    from ...core.inertia import ReferredInertia
 
 
 class OBJECT_OT_body_moments_compute_moments(Operator):
@@ -41,12 +34,12 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        obj = subject(context)
-        is_measurable = obj is not None and measurable(obj)
+        obj = selected.subject(context)
+        is_measurable = obj is not None and read.visibility.measurable(obj)
         return is_measurable or reports.unavailable(cls, "Make a measurable object active")
 
     def execute(self, context: Context) -> set[str]:
-        obj = require_subject(context)
+        obj = selected.require_subject(context)
         order: int = context.scene.body_moments.moments_order
         try:
             computed, findings = stored.compute_moments(context, obj, order)
@@ -125,7 +118,11 @@ def _objects_with_sections(context: Context) -> list[Object]:
     have a section.
     """
     if context.mode != "EDIT_MESH":
-        return [obj for obj in context.view_layer.objects.selected if obj.type in SECTION_TYPES]
+        return [
+            obj
+            for obj in context.view_layer.objects.selected
+            if obj.type in read.visibility.SECTION_TYPES
+        ]
     edited = [
         obj for obj in context.view_layer.objects if obj.type == "MESH" and obj.data.is_editmode
     ]
@@ -163,7 +160,9 @@ class OBJECT_OT_body_moments_store_reference(selection.OnSelection, Operator):
         )
 
 
-def reference_text(name: str, choice: ReferenceChoice, result: ReferredInertia) -> str:
+def reference_text(
+    name: str, choice: stored.reference.ReferenceChoice, result: core.inertia.ReferredInertia
+) -> str:
     """Return the text of an object's inertia about a reference, with its bounds."""
     axes, inertia = (
         list(map(list, rows)) for rows in (zip(*result.reference.axes), tensor_rows(result.inertia))

@@ -4,24 +4,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import bpy
 from bpy.props import EnumProperty
 from bpy.types import Context, Object, Operator
 
-from ...blender import bodies, scene
-from ...blender.read.findings import KIND_COUNT
-from ...blender.session import stored
+from ... import core
+from ...blender import bodies, read, scene, session
 from ...blender.session.tracking import staleness
 from ...blender.write import properties, reports
 from ...core.verdict import FLIPPED_FACES
 from ...core.verdict.finding import finding
-from .. import selection
-from ..findings import OBJECT_WARNINGS
-
-if TYPE_CHECKING:
-    from ...core.measurement import Measurement
+from .. import findings, selection
 
 KINDS = (
     (FLIPPED_FACES, "Flipped Faces", "Faces that were measured as reversed"),
@@ -67,7 +62,7 @@ class OBJECT_OT_body_moments_select_faults(Operator):
             bpy.ops.object.mode_set(mode="OBJECT")
         objects = [obj for obj in context.view_layer.objects.selected if obj.type == "MESH"]
         depsgraph = context.evaluated_depsgraph_get()
-        measurements: dict[Object, Measurement] = {}
+        measurements: dict[Object, core.measurement.Measurement] = {}
         faults: dict[Object, dict[str, Any]] = {}
 
         def measure(obj: Object) -> None:
@@ -76,7 +71,9 @@ class OBJECT_OT_body_moments_select_faults(Operator):
 
         def store(obj: Object) -> None:
             staleness.note_edits(obj)
-            properties.store(obj, stored.density.noted(obj, measurements[obj], context.scene))
+            properties.store(
+                obj, session.stored.density.noted(obj, measurements[obj], context.scene)
+            )
             wrong = {
                 kind: found
                 for kind, found in scene.defects_by_kind(measurements[obj]).items()
@@ -106,7 +103,7 @@ class OBJECT_OT_body_moments_select_faults(Operator):
             texts = ("Measured {count} object: no defects", "Measured {count} objects: no defects")
             text = reports.phrase(*texts, count=len(done))
         defects = [
-            finding(OBJECT_WARNINGS, object=obj.name, causes=_counts(found))
+            finding(findings.OBJECT_WARNINGS, object=obj.name, causes=_counts(found))
             for obj, found in faults.items()
         ]
         return selection.summarize(self, len(done), len(objects), text, failures, defects)
@@ -115,7 +112,7 @@ class OBJECT_OT_body_moments_select_faults(Operator):
 def _counts(found: dict[str, Any]) -> list[dict]:
     names = {kind: name for kind, name, _ in KINDS}
     return [
-        finding(KIND_COUNT, kind=names[kind], count=len(indices)).as_record()
+        finding(read.findings.KIND_COUNT, kind=names[kind], count=len(indices)).as_record()
         for kind, indices in found.items()
     ]
 

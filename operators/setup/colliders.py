@@ -10,23 +10,16 @@ the object as its child falls as the object does.
 from __future__ import annotations
 
 from collections.abc import Callable, Generator
-from typing import TYPE_CHECKING
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
 from ... import core
-from ...blender import scene, session
-from ...blender.settings.given import COLLIDER, COLLIDERS
+from ...blender import scene, session, settings
 from ...blender.write import reports
 from ...core.verdict.finding import EditRefusedError, Finding, finding
-from .. import selection
-from ..findings import COLLIDERS_BEYOND_TOLERANCE, PRIMITIVE_HAS_PARENT
-from ..modal import ModalSteps
-
-if TYPE_CHECKING:
-    from ...blender.session.colliders import Plan
+from .. import findings, modal, selection
 
 SHAPES = (
     ("AUTOMATIC", "Automatic", "The simplest shape within the tolerances, else convex pieces"),
@@ -65,7 +58,7 @@ ENGINES = (
 MAX_SHOWN_NAMES = 4
 
 
-class _Making(selection.OnSelectionInObjectMode, ModalSteps):
+class _Making(selection.OnSelectionInObjectMode, modal.ModalSteps):
     """Base of operators that make colliders: `_wanted` returns the fields of `Wanted`."""
 
     PROGRESS = "Making colliders: {share:.0%}. Esc to cancel"
@@ -79,10 +72,10 @@ class _Making(selection.OnSelectionInObjectMode, ModalSteps):
         """Raise MeasureError for an object that cannot have the colliders."""
 
     def _begin(self, context: Context) -> float:
-        self._plans: list[Plan] = []
+        self._plans: list[session.colliders.Plan] = []
         self._failures: list[Finding] = []
         self._objects = bodies_of(context)
-        known: dict[str, Plan] = {}
+        known: dict[str, session.colliders.Plan] = {}
         depsgraph = context.evaluated_depsgraph_get()
         wanted = core.colliders.fits.Wanted(*self._wanted())
 
@@ -104,7 +97,7 @@ class _Making(selection.OnSelectionInObjectMode, ModalSteps):
             done += "; " + reports.phrase(text, share=self._plans[0].record["volume_ratio"])
         beyond = [
             finding(
-                COLLIDERS_BEYOND_TOLERANCE,
+                findings.COLLIDERS_BEYOND_TOLERANCE,
                 object=plan.obj.name,
                 outward=plan.record["outward"],
                 inward=plan.record["inward"],
@@ -223,7 +216,9 @@ def bodies_of(context: Context) -> list[Object]:
     """Return the selected objects, each once, with the bodies in place of their colliders."""
     chosen = context.view_layer.objects.selected
     return list(
-        dict.fromkeys(obj.parent if COLLIDER in obj and obj.parent else obj for obj in chosen)
+        dict.fromkeys(
+            obj.parent if settings.given.COLLIDER in obj and obj.parent else obj for obj in chosen
+        )
     )
 
 
@@ -253,7 +248,9 @@ class OBJECT_OT_body_moments_equal_inertia(_Making, Operator):
 
     def _check(self, obj: Object) -> None:
         if self.rigid_body and (not obj.is_editable or obj.parent is not None):
-            raise EditRefusedError(PRIMITIVE_HAS_PARENT)
+            raise EditRefusedError(
+                scene.findings.RIGID_BODY_UNFIT, fault=findings.PRIMITIVE_HAS_PARENT
+            )
         if self.rigid_body:
             scene.rigid_world.require_rigid_world(bpy.context.scene)
 
@@ -263,7 +260,7 @@ class OBJECT_OT_body_moments_equal_inertia(_Making, Operator):
         for new, plan in zip(self._made, self._plans) if self.rigid_body else ():
             matrix = new.matrix_world.copy()
             new.parent, new.matrix_world = None, matrix
-            del new[COLLIDER], plan.obj[COLLIDERS]
+            del new[settings.given.COLLIDER], plan.obj[settings.given.COLLIDERS]
             new.rigid_body.collision_shape = "BOX" if self.kind == "BOX" else "CONVEX_HULL"
             new.rigid_body.mass = plan.shapes[0].mass
             plan.obj.parent = new

@@ -9,12 +9,9 @@ from bl_operators.presets import AddPresetBase
 from bpy.props import EnumProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
-from ...blender.scene.changes import require_storable_data
-from ...blender.session.selected import objects_with_settings
+from ...blender import scene, session
+from ...blender.settings import given, preferences, properties
 from ...blender.settings.chosen import chosen_objects
-from ...blender.settings.given import has_density
-from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
-from ...blender.settings.properties import COPIED_PROPERTIES, copy_settings
 from ...blender.write import reports
 from ...core.density import BY_NAME
 from .. import selection
@@ -39,7 +36,7 @@ class OBJECT_OT_body_moments_set_material(Operator):
     material: EnumProperty(
         name="Material",
         description="Material to take the density from",
-        items=MATERIAL_ITEMS,
+        items=preferences.MATERIAL_ITEMS,
     )
     target: StringProperty(
         name="Object",
@@ -52,15 +49,17 @@ class OBJECT_OT_body_moments_set_material(Operator):
         return {"RUNNING_MODAL"}
 
     def execute(self, context: Context) -> set[str]:
-        copy_defaults(context.scene)
+        preferences.copy_defaults(context.scene)
         material = BY_NAME[self.material]
         named = [obj for obj in context.view_layer.objects if obj.name_full == self.target]
-        objects = objects_with_settings(named or context.view_layer.objects.selected)
-        if not objects or not has_density(objects[0]):
+        objects = session.selected.objects_with_settings(
+            named or context.view_layer.objects.selected
+        )
+        if not objects or not given.has_density(objects[0]):
             return selection.refuse(self, "Select objects")
 
         def set_density(obj: Object) -> bool:
-            require_storable_data(obj)
+            scene.changes.require_storable_data(obj)
             settings = obj.body_moments
             before = _density_of(settings)
             settings.mass_from = "DENSITY"
@@ -92,7 +91,7 @@ class MATERIAL_OT_body_moments_set_density(Operator):
     material: EnumProperty(
         name="Material",
         description="Entry of the material table to take the density from",
-        items=MATERIAL_ITEMS,
+        items=preferences.MATERIAL_ITEMS,
     )
     target: StringProperty(
         name="Blender Material",
@@ -143,8 +142,8 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
         objects = [obj for obj in context.view_layer.objects.selected if obj != active]
 
         def copy(obj: Object) -> bool:
-            require_storable_data(obj)
-            return copy_settings(active.body_moments, obj.body_moments)
+            scene.changes.require_storable_data(obj)
+            return properties.copy_settings(active.body_moments, obj.body_moments)
 
         copied, failures = selection.apply_to_all(objects, copy)
         texts = ("Copied the settings to {count} object", "Copied the settings to {count} objects")
@@ -162,10 +161,12 @@ class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):
     preset_subdir = PRESET_FOLDER
     preset_defines = ["settings = bpy.context.object.body_moments"]
     # an object
-    preset_values = ["settings." + name for name in COPIED_PROPERTIES if name != "density_volume"]
+    preset_values = [
+        "settings." + name for name in properties.COPIED_PROPERTIES if name != "density_volume"
+    ]
 
     def execute(self, context: Context) -> set[str]:
-        chosen = objects_with_settings(chosen_objects(context))
+        chosen = session.selected.objects_with_settings(chosen_objects(context))
         if not chosen:
             return selection.refuse(self, "Select objects")
         active = context.object
@@ -186,11 +187,11 @@ class OBJECT_OT_body_moments_preset_apply(Operator):
 
     def execute(self, context: Context) -> set[str]:
         def apply(obj: Object) -> None:
-            require_storable_data(obj)
+            scene.changes.require_storable_data(obj)
             with context.temp_override(object=obj):
                 bpy.ops.script.execute_preset(filepath=self.filepath, menu_idname=PRESET_PANEL)
 
-        objects = objects_with_settings(chosen_objects(context))
+        objects = session.selected.objects_with_settings(chosen_objects(context))
         changed, failures = selection.apply_to_all(objects, apply)
         texts = ("Set {count} object", "Set {count} objects")
         done = reports.phrase(*texts, count=len(changed))

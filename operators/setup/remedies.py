@@ -8,15 +8,9 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
-from ...blender import bodies, scene
-from ...blender.read.visibility import measurable
-from ...blender.scene.changes import require_storable_data
-from ...blender.session import displayed
-from ...blender.session.selected import require_subject, subject
-from ...blender.session.stored import outcome
-from ...blender.settings.accepted import accepted_codes, set_accepted, with_acceptance
-from ...blender.settings.preferences import copy_defaults
-from ...blender.write import properties, reports
+from ...blender import bodies, read, scene, settings
+from ...blender.session import displayed, selected, stored
+from ...blender.write import properties, reports, translations
 from ...blender.write.remedies import (
     DUPLICATES,
     EDITS,
@@ -28,13 +22,11 @@ from ...blender.write.remedies import (
     SHELL,
     UNION,
 )
-from ...blender.write.translations import localized
-from ...core.solid import INVERTED_COMPONENTS
-from ...core.verdict import FLIPPED_FACES, MeasureError, Severity, of_severity
+from ...core import solid, verdict
 from .. import selection
 
 # Findings that list the reversed faces; an empty list means all faces.
-REVERSED = (FLIPPED_FACES, INVERTED_COMPONENTS)
+REVERSED = (verdict.FLIPPED_FACES, solid.INVERTED_COMPONENTS)
 MILLIMETER = 0.001
 
 
@@ -51,15 +43,15 @@ class _OnSubject:
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        obj = subject(context)
-        is_measurable = obj is not None and measurable(obj)
+        obj = selected.subject(context)
+        is_measurable = obj is not None and read.visibility.measurable(obj)
         return is_measurable or reports.unavailable(cls, "Make a measurable object active")
 
     def execute(self, context: Context) -> set[str]:
-        obj = require_subject(context)
+        obj = selected.require_subject(context)
         try:
             return self._change(context, obj)
-        except MeasureError as refusal:
+        except verdict.MeasureError as refusal:
             return selection.refuse(self, reports.failure(obj.name_full, refusal))
 
     def _change(self, context: Context, obj: Object) -> set[str]:
@@ -90,10 +82,10 @@ class OBJECT_OT_body_moments_remedy(_OnSubject, Operator):
 
     @classmethod
     def description(cls, _context: Context, values) -> str:
-        text = localized("{:s}, and measure the object again").format(
-            localized(REMEDIES[values.remedy].description)
+        text = translations.localized("{:s}, and measure the object again").format(
+            translations.localized(REMEDIES[values.remedy].description)
         )
-        others = ". " + localized("Other objects that use the mesh change too")
+        others = ". " + translations.localized("Other objects that use the mesh change too")
         return text + others if values.remedy in EDITS else text
 
     def draw(self, _context: Context) -> None:
@@ -114,7 +106,7 @@ class OBJECT_OT_body_moments_remedy(_OnSubject, Operator):
                 return {"CANCELLED"}
             text = "{:s}: {:d}".format(text, count)
         else:
-            require_storable_data(obj)
+            scene.changes.require_storable_data(obj)
             if self.remedy == UNION:
                 obj.body_moments.overlap = "UNION"
             else:
@@ -158,7 +150,7 @@ class SCENE_OT_body_moments_set_millimeters(Operator):
     )
 
     def execute(self, context: Context) -> set[str]:
-        copy_defaults(context.scene)
+        settings.preferences.copy_defaults(context.scene)
         context.scene.body_moments.units_answered = True
         units = context.scene.unit_settings
         units.system = "METRIC"
@@ -194,16 +186,20 @@ class OBJECT_OT_body_moments_accept(_OnSubject, Operator):
         """Accept a code, or every warning without one, on the objects that the panel is about."""
         changed = False
         for shown in displayed.shown_objects(context):
-            own = of_severity(properties.findings(shown), Severity.WARNING)
+            own = verdict.of_severity(properties.findings(shown), verdict.Severity.WARNING)
             codes = {self.code} if self.code else {found.code for found in own}
             if shown != obj and not codes & {found.code for found in properties.findings(shown)}:
                 continue
-            require_storable_data(shown)
-            if not any([set_accepted(shown, code, self.accepted) for code in codes]):
+            scene.changes.require_storable_data(shown)
+            if not any(
+                [settings.accepted.set_accepted(shown, code, self.accepted) for code in codes]
+            ):
                 continue
             changed = True
             if properties.is_stored(shown):
-                kept = with_acceptance(properties.findings(shown), accepted_codes(shown))
+                kept = settings.accepted.with_acceptance(
+                    properties.findings(shown), settings.accepted.accepted_codes(shown)
+                )
                 properties.store_findings(shown, kept)
         return {"FINISHED"} if changed else {"CANCELLED"}
 
@@ -221,7 +217,7 @@ class OBJECT_OT_body_moments_select_refused(selection.InObjectMode, Operator):
     )
 
     def execute(self, context: Context) -> set[str]:
-        last = outcome.last()
+        last = stored.outcome.last()
         refused = last.groups if last is not None else ()
         groups = (*displayed.total(context).groups, *refused) if self.code else refused
         chosen = [
@@ -254,7 +250,7 @@ class WM_OT_body_moments_dismiss(Operator):
     bl_options = {"INTERNAL"}
 
     def execute(self, _context: Context) -> set[str]:
-        outcome.forget()
+        stored.outcome.forget()
         return {"FINISHED"}
 
 

@@ -7,27 +7,15 @@ the exact mass. Bullet, Blender's physics engine, takes the object's origin as t
 and a diagonal inertia along the object's axes; after Axes to Principal Axes both are true.
 """
 
-from typing import TYPE_CHECKING
-
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
-from ...blender import scene, session
-from ...blender.read.tracking import tracking_paused
+from ...blender import read, scene, session, write
 from ...blender.scale import meters_per_unit
-from ...blender.scene.changes import require_storable_data
-from ...blender.scene.findings import RIGID_BODY_MASS_TOO_SMALL, RIGID_BODY_NEEDS_MESH
-from ...blender.write import reports
-from ...blender.write.translations import localized
-from ...blender.write.units import Units
+from ...blender.write import reports, translations
 from ...core.verdict.finding import EditRefusedError, Finding, finding
-from .. import selection
+from .. import modal, selection
 from ..findings import NOT_A_RIGID_BODY, RIGID_BODY_CENTER_ELSEWHERE
-from ..modal import ModalSteps
-
-if TYPE_CHECKING:
-    from ...blender.scene.snap_targets import SnapTarget
-    from ...blender.session.rigid_bodies import RigidBodies
 
 SHOWN = 12  # bodies in the redo panel
 
@@ -152,25 +140,25 @@ class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Ope
         )
 
 
-def _compare_masses(context: Context, made: "RigidBodies") -> str:
+def _compare_masses(context: Context, made: "session.rigid_bodies.RigidBodies") -> str:
     """Return a line for each of the first bodies: its exact mass, and its mass by Calculate
     Mass.
     """
-    units = Units.from_settings(context.scene.unit_settings)
+    units = write.units.Units.from_settings(context.scene.unit_settings)
     lines = []
     for obj, one in list(made.measured.items())[:SHOWN]:
         line = "{:s}: {:s}".format(obj.name, units.text("mass", one.target.mass))
         if made.calculated[obj] > 0.0:  # of a compound, Blender weighs nothing
             calculated = units.text("mass", made.calculated[obj])
-            line += localized("; Calculate Mass: {:s}").format(calculated)
+            line += translations.localized("; Calculate Mass: {:s}").format(calculated)
         lines.append(line)
     if len(made.measured) > SHOWN:
-        lines.append(localized("And {:d} more").format(len(made.measured) - SHOWN))
+        lines.append(translations.localized("And {:d} more").format(len(made.measured) - SHOWN))
     return "\n".join(lines)
 
 
 class OBJECT_OT_body_moments_set_rigid_body_mass(
-    ModalSteps, selection.OnSelectionInObjectMode, Operator
+    modal.ModalSteps, selection.OnSelectionInObjectMode, Operator
 ):
     """Set the mass of rigid bodies to the measured mass in kilograms."""
 
@@ -198,22 +186,24 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(
 
     def _begin(self, context: Context) -> int:
         self._objects = selection.selected_measurable(context)
-        self._bodies: list[SnapTarget] = []
+        self._bodies: list[scene.snap_targets.SnapTarget] = []
         self._failures: list[Finding] = []
         target_in_turn = scene.targets_in_turn(context, self._objects)
 
         def measure(obj: Object) -> None:
-            require_storable_data(obj)
+            scene.changes.require_storable_data(obj)
             if obj.rigid_body is None and not self.add:
-                raise EditRefusedError(NOT_A_RIGID_BODY)
+                raise EditRefusedError(scene.findings.RIGID_BODY_UNFIT, fault=NOT_A_RIGID_BODY)
             if obj.rigid_body is None and obj.type != "MESH":
-                raise EditRefusedError(RIGID_BODY_NEEDS_MESH)
+                raise EditRefusedError(
+                    scene.findings.RIGID_BODY_UNFIT, fault=scene.findings.RIGID_BODY_NEEDS_MESH
+                )
             if obj.rigid_body is None:
                 scene.rigid_world.require_rigid_world(context.scene)
             body = target_in_turn(obj)
             if body.mass < scene.rigid_world.MIN_MASS:
                 raise EditRefusedError(
-                    RIGID_BODY_MASS_TOO_SMALL,
+                    scene.findings.RIGID_BODY_MASS_TOO_SMALL,
                     mass=float(body.mass),
                     limit=scene.rigid_world.MIN_MASS,
                 )
@@ -224,7 +214,9 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(
 
     def _finish(self, context: Context) -> set[str]:
         bodies, failures = self._bodies, self._failures
-        with tracking_paused():  # Blender reports a rigid body as a change of the shape
+        with (
+            read.tracking.tracking_paused()
+        ):  # Blender reports a rigid body as a change of the shape
             new = [body.obj for body in bodies if body.obj.rigid_body is None]
             scene.rigid_world.add_rigid_bodies(context, new)
             changed = set(new)
@@ -257,7 +249,7 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(
         return selection.summarize(self, count, len(self._objects), done, failures, findings, idle)
 
 
-def _centers_elsewhere(bodies: "list[SnapTarget]") -> list[Finding]:
+def _centers_elsewhere(bodies: "list[scene.snap_targets.SnapTarget]") -> list[Finding]:
     """Return the warning that names the bodies whose center of mass is not their origin, if any."""
     names = [body.obj.name for body in bodies if scene.matrix_at_center(body.obj, body) is not None]
     return [finding(RIGID_BODY_CENTER_ELSEWHERE, objects=names)] if names else []

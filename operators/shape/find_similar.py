@@ -10,22 +10,16 @@ selection.
 from collections import Counter
 from collections.abc import Generator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, FloatProperty, StringProperty
 from bpy.types import Context, Event, Operator, PropertyGroup, Scene
 
-from ...blender import session
-from ...blender.read.visibility import measurable_objects
+from ...blender import read, session
 from ...blender.session.selected import require_subject, subject
 from ...blender.write import reports
 from ...core.verdict import Finding, MeasureError, system_reason
-from .. import selection
-from ..modal import ModalSteps
-
-if TYPE_CHECKING:
-    from ...blender.session.similar import Match
+from .. import modal, selection
 
 MAX_LISTED_BODIES = 20
 MIRRORED = BoolProperty(name="Ignore Mirroring", description="Rank mirror images like copies")
@@ -71,8 +65,6 @@ COUNTS = {  # texts of the report, by similarity
 
 
 class _SearchMixin:
-    """The common part of both searches."""
-
     bl_label: str
     bl_options = {"REGISTER", "UNDO"}
     mirrored: bool
@@ -85,7 +77,11 @@ class _SearchMixin:
         return selection.poll_object_mode(cls, context)
 
     def store_and_report(
-        self, context: Context, matches: list["Match"], looked_at: str, failures: list[Finding]
+        self,
+        context: Context,
+        matches: list["session.similar.Match"],
+        looked_at: str,
+        failures: list[Finding],
     ) -> set[str]:
         """Keep the nearest matches with the scene, and report the number of matches by
         similarity.
@@ -113,7 +109,7 @@ class _SearchMixin:
         return selection.finish(self, done, failures)
 
 
-class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
+class OBJECT_OT_body_moments_find_similar(modal.ModalSteps, _SearchMixin, Operator):
     """Find the visible objects most similar in shape to the active object."""
 
     bl_idname = "object.body_moments_find_similar"
@@ -138,7 +134,7 @@ class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
         wanted = require_subject(context)
         self._others = [
             obj
-            for obj in measurable_objects(context.view_layer)
+            for obj in read.visibility.measurable_objects(context.view_layer)
             if obj != wanted and obj.visible_get()
         ]
         self._failures: list[Finding] = []

@@ -7,7 +7,6 @@ axes, for the panel.
 """
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from bpy.props import (
     BoolProperty,
@@ -20,19 +19,12 @@ from bpy.props import (
 )
 from bpy.types import Context, Object, Operator, PropertyGroup
 
-from ...blender import bodies
-from ...blender.scene.changes import require_storable_data
-from ...blender.session import stored
+from ... import core
+from ...blender import bodies, scene, session
 from ...blender.session.tracking import staleness, stamps
 from ...blender.write import reports
 from ...core.verdict import Finding
-from .. import selection
-from ..modal import ModalSteps
-
-if TYPE_CHECKING:
-    from ...blender.bodies.flat.flat_shape import FlatShape
-    from ...blender.bodies.shape.shape import Shape
-    from ...core.shape import Symmetry
+from .. import modal, selection
 
 
 class BodyMomentsElement(PropertyGroup):
@@ -53,7 +45,8 @@ class BodyMomentsSymmetry(PropertyGroup):
     """The symmetry that was found of an object."""
 
     group: StringProperty(
-        name="Symmetry", description="Schoenflies symbol of the symmetry that the surface confirms"
+        name="Symmetry",
+        description="Schoenflies symbol of the symmetry that the surface confirms",
     )
     compatible: StringProperty(
         name="By Moments", description="Schoenflies symbol of the symmetry that the moments allow"
@@ -70,7 +63,7 @@ class BodyMomentsSymmetry(PropertyGroup):
     elements: CollectionProperty(type=BodyMomentsElement)
 
 
-class OBJECT_OT_body_moments_find_symmetry(ModalSteps, selection.OnSelection, Operator):
+class OBJECT_OT_body_moments_find_symmetry(modal.ModalSteps, selection.OnSelection, Operator):
     """Find the rotation axes and mirror planes of the selected objects."""
 
     bl_idname = "object.body_moments_find_symmetry"
@@ -95,11 +88,18 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, selection.OnSelection, Op
 
     def _begin(self, context: Context) -> int:
         self._objects = selection.selected_measurable(context)
-        self._results: list[tuple[Object, Shape | FlatShape, Symmetry, Symmetry]] = []
+        self._results: list[
+            tuple[
+                Object,
+                bodies.Shape | bodies.FlatShape,
+                core.shape.Symmetry,
+                core.shape.Symmetry,
+            ]
+        ] = []
         self._failures: list[Finding] = []
 
         def find(obj: Object) -> Iterator[float]:
-            require_storable_data(obj)
+            scene.changes.require_storable_data(obj)
             shape = bodies.comparable_shape_of(obj, context.evaluated_depsgraph_get())
             yield 0.3
             self._results.append((obj, shape, *shape.find_symmetries(self.tolerance)))
@@ -112,7 +112,9 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, selection.OnSelection, Op
         behind.
         """
         for obj, shape, found_symmetry, allowed in self._results:
-            stored.results.store_symmetry(obj, shape, found_symmetry, allowed, self.tolerance)
+            session.stored.results.store_symmetry(
+                obj, shape, found_symmetry, allowed, self.tolerance
+            )
         # Blender reports the stored symmetry as a change of the object.
         staleness.mark_stamps(
             context,
@@ -143,7 +145,7 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, selection.OnSelection, Op
         return reports.report(self, *reports.first(symmetries))
 
 
-def describe(symmetry: "Symmetry") -> list[str]:
+def describe(symmetry: "core.shape.Symmetry") -> list[str]:
     """Return translated descriptions of the elements of a symmetry."""
     phrase = reports.phrase
     if len(symmetry.revolution_axes) == 3:

@@ -2,19 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Link Copies: equal objects come to share one mesh."""
 
-from typing import TYPE_CHECKING
-
 from bpy.props import EnumProperty, FloatProperty
 from bpy.types import Context, Event, Operator
 
-from ...blender import scene, session
-from ...blender.read.tracking import tracking_paused
+from ...blender import read, scene, session
 from ...blender.scale import meters_per_unit
 from ...blender.write import reports
 from .. import selection
-
-if TYPE_CHECKING:
-    from ...blender.scene.copies import Copies
 
 MAX_LISTED = 10  # groups that the dialog lists
 NOTHING = "There are no copies."
@@ -45,8 +39,16 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
                 "Attributes",
                 "Copies get colors, normals and other attributes of the shared mesh",
             ),
-            ("MATERIALS", "Materials", "Copies keep their materials, linked to the object"),
-            ("GROUPS", "Vertex Groups", "Copies get the vertex groups of the shared mesh"),
+            (
+                "MATERIALS",
+                "Materials",
+                "Copies keep their materials, linked to the object",
+            ),
+            (
+                "GROUPS",
+                "Vertex Groups",
+                "Copies get the vertex groups of the shared mesh",
+            ),
             (
                 "PROPERTIES",
                 "Custom Properties",
@@ -58,7 +60,7 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
     _objects = None  # the dialog's, while it is open
     _found: tuple | None = None  # the settings of the last search, and its kinds of meshes
 
-    def _kinds(self, context: Context) -> list["Copies"]:
+    def _kinds(self, context: Context) -> list["scene.copies.Copies"]:
         """Return the kinds of meshes among the selected objects, or all visible ones if none is
         selected.
         """
@@ -122,7 +124,7 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
         keeps_materials = "MATERIALS" in self.may_differ
         with session.stored.assembly.kept_up_to_date(context):
             with (
-                tracking_paused(),
+                read.tracking.tracking_paused(),
                 reports.progress(sum(len(kind.members) for kind in kinds)) as step,
             ):
                 linked = scene.copies.link_copies(

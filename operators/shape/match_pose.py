@@ -5,23 +5,17 @@ axes.
 """
 
 from collections.abc import Generator, Iterator
-from typing import TYPE_CHECKING
 
 from bpy.types import Context, Object, Operator
 
+from ... import core
 from ...blender import bodies, scene, session
 from ...blender.write import reports
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
-from .. import selection
-from ..findings import FLAT_AND_BODY, POSE_NOT_A_COPY
-from ..modal import ModalSteps
-
-if TYPE_CHECKING:
-    from ...blender.scene.reframe_meshes import Plan
-    from ...core.shape import RigidMatch
+from .. import findings, modal, selection
 
 
-class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
+class OBJECT_OT_body_moments_match_pose(modal.ModalSteps, Operator):
     """Move the other selected objects onto the active object."""
 
     bl_idname = "object.body_moments_match_pose"
@@ -48,7 +42,7 @@ class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
             obj for obj in selection.selected_measurable(context) if obj != context.object
         ]
         self._size = 0.0  # size of the active object, once it is measured
-        self._plans: list[tuple[Plan, RigidMatch]] = []
+        self._plans: list[tuple[scene.reframe_meshes.Plan, core.shape.RigidMatch]] = []
         self._failures: list[Finding] = []
         self._steps = self._compare(context)
         return len(self._others)
@@ -71,7 +65,7 @@ class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
                 obj, context.evaluated_depsgraph_get(), isinstance(target, bodies.FlatShape)
             )
             if type(found) is not type(target):
-                raise EditRefusedError(FLAT_AND_BODY)
+                raise EditRefusedError(findings.FLAT_AND_BODY)
             yield 0.3
             source_skin = bodies.distance_from(found)
             yield 0.9
@@ -103,14 +97,14 @@ class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
         )
 
 
-def _distance(name: str, match: "RigidMatch", size: float) -> Finding | str:
+def _distance(name: str, match: "core.shape.RigidMatch", size: float) -> Finding | str:
     values = {
         "object": name,
         "maximum": float(match.max_distance),
         "mean": float(match.mean_distance),
     }
     if not scene.is_copy(match, size):
-        return finding(POSE_NOT_A_COPY, **values)
+        return finding(findings.POSE_NOT_A_COPY, **values)
     return reports.phrase(
         "{object}: surfaces at most {maximum:length} apart, {mean:length} on average", **values
     )

@@ -16,14 +16,10 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Object, Operator, View3DCursor
 from mathutils import Matrix
 
-from ...blender import bodies, scene, session
-from ...blender.read.visibility import measurable
+from ...blender import bodies, read, scene, session
 from ...blender.scale import meters_per_unit
-from ...blender.scene.findings import OPEN_OBJECT
-from ...blender.session.selected import subject
 from ...blender.write import reports
-from ...core import inertia
-from ...core.verdict import EditRefusedError, MeasureError, Procedure, Severity
+from ...core import inertia, verdict
 from .. import selection
 
 STRICT_PROPERTY = BoolProperty(
@@ -180,8 +176,8 @@ class VIEW3D_OT_body_moments_cursor_to_center(selection.OnSelection, Operator):
 
         def add(obj: Object) -> None:
             measurement = measured(obj).measurement
-            if measurement.method.procedure == Procedure.OPEN:
-                raise EditRefusedError(OPEN_OBJECT)
+            if measurement.method.procedure == verdict.Procedure.OPEN:
+                raise verdict.EditRefusedError(scene.findings.OPEN_OBJECT)
             bodies_measured.append((measurement.mass_moments, measurement.mass_properties))
 
         added, failures = selection.apply_to_all(objects, add)
@@ -299,14 +295,14 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
         obj = context.view_layer.objects.active
         try:
             body = scene.snap_target(context, obj)
-        except MeasureError as error:
+        except verdict.MeasureError as error:
             return selection.refuse(self, reports.failure(obj.name_full, error))
         place = _view_3d(context)
         if place is None:
             reports.report(
                 self,
                 reports.phrase("A transform orientation needs an open 3D Viewport."),
-                level=Severity.WARNING,
+                level=verdict.Severity.WARNING,
             )
             return {"CANCELLED"}
         name = self.name or "{:s} Principal".format(obj.name)
@@ -357,8 +353,8 @@ class OBJECT_OT_body_moments_add_nodes(selection.InObjectMode, Operator):
 
     def execute(self, context: Context) -> set[str]:
         group = scene.center_of_mass_group()
-        obj = subject(context)
-        if not self.marker or obj is None or not measurable(obj):
+        obj = session.selected.subject(context)
+        if not self.marker or obj is None or not read.visibility.measurable(obj):
             return reports.report(
                 self, reports.phrase("Added the node group “{group}”", group=group.name)
             )

@@ -7,8 +7,6 @@ from bpy.types import Context, Operator
 
 from ...blender import session
 from ...blender.scale import meters_per_unit
-from ...blender.session import stored
-from ...blender.session.selected import require_subject, subject
 from ...blender.write import reports
 from ...core.verdict import MeasureError
 from .. import selection
@@ -65,20 +63,20 @@ class OBJECT_OT_body_moments_make_it_stand(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        obj = subject(context)
+        obj = session.selected.subject(context)
         if obj is None or obj.body_moments.kind != "PRINTED":
             return reports.unavailable(cls, "Make an object of Kind: Printed active")
         return True
 
     def execute(self, context: Context) -> set[str]:
-        obj = require_subject(context)
+        obj = session.selected.require_subject(context)
         settings = obj.body_moments
         scale = meters_per_unit(context.scene)
         if not self.properties.is_property_set("margin"):
             self.margin = 1e-3 / scale
         try:
             session.check_stability(context, obj, [])
-            support = stored.stability.support(obj, context.scene)
+            support = session.stored.stability.support(obj, context.scene)
             over_cursor = self.target == "CURSOR"
             point = context.scene.cursor.location[:] if over_cursor else None
             corners = None if support is None else support.polygon

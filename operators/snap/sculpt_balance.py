@@ -11,8 +11,7 @@ from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, StringPr
 from bpy.types import Context, Operator
 
 from ...blender import scene, session
-from ...blender.session import stored
-from ...blender.session.selected import require_subject, subject
+from ...blender.session import selected, stored
 from ...blender.write import reports
 from ...core.verdict import MeasureError
 from .. import selection
@@ -74,7 +73,7 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        obj = subject(context)
+        obj = selected.subject(context)
         if obj is None or obj.type != "MESH":
             return reports.unavailable(cls, "Make a mesh object active")
         if context.mode not in {"OBJECT", "EDIT_MESH"}:
@@ -92,10 +91,10 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
         layout.prop(self, "axes")
         layout.prop(self, "limit")
         if context.mode == "OBJECT":
-            layout.prop_search(self, "group", require_subject(context), "vertex_groups")
+            layout.prop_search(self, "group", selected.require_subject(context), "vertex_groups")
 
     def execute(self, context: Context) -> set[str]:
-        obj = require_subject(context)
+        obj = selected.require_subject(context)
         target = context.scene.cursor.location if self.target == "CURSOR" else self.point
         try:
             balanced = scene.balance_mesh(

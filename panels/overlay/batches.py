@@ -30,10 +30,9 @@ from ...blender.session import memory
 from ...blender.settings.scene import BodyMomentsOverlaySettings
 from ...core.numerics import Array
 from . import appearance as look
-from . import discs, lines
+from . import discs, draw, lines
 from .bodies import Bodies, Entry, collect
 from .details import Colored, list_details
-from .draw import drawn_objects
 
 MAX_REGIONS = 8  # number of regions with cached batches
 SETTINGS = tuple(name for name in BodyMomentsOverlaySettings.__annotations__ if name != "show")
@@ -102,7 +101,7 @@ def _rebuild(context: Context, key: tuple, before: _Drawn | None) -> _Drawn:
     """Return current batches; rows of bodies that are the same as before are not computed again."""
     scene = context.scene
     settings = context.scene.body_moments.overlay
-    objects = drawn_objects(context, settings.show_all)
+    objects = draw.drawn_objects(context, settings.show_all)
     (entries, active) = collect(context, objects)
     details = list_details(context, objects)
     rows = list(range(len(entries)))

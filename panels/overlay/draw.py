@@ -24,12 +24,10 @@ from bpy.types import (
     WindowManager,
 )
 
-from ...blender.session import memory
+from ...blender import session, write
 from ...blender.session.live.following import is_live
-from ...blender.session.tracking import handlers
-from ...blender.session.tracking.armatures import stands_for_meshes
+from ...blender.session.tracking import armatures, handlers
 from ...blender.settings.scene import BodyMomentsOverlaySettings
-from ...blender.write.properties import BALANCE_GROUP
 from .. import overlay
 
 # settings → labels that fit into half of the popover
@@ -102,7 +100,9 @@ def draw() -> None:
     if not settings.show:
         return
     if not _has_drawn:
-        has_paths = settings.show_path and any(BALANCE_GROUP in obj for obj in scene.objects)
+        has_paths = settings.show_path and any(
+            write.properties.BALANCE_GROUP in obj for obj in scene.objects
+        )
         _has_drawn = has_paths or bool(drawn_objects(context, settings.show_all))
     if _has_drawn:
         overlay.batches.draw_region(context)
@@ -122,9 +122,9 @@ def drawn_objects(context: Context, show_all: bool) -> list[Object]:
         for obj in chosen
         if (
             "body_mass" in obj
-            or obj in memory.levels
+            or obj in session.memory.levels
             or is_live(obj)
-            or stands_for_meshes(obj)
+            or armatures.stands_for_meshes(obj)
             or shows_weight(obj)
         )
         and obj.visible_in_viewport_get(space)

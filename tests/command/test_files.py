@@ -17,6 +17,8 @@ pytest.importorskip("bpy")
 import bpy
 import numpy as np
 from body_moments.command.files import files as opening
+from body_moments.command.files import suffixes
+from body_moments.command.findings import NO_SHAPES
 from body_moments.core.files import NOT_REGULAR
 from body_moments.core.streams.stl import BY_WORD
 from body_moments.core.verdict.finding import FileError
@@ -344,7 +346,9 @@ def test_a_file_with_empties_alone_is_an_error(tmp_path, end):
         pytest.skip("this Blender is built without USD")
     files.empty_scene()
     bpy.ops.object.empty_add()
-    assert reason(files.save(tmp_path / f"part{end}")) == sentence("no_measurable_object")
+    assert reason(files.save(tmp_path / f"part{end}")) == sentence(
+        "nothing_measured", cause=NO_SHAPES
+    )
 
 
 @pytest.mark.parametrize("kind", ["MESH_CACHE", "MESH_SEQUENCE_CACHE"])
@@ -449,7 +453,7 @@ def test_usdz_contents_may_not_exceed_the_file(tmp_path, size):
     assert path.stat().st_size == size + 162
     told = ""
     try:
-        opening.check_file(str(path))
+        suffixes.check_file(str(path))
     except FileError as error:  # also by newer Pythons themselves, in other words
         told = str(error.finding)
     assert ("(overlapping entries)" in told) == (size > 162)

@@ -10,6 +10,7 @@ pytest.importorskip("bpy")
 import bpy
 import numpy as np
 from body_moments.blender.read.findings import LINES_ONLY, NO_INSTANCES
+from body_moments.command.findings import NO_SHAPES, NOTHING_RENDERED
 from body_moments.operators import batch
 from mathutils import Euler, Matrix
 
@@ -184,13 +185,13 @@ def test_objects_rendered_by_another_view_layer_count():
 def test_file_without_measurable_objects_is_an_error(tmp_path):
     bpy.ops.object.light_add()
     path = files.save(tmp_path / "empty.blend")
-    assert files.reason(path) == sentence("no_measurable_object")
+    assert files.reason(path) == sentence("nothing_measured", cause=NO_SHAPES)
     for name in "ab":
         files.add_box(name).hide_render = True
     path = files.save(tmp_path / "hidden.blend")
     line = run(path)
     assert (
-        errors(line.documents[0]) == {None: sentence("nothing_rendered", count=2)}
+        errors(line.documents[0]) == {None: sentence("nothing_measured", cause=NOTHING_RENDERED)}
         and line.errors == 1
     )
     assert list(left_out(line.documents[0])) == ["a", "b"]
@@ -220,7 +221,7 @@ def test_a_density_that_nobody_set_is_a_finding():
     assert codes(measured()) == ["object_density_used", "density_defaulted"]
     material = bpy.data.materials.new("Steel")
     box.data.materials.append(material)
-    assert codes(measured()) == ["object_density_used_for_materials", "density_defaulted"]
+    assert codes(measured()) == ["object_density_used", "density_defaulted"]
     material.body_moments.density = 7850.0
     assert measured()["findings"] == []
     box.body_moments.density_from, box.body_moments.density = "VALUE", 1000.0

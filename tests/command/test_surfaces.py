@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """IGES files, and .obj files with surfaces, on the command line."""
 
+import tarfile
+
 import numpy as np
 import pytest
 
@@ -74,3 +76,16 @@ def test_faces_and_surfaces_of_one_file(tmp_path):
     assert [entry["name"] for entry in found["objects"]] == ["Cube"] and "trimmed" in found[
         "errors"
     ][0]["reason"]
+
+
+def test_damaged_step_solid_is_the_only_error_beside_a_record(tmp_path):
+    with tarfile.open("tests/core/cad/kernel/step.tar.xz") as archive:
+        text = archive.extractfile("assembly_inch.step").read()
+    path = tmp_path / "parts.stp"
+    path.write_bytes(text.replace(b"CYLINDRICAL_SURFACE", b"OFFSET_SURFACE"))
+    for options in ([], ["--pose"]):
+        found = document(path, "--density", "1", *options)
+        (error,) = found["errors"]
+        assert "ADVANCED_FACE" in error["reason"] and "OFFSET_SURFACE" in error["reason"]
+        assert [entry["name"] for entry in found["objects"]] == ["Plätte"]
+        assert close(found["objects"][0]["volume"], 2.4e-6, 1e-11)

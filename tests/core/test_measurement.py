@@ -6,7 +6,8 @@ from dataclasses import fields, replace
 
 import numpy as np
 import pytest
-from body_moments.core.measurement.measurement import DENSITY_FROM_MASS, Measurement
+from body_moments.core.measurement import DENSITY_FROM_MASS
+from body_moments.core.measurement.measurement import Measurement
 from body_moments.core.moments.moments import Measure, Moments
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.verdict.finding import finding

@@ -272,7 +272,7 @@ CASES = {  # scene, operator, options, code of the refusal (None: a text)
         curve,
         "object.set_rigid_body_mass",
         {"add": True},
-        "rigid_body_needs_mesh",
+        "rigid_body_unfit",
     ),
     "joint of its own density": (
         joint_of_own_density,

@@ -22,7 +22,7 @@ def test_a_refusal_goes_with_undo_selection_and_success():
         settings.density_from, settings.density_polynomial = "POLYNOMIAL", "1000+"
         bpy.ops.object.body_moments_measure()
         (group,) = outcome.last().groups
-        assert group.finding.code == "polynomial_syntax" and group.objects == (obj.name,)
+        assert group.finding.code == "polynomial_part" and group.objects == (obj.name,)
         assert "Write products" in " ".join(labels(shown())) and "Not Measured" in labels(shown())
         if end == "success":
             settings.density_from = "VALUE"

@@ -20,13 +20,14 @@ from bpy.types import Depsgraph, Object
 from ....core.bodies import merge_health, to_si
 from ....core.measurement import (
     DENSITY_FROM,
+    DENSITY_FROM_MASS,
     Extent,
     add_extents,
     extent_of,
     fingerprint,
     measure_total,
 )
-from ....core.measurement.measurement import DENSITY_FROM_MASS, Measurement
+from ....core.measurement.measurement import Measurement
 from ....core.moments import KNOWN_ORDER, Measure, Moments, are_similarities, sum_moments
 from ....core.numerics import rotation_matrix, shortest_decimal
 from ....core.verdict import internal_error, open_body_caveats

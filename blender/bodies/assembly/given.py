@@ -15,8 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.bodies import Reading, to_si
-from ....core.measurement import ZERO_QUANTITY, find_extent, fingerprint, measure_total
-from ....core.measurement.measurement import DENSITY_FROM_MASS, Body, Measurement
+from ....core.measurement import (
+    DENSITY_FROM_MASS,
+    ZERO_QUANTITY,
+    find_extent,
+    fingerprint,
+    measure_total,
+)
+from ....core.measurement.measurement import Body, Measurement
 from ....core.moments import KNOWN_ORDER, placed_boxes
 from ....core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count
 from ....core.numerics import Array, shortest_decimal

@@ -47,7 +47,7 @@ from ....core.polyhedron import polyhedron_moments
 from ....core.solid.measure import SolidIntegrals
 from ....core.verdict import NEGLIGIBLE, Method, Procedure, Source
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
-from ...read.findings import GRID_UNSUPPORTED, IS_LEVEL_SET, OBJECT_UNREADABLE, VOLUME_WITHOUT_GRIDS
+from ...read.findings import GRID_UNSUPPORTED, IS_LEVEL_SET, NO_SCALAR_GRID, OBJECT_UNREADABLE
 from ...read.tracking import tracking_paused
 from ...read.volume import VolumeReading, volume_reading
 from ...settings.density import DensityField
@@ -205,7 +205,7 @@ def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
     try:
         with tracking_paused(), volume_reading(source, request.depsgraph, grid.grid) as volume:
             if volume is None:
-                raise ReadError(VOLUME_WITHOUT_GRIDS)
+                raise ReadError(NO_SCALAR_GRID, grids="none")
             filled = voxel_filled_body(body, volume, grid, request.settings.unit, name, order)
             origin = finding(DENSITY_FROM_GRID, grid=volume.grid).of_sources([source.name])
             return replace(filled, density_from=origin)

@@ -42,7 +42,7 @@ from ....core.solid import ClosedParts, SolidIntegrals
 from ....core.verdict import NEGLIGIBLE, Procedure
 from ....core.verdict.finding import Finding, ReadError, finding, truncate_findings
 from ...settings.density import DensityField, density_key, material_density
-from ...settings.findings import OBJECT_DENSITY_USED, OBJECT_DENSITY_USED_FOR_MATERIALS
+from ...settings.findings import OBJECT_DENSITY_USED
 from ..findings import (
     ATTRIBUTE_VALUES,
     CAVITY_MATERIAL_IGNORED,
@@ -244,15 +244,13 @@ class _FaceDensities:
         if not self.faces_without_density:
             return
         names = [material.name for material in self.materials if material_density(material) is None]
-        values = {
-            "count": self.faces_without_density,
-            "total": self.faces,
-            "density": self.default_density,
-        }
-        if names:
-            yield finding(OBJECT_DENSITY_USED_FOR_MATERIALS, **values, materials=names)
-        else:
-            yield finding(OBJECT_DENSITY_USED, **values)
+        yield finding(
+            OBJECT_DENSITY_USED,
+            count=self.faces_without_density,
+            total=self.faces,
+            density=self.default_density,
+            materials=names or "none",
+        )
 
     def source(self) -> Finding:
         """Return a note that names at most MAX_NAMED materials with their densities."""

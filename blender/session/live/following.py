@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from bpy.types import Object
 
 from ....core import measurement as measuring
-from .. import memory
-from ..tracking.stamps import Kind, Stamp
+from .. import memory, tracking
 
 if TYPE_CHECKING:
     from ....core.measurement import Measurement
@@ -80,7 +79,7 @@ def current_numbers(obj: Object) -> LiveResult | None:
     return None if current is None else current.result
 
 
-def stamp_of(obj: Object) -> Stamp | None:
+def stamp_of(obj: Object) -> tracking.stamps.Stamp | None:
     """Return a stamp of the settings of live numbers, as Blender does not report every change of a
     setting.
     """
@@ -88,5 +87,7 @@ def stamp_of(obj: Object) -> Stamp | None:
     return (
         None
         if now is None
-        else Stamp(Kind.SETTINGS, measuring.settings.VERSION, settings=now.settings)
+        else tracking.stamps.Stamp(
+            tracking.stamps.Kind.SETTINGS, measuring.settings.VERSION, settings=now.settings
+        )
     )

@@ -8,32 +8,27 @@ import numpy as np
 from bpy.types import Object, Scene
 from numpy.typing import NDArray
 
-from ....core.bodies import float64_matrix
-from ....core.inertia import PlainBody, affine_image
-from ....core.measurement import Measurement
-from ....core.moments import are_singular
-from ....core.numerics import rotation_matrix
-from ...read.fingerprint import has_transform
+from ....core import bodies, inertia, measurement, moments, numerics
+from ... import read, settings
 from ...scale import meters_per_unit
-from ...settings.options import object_settings
 from .. import memory
 from .following import Followed, Lag
 
 
 def map_properties(
-    obj: Object, current: Followed, measured: Measurement, scene: Scene
-) -> PlainBody:
+    obj: Object, current: Followed, measured: measurement.Measurement, scene: Scene
+) -> inertia.PlainBody:
     """Return the numbers of an object with Live on, in its own frame, mapped to its place and
     stretch.
     """
-    shown = PlainBody.of_body(
+    shown = inertia.PlainBody.of_body(
         measured.in_object_frame(),
         measured.density,
         measured.volume,
         measured.area,
         measured.error_bound,
     )
-    if current.first_order is None and has_transform(obj, current.transform):
+    if current.first_order is None and read.fingerprint.has_transform(obj, current.transform):
         return shown
     return _mapped(obj, current, measured, shown, scene)
 
@@ -43,35 +38,41 @@ def is_of_another_scale(obj: Object, current: Followed) -> bool:
     follow.
     """
     measured = None if current.result is None else current.result.measurement
-    if measured is None or has_transform(obj, current.transform):
+    if measured is None or read.fingerprint.has_transform(obj, current.transform):
         return False
     return _linear_map(obj, current, measured) is None
 
 
-def _linear_map(obj: Object, current: Followed, measured: Measurement) -> NDArray | None:
+def _linear_map(
+    obj: Object, current: Followed, measured: measurement.Measurement
+) -> NDArray | None:
     """Return the linear map from the measured object to its current state, or None without one."""
     assert current.matrix is not None
     before = current.matrix[:3, :3]
-    now = float64_matrix(obj.matrix_world)[:3, :3]
+    now = bodies.float64_matrix(obj.matrix_world)[:3, :3]
     if (
         measured.kind != "solid"
         or not np.isfinite(now).all()
-        or are_singular(np.stack([before, now])).any()
+        or moments.are_singular(np.stack([before, now])).any()
     ):
         return None
     return now @ np.linalg.inv(before)
 
 
 def _mapped(
-    obj: Object, current: Followed, measured: Measurement, shown: PlainBody, scene: Scene
-) -> PlainBody:
+    obj: Object,
+    current: Followed,
+    measured: measurement.Measurement,
+    shown: inertia.PlainBody,
+    scene: Scene,
+) -> inertia.PlainBody:
     """Return the numbers mapped to the current matrix; volume and center are those of the last
     light pass, if any.
     """
     linear = _linear_map(obj, current, measured)
     if linear is None or current.matrix is None:
         return shown
-    now = float64_matrix(obj.matrix_world)
+    now = bodies.float64_matrix(obj.matrix_world)
     unit = meters_per_unit(scene)
     stretch = abs(np.linalg.det(linear))
     center = measured.mass_properties.center / unit
@@ -88,15 +89,15 @@ def _mapped(
     if not volume > 0.0:
         return shown
     mass = measured.mass_properties.mass
-    if object_settings(obj, scene).mass is None:
+    if settings.options.object_settings(obj, scene).mass is None:
         mass *= volume / measured.volume
-    turn = rotation_matrix(obj.matrix_world.to_quaternion())
-    image = affine_image(
+    turn = numerics.rotation_matrix(obj.matrix_world.to_quaternion())
+    image = inertia.affine_image(
         measured.mass_properties, linear, center * unit, mass, turn @ np.transpose(shown.axes)
     )
     location = now[:3, 3] * unit
     area = shown.area * stretch ** (2.0 / 3.0)
-    return PlainBody.of_body(
+    return inertia.PlainBody.of_body(
         image.in_frame(turn, location), mass / volume, volume, area, shown.error_bound
     )
 

@@ -26,20 +26,16 @@ import numpy as np
 from bpy.types import Depsgraph, Object
 from numpy.typing import NDArray
 
-from ....core.bodies import MeshBody, Reading, float64_matrix
+from ....core import bodies, mesh, nurbs, polyhedron
 from ....core.measurement import Body, Measurement
-from ....core.mesh import Surface
 from ....core.numerics import Array
-from ....core.nurbs import Patch, TrackedSolid
-from ....core.polyhedron import volume_and_center
 from ....core.verdict import MeasureError, Method, Procedure, ReadError, Source, internal_error
 from ...bodies.measure_body import measure_body
 from ...bodies.request import Request, measurement_of
 from ...bodies.stack import Measured
-from ...read.fingerprint import has_transform, settings_hash, transform_key
+from ...read import fingerprint, visibility
 from ...read.mesh import mesh_points
 from ...read.objects import read_patches
-from ...read.visibility import evaluated_geometry
 from ...settings.options import MeasureOptions
 from ...settings.preferences import preferences
 from .. import memory
@@ -68,11 +64,14 @@ def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:
         refusal = internal_error.finding_of(error)
         current.tracked = None  # a half-followed body is no start for the next edit
     result = LiveResult(
-        measurement, refusal, time.thread_time() - start, settings_hash(obj, depsgraph.scene)
+        measurement,
+        refusal,
+        time.thread_time() - start,
+        fingerprint.settings_hash(obj, depsgraph.scene),
     )
     current.result = result
-    current.matrix = float64_matrix(obj.matrix_world)
-    current.transform = transform_key(obj)
+    current.matrix = bodies.float64_matrix(obj.matrix_world)
+    current.transform = fingerprint.transform_key(obj)
     current.first_order = None
     current.is_pending = False
     current.number = memory.state.updates
@@ -109,12 +108,14 @@ def _measure(
     assert splines is not None
     matrix = part.matrices[0] * unit  # the last row is not used
     # Flat faces exist only while a file is measured.
-    patches = [patch.transform(matrix) for patch in splines.patches if isinstance(patch, Patch)]
+    patches = [
+        patch.transform(matrix) for patch in splines.patches if isinstance(patch, nurbs.Patch)
+    ]
     if np.linalg.det(matrix) < 0.0:
         patches = [patch.reverse_orientation() for patch in patches]
     stored = splines.stored * float(np.linalg.norm(matrix[:3, :3], 2))
     if current.tracked is None:
-        current.tracked = TrackedSolid(patches, stored)
+        current.tracked = nurbs.TrackedSolid(patches, stored)
     else:
         current.tracked.update(patches, stored)
     measure = current.tracked.measure
@@ -222,7 +223,6 @@ def _tick() -> float | None:
 
 
 def _is_stroking(obj: Object) -> bool:
-    """Return whether a sculpting stroke is being drawn on an object."""
     windows = bpy.context.window_manager.windows if obj.mode == "SCULPT" else ()
     return any(
         running.bl_idname.startswith("SCULPT_OT_")
@@ -232,7 +232,6 @@ def _is_stroking(obj: Object) -> bool:
 
 
 def _seconds(obj: Object) -> float:
-    """Return the duration of an object's last measurement in seconds, 0 if there is none."""
     result = memory.followed[obj].result
     return 0.0 if result is None else result.seconds
 
@@ -242,7 +241,7 @@ def _is_due(obj: Object) -> bool:
     current = memory.followed[obj]
     if not current.is_pending:
         is_edited = updates.last_edit(obj).number > current.number
-        current.is_pending = is_edited or not has_transform(obj, current.transform)
+        current.is_pending = is_edited or not fingerprint.has_transform(obj, current.transform)
     return current.is_pending
 
 
@@ -254,7 +253,7 @@ class MovingSurface:
     corners: (c,) vertices of all corners of the mesh that was read.
     """
 
-    surface: Surface
+    surface: mesh.Surface
     corners: NDArray[np.integer]
 
     @classmethod
@@ -266,8 +265,8 @@ class MovingSurface:
         body = measured.body
         method = measured.measurement.method
         if (
-            not isinstance(reading, Reading)
-            or not isinstance(body, MeshBody)
+            not isinstance(reading, bodies.Reading)
+            or not isinstance(body, bodies.MeshBody)
             or measured.measurement.kind != "solid"
             or body.mass is not None
             or method.source != Source.POLYGONS
@@ -301,13 +300,13 @@ class MovingSurface:
         ):
             return None
         try:
-            geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
+            geometry = visibility.evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
         except ReadError:
             return None
         points = None if geometry.mesh is None else mesh_points(geometry.mesh, self.corners)
         if points is None or len(points) != len(self.surface.points):
             return None
-        volume, center = volume_and_center(
-            Surface(points, self.surface.triangles, quads=self.surface.quads)
+        volume, center = polyhedron.volume_and_center(
+            mesh.Surface(points, self.surface.triangles, quads=self.surface.quads)
         )
         return (volume, center) if volume > 0.0 and np.isfinite(center).all() else None

@@ -16,17 +16,13 @@ import numpy as np
 from bpy.types import Depsgraph, Object
 from numpy.typing import NDArray
 
-from ....core.bodies import float64_matrix, to_si
-from ....core.mesh import ConvexHull
+from ....core import bodies, mesh, statics, verdict
 from ....core.moments import Measure, Moments, are_similarities, are_singular
 from ....core.numerics import Array
-from ....core.statics import Mixes, fit_mixes, sample_count
-from ....core.verdict import EditRefusedError, Method, Procedure
+from ... import read, scene
 from ...bodies.measure_object import measure_object
 from ...bodies.mesh import object_hull
-from ...read.objects import read_object
 from ...scale import meters_per_unit
-from ...scene.findings import OPEN_OBJECT
 from ...settings.options import object_settings
 from ..tracking import updates
 
@@ -46,11 +42,11 @@ class _Followed:
     change: int = -1
     moments: Moments | None = None
     given_mass: float | None = None
-    mixes: Mixes | None = None
+    mixes: statics.Mixes | None = None
     density: float = 0.0
     keys: tuple[str, ...] = ()
     triangles: NDArray[np.integer] | None = None
-    hull: tuple[int, ConvexHull] | None = (
+    hull: tuple[int, mesh.ConvexHull] | None = (
         None  # the number of the geometry's last update, and the hull then
     )
 
@@ -71,7 +67,7 @@ class Motion:
         no certain one.
         """
         unit = meters_per_unit(depsgraph.scene)
-        matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
+        matrix = bodies.float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
         followed = self._entry(obj)
         if followed.change == -1 and followed.mixes is None:
             self._shape_keys(obj, depsgraph, followed)
@@ -86,7 +82,7 @@ class Motion:
         raise MeasureError.
         """
         unit = meters_per_unit(depsgraph.scene)
-        matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
+        matrix = bodies.float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
         followed = self._entry(obj)
         change = updates.last_change_of_geometry(obj)
         if (
@@ -96,7 +92,7 @@ class Motion:
         ):
             followed.change = change
             return _measured(obj, followed, depsgraph, matrix, unit)
-        moments = followed.moments.transform(to_si(matrix[None], unit)[0])
+        moments = followed.moments.transform(bodies.to_si(matrix[None], unit)[0])
         return (
             moments
             if followed.given_mass is None
@@ -114,7 +110,7 @@ class Motion:
         change = updates.last_change_of_geometry(obj)
         if followed.hull is None or followed.hull[0] != change:
             followed.hull = change, object_hull(obj, depsgraph)
-        matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
+        matrix = bodies.float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
         return followed.hull[1].points @ matrix[:3, :3].T + matrix[:3, 3]
 
     def _shape_keys(self, obj: Object, depsgraph: Depsgraph, followed: _Followed) -> None:
@@ -122,20 +118,23 @@ class Motion:
         possible.
         """
         keys = _mixed_keys(obj)
-        if not keys or sample_count(len(keys)) > min(self.frames, MAX_SAMPLES):
+        if not keys or statics.sample_count(len(keys)) > min(self.frames, MAX_SAMPLES):
             return
         measurement = measure_object(obj, depsgraph)
-        if measurement.method != Method(Procedure.EXACT) or measurement.health.welded:
+        if (
+            measurement.method != verdict.Method(verdict.Procedure.EXACT)
+            or measurement.health.welded
+        ):
             return
         blocks = obj.data.shape_keys.key_blocks
         shapes = {
             name: _coordinates(blocks[name].data)
             for name in {*keys, *(blocks[k].relative_key.name for k in keys)}
         }
-        surface = read_object(obj, depsgraph, edges=False).parts[0].surface
+        surface = read.objects.read_object(obj, depsgraph, edges=False).parts[0].surface
         surface = replace(surface, points=_coordinates(obj.data.shape_keys.reference_key.data))
         offsets = [shapes[name] - shapes[blocks[name].relative_key.name] for name in keys]
-        followed.mixes = fit_mixes(surface, offsets)
+        followed.mixes = statics.fit_mixes(surface, offsets)
         followed.keys = keys
         followed.triangles, _ = surface.all_triangles()
         followed.density = measurement.density
@@ -184,7 +183,9 @@ def _mixed(
     flat or inside out.
     """
     assert followed.mixes is not None and followed.triangles is not None
-    triangles, _ = read_object(obj, depsgraph, edges=False).parts[0].surface.all_triangles()
+    triangles, _ = (
+        read.objects.read_object(obj, depsgraph, edges=False).parts[0].surface.all_triangles()
+    )
     if not np.array_equal(triangles, followed.triangles):
         return None
     blocks = obj.data.shape_keys.key_blocks
@@ -203,12 +204,12 @@ def _measured(
     world.
     """
     measurement = measure_object(obj, depsgraph)
-    if measurement.method.procedure == Procedure.OPEN:
-        raise EditRefusedError(OPEN_OBJECT, subject=obj.name)
+    if measurement.method.procedure == verdict.Procedure.OPEN:
+        raise verdict.EditRefusedError(scene.findings.OPEN_OBJECT, subject=obj.name)
     moments, factor = measurement.mass_moments
     followed.given_mass = object_settings(obj, depsgraph.scene).mass
     mass = moments.truncate(2) * factor
-    to_world = to_si(matrix[None], unit)[0]
+    to_world = bodies.to_si(matrix[None], unit)[0]
     followed.moments = (
         mass.transform(np.linalg.inv(to_world)) if _can_map(moments, matrix) else None
     )

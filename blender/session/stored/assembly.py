@@ -195,7 +195,6 @@ def _scale_rows(root: Root, gains: dict[str, float], mass: float) -> None:
 
 
 def _member_bodies(root: Member) -> dict[Object, PlainBody]:
-    """Return each member's stored results in the world."""
     unit = meters_per_unit(bpy.context.scene)
     objects = [
         member.data
@@ -217,7 +216,6 @@ def _is_same(before: PlainBody, now: PlainBody) -> bool:
 
 
 def _write_rows(assembly: Assembly) -> None:
-    """Write the tree's members into the rows of the assembly's settings."""
     rows = settings_of(assembly.root.member.data).rows
     rows.clear()
     mass = assembly.measurement.mass_properties.mass

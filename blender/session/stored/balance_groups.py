@@ -19,8 +19,7 @@ from ....core.numerics import Array, Mask
 from ....core.statics import Support
 from ...scene import fcurves
 from ...write.properties import BALANCE_GROUP, BALANCE_SPANS
-from .. import memory
-from ..tracking import handlers
+from .. import memory, tracking
 
 INSIDE = "body_balance_inside"
 CONTACT = "body_balance_contact"
@@ -118,7 +117,7 @@ def store(
         for frame, support in zip(frames, supports)
         if support is not None
     }
-    handlers.count_change(empty)
+    tracking.handlers.count_change(empty)
 
 
 def path(empty: Object) -> Path | None:

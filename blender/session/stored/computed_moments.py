@@ -9,15 +9,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ....core import inertia, measurement, polyhedron
 from ....core.flat import Plane, foot, plane_positions
-from ....core.inertia import MOMENTS_OVERFLOW, Reference
-from ....core.measurement import table, visible
 from ....core.moments import Invariant, flusser_invariants, hu_invariants, normalize
 from ....core.moments.moments import Moments, monomials
 from ....core.numerics import Array
-from ....core.polyhedron import multi_indices
 from ....core.verdict import Finding, ReadError
-from ..findings import INVARIANTS_ORDER, MASS_MOMENTS_UNKNOWN, MOMENTS_OF_AREA_ONLY
+from ..findings import (
+    INVARIANTS_ORDER,
+    MASS_MOMENTS_UNKNOWN,
+    MOMENTS_OF_AREA_ONLY,
+    MOMENTS_UNAVAILABLE,
+)
 
 HU_ORDER = 3  # order of Hu's invariants
 
@@ -74,9 +77,9 @@ def invariants(computed: ComputedMoments, of: str, order: int) -> list[Invariant
     and lower orders.
     """
     if of != "FLAT":
-        raise ReadError(MOMENTS_OF_AREA_ONLY)
+        raise ReadError(MOMENTS_UNAVAILABLE, fault=MOMENTS_OF_AREA_ONLY)
     if order < HU_ORDER:
-        raise ReadError(INVARIANTS_ORDER, order=HU_ORDER)
+        raise ReadError(MOMENTS_UNAVAILABLE, fault=INVARIANTS_ORDER)
     moments = normalize(_select_moments(computed, of).truncate(order))
     with np.errstate(over="ignore", invalid="ignore"):
         found = [
@@ -86,7 +89,7 @@ def invariants(computed: ComputedMoments, of: str, order: int) -> list[Invariant
     if not np.isfinite(
         [(abs(one.value), one.rounding_error, one.input_error) for one in found]
     ).all():
-        raise ReadError(MOMENTS_OVERFLOW, order=order)
+        raise ReadError(inertia.MOMENTS_OVERFLOW, order=order)
     return found
 
 
@@ -96,7 +99,7 @@ def in_frame(
     about: str,
     frame: str,
     order: int,
-    reference: Reference | None = None,
+    reference: inertia.Reference | None = None,
 ) -> Moments:
     """Return the moments in a frame or about a reference.
 
@@ -113,7 +116,7 @@ def in_frame(
             moments = _select_moments(computed, of).truncate(order)
             moments = moments.in_frame(np.transpose(reference.axes), reference.origin)
     if not np.isfinite([moments.raw, moments.rounding_error, moments.input_error]).all():
-        raise ReadError(MOMENTS_OVERFLOW, order=order)
+        raise ReadError(inertia.MOMENTS_OVERFLOW, order=order)
     return moments
 
 
@@ -130,13 +133,17 @@ def _select_moments(computed: ComputedMoments, of: str) -> Moments:
             assert computed.not_flat is not None
             raise ReadError(computed.not_flat)
         if computed.volume is None:
-            raise ReadError(MOMENTS_OF_AREA_ONLY)
-        raise ReadError(MASS_MOMENTS_UNKNOWN, order=computed.order)
+            raise ReadError(MOMENTS_UNAVAILABLE, fault=MOMENTS_OF_AREA_ONLY)
+        raise ReadError(MOMENTS_UNAVAILABLE, fault=MASS_MOMENTS_UNKNOWN)
     return moments
 
 
 def _in_plane(
-    computed: ComputedMoments, about: str, frame: str, order: int, reference: Reference | None
+    computed: ComputedMoments,
+    about: str,
+    frame: str,
+    order: int,
+    reference: inertia.Reference | None,
 ) -> Moments:
     """Return moments along the axes of the plane: normalized, about the center, or about the foot
     of an origin.
@@ -165,7 +172,11 @@ def _in_frame(computed: ComputedMoments, of: str, about: str, frame: str, order:
 
 
 def as_csv(
-    computed: ComputedMoments, of: str, about: str, frame: str, reference: Reference | None = None
+    computed: ComputedMoments,
+    of: str,
+    about: str,
+    frame: str,
+    reference: inertia.Reference | None = None,
 ) -> str:
     """Return all moments as CSV: a comment that describes them, and a row for each with its
     bounds.
@@ -185,7 +196,7 @@ def as_csv(
         if of == "FLAT":
             heading = _flat_heading(computed, about, frame)
             columns = ["p", "q"]
-            powers = multi_indices(2, moments.order)
+            powers = polyhedron.multi_indices(2, moments.order)
             values = values[plane_positions(moments.order)]
         else:
             heading = _heading(of, about, frame)
@@ -193,8 +204,10 @@ def as_csv(
             powers = monomials(computed.order)
         columns = [*columns, "moment", *bounds]
         rows = [[*which, *row] for which, row in zip(powers.tolist(), values.tolist())]
-    title = re.sub("[,;]", " ", visible(computed.name))  # otherwise the rest would be another cell
-    lines = table(columns, (dict(zip(columns, row)) for row in rows))
+    title = re.sub(
+        "[,;]", " ", measurement.visible(computed.name)
+    )  # otherwise the rest would be another cell
+    lines = measurement.table(columns, (dict(zip(columns, row)) for row in rows))
     return "".join(["# {:s}: {:s}\n".format(title, heading), *lines])
 
 

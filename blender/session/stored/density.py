@@ -17,9 +17,7 @@ from bpy.types import Context, Object, PropertyGroup, Scene
 from ....core.bodies import DENSITY_DEFAULTED
 from ....core.measurement import VERSION
 from ....core.verdict.finding import EditRefusedError, Finding, finding
-from ...bodies.findings import GIVEN, INERTIA
-from ...read.fingerprint import current_settings
-from ...read.tracking import tracking_paused
+from ... import bodies, read
 from ...settings.density import default_density, unset_density
 from ...write import properties
 from .. import stored
@@ -69,12 +67,13 @@ def follow_density(obj: Object, scene: Scene) -> None:
     if not extent:
         return
     if any(
-        (found.code, found.values.get("quantity")) == (GIVEN, INERTIA)
+        (found.code, found.values.get("quantity"))
+        == (bodies.findings.GIVEN, bodies.findings.INERTIA)
         for found in properties.findings(obj)
     ):
         return  # a given inertia does not follow the mass
     mass = numbers.mass
-    present = current_settings(obj, scene)
+    present = read.fingerprint.current_settings(obj, scene)
     weights = {"density": mass / extent, "mass": None}, {"density": None, "mass": mass}
     if stamp.settings not in [replace(present, **weight).digest for weight in weights]:
         return
@@ -116,7 +115,7 @@ def _findings(obj: Object, scene: Scene) -> list[Finding]:
 
 def on_density(settings: PropertyGroup, context: Context) -> None:
     """Scale stored results after a change of density or mass."""
-    if context.scene is not None and not tracking_paused.depth:
+    if context.scene is not None and not read.tracking.tracking_paused.depth:
         with stored.assembly.kept_up_to_date(context, settings.id_data):
             follow_density(settings.id_data, context.scene)
 

@@ -11,16 +11,14 @@ from dataclasses import dataclass
 import numpy as np
 from bpy.types import Object
 
-from ....core.bodies import Reading
+from ....core import bodies, verdict
 from ....core.numerics import Array
 from ....core.solid import SmallSolid
-from ....core.verdict import FLIPPED_FACES, Procedure
 from ...bodies.stack import Measured
-from .. import memory
-from ..tracking import updates
+from .. import memory, tracking
 
 PAIRS = "boundary_edges", "non_manifold_edges", "inconsistent_edges"
-FACES = FLIPPED_FACES, "duplicate_faces", "degenerate_faces"
+FACES = verdict.FLIPPED_FACES, "duplicate_faces", "degenerate_faces"
 MAX_DRAWN = 20000  # edges, and triangles, of an object
 OWN_PLACE = np.eye(4)
 
@@ -47,7 +45,11 @@ def remember(obj: Object, measured: Measured) -> None:
     place = OWN_PLACE
     if measured.stack is None:
         reading = measured.reading
-        if not isinstance(reading, Reading) or len(reading.parts) != 1 or reading.is_singular:
+        if (
+            not isinstance(reading, bodies.Reading)
+            or len(reading.parts) != 1
+            or reading.is_singular
+        ):
             return  # with several surfaces, the faulty one is unknown
         (part,) = reading.parts
         surface = part.surface
@@ -55,7 +57,7 @@ def remember(obj: Object, measured: Measured) -> None:
         place = np.linalg.inv(reading.matrix) @ part.matrices[0]
     else:
         solid = measured.stack.solids[measured.stack.members[measured.index].shape]
-        if isinstance(solid, SmallSolid) and solid.method is Procedure.EXACT:
+        if isinstance(solid, SmallSolid) and solid.method is verdict.Procedure.EXACT:
             return
         surface = measured.stack.surface(measured.index)
         elements = solid.health.defective_elements
@@ -70,13 +72,13 @@ def remember(obj: Object, measured: Measured) -> None:
         triangles, face = surface.all_triangles()
         triangles = triangles[np.isin(face, faces)][:MAX_DRAWN]
     memory.faults[obj] = Faults(
-        points[pairs[:MAX_DRAWN]], points[triangles], updates.last_change_of_geometry(obj)
+        points[pairs[:MAX_DRAWN]], points[triangles], tracking.updates.last_change_of_geometry(obj)
     )
 
 
 def of_object(obj: Object) -> Faults | None:
     """Return the faults of an object, None if there are none or its geometry has changed."""
     faults = memory.faults.get(obj)
-    if faults is None or faults.change != updates.last_change_of_geometry(obj):
+    if faults is None or faults.change != tracking.updates.last_change_of_geometry(obj):
         return None
     return faults

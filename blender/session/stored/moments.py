@@ -14,19 +14,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 from bpy.types import Context, Depsgraph, Object, Scene
 
-from ....core.inertia import Reference
+from ....core import inertia, verdict
 from ....core.moments import Invariant
 from ....core.moments.moments import Measure, Moments, monomial_count, monomials
-from ....core.verdict import Finding, MeasureError
+from ... import bodies, read, write
 from ...bodies.flat.flat import area_findings, clearer_refusal, flat_region
-from ...bodies.measure_body import THREADS
 from ...bodies.measure_object import measure_object
-from ...read.fingerprint import matrix_hash, settings_hash
 from ...settings.options import MeasureOptions
-from ...write.units import number
 from .. import memory
 from ..tracking import staleness, stamps
-from ..tracking.stamps import Kind, Stamp
 from .computed_moments import ComputedMoments, FlatMoments, in_frame, invariants
 from .reference import ReferenceChoice
 
@@ -45,12 +41,12 @@ class Degree:
 
 
 # a panel's degrees, and the reason if there are none
-Display = tuple[tuple[Degree, ...], Finding | None]
+Display = tuple[tuple[Degree, ...], verdict.Finding | None]
 
 
 def compute_moments(
     context: Context, obj: Object, order: int
-) -> tuple[ComputedMoments | None, tuple[Finding, ...]]:
+) -> tuple[ComputedMoments | None, tuple[verdict.Finding, ...]]:
     """Return the moments of a body, a flat shape or both (None for a wire), and findings."""
     depsgraph = context.evaluated_depsgraph_get()
     region = None
@@ -59,13 +55,15 @@ def compute_moments(
     try:
         region = flat_region(obj, depsgraph)
         flat = FlatMoments(region.moments(order), region.plane)
-    except MeasureError as error:
+    except verdict.MeasureError as error:
         not_flat = error
     try:
         measurement = measure_object(
-            obj, depsgraph, MeasureOptions(order=order, surface=True, threads=THREADS)
+            obj,
+            depsgraph,
+            MeasureOptions(order=order, surface=True, threads=bodies.measure_body.THREADS),
         )
-    except MeasureError as refusal:
+    except verdict.MeasureError as refusal:
         if not_flat is not None:
             raise clearer_refusal(refusal, not_flat) from None
         measurement = None
@@ -90,8 +88,10 @@ def compute_moments(
 def cache_moments(obj: Object, computed: ComputedMoments, depsgraph: Depsgraph) -> None:
     """Cache an object's freshly computed moments."""
     memory.moments[obj] = computed
-    settings = settings_hash(obj, depsgraph.scene)
-    stamp = stamps.carry(obj, Kind.MOMENTS, memory.state.updates, matrix_hash(obj), settings)
+    settings = read.fingerprint.settings_hash(obj, depsgraph.scene)
+    stamp = stamps.carry(
+        obj, stamps.Kind.MOMENTS, memory.state.updates, read.fingerprint.matrix_hash(obj), settings
+    )
     staleness.mark_stamp(obj, stamp, depsgraph)
 
 
@@ -100,9 +100,9 @@ def computed_moments(obj: Object) -> ComputedMoments | None:
     return memory.moments.get(obj)
 
 
-def stamp_of(obj: Object) -> Stamp | None:
+def stamp_of(obj: Object) -> stamps.Stamp | None:
     """Return the stamp of an object's computed moments."""
-    return stamps.carried(obj, Kind.MOMENTS)
+    return stamps.carried(obj, stamps.Kind.MOMENTS)
 
 
 def current_numbers(obj: Object, scene: Scene) -> Display:
@@ -123,11 +123,11 @@ def current_numbers(obj: Object, scene: Scene) -> Display:
                 in_frame(computed, of, about, settings.frame, order, reference), of, about
             )
         ), None
-    except MeasureError as error:
+    except verdict.MeasureError as error:
         return (), error.finding
 
 
-def reference_of(obj: Object, computed: ComputedMoments, scene: Scene) -> Reference:
+def reference_of(obj: Object, computed: ComputedMoments, scene: Scene) -> inertia.Reference:
     """Return the scene's chosen reference, or raise MeasureError if there is none."""
     return ReferenceChoice.from_settings(scene.body_moments_reference).resolve(
         obj, scene, computed.center.tolist()
@@ -142,7 +142,7 @@ def _displayed_degrees(moments: Moments, of: str, about: str) -> Iterator[Degree
         values = moments.raw[part]
         noise = np.maximum(moments.rounding_error[part], ZERO_DISPLAY_RTOL * np.abs(values).max())
         texts = [
-            number(0.0 if abs(value) <= least else float(value))
+            write.units.number(0.0 if abs(value) <= least else float(value))
             for value, least in zip(values, noise)
         ]
         cells = zip(
@@ -161,7 +161,7 @@ def _displayed_invariants(found: list[Invariant], order: int) -> Iterator[Degree
             if one.degree == degree:
                 parts = (one.value.real, one.value.imag) if one.is_complex else (one.value.real,)
                 noise = one.rounding_error
-                texts = [number(0.0 if abs(part) <= noise else part) for part in parts]
+                texts = [write.units.number(0.0 if abs(part) <= noise else part) for part in parts]
                 text = " + ".join(texts).replace("+ −", "− ") + " i" * one.is_complex
                 rows.append((one.name, text, " ".join(map(repr, parts))))
         yield Degree(degree, "", tuple(rows))

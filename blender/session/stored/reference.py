@@ -17,19 +17,18 @@ from bpy.types import Collection, Object, PropertyGroup, Scene
 from mathutils import Matrix
 
 from .... import core
-from ....core.inertia import PlainBody, Reference, ReferredInertia, rotation_axes
-from ....core.numerics import shortest_decimal
-from ....core.verdict import Finding, MeasureError, QueryError
+from ....core import inertia, numerics, verdict
 from ...read.findings import REFERENCE_OBJECT_MISSING
 from ...scale import meters_per_unit
-from ...write import properties
-from ...write.findings import NO_STORED_RESULTS
+from ...write import findings, properties
 from ..tracking import staleness
 
 Point = tuple[float, ...]
 
 
-def referred(owner: Object | Collection, scene: Scene) -> ReferredInertia | Finding | None:
+def referred(
+    owner: Object | Collection, scene: Scene
+) -> inertia.ReferredInertia | verdict.Finding | None:
     """Return an owner's inertia about the scene's reference, from stored results; else the reason,
     or None if none.
     """
@@ -39,7 +38,7 @@ def referred(owner: Object | Collection, scene: Scene) -> ReferredInertia | Find
         return None
     try:
         return choice.resolve(owner, scene, body.center).refer(body)
-    except MeasureError as error:
+    except verdict.MeasureError as error:
         return error.finding
 
 
@@ -50,7 +49,7 @@ def store(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | No
     choice = choice or ReferenceChoice.from_settings(scene.body_moments_reference)
     body = _stored_body(owner, scene)
     if body is None:
-        raise QueryError(NO_STORED_RESULTS, subject=owner.name)
+        raise verdict.QueryError(findings.NO_STORED_RESULTS, subject=owner.name)
     properties.require_storable(owner)
     result = choice.resolve(owner, scene, body.center).refer(body)
     bounds = result.rounding_error, result.input_error
@@ -83,11 +82,11 @@ def follow(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | N
     gone.
     """
     if choice is not None:
-        with suppress(MeasureError):
+        with suppress(verdict.MeasureError):
             store(owner, scene, choice)
 
 
-def _stored_body(owner: Object | Collection, scene: Scene) -> PlainBody | None:
+def _stored_body(owner: Object | Collection, scene: Scene) -> inertia.PlainBody | None:
     """Return the stored results in world axes, or None if there are none."""
     stored = properties.stored(owner)
     if stored is None:
@@ -118,7 +117,8 @@ class ReferenceChoice:
             return cls(
                 "AXIS",
                 points=tuple(
-                    tuple(map(shortest_decimal, p)) for p in (settings.first, settings.second)
+                    tuple(map(numerics.shortest_decimal, p))
+                    for p in (settings.first, settings.second)
                 ),
             )
         return cls(settings.about)
@@ -143,13 +143,15 @@ class ReferenceChoice:
         except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
             return None
 
-    def resolve(self, owner: bpy.types.ID, scene: Scene, center: Sequence[float]) -> Reference:
+    def resolve(
+        self, owner: bpy.types.ID, scene: Scene, center: Sequence[float]
+    ) -> inertia.Reference:
         """Return the reference frame (SI, world axes) for an owner with this center of mass, or
         raise QueryError.
         """
         unit = meters_per_unit(scene)
         if self.about == "CENTER":
-            return Reference(center)
+            return inertia.Reference(center)
         if self.about == "ORIGIN" and isinstance(owner, Object):
             return _frame(owner.matrix_world, unit)
         if self.about == "CURSOR":
@@ -157,15 +159,15 @@ class ReferenceChoice:
         if self.about == "OBJECT":
             other = bpy.data.objects.get(self.object)
             if other is None:
-                raise QueryError(REFERENCE_OBJECT_MISSING)
+                raise verdict.QueryError(REFERENCE_OBJECT_MISSING)
             return _frame(other.matrix_world, unit)
         if self.about == "AXIS" and len(self.points) == 2:
-            return Reference.through_points(
+            return inertia.Reference.through_points(
                 *[[unit * along for along in point] for point in self.points]
             )
-        return Reference((0.0, 0.0, 0.0))
+        return inertia.Reference((0.0, 0.0, 0.0))
 
 
-def _frame(matrix: Matrix, unit: float) -> Reference:
+def _frame(matrix: Matrix, unit: float) -> inertia.Reference:
     location, turn, _scale = matrix.decompose()
-    return Reference([unit * along for along in location], rotation_axes(turn))
+    return inertia.Reference([unit * along for along in location], inertia.rotation_axes(turn))

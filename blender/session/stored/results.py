@@ -8,28 +8,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import groupby, repeat
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from bpy.types import Context, Object, Scene
 
+from .... import core
 from ....core.measurement import fingerprint
-from ....core.verdict import internal_error
+from ....core.verdict import Finding, internal_error
+from ... import bodies, read, settings
 from ...bodies.stack import Measured, MeasuredStack
-from ...read.fingerprint import matrix_hash, scale_hash, settings_hash
 from ...scale import meters_per_unit
-from ...settings.density import is_density_unset
 from ...write import properties, section
 from ..tracking import armatures, staleness, stamps
 from . import density, faults, reference, sliders
-
-if TYPE_CHECKING:
-    from ....core.shape import Symmetry
-    from ....core.verdict import Finding
-    from ...bodies.flat.flat import MeasuredSection
-    from ...bodies.flat.flat_shape import FlatShape
-    from ...bodies.rig import Rig
-    from ...bodies.shape.shape import Shape
 
 MAX_STORED_ELEMENTS = 32  # of a symmetry: nobody reads more for a ball or a fine prism
 
@@ -85,10 +77,9 @@ def store_measured(
 
 
 def _values_of_stack(part: MeasuredStack, scene: Scene) -> Iterator[dict[str, Any]]:
-    """Return the properties of the members of a stack."""
     findings = list(part.findings)
     for i, (member, from_mass) in enumerate(zip(part.members, part.from_mass.tolist())):
-        if not from_mass and is_density_unset(member.obj.body_moments, scene):
+        if not from_mass and settings.density.is_density_unset(member.obj.body_moments, scene):
             findings[i] = density.with_default_note(findings[i], "density")
     return properties.values_of_stack(
         part.mass_properties.in_frame(part.rotation, part.location),
@@ -101,7 +92,11 @@ def _values_of_stack(part: MeasuredStack, scene: Scene) -> Iterator[dict[str, An
 
 
 def store_symmetry(
-    obj: Object, shape: Shape | FlatShape, confirmed: Symmetry, allowed: Symmetry, tolerance: float
+    obj: Object,
+    shape: bodies.Shape | bodies.FlatShape,
+    confirmed: core.shape.Symmetry,
+    allowed: core.shape.Symmetry,
+    tolerance: float,
 ) -> None:
     """Store the symmetry that the surface confirms, and the group that the moments allow, on an
     object.
@@ -112,7 +107,9 @@ def store_symmetry(
     stored.tolerance = tolerance
     stored.of_display_mesh = shape.is_display_mesh
     stored.fingerprint = (
-        stamps.Stamp.parse(shape.fingerprint)._replace(transform=scale_hash(obj)).text
+        stamps.Stamp.parse(shape.fingerprint)
+        ._replace(transform=read.fingerprint.scale_hash(obj))
+        .text
     )
     stored.elements.clear()
     turn = shape.rotation.T
@@ -123,27 +120,33 @@ def store_symmetry(
         element.direction = local if local[np.argmax(np.abs(local))] > 0.0 else -local
 
 
-def _elements(found: Symmetry) -> list[tuple[str, int, np.ndarray]]:
+def _elements(found: core.shape.Symmetry) -> list[tuple[str, int, np.ndarray]]:
     axes = [("AXIS", order, axis) for axis, order in found.axes]
     if len(found.revolution_axes) == 1:
         axes = [("ROUND", 0, found.revolution_axes[0])]
     return [*axes, *(("PLANE", 0, normal) for normal in found.planes)]
 
 
-def store_sections(context: Context, sections: Sequence[tuple[Object, MeasuredSection]]) -> None:
+def store_sections(
+    context: Context, sections: Sequence[tuple[Object, bodies.MeasuredSection]]
+) -> None:
     """Store sections on their objects."""
     unit = meters_per_unit(context.scene)
     for obj, (found, description, findings) in sections:
         parts = (found.plane.origin, found.plane.axes.ravel(), found.second, found.centroid)
         numbers = np.concatenate([*parts, [found.area, found.perimeter]])
-        mark = fingerprint(numbers.tobytes(), matrix_hash(obj), settings_hash(obj, context.scene))
+        mark = fingerprint(
+            numbers.tobytes(),
+            read.fingerprint.matrix_hash(obj),
+            read.fingerprint.settings_hash(obj, context.scene),
+        )
         section.store(obj, found, description, findings, mark, unit)
     staleness.mark_stamps(
         context, [(obj, stamp) for obj, _ in sections if (stamp := stamps.of_section(obj))]
     )
 
 
-def store_rig(rig: Rig) -> list[tuple[str, Finding]]:
+def store_rig(rig: bodies.rig.Rig) -> list[tuple[str, Finding]]:
     """Store the results of all bones and the whole, or raise EditRefusedError; return bones
     without, and reasons.
     """

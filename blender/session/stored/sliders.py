@@ -17,18 +17,9 @@ from typing import Generic, TypeVar
 import bpy
 from bpy.types import Context, Object, PropertyGroup, Scene
 
-from ....core.bodies import (
-    Reading,
-    ThresholdGrid,
-    ThresholdGridBody,
-    WallBody,
-    Walls,
-    threshold_grid_body,
-)
+from ....core import bodies, numerics, verdict
 from ....core.density import GridOptions
 from ....core.measurement import Body
-from ....core.numerics import shortest_decimal
-from ....core.verdict import MeasureError
 from ...bodies.request import Request, measurement_of
 from ...bodies.stack import Measured
 from ...scale import meters_per_unit
@@ -42,7 +33,7 @@ from . import density
 DELAY = 0.3  # s after the last change of a threshold
 COARSE = "coarse"  # equals no key of settings, so that results with it are out of date
 
-Source = TypeVar("Source", Walls, ThresholdGrid)
+Source = TypeVar("Source", bodies.Walls, bodies.ThresholdGrid)
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,15 +45,15 @@ class _Kept(Generic[Source]):
     per Blender unit.
     """
 
-    reading: Reading
+    reading: bodies.Reading
     source: Source
     geometries: set[str]
     transform: str
     unit: float
 
 
-SliderWalls = _Kept[Walls]
-SliderGrid = _Kept[ThresholdGrid]
+SliderWalls = _Kept[bodies.Walls]
+SliderGrid = _Kept[bodies.ThresholdGrid]
 
 
 def remember(obj: Object, measured: Measured, scene: Scene) -> None:
@@ -71,11 +62,11 @@ def remember(obj: Object, measured: Measured, scene: Scene) -> None:
     reading = measured.reading
     body = measured.body
     of_stamp = {stamp.geometry}, stamp.transform, meters_per_unit(scene)
-    if isinstance(body, WallBody) and body.walls is not None:
+    if isinstance(body, bodies.WallBody) and body.walls is not None:
         memory.walls[obj] = _Kept(replace(reading, parts=[]), body.walls.drop_arrays(), *of_stamp)
         if on_wall_setting not in hooks.on_wall_change:
             hooks.on_wall_change.append(on_wall_setting)
-    elif isinstance(body, ThresholdGridBody):
+    elif isinstance(body, bodies.ThresholdGridBody):
         memory.grids[obj] = _Kept(reading, body.grid, *of_stamp)
         if on_threshold not in hooks.on_threshold_change:
             hooks.on_threshold_change.append(on_threshold)
@@ -98,7 +89,7 @@ def is_too_thick(obj: Object) -> bool:
     kept = memory.walls.get(obj)
     if limit is None or kept is None:
         return False
-    return not shortest_decimal(obj.body_moments.thickness) * kept.unit < limit
+    return not numerics.shortest_decimal(obj.body_moments.thickness) * kept.unit < limit
 
 
 def on_wall_setting(settings: PropertyGroup, context: Context) -> None:
@@ -157,12 +148,12 @@ def _current(
     return None if scene is not None and staleness.is_edited(obj) else kept
 
 
-def _current_grid(obj: Object, scene: Scene | None) -> _Kept[ThresholdGrid] | None:
+def _current_grid(obj: Object, scene: Scene | None) -> _Kept[bodies.ThresholdGrid] | None:
     kept = None if scene is None else _current(memory.grids, obj, scene)
     return kept if kept is not None and obj.body_moments.grid_as == "THRESHOLD" else None
 
 
-def _walls_on_side(kept: _Kept[Walls], obj: Object) -> Walls:
+def _walls_on_side(kept: _Kept[bodies.Walls], obj: Object) -> bodies.Walls:
     return replace(kept.source, side=obj.body_moments.wall.lower())
 
 
@@ -173,7 +164,7 @@ def _store(obj: Object, scene: Scene, kept: _Kept, body: Callable[[Request], Bod
     request = Request.resolve(obj, unit=kept.unit)
     try:
         measurement = measurement_of(kept.reading, body(request), request)
-    except MeasureError:
+    except verdict.MeasureError:
         return False
     properties.store(obj, density.noted(obj, measurement, scene))
     kept.geometries.add(stamps.Stamp.parse(measurement.fingerprint).geometry)
@@ -181,14 +172,18 @@ def _store(obj: Object, scene: Scene, kept: _Kept, body: Callable[[Request], Bod
 
 
 def _store_threshold(
-    obj: Object, scene: Scene, kept: _Kept[ThresholdGrid], grid: ThresholdGrid, preview: bool
+    obj: Object,
+    scene: Scene,
+    kept: _Kept[bodies.ThresholdGrid],
+    grid: bodies.ThresholdGrid,
+    preview: bool,
 ) -> bool:
     """Write the numbers of the current threshold to the object; return False if there are none."""
     options = GridOptions.from_settings(obj.body_moments)
 
     def body(_request: Request) -> Body:
         key = grid_key(obj) if grid is kept.source else COARSE
-        return replace(threshold_grid_body(grid, options, preview), density_key=key)
+        return replace(bodies.threshold_grid_body(grid, options, preview), density_key=key)
 
     return _store(obj, scene, kept, body)
 

@@ -16,30 +16,12 @@ import numpy as np
 from bpy.types import Context, Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
-from ....core.inertia import frame_about
-from ....core.mesh import ConvexHull
+from ....core import inertia, mesh, statics, verdict
 from ....core.numerics import Array, rotation_matrix
-from ....core.statics import (
-    CONTACT_RTOL,
-    NO_STABLE_POSE,
-    RestingPoses,
-    Support,
-    find_support,
-    resting_poses,
-)
-from ....core.verdict import EditRefusedError, Finding, MeasureError, Procedure
-from ...bodies.measure_object import measured_in_turn
-from ...bodies.mesh import MAX_CORNERS, object_hull
-from ...read.mesh import shape_digest
-from ...scene import reframe
-from ...scene.findings import OPEN_OBJECT
-from ...scene.rigid_world import down
-from ...scene.transforms import world
-from ...write import properties, reports
-from .. import memory
-from ..displayed import drawn
+from ... import bodies, read, write
+from ...scene import findings, reframe, rigid_world, transforms
+from .. import displayed, memory
 from ..tracking import handlers, staleness, stamps
-from ..tracking.stamps import Kind, Stamp
 from . import results
 
 SAME_SHAPE_RTOL = (
@@ -57,31 +39,31 @@ class KnownHull:
     hold. support_key: the generation and the scene for which `support` holds.
     """
 
-    hull: ConvexHull
+    hull: mesh.ConvexHull
     digest: bytes | None = None
     earlier: tuple[KnownHull, ...] = ()
     sought_at: int = -1
     shape: NDArray | None = None
-    poses: RestingPoses | Finding | None = None
+    poses: statics.RestingPoses | verdict.Finding | None = None
     support_key: tuple = ()
-    support: Support | None = None
+    support: statics.Support | None = None
 
 
 MAX_EARLIER = 8  # hulls of earlier shapes that are kept
 
 
-def compute(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
+def compute(obj: Object, depsgraph: Depsgraph) -> mesh.ConvexHull:
     """Compute and cache the hull of an evaluated object, or raise MeasureError if it has none."""
-    hull = object_hull(obj, depsgraph)
+    hull = bodies.mesh.object_hull(obj, depsgraph)
     last = memory.hulls.get(obj)
     earlier = () if last is None else (*last.earlier, last)[-MAX_EARLIER:]
-    _remember(obj, KnownHull(hull, shape_digest(obj, depsgraph), earlier), depsgraph)
+    _remember(obj, KnownHull(hull, read.mesh.shape_digest(obj, depsgraph), earlier), depsgraph)
     return hull
 
 
 def _remember(obj: Object, remembered: KnownHull, depsgraph: Depsgraph) -> None:
     memory.hulls[obj] = remembered
-    staleness.mark_stamp(obj, stamps.carry(obj, Kind.HULL, memory.state.updates), depsgraph)
+    staleness.mark_stamp(obj, stamps.carry(obj, stamps.Kind.HULL, memory.state.updates), depsgraph)
     handlers.count_change(obj)
 
 
@@ -94,7 +76,7 @@ def _up_to_date(obj: Object, scene: Scene) -> KnownHull | None:
     if not last.earlier or last.sought_at == memory.state.generation or depsgraph is None:
         return None
     last.sought_at = memory.state.generation
-    digest = shape_digest(obj, depsgraph)
+    digest = read.mesh.shape_digest(obj, depsgraph)
     known = [one for one in last.earlier if digest is not None and one.digest == digest]
     if not known:
         return None
@@ -109,12 +91,12 @@ def is_known(obj: Object) -> bool:
     return obj in memory.hulls
 
 
-def stamp_of(obj: Object) -> Stamp | None:
+def stamp_of(obj: Object) -> stamps.Stamp | None:
     """Return the stamp of the cached hull."""
-    return stamps.carried(obj, Kind.HULL)
+    return stamps.carried(obj, stamps.Kind.HULL)
 
 
-def support(obj: Object, scene: Scene = None) -> Support | None:
+def support(obj: Object, scene: Scene = None) -> statics.Support | None:
     """Return an object's current support, in Blender's units and the world; None if unchecked or
     out of date.
     """
@@ -126,7 +108,7 @@ def support(obj: Object, scene: Scene = None) -> Support | None:
     if remembered.support_key != key:
         remembered.support_key = key
         remembered.support = None
-        body = drawn(obj, scene)
+        body = displayed.drawn(obj, scene)
         if body is not None:
             matrix = np.array(obj.matrix_world, np.float64)
             points = remembered.hull.points @ matrix[:3, :3].T + matrix[:3, 3]
@@ -134,12 +116,14 @@ def support(obj: Object, scene: Scene = None) -> Support | None:
             # Relative to the extent, the height up to which points touch the ground; it exceeds the
             # hull's gap.
             gap = remembered.hull.gap * float(np.linalg.norm(matrix[:3, :3], 2))
-            tolerance = max(CONTACT_RTOL, 2.0 * gap / float(np.ptp(points, axis=0).max()))
-            remembered.support = find_support(points, center, down(scene), tolerance)
+            tolerance = max(statics.CONTACT_RTOL, 2.0 * gap / float(np.ptp(points, axis=0).max()))
+            remembered.support = statics.find_support(
+                points, center, rigid_world.down(scene), tolerance
+            )
     return remembered.support
 
 
-def poses(obj: Object, scene: Scene | None = None) -> RestingPoses | Finding | None:
+def poses(obj: Object, scene: Scene | None = None) -> statics.RestingPoses | verdict.Finding | None:
     """Return stable resting poses (Blender's units, object frame), the reason if there are none, or
     None.
     """
@@ -147,7 +131,7 @@ def poses(obj: Object, scene: Scene | None = None) -> RestingPoses | Finding | N
     remembered = _up_to_date(obj, scene)
     if remembered is None:
         return None
-    body = drawn(obj, scene)
+    body = displayed.drawn(obj, scene)
     if body is None:
         return None
     location, rotation = frame(obj)
@@ -159,8 +143,8 @@ def poses(obj: Object, scene: Scene | None = None) -> RestingPoses | Finding | N
     if remembered.shape is None or (np.abs(shape - remembered.shape).max(axis=1) > tolerance).any():
         remembered.shape = shape
         try:
-            remembered.poses = resting_poses(remembered.hull.transform(scale), shape[3])
-        except MeasureError as error:
+            remembered.poses = statics.resting_poses(remembered.hull.transform(scale), shape[3])
+        except verdict.MeasureError as error:
             remembered.poses = error.finding
     return remembered.poses
 
@@ -176,24 +160,26 @@ def check_stability(context: Context, obj: Object, measured: list[Object]) -> li
     decisions.
     """
     depsgraph = context.evaluated_depsgraph_get()
-    if properties.stored(obj) is None or staleness.stale_reason(obj, context.scene):
-        result = measured_in_turn([obj], depsgraph)(obj)
-        if result.method.procedure == Procedure.OPEN:
-            raise EditRefusedError(OPEN_OBJECT)
+    if write.properties.stored(obj) is None or staleness.stale_reason(obj, context.scene):
+        result = bodies.measure_object.measured_in_turn([obj], depsgraph)(obj)
+        if result.method.procedure == verdict.Procedure.OPEN:
+            raise verdict.EditRefusedError(findings.OPEN_OBJECT)
         for _, refusal in results.store_many([(obj, result)], context.scene):
             if refusal is not None:
                 raise refusal
         measured.append(obj)
     hull = compute(obj, depsgraph)
     extent = float(np.ptp(hull.points, axis=0).max())
-    if len(hull.points) >= MAX_CORNERS:
+    if len(hull.points) >= bodies.mesh.MAX_CORNERS:
         text = (
             "“{object}” is finely divided: its convex hull is taken with {corners} corners, to "
             "{share:percent} of its "
             "size"
         )
         return [
-            reports.phrase(text, object=obj.name, corners=len(hull.points), share=hull.gap / extent)
+            write.reports.phrase(
+                text, object=obj.name, corners=len(hull.points), share=hull.gap / extent
+            )
         ]
     return []
 
@@ -207,26 +193,26 @@ def lay_on_ground(context: Context, obj: Object, pose: int, ground: str, notes: 
     notes += check_stability(context, obj, measured)
     staleness.mark_up_to_date(context, measured)
     resting = poses(obj, context.scene)
-    body = drawn(obj, context.scene)
+    body = displayed.drawn(obj, context.scene)
     if resting is None:  # its stored numbers are damaged
-        raise EditRefusedError(NO_STABLE_POSE)
-    if isinstance(resting, Finding):
-        raise EditRefusedError(resting.code, **resting.values)
+        raise verdict.EditRefusedError(statics.NO_STABLE_POSE)
+    if isinstance(resting, verdict.Finding):
+        raise verdict.EditRefusedError(resting.code, **resting.values)
     assert body is not None  # the poses belong to it
-    gravity = down(context.scene)
+    gravity = rigid_world.down(context.scene)
     _, rotation = frame(obj)
     normals = resting.normals @ rotation.T
     place = (pose - 1) % len(normals) if pose else int((normals @ gravity).argmax())
     turn = _shortest_turn(normals[place], gravity)
     center = np.array(body.world.center) / body.unit
     size = max(body.world.gyration) / body.unit
-    target = world(obj)
+    target = transforms.world(obj)
     target[:3, :3] = turn @ target[:3, :3]
     target[:3, 3] = center + turn @ (target[:3, 3] - center)
     target[:3, 3] += (
         _ground(context, obj, ground, center, gravity) - resting.heights[place]
     ) * gravity
-    off = np.abs(target - world(obj))
+    off = np.abs(target - transforms.world(obj))
     is_turned = off[:, :3].max() > 1e-6 * np.abs(target[:, :3]).max()
     is_moved = is_turned or off[:, 3].max() > reframe.location_tolerance(obj, size)
     if is_moved:
@@ -247,11 +233,10 @@ def _ground(context: Context, obj: Object, ground: str, center: NDArray, gravity
 
 
 def _shortest_turn(start: Array, end: Array) -> Array:
-    """Return the (3, 3) rotation by the smallest angle from one (3,) unit vector to another."""
     middle = start + end
     length = np.linalg.norm(middle)
     if length < 1e-8:
-        middle = np.array(frame_about(start.tolist())[0])
+        middle = np.array(inertia.frame_about(start.tolist())[0])
         return 2.0 * np.outer(middle, middle) - np.eye(3)
     middle /= length
     # Two half turns: about `start`, then about the direction between the two.

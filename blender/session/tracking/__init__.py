@@ -3,3 +3,7 @@
 """Change tracking: handlers, caches, and the comparison of stored results with the present
 scene.
 """
+
+from ....core.lazy import lazy_names
+
+__getattr__, __dir__, __all__ = lazy_names(__name__)

@@ -13,10 +13,7 @@ from collections.abc import Iterable
 import bpy
 from bpy.types import Object
 
-from ... import read
-from ...read.tracking import tracking_paused
-from ...settings.given import COLLIDER
-from ...write import properties
+from ... import read, settings, write
 from .. import memory
 from . import handlers, staleness
 
@@ -61,7 +58,7 @@ def _counts(obj: Object) -> bool:
     collider does.
     """
     may_be_measured = read.visibility.has_shape(obj) or stands_for_meshes(obj)
-    return COLLIDER not in obj and (may_be_measured or "body_mass" in obj)
+    return settings.given.COLLIDER not in obj and (may_be_measured or "body_mass" in obj)
 
 
 def watch(armature: Object, objects: Iterable[Object]) -> None:
@@ -95,10 +92,10 @@ def note_updates(updates: handlers.Updates) -> None:
     """Note an edit on an armature if one of its watched meshes has a new shape and the armature has
     no update.
     """
-    if tracking_paused.depth or not memory.watched:
+    if read.tracking.tracking_paused.depth or not memory.watched:
         return
     touched = {*updates.reshaped, *updates.moved, *updates.others}
     for uid in memory.watched.keys() & updates.reshaped:
         armature = memory.watched[uid]
         if armature.session_uid not in touched:
-            staleness.set_edited(armature, properties.fingerprint(armature), True)
+            staleness.set_edited(armature, write.properties.fingerprint(armature), True)

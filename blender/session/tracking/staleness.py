@@ -27,19 +27,9 @@ import bpy
 from bpy.types import Collection, Context, Depsgraph, Object, Scene
 
 from ....core import measurement
-from ... import read
-from ...read.fingerprint import (
-    colliders_digest,
-    has_scale,
-    has_transform,
-    matrix_hash,
-    scale_hash,
-    settings_hash,
-)
-from ...read.tracking import tracking_paused
+from ... import read, settings, write
+from ...read import fingerprint, tracking
 from ...scale import meters_per_unit
-from ...settings.given import COLLIDERS
-from ...write import properties
 from .. import memory
 from . import handlers, stamps, updates
 from .stamps import EDITED, Kind, Stale, Stamp
@@ -68,7 +58,7 @@ def stale_reason(
 
 
 def _has_settings(obj: Object, stamp: Stamp, scene: Scene) -> bool:
-    return stamp.settings == settings_hash(obj, scene)
+    return stamp.settings == fingerprint.settings_hash(obj, scene)
 
 
 def _has_geometry(obj: Object, stamp: Stamp, _scene: Scene | None = None) -> bool:
@@ -81,28 +71,8 @@ def _is_unedited(obj: Object, stamp: Stamp, _scene: Scene | None = None) -> bool
     return stamp.geometry != EDITED and not (edited and stamp.text in edited)
 
 
-def _has_transform(obj: Object, stamp: Stamp, _scene: Scene) -> bool:
-    return has_transform(obj, stamp.transform)
-
-
 def _has_matrix(owner: Object | Collection, stamp: Stamp, _scene: Scene) -> bool:
-    return not isinstance(owner, Object) or stamp.transform == matrix_hash(owner)
-
-
-def _has_scale(obj: Object, stamp: Stamp, _scene: Scene) -> bool:
-    return stamp.transform == scale_hash(obj)
-
-
-def _has_unit(_obj: Object, stamp: Stamp, scene: Scene) -> bool:
-    return stamp.extra == meters_per_unit(scene)
-
-
-def _has_body_scale(obj: Object, stamp: Stamp, _scene: Scene) -> bool:
-    return has_scale(obj, stamp.transform, [*obj[COLLIDERS].get("scale", ())])
-
-
-def _has_colliders(obj: Object, _stamp: Stamp, _scene: Scene) -> bool:
-    return obj[COLLIDERS].get("digest") == colliders_digest(obj)
+    return not isinstance(owner, Object) or stamp.transform == fingerprint.matrix_hash(owner)
 
 
 def _has_structure(root: Object | Collection, stamp: Stamp, scene: Scene) -> bool:
@@ -157,7 +127,7 @@ def _digest_parts(
         for part in member.walk()
         if part.kind == assembly.MemberKind.OBJECT and part.is_measured
     ]
-    texts = {obj: properties.fingerprint(obj) for obj in measured}
+    texts = {obj: write.properties.fingerprint(obj) for obj in measured}
     is_stale = any(stale_reason(obj, scene) not in current for obj in measured)
     key = assembly.members_key(member, texts)
     return assembly.structure_hash(member), "" if is_stale else measurement.settings.digest(
@@ -171,19 +141,28 @@ CHECKS = {
     Kind.RESULTS: (
         (Stale.SETTINGS, _has_settings),
         (Stale.GEOMETRY, _has_geometry),
-        (Stale.TRANSFORM, _has_transform),
+        (
+            Stale.TRANSFORM,
+            lambda obj, stamp, _scene: fingerprint.has_transform(obj, stamp.transform),
+        ),
     ),
     **dict.fromkeys(
         (Kind.SECTION, Kind.CUT_FILL),
         (
-            (Stale.UNIT_SCALE, _has_unit),
+            (
+                Stale.UNIT_SCALE,
+                lambda _obj, stamp, scene: stamp.extra == meters_per_unit(scene),
+            ),
             (Stale.GEOMETRY, _has_geometry),
             (Stale.TRANSFORM, _has_matrix),
         ),
     ),
     Kind.SYMMETRY: (
         (Stale.GEOMETRY, _has_geometry),
-        (Stale.SCALE, _has_scale),
+        (
+            Stale.SCALE,
+            lambda obj, stamp, _scene: stamp.transform == fingerprint.scale_hash(obj),
+        ),
     ),
     Kind.ASSEMBLY: (
         (Stale.MEMBERS, _has_structure),
@@ -205,8 +184,18 @@ CHECKS = {
     Kind.COLLIDERS: (
         (Stale.SETTINGS, _has_settings),
         (Stale.GEOMETRY, _has_geometry),
-        (Stale.TRANSFORM, _has_body_scale),
-        (Stale.COLLIDERS, _has_colliders),
+        (
+            Stale.TRANSFORM,
+            lambda obj, stamp, _scene: fingerprint.has_scale(
+                obj, stamp.transform, [*obj[settings.given.COLLIDERS].get("scale", ())]
+            ),
+        ),
+        (
+            Stale.COLLIDERS,
+            lambda obj, _stamp, _scene: (
+                obj[settings.given.COLLIDERS].get("digest") == fingerprint.colliders_digest(obj)
+            ),
+        ),
     ),
 }
 
@@ -216,7 +205,9 @@ def is_edited(obj: Object) -> bool:
     results.
     """
     stamp = stamps.of_results(obj)
-    return stamp is None or not (_has_geometry(obj, stamp) and has_transform(obj, stamp.transform))
+    return stamp is None or not (
+        _has_geometry(obj, stamp) and fingerprint.has_transform(obj, stamp.transform)
+    )
 
 
 # ---------------------------------------------------------------- Marks after storing
@@ -242,7 +233,7 @@ def mark_stamps(context: Context, fresh: Iterable[tuple[Object, Stamp]]) -> None
     """Mark fresh data (objects and stamps), such as sections, as up to date, if nothing else was
     changed.
     """
-    with tracking_paused():
+    with tracking.tracking_paused():
         depsgraph = context.evaluated_depsgraph_get()
     for obj, stamp in fresh:
         mark_stamp(obj, stamp, depsgraph)
@@ -258,7 +249,7 @@ def mark_stamp(obj: Object, stamp: Stamp, depsgraph: Depsgraph) -> None:
 def mark_object(obj: Object) -> None:
     """Mark the stored results as up to date with an original object's current geometry."""
     memory.resolved[obj.session_uid] = memory.state.updates
-    set_edited(obj, properties.fingerprint(obj), False)
+    set_edited(obj, write.properties.fingerprint(obj), False)
     handlers.count_change(obj)
 
 
@@ -266,7 +257,7 @@ def replace_stamp(obj: Object, before: str) -> None:
     """Carry the notes on replaced results (`before`: their stamp) over, if the shape was not
     changed with them.
     """
-    text = properties.fingerprint(obj)
+    text = write.properties.fingerprint(obj)
     set_edited(obj, text, before in _edited_stamps(obj))
     if before in memory.shapes:
         memory.shapes[text] = memory.shapes[before]
@@ -277,8 +268,8 @@ def pin(obj: Object) -> None:
     stored with them.
     """
     stamp = stamps.of_results(obj)
-    if stamp is not None and stamp.version and has_transform(obj, stamp.transform):
-        obj["body_fingerprint"] = stamp._replace(transform=matrix_hash(obj)).text
+    if stamp is not None and stamp.version and fingerprint.has_transform(obj, stamp.transform):
+        obj["body_fingerprint"] = stamp._replace(transform=fingerprint.matrix_hash(obj)).text
         replace_stamp(obj, stamp.text)
 
 

@@ -17,8 +17,7 @@ from typing import NamedTuple
 
 from bpy.types import Collection, Object
 
-from ....core import measurement
-from ....core.verdict import Procedure
+from ....core import measurement, verdict
 from ...settings.given import COLLIDERS
 from ...write import properties, section
 from .. import memory
@@ -120,7 +119,10 @@ def of_results(owner: Object | Collection) -> Stamp | None:
     kind = Kind.RESULTS
     if not isinstance(owner, Object):
         kind = Kind.ASSEMBLY
-    elif owner.type in {"EMPTY", "ARMATURE"} and owner.get("body_method") == Procedure.ASSEMBLY:
+    elif (
+        owner.type in {"EMPTY", "ARMATURE"}
+        and owner.get("body_method") == verdict.Procedure.ASSEMBLY
+    ):
         kind = Kind.ASSEMBLY if owner.type == "EMPTY" else Kind.BONES
     return Stamp.parse(text, kind)
 

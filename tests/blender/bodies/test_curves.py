@@ -280,7 +280,7 @@ def test_flat_region_takes_varying_density():
     # Blender's polygon is smaller
     assert found.mass_properties.mass == pytest.approx(100.0 * np.pi, rel=5e-3)
     assert found.mass_properties.center[0] == pytest.approx(0.125, rel=5e-3)
-    assert "display_mesh_needed" in said(found)
+    assert "display_mesh_measured" in said(found)
 
 
 @pytest.mark.parametrize("source", ["POLYNOMIAL", "MATERIALS"])

@@ -269,7 +269,7 @@ def test_volume_without_file_is_refused_after_saving(tmp_path):
     path = str(tmp_path / "empty.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
-    with refused("volume_without_grids", "Empty"):
+    with refused("no_scalar_grid", "Empty"):
         measure(bpy.data.objects["Empty"])
     assert measure(bpy.data.objects["Fog"]).volume > 0.0
 
@@ -277,7 +277,7 @@ def test_volume_without_file_is_refused_after_saving(tmp_path):
 def test_unmeasurable_volumes_are_refused_with_reason(tmp_path):
     empty = linked(bpy.data.objects.new("Empty", bpy.data.volumes.new("Empty")))
     with (
-        refused("volume_without_grids", "Empty"),
+        refused("no_scalar_grid", "Empty"),
         volume_reading(empty, bpy.context.evaluated_depsgraph_get()),
     ):
         pass

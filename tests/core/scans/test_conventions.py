@@ -46,7 +46,7 @@ def test_nrrd_space_gives_the_axes_their_directions(tmp_path, space, signs):
     expected = np.diag([*np.array(signs) * (2, 3, 4), 1.0])
     expected[:3, 3] = np.array(signs) * (10, 20, 30)
     np.testing.assert_allclose(matrix[:3], expected[:3] * unit, rtol=1e-15, atol=0.0)
-    code = "scan_in_millimeters" if is_anatomical else "scan_unstated"
+    code = "unit_assumed" if is_anatomical else "scan_unstated"
     assert [one.code for one in findings] == [code]
 
 
@@ -60,7 +60,7 @@ def test_nifti_without_unit_is_in_millimeters(tmp_path, unit, given, scale):
     scan = scan_of(tmp_path / "a.nii", nifti(VALUES, spacing=(2, 3, 4), unit=unit))
     matrix, findings = sample_matrix(scan, None, None, given)
     assert np.allclose(matrix.diagonal()[:3], np.array([2, 3, 4]) * scale, rtol=1e-15)
-    codes = [] if unit or given else ["scan_in_millimeters"]
+    codes = [] if unit or given else ["unit_assumed"]
     assert [one.code for one in findings] == codes
 
 

@@ -414,21 +414,18 @@ def test_senseless_header_is_refused(tmp_path, data):
 
 
 @pytest.mark.parametrize(
-    "old, new, code, values",
+    "old, new, error",
     [
-        (
-            "vertex 4",
-            "vertex 4000000000000",
-            "damage_ply_rows",
-            {"name": "vertex", "count": 4000000000000},
-        ),
-        ("face 4", "face 40", "damage_ply_rows", {"name": "face", "count": 40}),
+        ("vertex 4", "vertex 4000000000000", "vertex, 4000000000000 rows"),
+        ("face 4", "face 40", "face, 40 rows"),
     ],
 )
-def test_damage_in_a_ply_is_named(tmp_path, old, new, code, values):
+def test_damage_in_a_ply_is_named(tmp_path, old, new, error):
     whole = ply_text(VERTICES + FACES, TETRAHEDRON).decode()
     assert whole.count(old) == 1
-    with refused("file_damaged", file="a.ply", cause={"code": code, "values": values}):
+    values = {"kind": "table of numbers", "error": error}
+    cause = {"code": "damage_incomplete", "values": values}
+    with refused("file_damaged", file="a.ply", cause=cause):
         measured(tmp_path, "a.ply", whole.replace(old, new).encode("latin-1"))
 
 

@@ -108,7 +108,7 @@ def test_refused_import_leaves_no_data(tmp_path, reported):
     for value in (np.inf, -np.inf, np.nan):
         bad = samples()
         bad[1, 1, 1] = value
-        assert refusal(written(tmp_path / "c.nrrd", nrrd(bad))) == "scan_non_finite"
+        assert refusal(written(tmp_path / "c.nrrd", nrrd(bad))) == "density_non_finite"
     assert (len(bpy.data.objects), len(bpy.data.volumes)) == before
     packed = bytearray(nrrd(samples(), encoding="gzip"))
     packed[-5] ^= 1

@@ -2,9 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Units of imported surface files."""
 
+import tarfile
+
 import bpy
 import pytest
+from body_moments.core.verdict import MeasureError
 
+from tests.blender.objects import measured
 from tests.blender.surface_files import imported, written
 from tests.core.exact_splines import sphere
 from tests.core.iges_files import obj_text, unrolled
@@ -20,3 +24,22 @@ def test_unitless_surface_file_takes_unit_of_option(scale, tmp_path):
     for name, meters in (("body.igs", 1.0), ("two.obj", 0.25)):
         obj = imported(filepath=str(tmp_path / name), unit=0.25)
         assert max(obj.dimensions) == pytest.approx(2.0 * meters / scale, rel=0.05)
+
+
+def test_step_solid_keeps_its_volume_in_a_blend_until_it_is_edited(tmp_path):
+    with tarfile.open("tests/core/cad/kernel/step.tar.xz") as archive:
+        archive.extract("assembly_mm.step", tmp_path, filter="data")
+    imported(filepath=str(tmp_path / "assembly_mm.step"))
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "parts.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "parts.blend"))
+    assert {obj.name for obj in bpy.data.objects} == {
+        "Plätte",
+        "Bolt",
+        *("Bolt.00" + k for k in "123"),
+    }
+    bolt = bpy.data.objects["Bolt.002"]
+    assert bolt.active_material.name == "#e7597c"
+    assert measured(bolt).volume == pytest.approx(1.8366940367818e-6, rel=1e-11)
+    bolt.modifiers.new("Shell", "SOLIDIFY")
+    with pytest.raises(MeasureError, match="STEP"):
+        measured(bolt)

@@ -145,17 +145,17 @@ def test_bones_have_densities_and_masses_of_their_own():
     rig = measured(armature)
     parts = {part.name: part for part in rig.parts}
     sources = {
-        "head": "density_from_value",
-        "leg.L": "density_from_mass",
-        "leg.R": "density_from",
+        "head": "one value",
+        "leg.L": "given mass",
+        "leg.R": "members",
     }
-    for name, code in sources.items():
+    for name, source in sources.items():
         found = parts[name].measurement
-        assert (found.name, found.type, found.kind, found.density_from.code) == (
+        assert (found.name, found.type, found.kind, str(found.density_from)) == (
             name,
             "BONE",
             "bone",
-            code,
+            source,
         )
     whole = rig.measurement
     assert (whole.name, whole.type, whole.kind) == (armature.name, "ARMATURE", "rig")

@@ -60,7 +60,7 @@ def test_rigid_body_keeps_material_results_current(frame):
 def test_of_a_compound_the_member_that_is_refused_is_named(reported):
     root = add(mesh_body(), "Root")
     for name, data, code in (
-        ("Text", bpy.data.curves.new("Text", "FONT"), "rigid_body_needs_mesh"),
+        ("Text", bpy.data.curves.new("Text", "FONT"), "rigid_body_unfit"),
         ("Strip", strip_mesh(), "open_object"),
     ):
         member = add(data, name)

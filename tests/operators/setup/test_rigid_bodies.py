@@ -211,7 +211,7 @@ def test_text_and_too_light_body_stay_with_a_reason(reported):
         and not tiny.rigid_body
         and (place(tiny) == was).all()
     )
-    assert {"rigid_body_needs_mesh", "rigid_body_mass_too_small"} <= set(reported.codes)
+    assert {"rigid_body_unfit", "rigid_body_mass_too_small"} <= set(reported.codes)
 
 
 @pytest.mark.parametrize("frame", ["AXES", "ORIGIN", "KEEP"])

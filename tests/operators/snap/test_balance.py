@@ -224,8 +224,8 @@ class TestRefused:
         obj.modifiers.new("Smooth", "SUBSURF").levels = 1
         obj.modifiers.new("Hidden", "SUBSURF").show_viewport = False
         edit(obj)
-        unchanged(obj, points(obj), "shape_of_modifiers", reported)
-        assert reported.values("shape_of_modifiers") == {"modifiers": ["Smooth"]}
+        unchanged(obj, points(obj), "shape_not_of_mesh", reported)
+        assert reported.values("shape_not_of_mesh") == {"makers": ["Smooth"]}
 
     def test_mesh_bent_by_its_parent(self, reported):
         cage = add(bpy.data.lattices.new("Cage"), "Cage", scale=(3, 3, 3), select=False)
