@@ -47,6 +47,10 @@ parts = {
     "nearly_round": made("Cylinder", 5.0, 20.0, 6.1),
     "drilled": cut(made("Box", 20.0, 20.0, 20.0), rod(4.0, 40.0, (10, 10, -5), (0, 0, 1))),
     "fillet": fillet.Shape(),
+    "cap": cut(
+        made("Sphere", 5.0),
+        made("Box", gp.gp_Pnt(1.0, -10.0, -10.0), gp.gp_Pnt(10.0, 10.0, 10.0)),
+    ),
     "cross": cut(tube, rod(3.0, 60.0, (-30, 0, 24), (1, 0, 0))),
 }
 FOLDER.mkdir(exist_ok=True)

@@ -174,7 +174,8 @@ class _Pose:
         vertices: moved by weights, and by joints, if it has some, into the world.
         """
         node = self._nodes[number]
-        skin = self._document["skins"][node["skin"]] if "skin" in node else {"joints": ()}
+        no_skin: dict[str, Any] = {"joints": ()}
+        skin = self._document["skins"][node["skin"]] if "skin" in node else no_skin
         joints = np.array([self.place(joint) for joint in skin["joints"]])
         if "inverseBindMatrices" in skin:
             inverse = self._file.numbers(skin["inverseBindMatrices"]).reshape(-1, 4, 4)

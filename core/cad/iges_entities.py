@@ -142,18 +142,20 @@ class IgesText:
         left out: the longest of the file if there are few.
         """
         units = [0.0]
-        kinds = zip((True, False), _long_numbers("\n".join(fields)), self._long_numbers)
-        for is_fixed, found, all_numbers in kinds:
+        kinds = zip((True, False), _long_numbers("\n".join(fields)), self._written)
+        for is_fixed, found, written in kinds:
             if found:
-                places, digits, _ = np.max(found if len(found) >= FEW else all_numbers, axis=0)
+                places, digits, _ = np.max(found, axis=0) if len(found) >= FEW else written
                 largest = max(value for *_, value in found)
                 last = math.floor(math.log10(largest)) - digits + 1.0
                 units.append(0.5 * 10.0 ** max(last, -places if is_fixed else last))
         return max(units)
 
     @cached_property
-    def _long_numbers(self) -> tuple[list[tuple[int, int, float]], ...]:
-        return _long_numbers("\n".join(line[:PARAMETERS] for line in self._lines))
+    def _written(self) -> list[Array]:
+        """The most decimals and digits of the file's long numbers, without and with an exponent."""
+        found = _long_numbers("\n".join(line[:PARAMETERS] for line in self._lines))
+        return [np.max([(0, 0, 0.0), *kind], axis=0) for kind in found]
 
 
 def _lines(text: str) -> list[str]:

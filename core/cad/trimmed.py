@@ -251,8 +251,11 @@ def _follow_sides(
         for axis, end in ((0, 0), (0, 1), (1, 0), (1, 1)):
             if poles[axis][end]:
                 continue
-            side = sides[axis][end]
-            t = nearest_parameters(side, samples[axis][end], points, tolerance)
+            side, places = sides[axis][end], samples[axis][end]
+            apart = np.linalg.norm(points[:, None] - places, axis=2).min(axis=1).max()
+            if apart > 2.0 * np.linalg.norm(np.diff(places, axis=0), axis=1).max() + tolerance:
+                continue
+            t = nearest_parameters(side, places, points, tolerance)
             if np.linalg.norm(points - side.evaluate(t), axis=1).max() > tolerance:
                 continue
             low, high = side.space.domain

@@ -324,6 +324,8 @@ def nearest_parameters(curve: Curve, samples: NDArray, points: NDArray, toleranc
         )
         t = t + np.clip(step, steps[0] - steps[1], steps[1] - steps[0])
         t = low + (t - low) % (high - low) if closed else np.clip(t, low, high)
+        if not len(t) or np.abs(step).max() <= 1e-15 * (high - low):
+            break
     return t
 
 

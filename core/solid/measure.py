@@ -123,8 +123,10 @@ def measure_stack(
     fits = SurfaceStack.takes(surfaces, 0 if shell else MAX_SMALL_TRIANGLES)
     counts = np.array([surface.triangle_count for surface in surfaces]) * fits
     which = np.flatnonzero(fits & (np.cumsum(counts) <= MAX_STACKED_TRIANGLES)).tolist()
-    small = measure_small([surfaces[i] for i in which]) if which else None
-    rows = {i: SmallSolid(small, row, surfaces[i]) for row, i in enumerate(which)}
+    rows = {}
+    if which:
+        small = measure_small([surfaces[i] for i in which])
+        rows = {i: SmallSolid(small, row, surfaces[i]) for row, i in enumerate(which)}
     solids: list[SolidIntegrals | Finding] = []
     for i, surface in enumerate(surfaces):
         row = rows.get(i)

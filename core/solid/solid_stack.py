@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,13 +78,25 @@ class SmallSolids:
     caps: StackCaps
 
 
+COMPUTED = "method", "health", "findings", "oriented"
+
+
 class SmallSolid(SolidIntegrals):
     """Body `i` of a stack, with results that are computed when they are asked for."""
+
+    stack: SmallSolids
+    i: int
 
     def __init__(self, stack: SmallSolids, i: int, surface: Surface):
         volume = stack.volume.at(i)
         area = stack.area.at(i)
         self.__dict__.update(stack=stack, i=i, given_surface=surface, volume=volume, area=area)
+
+    def __getattr__(self, name: str) -> Any:
+        if name not in COMPUTED:
+            raise AttributeError(name)
+        value = self.__dict__[name] = getattr(self, "_" + name)()
+        return value
 
     @property
     def is_measured(self) -> bool:
@@ -100,12 +112,10 @@ class SmallSolid(SolidIntegrals):
         flat = self.stack.planarity.at(self.i)
         return GivenIntegrals(self.volume, self.area, flat, agree, prove_closed(self.given_surface))
 
-    @cached_property
-    def method(self) -> Procedure:
+    def _method(self) -> Procedure:
         return Procedure.CAPPED if self.stack.caps.is_capped[self.i] else Procedure.EXACT
 
-    @cached_property
-    def health(self) -> MeshHealth:
+    def _health(self) -> MeshHealth:
         flat = self.stack.planarity
         edges = self.stack.caps.edges_of(self.i)
         return MeshHealth(
@@ -119,8 +129,7 @@ class SmallSolid(SolidIntegrals):
             defective_elements=DefectiveElements(boundary_edges=edges),
         )
 
-    @cached_property
-    def findings(self) -> tuple[Finding, ...]:
+    def _findings(self) -> tuple[Finding, ...]:
         flat = self.stack.planarity
         caps = self.stack.caps
         found = []
@@ -134,8 +143,7 @@ class SmallSolid(SolidIntegrals):
             found += shape_findings(True, flat.at(self.i), self.volume)
         return tuple(found)
 
-    @cached_property
-    def oriented(self) -> OrientedSolid:
+    def _oriented(self) -> OrientedSolid:
         mesh = self.stack.caps.mesh(self.i, self.given_surface, self.health)
         is_closed = self.health.closed
         yes = np.ones(mesh.number, bool)

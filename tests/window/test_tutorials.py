@@ -277,7 +277,10 @@ def test_bones_of_a_figure_are_weighed(window):
     begin(window, FIGURE, "Bones", closer=1.1)
     window.press("object.body_moments_measure_bones")
     window.wait("'body_mass' in bpy.context.object")
-    take_picture(window, "rig-bones")
+    x, y, width, height = window.region("UI")
+    window.move(x + width / 2, y + height / 2, *["click", 5] * 8)  # to the list
+    window.redraw()
+    window.picture("rig-bones")
     window.press("object.body_moments_rig_center")
     window.ask(
         "rig = bpy.data.objects['Figure']\nrig.pose.bones['thigh.L'].rotation_euler.x = -0.8"

@@ -37,6 +37,7 @@ SWEPT = {
     "drilled": 8000.0 - 320.0 * np.pi,
     "fillet": 5880.0 + 30.0 * np.pi,
     # 3600 π - ∫ 4 √(9 - y²) (√(100 - y²) - √(25 - y²)) dy from -3 to 3, by mpmath
+    "cap": 108.0 * np.pi,
     "cross": 11020.05259343911728728761,
 }
 
