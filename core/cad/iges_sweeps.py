@@ -166,6 +166,9 @@ def _spanned_angles(angles: Array) -> tuple[float, float]:
         raise ValueError("a boundary that does not show its part")
     if not len(wide):
         return 0.0, TURN
+    if 1e-6 < TURN - gaps[wide[0]] < MIN_GAP:
+        # A thin arc, or all but a thin arc.
+        raise ValueError("a boundary that does not show its part")
     end = float(turned[wide[0]])
     start = end + float(gaps[wide[0]])
     return (end, end + TURN) if gaps[wide[0]] > TURN - 1e-6 else (start - TURN, end)

@@ -50,7 +50,7 @@ COLORS = {
         ("black", "red", "green", "yellow", "blue", "magenta", "cyan", "white")
     )
 }
-MAX_FACES = 200_000  # faces placed by a file
+MAX_PLACED = 200_000  # faces and parts placed by a file
 MAX_STYLES = 64  # entities between a styled item and its color
 
 
@@ -251,6 +251,7 @@ class StepReader:
         """Add the bodies of a representation and of its parts. path: representations around it."""
         if number in path or len(path) >= MAX_DEPTH:
             raise refuse("references to itself, or nested too deeply")
+        self._count(1)  # Parts without a body take time, too.
         group = self._group(number)
         self._visited |= set(group)
         for one in group:
@@ -267,6 +268,11 @@ class StepReader:
                         )
                         self._place(child, matrix @ within, (*path, *group))
 
+    def _count(self, more: int) -> None:
+        self._placed += more
+        if self._placed > MAX_PLACED:
+            raise FileError(FILE_TOO_LARGE, limit=MAX_PLACED, content="surfaces")
+
     def _is_body(self, number: int) -> bool:
         return any(name.endswith(BODIES) for name in self._text[number])
 
@@ -281,9 +287,7 @@ class StepReader:
         faces = [face.transform(matrix) for face in self._solids[number]]
         if not faces:
             return
-        self._placed += len(faces)
-        if self._placed > MAX_FACES:
-            raise FileError(FILE_TOO_LARGE, limit=MAX_FACES, content="surfaces")
+        self._count(len(faces))
         label = self._attribute(number, 0)
         scale = float(np.linalg.norm(matrix[:3, :3], 2))
         reach = max(

@@ -106,7 +106,9 @@ class Shapes:
         axis, toward = (*values[2:], None, None)[:2]
         matrix = np.eye(4)
         z = matrix[:3, 2] if axis is None else self.direction(axis)
-        x = np.eye(3)[0 if abs(z[0]) < 0.9 else 1] if toward is None else self.direction(toward)
+        # Without a direction of reference: first_proj_axis of ISO 10303-42.
+        usual = np.eye(3)[0 if np.hypot(z[1], z[2]) > 1e-9 else 1]
+        x = usual if toward is None else self.direction(toward)
         x = x - (x @ z) * z
         if not np.linalg.norm(x) > 0.0:
             raise ValueError("directions of no frame")
@@ -303,7 +305,15 @@ def _revolution(shapes: Shapes, _: Any, values: list[Any], loops: list[list[Curv
         ends = [
             place + height / (along @ axis) * along for height in (heights.min(), heights.max())
         ]
-    swept = revolve(join_pieces(shapes.curve(values[1], ends)), begin, axis, 0.0, TURN)
+    profile = join_pieces(shapes.curve(values[1], ends))
+    spokes = profile.samples(64) - begin
+    spokes -= np.outer(spokes @ axis, axis)
+    widest = spokes[np.argmax((spokes**2).sum(axis=1))]
+    along = spokes @ widest / (widest @ widest)
+    is_flat = np.abs(spokes - np.outer(along, widest)).max() < 1e-9 * np.linalg.norm(widest)
+    if is_flat and along.min() < -1e-9:
+        raise refuse("a curve that crosses the axis it turns about")
+    swept = revolve(profile, begin, axis, 0.0, TURN)
     return swept.reverse_orientation()  # The angle is the first parameter.
 
 
