@@ -9,7 +9,6 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
-from numpy.polynomial.legendre import leggauss
 
 from .array_types import Array
 
@@ -19,7 +18,7 @@ def gauss_legendre(points: int) -> tuple[Array, Array]:
     """Return read-only nodes and weights, (points,), of the rule on [0, 1] that is exact to degree
     2 points - 1.
     """
-    nodes, weights = leggauss(points)
+    nodes, weights = np.polynomial.legendre.leggauss(points)
     nodes = (nodes + 1.0) / 2.0
     weights = weights / 2.0
     nodes.flags.writeable = weights.flags.writeable = False

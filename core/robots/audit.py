@@ -15,14 +15,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+# Robots without meshes start without the modules of these packages.
+from .. import solid
 from ..inertia import combine
 from ..mesh import Surface, hull_volumes
 from ..moments import Moments
 from ..moments.moments import SECOND_MOMENT_INDEX
 from ..numerics import Array, first_occurrence, inertia_of_second, second_of_inertia
-from ..solid import measure_solid
 from ..verdict import Procedure, internal_error, sentence, severity
 from ..verdict.finding import Finding, MeasureError, Severity, finding
+from . import read
 from .diagnosis import DENSITIES, DIFFERS, Diagnosis, Reference, diagnose, diagnose_density
 from .findings import (
     AUDIT_ANGLES,
@@ -45,7 +47,6 @@ from .model import Effect, Pose, Shape
 from .plausibility import CENTER_RTOL, LEAST_MASS, Hull, impossible, spread_directions
 from .primitives import primitive_moments, second_moments
 from .read.descriptions import Roots
-from .read.meshes import read_mesh
 from .read.mjcf_meshes import CLOSED
 from .stated import Description, Place, StatedInertial, StatedLink, StatedShape, rotation_of_angles
 from .totals import Body, Expectation, Totals, Tree, add_up, build_tree
@@ -343,14 +344,16 @@ class Auditor:
         key = source, shape.size, stated.fit, weight
         piece = self.meshes.get(key)
         if piece is None:
-            surface, upright = read_mesh(source) if isinstance(source, Path) else (source, None)
+            surface, upright = (
+                read.meshes.read_mesh(source) if isinstance(source, Path) else (source, None)
+            )
             surface = surface.transform(np.diag(shape.size))
             fit = stated.fit.shape(surface) if stated.fit else None
             piece = _measured(surface, upright) if fit is None else _primitive(fit)
             if weight:
-                solid = replace(shape, surface=surface) if fit is None else fit
+                filled = replace(shape, surface=surface) if fit is None else fit
                 if weight.inertia != CLOSED:
-                    piece = replace(piece, mass=weight.moments(solid))
+                    piece = replace(piece, mass=weight.moments(filled))
                 elif piece.moments is not None:
                     piece = replace(piece, mass=weight.fill(piece.moments))
             piece = piece if fit is None else piece.placed(fit.pose)
@@ -618,11 +621,11 @@ def _measured(surface: Surface, upright: NDArray | None = None) -> _Piece:
     first = first_occurrence(*points.T.copy())
     points = points[first == np.arange(len(first))]  # Many files repeat them for each triangle.
     try:
-        solid = measure_solid(surface)
+        body = solid.measure_solid(surface)
     except MeasureError:
         return _Piece(points, None, upright)
-    certain = Procedure(solid.method) in RELIABLE and solid.volume.raw[0] > 0.0
-    return _Piece(points, solid.volume if certain else None, upright)
+    certain = Procedure(body.method) in RELIABLE and body.volume.raw[0] > 0.0
+    return _Piece(points, body.volume if certain else None, upright)
 
 
 def _reference(pieces: Sequence[tuple[StatedShape, _Piece]]) -> Reference | None:

@@ -14,7 +14,6 @@ from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
-from numpy.polynomial.polynomial import polyval
 
 from ..numerics import Array
 from ..verdict.finding import Finding, finding
@@ -199,7 +198,10 @@ def _joint_values(
     for _ in motions:  # Followers may follow followers.
         more = {
             motion.name: motion.zero
-            + float(polyval(values[motion.leader] - by_name[motion.leader].zero, motion.powers))
+            + sum(
+                factor * (values[motion.leader] - by_name[motion.leader].zero) ** power
+                for power, factor in enumerate(motion.powers)
+            )
             for motion in motions
             if motion.leader in values.keys() & by_name.keys() and motion.name not in values
         }

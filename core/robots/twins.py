@@ -120,7 +120,7 @@ def _plane(places: Sequence[tuple[Array, Array] | None]) -> Plane | None:
     ways = second - first
     ways = ways / np.linalg.norm(ways, axis=1)[:, None]
     normal = np.linalg.eigh(ways.T @ ways)[1][:, 2]
-    return Plane(normal, float(np.median((first + second) / 2.0 @ normal)))
+    return Plane(normal, float(np.quantile((first + second) / 2.0 @ normal, 0.5)))
 
 
 def _is_copy(first: LinkAudit, second: LinkAudit) -> bool:
