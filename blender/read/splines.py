@@ -84,7 +84,7 @@ def keep_source(data: Curve, source: bytes, matrix: Sequence[float]) -> None:
 
 
 def _shown_digest(data: Curve) -> str:
-    digests = [hashlib.sha256(weighted_points(spline)) for spline in data.splines]
+    digests = [hashlib.sha256(weighted_points(spline).tobytes()) for spline in data.splines]
     return "".join(digest.hexdigest() for digest in digests)
 
 

@@ -295,7 +295,7 @@ def import_surfaces(path: Path, limits: Limits, unit: float, context: Context) -
         objects = show_bodies(file.bodies, context.collection, factor)
         return ImportedSurfaces(objects, len(objects), 0, [*file.refused, *file.notes])
     made = import_bodies(file.bodies, context.collection, factor)
-    patches = [patch for body in file.bodies for patch in body.patches]
+    patches = [face for body in file.bodies for face in body.patches if isinstance(face, Patch)]
     order = max(map(_order, patches))
     moved = max(share for _, share in made)
     rounded = [finding(SURFACES_ROUNDED, share=moved)] if moved else []

@@ -122,7 +122,7 @@ def _parts(text: str) -> Parts:
         if token is None or token[0] == ")" and len(stack) == 1 or len(stack) > MAX_DEPTH:
             raise ValueError("damaged")
         at = token.end()
-        kind = token.lastgroup
+        kind = token.lastgroup or ""
         if kind in _CONVERTED:
             stack[-1].append(_CONVERTED[kind](token[kind]))
         elif token[0] == "(":
@@ -152,7 +152,7 @@ def _text(text: str) -> str:
     return _ESCAPE.sub(plain, text)
 
 
-_CONVERTED: dict[str | None, Any] = {
+_CONVERTED: dict[str, Any] = {
     "reference": Reference,
     "text": _text,
     "real": float,

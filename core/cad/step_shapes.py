@@ -9,7 +9,7 @@ are quadrics, extrusions and revolutions are patches as long as their boundary, 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
@@ -35,7 +35,7 @@ MISSING = "a reference to an entity that is not in the file"
 class EntityError(Exception):
     """The refusal of an entity: its number, a finding's code and its values."""
 
-    def __init__(self, number: int, code: str, values: dict[str, Any]) -> None:
+    def __init__(self, number: int, code: str, values: Mapping[str, Any]) -> None:
         super().__init__(code)
         self.number, self.code, self.values = number, code, values
 
@@ -247,7 +247,7 @@ def _spline(
 
 def _spline_surface(shapes: Shapes, parts: dict[str, list[Any]], *_: Any) -> Any:
     values, weights = _spline_values(parts, "SURFACE")
-    s_degree, t_degree, rows, _, _, _, _, s_counts, t_counts, s_knots, t_knots, *_ = values
+    s_degree, t_degree, rows, _, _, _, _, s_counts, t_counts, s_knots, t_knots = values[:11]
     points = [[shapes.point(point) for point in row] for row in rows]
     knots = np.repeat(s_knots, s_counts).tolist(), np.repeat(t_knots, t_counts).tolist()
     surface = placed_surface(knots, (s_degree + 1, t_degree + 1), points, weights, np.eye(4))

@@ -395,7 +395,7 @@ def follow(depsgraph: Depsgraph, budget: float) -> bool:
     return waiting
 
 
-def _held(obj: Object, afloat: Afloat, scene: Scene) -> Held | None:
+def _held(obj: Object, afloat: Afloat, scene: Scene) -> Held | Finding | None:
     members = _members(afloat, scene)
     if not members:
         return None
