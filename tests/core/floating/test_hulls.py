@@ -145,7 +145,7 @@ def test_flooded_space_in_hollow_displaces_nothing():
     assert flooded(SPACE).draught == pytest.approx((2.0 - 0.1) / (8.0 - 1.0), rel=1e-9)
     for heel in (0.3, 1.0, 1.6, 2.6):  # the lid of a tilted hollow cuts the space
         rest = flooded(SPACE, mass=500.0, up=[0.0, np.sin(heel), np.cos(heel)])
-        # Upside down, the walls and the bottom displace 580 L/m and 8000 L/m.
+        # Upside down, the walls and the bottom displace 1160 L/m and 8000 L/m.
         depth = 0.5 / 8.0 if heel < 2.0 else 0.5 / 1.16
         assert rest.draught == pytest.approx(depth, rel=1e-9)
     two = flooded(SPACE, apart)
