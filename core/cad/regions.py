@@ -24,7 +24,9 @@ from .surfaces import SurfaceRefusedError
 SEAM_RTOL = 1e-6  # relative to the size: curves so near run along each other
 MISS_RTOL = 1e-4  # relative to the size: a curve beyond this distance is not on the surface
 POLE_RTOL = 1e-9  # relative to the size: the slope by the angle at a pole
-MIN_CLEARANCE = 1e-3  # of curves from the poles of a sphere, as one minus the sine of the latitude
+MIN_CLEARANCE = (
+    1e-3  # distance of curves from the poles of a sphere, as one minus the sine of the latitude
+)
 AXES = 64  # directions among which a sphere's axis is chosen
 BESIDE = 1e-5  # of a period: a spot so near to a seam is in the region too
 MIN_STEP = 1e-12  # relative to the coordinates' range: a gap of a track that needs no line

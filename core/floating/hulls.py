@@ -178,7 +178,7 @@ def fill_hollows(hull: Hull, up: Array) -> Hull:
         count = len(hollow.points)
         lid = np.stack([stop, start, np.full(len(start), count)], axis=1)
         added = np.concatenate([hollow.triangles, lid]) + len(points)
-        # What lies in the filled hollow displaces nothing more.
+        # Parts in the filled hollow displace nothing more.
         is_wall = np.isin(part, part[_same_triangles(points, triangles, hollow)])
         points = np.concatenate([points, hollow.points, rim.mean(axis=0)[None]])
         number = int(part.max()) + 1

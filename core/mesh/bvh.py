@@ -23,8 +23,8 @@ TRIANGLES_PER_LEAF = 4  # triangles
 PAIRS_PER_BATCH = 1 << 17  # pairs looked at together
 TRIANGLES_PER_BLOCK = 1 << 14  # triangles whose scratch stays in the cache
 MAX_BOX_PAIRS = 10_000_000  # pairs of boxes looked at
-LEAST_SLOPE = 1e-30  # of rays: those along a plane count as this steep
-RAY_RTOL = 1e-9  # of the reach: nearer hits are the ray's own triangle
+LEAST_SLOPE = 1e-30  # Rays: those along a plane count as this steep
+RAY_RTOL = 1e-9  # Relative to the reach: nearer hits are the ray's own triangle
 CORNER_ATOL = 1e-6  # barycentric: rays through an edge hit
 ROUNDING = 1e-6  # relative to a box's sides
 

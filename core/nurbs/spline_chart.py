@@ -15,7 +15,7 @@ from ..verdict import WELDING_RTOL
 from .bezier import DERIVATIVES, homogeneous, quotient_derivatives
 from .splines import Patch, patches_size
 
-SAMPLES_PER_SPAN = 6  # of the grid whose points are the first guesses
+SAMPLES_PER_SPAN = 6  # density of the grid of first guesses
 POINTS_PER_BLOCK = 1 << 20  # pairs of points and grid points compared at a time
 STEPS = 30  # Limit of steps towards the nearest point.
 

@@ -27,7 +27,7 @@ PLACES = np.cos(np.pi * np.arange(5)[::-1] / 4.0)
 NODES = (PLACES + 1.0) / 2.0
 LAST = len(NODES) - 1
 _FIT = np.linalg.inv(PLACES[:, None] ** np.arange(len(NODES)))
-# of values at the nodes to rates in a frame, and to the mean of the frame
+# maps values at the nodes to rates in a frame, and to the mean of the frame
 RATE = 2.0 * (np.arange(len(NODES)) * PLACES[:, None] ** (np.arange(len(NODES)) - 1.0)) @ _FIT
 MEAN = (np.arange(1, len(NODES) + 1) % 2 / np.arange(1.0, len(NODES) + 1)) @ _FIT
 CONVERGED = 1e-6  # rad: change of any rotation when the steps are halved

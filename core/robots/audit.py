@@ -53,7 +53,7 @@ from .totals import Body, Expectation, Totals, Tree, add_up, build_tree
 from .twins import TOLERANCE, disagreement, find_copies, find_pairs, images, mapped
 
 BALL = 2000  # points of a ball
-MOST_POINTS = 10_000_000  # of measured meshes that are kept for other links and files
+MOST_POINTS = 10_000_000  # points of measured meshes that are kept for other links and files
 ROUND = 1.01  # Factor that encloses a round shape, of which only some points are known.
 RELIABLE = (Procedure.EXACT, Procedure.REORIENTED, Procedure.CAPPED)
 

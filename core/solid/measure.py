@@ -51,8 +51,8 @@ from .weld_open_parts import (
     without_faces,
 )
 
-MAX_KEPT_TRIANGLES = 100_000  # of surfaces whose measurement is kept
-MAX_STACKED_TRIANGLES = 100_000  # of surfaces measured together, each of a few hundred bytes
+MAX_KEPT_TRIANGLES = 100_000  # surfaces whose measurement is kept
+MAX_STACKED_TRIANGLES = 100_000  # surfaces measured together, each of a few hundred bytes
 MAX_WELDED_SHARE = (
     0.1  # Share of the volume: a weld that may change more closes no gap left by rounding.
 )

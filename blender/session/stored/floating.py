@@ -360,7 +360,7 @@ def held_body(obj: Object, scene: Scene) -> Held | Finding | None:
     key = (memory.state.generation, scene.session_uid, *liquid)
     if afloat.shown is None or afloat.shown[0] != key:
         try:
-            value = _held(obj, afloat, scene)
+            value = _read_held(obj, afloat, scene)
         except MeasureError as refusal:
             value = refusal.finding
         afloat.shown = (key, value)
@@ -395,7 +395,7 @@ def follow(depsgraph: Depsgraph, budget: float) -> bool:
     return waiting
 
 
-def _held(obj: Object, afloat: Afloat, scene: Scene) -> Held | Finding | None:
+def _read_held(obj: Object, afloat: Afloat, scene: Scene) -> Held | Finding | None:
     members = _members(afloat, scene)
     if not members:
         return None

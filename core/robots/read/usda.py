@@ -56,7 +56,7 @@ JOINTS = {
 BALL_RADIUS = 0.1  # m, of the ball that stands for a body of known mass without colliders
 JOINT_AXES = ("X", "Y", "Z")
 TRUE = ("true", "1")
-SINGLE_RTOL = 1e-5  # of places and turns in single precision
+SINGLE_RTOL = 1e-5  # rounding of places and turns in single precision
 _SPECIFIERS = {"def", "over", "class"}
 
 
