@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Write tests/core/cad/kernel/step.tar.xz with OpenCascade (`pip install cadquery-ocp==8.0.1.1.0`):
-40 parts as STEP files, and their volumes and centers by its GProp in `volumes.json`, in mm.
+42 parts as STEP files, and their volumes and centers by its GProp in `volumes.json`, in mm.
 """
 
 import json
@@ -214,6 +214,8 @@ parts = {
         "Cut", made("Cone", 8.0, 4.0, 12.0), rod(1.5, 40, (-20, 0, 5), (1, 0, 0))
     ),
     "cut_cone": combine("Cut", made("Cone", 8.0, 2.0, 12.0), box(20, 40, 40, (3, -20, -5))),
+    "lune": made("Sphere", 10.0, 0.05),
+    "broad_lune": made("Sphere", 10.0, 6.25),
     "cavity": combine("Cut", box(20, 20, 20), made("Sphere", point(10, 10, 10), 6.0)),
     "plate": combine("Cut", box(65, 50, 6), *holes),
     "bolt": combine("Fuse", swept(polygon(*hexagon), gp.gp_Vec(0, 0, 5)), rod(4, 25)),

@@ -50,6 +50,8 @@ EXACT = {
     "leaning": 12.0 * SECTION,
     "drilled_prism": 12.0 * SECTION - 48.0 * PI,
     "turned": 201.0,
+    "lune": 2000.0 / 3.0 * 0.05,
+    "broad_lune": 2000.0 / 3.0 * 6.25,
     "cavity": 8000.0 - 288.0 * PI,
     "plate": 19500.0 - 288.0 * PI,
     "bolt": 480.0 * np.sqrt(3.0) + 320.0 * PI,
