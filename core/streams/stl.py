@@ -147,8 +147,8 @@ class StlFile:
             if not self._is_checked:
                 check_stl_text(map_file(self._path))
                 self._is_checked = True
-            # a normal that is no number
-            text = _NORMAL.sub(b"normal 0 0 0 out", text)
+        # normals that are no numbers
+        text = _NORMAL.sub(b"normal 0 0 0 out", text)
         if b"solid" in text:
             text = SOLID.sub(b"", text)
         try:

@@ -269,7 +269,7 @@ def test_folders_and_devices_are_errors(tmp_path):
         assert reason(tmp_path / "pipe.blend") == sentence("file_unreadable", error=NOT_REGULAR)
 
 
-@pytest.mark.parametrize("name", ["part.step", "part", "part.blend.zip"])
+@pytest.mark.parametrize("name", ["part.prt", "part", "part.blend.zip"])
 def test_a_kind_of_file_that_blender_does_not_import_is_an_error(tmp_path, name):
     assert ".stl" in reason(files.write_text(tmp_path / name, "x"))
 
