@@ -143,10 +143,10 @@ class StlFile:
 
         FileError if a word is wrong.
         """
-        if _FACETS.match(text).end() < len(text):  # type: ignore[union-attr]
-            if not self._is_checked:
-                check_stl_text(map_file(self._path))
-                self._is_checked = True
+        is_whole = _FACETS.match(text).end() == len(text)  # type: ignore[union-attr]
+        if not is_whole and not self._is_checked:
+            check_stl_text(map_file(self._path))
+            self._is_checked = True
         # normals that are no numbers
         text = _NORMAL.sub(b"normal 0 0 0 out", text)
         if b"solid" in text:
