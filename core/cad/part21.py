@@ -93,7 +93,8 @@ class Part21:
         needed: set[int] = set()
         texts = [last]
         for text in texts:
-            for number in set(map(int, _REFERENCE.findall(text))) & self._spans.keys() - needed:
+            found = set(map(int, _REFERENCE.findall(text))) - needed
+            for number in found & self._spans.keys():
                 needed.add(number)
                 texts.append(b"#%d=%s;\n" % (number, self._data[slice(*self._spans[number])]))
         return b"ISO-10303-21;\n%sEND-ISO-10303-21;\n" % b"".join(texts)
