@@ -32,6 +32,13 @@ def cut(shape, tool):
     return BRepAlgoAPI_Cut(shape, tool).Shape()
 
 
+def beside(normal):
+    axis = gp.gp_Ax2(gp.gp_Pnt(2.0, 0.0, 0.0), gp.gp_Dir(*normal), gp.gp_Dir(0.0, 1.0, 0.0))
+    place = gp.gp_Pnt(2.0, 0.0, 0.0).Translated(gp.gp_Vec(axis.XDirection()) * -25.0)
+    axis.SetLocation(place.Translated(gp.gp_Vec(axis.YDirection()) * -25.0))
+    return made("Box", axis, 50.0, 50.0, 50.0)
+
+
 box = made("Box", 10.0, 20.0, 30.0)
 fillet = BRepFilletAPI_MakeFillet(box)
 fillet.Add(2.0, TopoDS.Edge(TopExp_Explorer(box, TopAbs_EDGE).Current()))
@@ -52,6 +59,11 @@ parts = {
         made("Box", gp.gp_Pnt(1.0, -10.0, -10.0), gp.gp_Pnt(10.0, 10.0, 10.0)),
     ),
     "cross": cut(tube, rod(3.0, 60.0, (-30, 0, 24), (1, 0, 0))),
+    "touching": cut(
+        rod(10.0, 60.0, (0, 0, -30), (0, 0, 1)), rod(10.0, 60.0, (-30, 0, 0), (1, 0, 0))
+    ),
+    "hyperbola": cut(made("Cone", 6.0, 0.0, 12.0), beside((1.0, 0.0, 0.0))),
+    "parabola": cut(made("Cone", 6.0, 0.0, 12.0), beside((2.0, 0.0, 1.0))),
 }
 FOLDER.mkdir(exist_ok=True)
 IGESControl_Controller.Init_s()

@@ -418,9 +418,18 @@ class IgesReader:
             loops = [boundary.curves for boundary in boundaries] if has_outer else []
             faces: list[Face] = [first_region([loops], self._plane_normal(base, matrix))]
         elif base.type in ANALYTIC:
-            quadric, moved, tilt = self._quadric(base, matrix)
+            quadric, moved, tilt, has_seam = self._quadric(base, matrix)
+            degrees = np.diag([TURN / 360.0, TURN / 360.0 if quadric.minor else 1.0, 1.0, 1.0])
             faces = within(
-                quadric, boundaries, rounding=self._rounding, only_patches=self._for_blender
+                quadric,
+                [
+                    Boundary(one.curves, [curve.transform(degrees) for curve in one.parameters])
+                    if one.parameters and has_seam
+                    else Boundary(one.curves)
+                    for one in boundaries
+                ],
+                rounding=self._rounding,
+                only_patches=self._for_blender,
             )
             # A turn moves a sphere along itself, and a torus or a cylinder as it is long.
             reach = quadric.radius if quadric.minor or quadric.slope else 0.0
@@ -445,6 +454,7 @@ class IgesReader:
                 self._rounding,
                 quadric and quadric.transform(matrix),
                 self._for_blender,
+                lifts=False,
             )
         elif base.type != SURFACE:
             raise SurfaceRefusedError(
@@ -511,9 +521,9 @@ class IgesReader:
             raise ValueError("a curve of another kind")
         return join_pieces(pieces)
 
-    def _quadric(self, base: Entry, matrix: NDArray) -> tuple[Quadric, float, float]:
+    def _quadric(self, base: Entry, matrix: NDArray) -> tuple[Quadric, float, float, bool]:
         """Return a cylinder, cone, sphere or torus, the effect of the decimals of its place and
-        sizes, and that of its directions at a unit's distance.
+        sizes, that of its directions at a unit's distance, and whether its angles are known.
         """
         fields = self._text.fields(base)
         radii = 1 if base.type in (CYLINDER, BALL) else 2
@@ -546,7 +556,7 @@ class IgesReader:
         minor = last if base.type in (BALL, TORUS) else 0.0
         radius = 0.0 if base.type == BALL else radius
         moved = self._text.rounding([*place, *sizes])
-        return Quadric(matrix @ frame, radius, minor, slope), moved, tilt
+        return Quadric(matrix @ frame, radius, minor, slope), moved, tilt, bool(axis and toward)
 
     def _note_rounding(self, fields: list[str], surface: Patch, matrix: NDArray) -> float:
         """Note and return the uncertainty of a surface's points by the decimals of its points and

@@ -4,16 +4,16 @@
 curves.
 
 Initial Graphics Exchange Specification 5.3, sections 2.2.1 to 2.2.4. Pointers and counts of a file
-are not trusted, but compared with its length. Lines (110), arcs (100), B-splines (126) and chains
-of them (102) bound faces, in space or in the parameters of a surface, whose third coordinate is
-zero.
+are not trusted, but compared with its length. Lines (110), arcs (100), conics (104), B-splines
+(126) and chains of them (102) bound faces, in space or in the parameters of a surface, whose third
+coordinate is zero.
 """
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -60,6 +60,7 @@ UNIT_BY_NAME = 3
 FEW = 8  # numbers that may all end in zeros
 MANY_DIGITS = 8  # Numbers with fewer significant digits are taken as exact.
 ARC = 100
+CONIC = 104
 CHAIN = 102
 LINE = 110
 SPLINE = 126
@@ -360,6 +361,8 @@ class CurveReader:
             # The numbers of a spline behind its knots and weights, or the whole of a simple curve.
             first = 6 + 2 * len(fields[6:]) // 5 if entry.type == SPLINE else 0
             moved = self._text.rounding(fields[first:])
+            if made and entry.type == CONIC:
+                moved = self._text.rounding(fields[6:]) + self._conic_rounding(fields, made)
             if made:
                 moved += turning * max(float(lengths(one.points).max()) for one in made)
             self.rounding = max(self.rounding, float(np.linalg.norm(matrix[:3, :3], 2)) * moved)
@@ -367,17 +370,29 @@ class CurveReader:
             made if made is None or matrix is None else [curve.transform(matrix) for curve in made]
         )
 
+    def _conic_rounding(self, fields: list[str], pieces: Sequence[Curve]) -> float:
+        """Return the effect of the decimals of a conic's coefficients on its points."""
+        a, b, c, d, e, _ = numbers(fields[:6])
+        x, y, _ = np.concatenate([one.points[[0, -1]] for one in pieces]).T
+        rows = np.abs([x * x, x * y, y * y, x, y, np.ones_like(x)])
+        moved = np.array([self._text.rounding([field]) for field in fields[:6]]) @ rows
+        slope = np.hypot(2.0 * a * x + b * y + d, b * x + 2.0 * c * y + e)
+        return float((moved / np.maximum(slope, 1e-300)).max())
+
 
 def _line(fields: list[str]) -> list[Curve]:
     return [Curve(clamped_space(2), numbers(fields[:6]).reshape(2, 3))]
 
 
 def _arc(fields: list[str]) -> list[Curve]:
+    z, *plane = numbers(fields[:7]).tolist()
+    return _round(z, *np.array(plane).reshape(3, 2))
+
+
+def _round(z: float, center: NDArray, begin: NDArray, end: NDArray) -> list[Curve]:
     """Return an arc, counter-clockwise, or a full circle if its ends coincide, as quadratic pieces
     with weights.
     """
-    z, *plane = numbers(fields[:7]).tolist()
-    center, begin, end = np.array(plane).reshape(3, 2)
     arms = begin - center, end - center
     radius = math.hypot(*arms[0])
     angles = [math.atan2(y, x) for x, y in arms]
@@ -401,6 +416,37 @@ def _arc(fields: list[str]) -> list[Curve]:
     return curves
 
 
+def _conic(fields: list[str]) -> list[Curve] | None:
+    """Return an arc of an ellipse, counter-clockwise, of a parabola or of a hyperbola; None for
+    other conics.
+    """
+    a, b, c, d, e, f, z, *ends = numbers(fields[:11]).tolist()
+    begin, end = np.array(ends).reshape(2, 2)
+    form = np.array([[a, b / 2.0], [b / 2.0, c]])
+    if np.linalg.det(form) > 1e-14 * np.trace(form) ** 2:
+        center = -np.linalg.solve(2.0 * form, [d, e])
+        form = form / (center @ form @ center - f)
+        if not np.trace(form) > 0.0:
+            return None
+        matrix = np.eye(4)
+        matrix[:2, :2] = np.linalg.inv(np.linalg.cholesky(form).T)
+        matrix[:2, 3] = center
+        unit = [np.linalg.solve(matrix[:2, :2], place - center) for place in (begin, end)]
+        return [one.transform(matrix) for one in _round(z, np.zeros(2), *unit)]
+    whole = np.array([[a, b / 2.0, d / 2.0], [b / 2.0, c, e / 2.0], [d / 2.0, e / 2.0, f]])
+    first, last = np.append(begin, 1.0), np.append(end, 1.0)
+    meet = np.cross(whole @ first, whole @ last)
+    if not meet[2]:
+        return None
+    meet /= meet[2]  # of the tangents at both ends
+    square = -float(first @ whole @ last) / (2.0 * float(meet @ whole @ meet) or math.inf)
+    if not square > 0.0:
+        return None
+    points = np.array([first, meet, last])
+    points[:, 2] = z
+    return [Curve(clamped_space(3), points, np.array([1.0, math.sqrt(square), 1.0]))]
+
+
 def _spline(fields: list[str]) -> list[Curve] | None:
     """Return the used part of a B-spline curve; None if a weight is not positive."""
     last, degree = integers(fields, 2)
@@ -422,6 +468,7 @@ def _spline(fields: list[str]) -> list[Curve] | None:
 
 _MAKERS: dict[int, Callable[[list[str]], list[Curve] | None]] = {
     ARC: _arc,
+    CONIC: _conic,
     LINE: _line,
     SPLINE: _spline,
 }

@@ -133,13 +133,15 @@ def trimmed_faces(
     rounding: float = 0.0,
     quadric: Quadric | None = None,
     only_patches: bool = False,
+    lifts: bool = True,
 ) -> list[Face]:
     """Return the faces of a surface within boundaries.
 
     domain: the used part of the surface. patches: that part, in one piece unless the surface may be
     torn. has_outer: False if the outer boundary is that of the surface. rounding: largest effect of
     the file's decimals on a point. quadric: the whole surface, if it is one.
-    only_patches: refuse a trimmed surface.
+    only_patches: refuse a trimmed surface. lifts: whether parameters of curved surfaces are those
+    of `surface`.
     """
     if not boundaries:
         return [*patches]
@@ -155,6 +157,8 @@ def trimmed_faces(
         outer = [] if has_outer else [Boundary(around)]
         if _is_flat(patch, tolerance):
             return [_flat_face(surface, domain, [*outer, *boundaries], tolerance)]
+        if not (lifts or all(one.curves for one in boundaries)):
+            raise SurfaceRefusedError(SURFACE_TRIMMED)
         lifted = [
             replace(one, curves=one.curves or _lifted(surface, one.parameters or ()))
             for one in boundaries

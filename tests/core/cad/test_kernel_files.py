@@ -4,12 +4,14 @@
 
 import gzip
 import json
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 from body_moments.core.cad.surface_file import read_surfaces
 from body_moments.core.nurbs.solid import measure_patches
+from body_moments.core.verdict import FileError
 
 from tests.close import close
 
@@ -39,6 +41,9 @@ SWEPT = {
     # 3600 π - ∫ 4 √(9 - y²) (√(100 - y²) - √(25 - y²)) dy from -3 to 3, by mpmath
     "cap": 108.0 * np.pi,
     "cross": 11020.05259343911728728761,
+    "touching": 6000.0 * np.pi - 16000.0 / 3.0,  # at two points
+    "hyperbola": 356.2395357501925,  # sections of a cone, by Gauss' rule
+    "parabola": 239.9329818007843,
 }
 
 
@@ -66,13 +71,26 @@ def test_body_of_a_kernel_has_its_mass_properties(tmp_path, name):
         assert abs(body.volume.total - EXACT[name]) <= bound <= 1e-7 * volume
 
 
-@pytest.mark.parametrize("mode", ["faces", "solid"])
-@pytest.mark.parametrize("name", SWEPT)
-def test_swept_part_of_a_default_writer_is_within_bound(tmp_path, name, mode):
-    path = kernel_file("swept/{}_{}".format(name, mode), tmp_path)
+def is_within_bound(path, truth):
     read = read_surfaces(path, for_blender=False)
     assert read.refused == () and len(read.bodies) == 1
     body = measure_patches(read.bodies[0].patches, stored=read.bodies[0].rounding)
     assert body.method == "exact" and body.findings == ()
     bound = body.volume.rounding_error[0] + body.volume.input_error[0]
-    assert abs(body.volume.total - SWEPT[name]) <= bound <= 3e-8 * SWEPT[name]
+    return abs(body.volume.total - truth) <= bound <= 3e-8 * truth
+
+
+@pytest.mark.parametrize("mode", ["faces", "solid"])
+@pytest.mark.parametrize("name", SWEPT)
+def test_swept_part_of_a_default_writer_is_within_bound(tmp_path, name, mode):
+    path = kernel_file("swept/{}_{}".format(name, mode), tmp_path)
+    assert is_within_bound(path, SWEPT[name])
+
+
+def test_edges_in_parameters_alone_are_exact_or_refused(tmp_path):
+    paths = [kernel_file("swept/touching_" + mode, tmp_path) for mode in ("solid", "faces")]
+    for path in paths:  # The curves on the surface are left: those of a cylinder are in degrees.
+        path.write_text(re.sub(r"(?m)^( *)104(?=,| .*D)", r"\g<1>112", path.read_text()))
+    assert is_within_bound(paths[0], SWEPT["touching"])
+    with pytest.raises(FileError, match="5 of the kind Trimmed Surface"):
+        read_surfaces(paths[1], for_blender=False)
