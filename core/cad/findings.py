@@ -56,8 +56,8 @@ FACES_NOT_READ = warning(
 )
 SURFACES_HIDDEN = note(
     "surfaces_hidden",
-    "{count} hidden surface was left out.",
-    "{count} hidden surfaces were left out.",
+    "{count} hidden shape was left out.",
+    "{count} hidden shapes were left out.",
 )
 CURVES_LEFT_OUT = note(
     "curves_left_out",

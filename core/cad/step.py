@@ -23,8 +23,9 @@ from numpy.typing import ArrayLike, NDArray
 from ..files import DEFAULT_LIMITS, FILE_TOO_LARGE
 from ..numerics import Array, clamped_space
 from ..nurbs import Curve, Face, close_pairs, patches_size
-from ..verdict import WELDING_RTOL, FileError
-from .findings import SURFACE_DAMAGED
+from ..verdict import WELDING_RTOL
+from ..verdict.finding import FileError, finding
+from .findings import SURFACE_DAMAGED, SURFACES_HIDDEN
 from .iges_entities import MAX_DEPTH
 from .part21 import Part21, Reference
 from .step_shapes import MISSING, EntityError, Shapes, blame, refuse
@@ -79,6 +80,8 @@ class StepReader:
         self._owners: dict[int, int] = {}  # product definitions by representation
         self._relations: dict[int, int] = {}  # child definitions by relationship
         self._colors: dict[int, tuple[float, ...]] = {}
+        self._hidden: set[int] = set()
+        self._left_out = 0  # hidden solids
         self._bodies: list[SurfaceBody] = []
         self._visited: set[int] = set()
         self._noted: set[int] = set()
@@ -101,6 +104,7 @@ class StepReader:
             ("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION", self._use),
             ("SHAPE_REPRESENTATION_RELATIONSHIP", self._twin),
             ("REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION", self._relate),
+            ("INVISIBILITY", self._hide),
             ("STYLED_ITEM", self._style),
             ("OVER_RIDING_STYLED_ITEM", self._style),
         ):
@@ -126,7 +130,8 @@ class StepReader:
         for number in [*(one for one in representations if one not in placed), *representations]:
             if number not in self._visited:
                 self._place(number, np.eye(4), ())
-        return replace(self._refusals.file(self._bodies, self._unit or None), unread=0)
+        notes = [finding(SURFACES_HIDDEN, count=self._left_out)] if self._left_out else []
+        return replace(self._refusals.file(self._bodies, self._unit or None, notes), unread=0)
 
     @contextmanager
     def _noting(self, number: int) -> Iterator[None]:
@@ -181,9 +186,16 @@ class StepReader:
         """Take the mapped items of a representation."""
         for item in self._attribute(number, 1):
             values = self._text[item].get("MAPPED_ITEM")
-            if values:
+            if values and item not in self._hidden:
                 origin, child = self._text[values[1]]["REPRESENTATION_MAP"]
                 self._children.setdefault(number, []).append(_Child(child, origin, values[2]))
+
+    def _hide(self, _: int, values: list[Any]) -> None:
+        """Take the items of hidden styles and layers."""
+        for one in values[0]:
+            with self._noting(one):
+                _, styled = self._shapes.pick(one, ("STYLED_ITEM", "PRESENTATION_LAYER_ASSIGNMENT"))
+                self._hidden.update(styled[2] if isinstance(styled[2], list) else styled[2:])
 
     def _style(self, _: int, values: list[Any]) -> None:
         """Take the first color of a styled item."""
@@ -259,8 +271,10 @@ class StepReader:
                 length, self._shapes.angle = self._units(one)
                 scaled = matrix @ np.diag([*[length / self._unit] * 3, 1.0])
                 solids = [item for item in self._attribute(one, 1) if self._is_body(item)]
+                self._left_out += len(self._hidden.intersection(solids))
                 for item in solids:
-                    self._add(item, one, scaled, len(solids) == 1)
+                    if item not in self._hidden:
+                        self._add(item, one, scaled, len(solids) == 1)
                 for child, frame, parent_frame in self._children.get(one, ()):
                     with self._noting(child):
                         within = self._matrix(parent_frame, one) @ np.linalg.inv(

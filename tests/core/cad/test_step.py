@@ -99,6 +99,14 @@ def number_of(text, entity):
     return re.search(r"#(\d+) = " + entity, text)[1]
 
 
+def test_hidden_step_solid_is_left_out_with_a_note(tmp_path):
+    text = TEXTS["assembly_mm"]
+    hide = "#99999 = INVISIBILITY((#{}));\nENDSEC;".format(number_of(text, "STYLED_ITEM"))
+    file = read(tmp_path, hide.join(text.rsplit("ENDSEC;", 1)))
+    assert [one.name for one in file.bodies] == ["Plätte"]
+    assert [(one.code, one.values["count"]) for one in file.notes] == [("surfaces_hidden", 4)]
+
+
 SWAPS = {
     "end": (r"(#\d+ = ADVANCED_FACE.*?#\d+ = ADVANCED_FACE[^;]*;).*", r"\1", "ADVANCED_FACE"),
     "unit": (r"\.MILLI\.,\.METRE\.", ".MILLI.,.CUBIT.", "CONTEXT"),
