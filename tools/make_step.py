@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Write tests/core/cad/kernel/step.tar.xz with OpenCascade (`pip install cadquery-ocp==8.0.1.1.0`):
-42 parts as STEP files, and their volumes and centers by its GProp in `volumes.json`, in mm.
+44 parts as STEP files, and their volumes and centers by its GProp in `volumes.json`, in mm.
 """
 
 import json
@@ -173,6 +173,7 @@ axis = gp.gp_Ax1(point(0, 0, 0), gp.gp_Dir(0, 0, 1))
 square = [(-5, -5, 0), (5, -5, 0), (5, 5, 0), (-5, 5, 0)]
 prism = swept(outline, gp.gp_Vec(0, 0, 12))
 vase = swept(wall, axis)
+skew = [(3, 0, 0), (5, 0, 0), (5, 4, 6), (3, 4, 6)]
 hexagon = [(8 * math.cos(k * math.pi / 3), 8 * math.sin(k * math.pi / 3), 0) for k in range(6)]
 holes = [rod(2, 20, (10 + 15 * i, 10 + 15 * j, -5)) for i in range(4) for j in range(3)]
 parts = {
@@ -208,6 +209,8 @@ parts = {
     "vase": vase,
     "cut_vase": combine("Cut", vase, box(50, 50, 50, (0, 0, -20))),
     "turned": swept(polygon((4, 0, 0), (9, 0, 0), (7, 0, 6), (4, 0, 9)), axis, 1.2),
+    "hyperboloid": swept(polygon(*skew), axis, 1.0),
+    "hyperboloid_back": swept(polygon(*skew[::-1]), axis, 1.0),
     "pipe": pipe((0, 0, 0), (0, 0, 10), (5, 0, 20), (15, 5, 25)),
     "drilled_ball": combine("Cut", made("Sphere", 10.0), rod(3, 40, (2, 1, -20))),
     "drilled_cone": combine(

@@ -17,7 +17,15 @@ from typing import Any
 import numpy as np
 
 from ..numerics import Array, SplineSpace, clamped_space
-from ..nurbs import Curve, Face, FlatFace, Quadric, bezier_curves, nearest_parameters
+from ..nurbs import (
+    Curve,
+    Face,
+    FlatFace,
+    Quadric,
+    bezier_curves,
+    nearest_parameters,
+    plane_moments,
+)
 from ..verdict import FileError, MeasureError
 from .findings import SURFACE_DAMAGED, SURFACE_POINTS, SURFACE_UNSUPPORTED
 from .iges_entities import MAX_ARC, MAX_DEPTH
@@ -297,14 +305,12 @@ def _revolution(shapes: Shapes, _: Any, values: list[Any], loops: list[list[Curv
     if name == "LINE":
         place = shapes.point(line[1])
         along = shapes.direction(shapes.pick(line[2], ("VECTOR",))[1][1])
+        arms = np.concatenate([curve.points for loop in loops for curve in loop]) - place
         if not abs(along @ axis) > 1e-9:
-            return axis
-        heights = (
-            np.concatenate([curve.points for loop in loops for curve in loop]) - place
-        ) @ axis
-        ends = [
-            place + height / (along @ axis) * along for height in (heights.min(), heights.max())
-        ]
+            # Each half of the line sweeps the plane, facing another way: the loops tell which.
+            return plane_moments([one for loop in loops for one in loop], axis, 0).total * axis
+        steps = arms @ axis / (along @ axis)
+        ends = [place + step * along for step in (steps.min(), steps.max())]
     profile = join_pieces(shapes.curve(values[1], ends))
     spokes = profile.samples(64) - begin
     spokes -= np.outer(spokes @ axis, axis)

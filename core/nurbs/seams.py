@@ -32,7 +32,7 @@ SAMPLES_PER_SIDE = 33  # Least number of points at which sides are compared.
 PAIRS_PER_BLOCK = 4096  # pairs of sides compared at a time
 PAIRS_PER_BATCH = 1 << 20  # Candidate pairs of sides at a time.
 FOLDED_ANGLE = 1e-3  # radians: patches that lie on each other
-MAX_CUT_SIDES = 400  # Limit of open sides that are compared with each other's ends.
+MAX_CUT_SIDES = 10_000  # Limit of open sides that are compared with each other's ends.
 MAX_SIDE_PAIRS = 100_000  # Limit of closed sides compared point by point.
 CREASE_SAMPLES = 17  # samples of a side for its creases
 POLE_RTOL = 1e-9  # Relative to the largest normal: normals at a pole are shorter.
@@ -89,13 +89,17 @@ def cut_open_sides(curves: Sequence[Curve], sides: Sides, tolerance: float) -> l
     open_sides = np.flatnonzero(sides.free)
     if not 3 <= len(open_sides) <= MAX_CUT_SIDES:
         return []
-    ends = sides.points[open_sides][:, [0, -1]].reshape(-1, 3)
+    all_ends = sides.points[open_sides][:, [0, -1]].reshape(-1, 3)
+    all_ends = all_ends[all_ends[:, 0].argsort()]
     pieces = [[curve] for curve in curves]
     is_cut = False
     for k in open_sides.tolist():
         curve = curves[k]
         samples = sides.points[k]
         step = np.linalg.norm(np.diff(samples, axis=0), axis=1).max()
+        low, high = samples.min(axis=0) - step - tolerance, samples.max(axis=0) + step + tolerance
+        ends = all_ends[slice(*all_ends[:, 0].searchsorted([low[0], high[0]]))]
+        ends = ends[((ends >= low) & (ends <= high)).all(axis=1)]
         near = ends[np.linalg.norm(ends[:, None] - samples, axis=2).min(axis=1) <= step + tolerance]
         near = near[
             np.linalg.norm(near[:, None] - samples[[0, -1]], axis=2).min(axis=1) > 2.0 * tolerance

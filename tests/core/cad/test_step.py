@@ -15,6 +15,7 @@ from body_moments.core.cad.part21 import Part21
 from body_moments.core.cad.surface_file import read_surfaces
 from body_moments.core.moments import sum_moments
 from body_moments.core.nurbs import measure_patches
+from body_moments.core.nurbs.patch_topology import find_topology
 from body_moments.core.verdict import FileError
 
 GPROP_RTOL = 4e-10
@@ -50,6 +51,8 @@ EXACT = {
     "leaning": 12.0 * SECTION,
     "drilled_prism": 12.0 * SECTION - 48.0 * PI,
     "turned": 201.0,
+    "hyperboloid": 48.0,
+    "hyperboloid_back": 48.0,
     "lune": 2000.0 / 3.0 * 0.05,
     "broad_lune": 2000.0 / 3.0 * 6.25,
     "cavity": 8000.0 - 288.0 * PI,
@@ -73,6 +76,7 @@ def test_step_part_of_a_kernel_is_within_its_bound(tmp_path, name):
     assert file.refused == ()
     bodies = [measure_patches(one.patches, stored=one.rounding) for one in file.bodies]
     assert {str(body.method) for body in bodies} == {"exact"}
+    assert {one.code for body in bodies for one in body.findings} <= {"cavities_subtracted"}
     volume = sum_moments([body.volume for body in bodies])
     scale = file.unit * 1e3
     error = scale**3 * (volume.rounding_error + volume.input_error)[0]
@@ -83,6 +87,17 @@ def test_step_part_of_a_kernel_is_within_its_bound(tmp_path, name):
     assert error <= 1e-9 * truth
     if "prism" not in name and name != "leaning":
         assert np.abs(scale * volume.center - center).max() <= 1e-5  # GProp is so far off the axis
+
+
+def test_hundreds_of_rims_are_joined(tmp_path):
+    (plate,) = read(tmp_path, TEXTS["plate"]).bodies
+    faces = []
+    for k in range(18):
+        matrix = np.eye(4)
+        matrix[2, 3] = 9.0 * k
+        faces += [face.transform(matrix) for face in plate.patches]
+    topology = find_topology(faces, 1e-6)
+    assert topology.number == 18 and topology.open_sides == 0
 
 
 @pytest.mark.parametrize("name, unit", [("mm", 1e-3), ("inch", 0.0254), ("m", 1.0)])
