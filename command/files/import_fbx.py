@@ -156,6 +156,7 @@ def _place(
                 mixed = np.empty_like(own)
                 key = obj.shape_key_add(from_mix=True)
                 key.data.foreach_get("co", mixed.ravel())
+                obj.shape_key_remove(key)  # Blender 5.2 gives it the weight 1.
                 whole[:, :3] += (mixed - own) @ np.linalg.inv(inner[:3, :3]).T
             return whole[:, :3], outer
     return None

@@ -335,3 +335,12 @@ def test_fbx_skin_follows_the_clusters(tmp_path, bone_scale, flags):
     triangles = [(a, *pair) for a, b, c, d in QUADS for pair in ((b, c), (c, d))]
     assert close(body["volume"], abs(np.linalg.det(moved[triangles]).sum() / 6.0), 1e-5)
     assert "places_unchecked" not in codes(body)
+
+
+def test_fbx_doubtful_skin_keeps_its_weights(tmp_path):
+    more, links = with_shape(SKIN, 'C: "OO",80,1\nC: "OO",81,80\nC: "OO",2,81\n', 0.5)
+    arrays = np.ones(8), np.eye(4).ravel(), np.eye(4).ravel()
+    more += CLUSTER.format(81, *(",".join(map(repr, values.tolist())) for values in arrays))
+    models = [("bone", "LimbNode", {}, 0), *[("part", "Mesh", {}, 0)] * 2]
+    for body in document(write(tmp_path / "t.fbx", models, more=more, more_links=links))["objects"]:
+        assert close(body["volume"], 9.0, 1e-5) and "places_unchecked" in codes(body)
