@@ -147,10 +147,10 @@ class StlFile:
         if not is_whole and not self._is_checked:
             check_stl_text(map_file(self._path))
             self._is_checked = True
-        # normals that are no numbers
-        text = _NORMAL.sub(b"normal 0 0 0 out", text)
         if b"solid" in text:
             text = SOLID.sub(b"", text)
+        # normals that are no numbers
+        text = _NORMAL.sub(b"normal 0 0 0 out", text)
         try:
             numbers = parse_decimals(text)[0].reshape(-1, 4, 3)
         except ValueError as error:

@@ -206,7 +206,7 @@ def test_truncated_stl_is_refused(tmp_path, small_blocks, cut):
     text = stl_text(part)
     with refused("stl_cut_short", "line_misread"):
         measured(tmp_path, "a.stl", text[: -cut - 15])
-    second = text.replace(b"part", b"another one")
+    second = text.replace(b"part", b"normal part")
     for more in (second[: -cut - 15], second[: second.index(b"endfacet") - cut // 10]):
         with refused("stl_cut_short", "line_misread"):  # though the first of two solids has its end
             measured(tmp_path, "a.stl", text + more)
