@@ -82,6 +82,11 @@ class FlatFace:
         """(3,) the mean control point, which is in the plane."""
         return self.points.mean(axis=(0, 1))
 
+    @cached_property
+    def _moments(self) -> dict[int, Moments]:
+        """Area moments about the center, by their order."""
+        return {}
+
     @property
     def uneven(self) -> float:
         """A bound of the volume between the plane and control points beside it, by rounding."""
@@ -112,7 +117,9 @@ class FlatFace:
 
     def area_moments(self, order: int, about: NDArray) -> Moments:
         """Return the moments of the region's area about any point (3,)."""
-        return plane_moments(self.curves, self.normal, order, self.center).about_point(about)
+        if order not in self._moments:
+            self._moments[order] = plane_moments(self.curves, self.normal, order, self.center)
+        return self._moments[order].about_point(about)
 
     def volume_moments(self, order: int, about: NDArray) -> Moments:
         """Return the moments of the cone from a point (3,) to the region: the region's share in a
