@@ -62,6 +62,7 @@ parts = {
     "touching": cut(
         rod(10.0, 60.0, (0, 0, -30), (0, 0, 1)), rod(10.0, 60.0, (-30, 0, 0), (1, 0, 0))
     ),
+    "viviani": cut(made("Sphere", 6.0), rod(3.0, 30.0, (3, 0, -15), (0, 0, 1))),
     "hyperbola": cut(made("Cone", 6.0, 0.0, 12.0), beside((1.0, 0.0, 0.0))),
     "parabola": cut(made("Cone", 6.0, 0.0, 12.0), beside((2.0, 0.0, 1.0))),
 }

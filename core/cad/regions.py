@@ -21,6 +21,7 @@ from ..nurbs import Curve, Quadric, SplineChart, TrimmedFace, sample_pieces
 from .findings import SURFACE_DAMAGED, SURFACE_TRIMMED
 from .surfaces import SurfaceRefusedError
 
+CLEAR_RTOL = 1e-3  # relative to the size: a point so far from loops is on one side of them
 SEAM_RTOL = 1e-6  # relative to the size: curves so near run along each other
 MISS_RTOL = 1e-4  # relative to the size: a curve beyond this distance is not on the surface
 POLE_RTOL = 1e-9  # relative to the size: the slope by the angle at a pole
@@ -59,9 +60,15 @@ class Track:
 
 
 def curved_region(
-    chart: Quadric | SplineChart, loops: Sequence[Sequence[Curve]], rounding: float, directed: bool
+    chart: Quadric | SplineChart,
+    loops: Sequence[Sequence[Curve]],
+    rounding: float,
+    beyond: NDArray | None,
 ) -> TrimmedFace:
-    """Return the region of a surface within loops; SurfaceRefusedError if they bound none."""
+    """Return the region of a surface within loops; SurfaceRefusedError if they bound none.
+
+    beyond: (n, 3) points outside of the region; None if loops run with the region on their left.
+    """
     curves = [curve for loop in loops for curve in loop]
     box = np.concatenate([curve.points for curve in curves])
     size = float(np.linalg.norm(np.ptp(box, axis=0)))
@@ -85,7 +92,11 @@ def curved_region(
         raise SurfaceRefusedError(SURFACE_TRIMMED)
     axis = 0 if turns[:, 1].any() else 1
     witness = np.concatenate([samples[k][len(samples[k]) // 2][None] for k in seams] or [box[:0]])
-    tracks, base, whole = _oriented(chart, tracks, axis, directed, witness, size)
+    if beyond is not None:
+        around = np.concatenate([samples[k] for k in kept] or [box[:0]])
+        apart = np.linalg.norm(beyond[:, None] - around, axis=2).min(axis=1, initial=np.inf)
+        beyond = beyond[apart > CLEAR_RTOL * size]
+    tracks, base, whole = _oriented(chart, tracks, axis, witness, beyond, size)
     lines = np.concatenate([np.zeros((0, 2, 2)), *(track.lines for track in tracks), *whole])
     return TrimmedFace(
         chart,
@@ -192,8 +203,8 @@ def _oriented(
     chart: Quadric | SplineChart,
     tracks: Sequence[Track],
     axis: int,
-    directed: bool,
     witness: NDArray,
+    beyond: NDArray | None,
     size: float,
 ) -> tuple[list[Track], float, list[Array]]:
     """Return loops with the region on their left, the base line of the strips, and the line that
@@ -231,18 +242,18 @@ def _oriented(
     ends[0, :, 1 - axis] = start, start + chart.periods[1 - axis]
     if axis:
         ends = ends[:, ::-1]
-    full = chart.periods[1 - axis] * (top - base)
     total = sum(areas)
     # Reversed loops bound all the rest.
     is_whole = total < 0.0 or not tracks
     if tracks:
-        spot = chart.project(witness)
         steps = np.concatenate([track.steps for track in tracks])
-        if len(spot):
-            backward = not _covers(chart, steps, spot[0], axis, base) + is_whole > 0
-        else:
-            backward = not directed and total % full > full / 2.0
-        if backward:
+        known = witness[:1] if len(witness) or beyond is None else beyond
+        held = {
+            _covers(chart, steps, spot, axis, base) + is_whole > 0 for spot in chart.project(known)
+        }
+        if len(held) > 1 or not held and beyond is not None:
+            raise SurfaceRefusedError(SURFACE_TRIMMED)
+        if held == {not len(witness)}:
             tracks = [track.reverse() for track in tracks]
             is_whole = -total < 0.0
     return list(tracks), base, [ends] if is_whole else []

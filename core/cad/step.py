@@ -194,8 +194,9 @@ class StepReader:
         """Take the items of hidden styles and layers."""
         for one in values[0]:
             with self._noting(one):
-                _, styled = self._shapes.pick(one, ("STYLED_ITEM", "PRESENTATION_LAYER_ASSIGNMENT"))
-                self._hidden.update(styled[2] if isinstance(styled[2], list) else styled[2:])
+                kinds = "STYLED_ITEM", "PRESENTATION_LAYER_ASSIGNMENT"
+                items = self._shapes.pick(one, kinds)[1][2]
+                self._hidden.update(items if isinstance(items, list) else [items])
 
     def _style(self, _: int, values: list[Any]) -> None:
         """Take the first color of a styled item."""

@@ -36,6 +36,7 @@ FLAT_RTOL = 1e-8  # Relative to the size: a surface that is farther from a plane
 END_TOLERANCE = (
     1e-5  # A curve that ends so near to the end of a side, as a share of it, ends there.
 )
+SEAM_SAMPLES = 8  # points on a span of a seam
 LIFTED_ORDER = 10  # of curves through points of a surface
 LIFTED_RTOL = 1e-12  # relative to the size of a piece, which is halved until it is so near
 LIFTED_DEPTH = 8
@@ -60,14 +61,15 @@ def within(
     boundaries: Sequence[Boundary],
     *,
     rounding: float = 0.0,
-    directed: bool = True,
+    beyond: NDArray | None = None,
     only_patches: bool = False,
 ) -> list[Face]:
     """Return the faces of a surface within boundaries, facing as the surface does;
     SurfaceRefusedError if they bound none.
 
-    rounding: largest effect of the file's decimals on a point. directed: whether boundaries run
-    with the face on their left, seen from the side of the surface's normal. only_patches: refuse a
+    rounding: largest effect of the file's decimals on a point. beyond: (n, 3)
+    points that no face reaches; None if boundaries run with the face on their left, seen from the
+    side of the surface's normal. only_patches: refuse a
     trimmed surface.
     """
     loops = [one.curves or _lifted(surface, one.parameters or ()) for one in boundaries]
@@ -83,7 +85,7 @@ def within(
             return [patch]
         if only_patches:
             raise SurfaceRefusedError(SURFACE_TRIMMED)
-        face = curved_region(surface, loops, rounding, directed)
+        face = curved_region(surface, loops, rounding, beyond)
         return [face if face.loops else spanned_quadric(surface, [])]
     if _is_flat(surface, FLAT_RTOL * patches_size([surface]) + 4.0 * rounding):
         return [first_region([loops], vector_area([surface]))]
@@ -94,8 +96,8 @@ def within(
         # Strips end at the sides of the direction that does not close.
         turned = SplineChart(surface.reverse_orientation())
         loops = [[curve.reverse() for curve in reversed(loop)] for loop in loops]
-        return [curved_region(turned, loops, rounding, directed).reverse_orientation()]
-    return [curved_region(chart, loops, rounding, directed)]
+        return [curved_region(turned, loops, rounding, beyond).reverse_orientation()]
+    return [curved_region(chart, loops, rounding, beyond)]
 
 
 def _lifted(surface: Patch | Quadric, parameters: Sequence[Curve]) -> list[Curve]:
@@ -163,12 +165,14 @@ def trimmed_faces(
             replace(one, curves=one.curves or _lifted(surface, one.parameters or ()))
             for one in boundaries
         ]
+        # A face that goes beyond a seam of its surface has this seam among its boundaries.
+        seams = np.concatenate([curve.samples(SEAM_SAMPLES) for curve in around])
         if quadric is None:
-            return within(patch, [*outer, *lifted], rounding=rounding, directed=False)
+            return within(patch, [*outer, *lifted], rounding=rounding, beyond=seams)
         middle = np.array([[np.mean(space.domain)] for space in patch.spaces])
         place, along, across = SplineChart(patch).evaluate(*middle)
         _, own_along, own_across = quadric.evaluate(*quadric.project(place.T).T)
-        faces = within(quadric, [*outer, *lifted], rounding=rounding, directed=False)
+        faces = within(quadric, [*outer, *lifted], rounding=rounding, beyond=seams)
         is_turned = float(dot(cross(along, across), cross(own_along, own_across))[0]) < 0.0
         return [face.reverse_orientation() for face in faces] if is_turned else faces
     raise SurfaceRefusedError(SURFACE_TRIMMED)

@@ -125,7 +125,7 @@ def test_second_draw_looks_at_no_object_of_the_scene(scene, monkeypatch):
     boat = hull(density=300.0)
     bpy.ops.object.body_moments_float()
     first = held(boat)
-    monkeypatch.setattr(floating, "_held", None)
+    monkeypatch.setattr(floating, "_read_held", None)
     assert floating.held_body(boat, scene) is first
     boat.body_moments_tank.role = "TANK"
     monkeypatch.undo()

@@ -42,6 +42,7 @@ SWEPT = {
     "cap": 108.0 * np.pi,
     "cross": 11020.05259343911728728761,
     "touching": 6000.0 * np.pi - 16000.0 / 3.0,  # at two points
+    "viviani": 144.0 * np.pi + 192.0,
     "hyperbola": 356.2395357501925,  # sections of a cone, by Gauss' rule
     "parabola": 239.9329818007843,
 }
