@@ -31,6 +31,7 @@ from .splines import Curve
 
 LENGTH_TOLERANCE = 1e-13
 RULES = (8, 12, 18, 27)  # Gauss points per piece; each rule is compared with the one before.
+CURVES_PER_BLOCK = 256  # curves of one degree integrated at a time
 MAX_DEPTH = 60  # Limit of successive halvings of a piece.
 MAX_WEIGHT_RATIO = (
     1e8  # Largest by smallest weight of a piece: beyond it two rules may miss the same.
@@ -150,8 +151,17 @@ def _integrate(
     values = np.zeros(len(degree))
     estimate = 0.0
     whole = 0.0
+    alike: dict[tuple[int, ...], list[tuple[Array, Array]]] = {}
     for curve in curves:
-        net, anchor = _bezier_pieces(curve, about)
+        pieces = _bezier_pieces(curve, about)
+        alike.setdefault(pieces[0].shape[1:], []).append(pieces)
+    blocks = [
+        row[start : start + CURVES_PER_BLOCK]
+        for row in alike.values()
+        for start in range(0, len(row), CURVES_PER_BLOCK)
+    ]
+    for block in blocks:
+        net, anchor = (np.concatenate(arrays) for arrays in zip(*block))
         coarse = None
         rule = 0
         depth = 0
