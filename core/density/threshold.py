@@ -21,6 +21,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -41,6 +42,14 @@ AREA_TOLERANCE = 1e-9  # Relative to a cell's face: allowed difference in one ce
 MAX_PARTS = 64
 MIN_PARTS = 1 << 13
 MAX_CUT_CELLS = 1 << 21  # Limit of cells kept for measuring.
+# The work of the first two rules in all cells is 1; that of finer rules in a cell, and of a cell cut
+# in eight; the limit for all cells together, where it counts, and the number of cells to judge by.
+FINER_WORK = 3.0
+CUTTING_WORK = 6.0
+WORK = 1.7
+LEAST_WORK = 50_000.0
+SAMPLE = 1 << 11
+DOUBT = 4.0  # factor of the differences in cells without an axis of monotone values
 CELLS_PER_BATCH = 1 << 9  # cut cells whose points are in memory at a time
 CELLS_PER_SLAB = 1 << 21  # cells of the grid at a time
 
@@ -200,6 +209,16 @@ def _corner_counts(inside: Mask) -> NDArray[np.int8]:
     return counts[:, :, 1:] + counts[:, :, :-1]
 
 
+def _batches(cells: Cells) -> Iterator[tuple[Cells, tuple, bool]]:
+    """Yield batches of cells with the axes of their columns, and whether the density is monotone
+    along these.
+    """
+    axes, is_monotone = cells.column_axes()
+    for (axis, turn), monotone in product(enumerate(TURNS), (True, False)):
+        chosen = np.flatnonzero((axes == axis) & (is_monotone == monotone))
+        for first in range(0, len(chosen), CELLS_PER_BATCH):
+            yield cells[chosen[first : first + CELLS_PER_BATCH]], turn, monotone
+
 class _Sums:
     """The moments so far, about the middle of the grid, and bounds of their errors."""
 
@@ -258,18 +277,25 @@ class _Sums:
         """Add the inside parts of cells that the surface passes through."""
         if not len(cells.size):
             return
-        allowed = TOLERANCE * (self.volume[0] + len(cells.size) / 2.0) / len(cells.size)
+        allowed = np.array(
+            [
+                TOLERANCE * (self.volume[0] + len(cells.size) / 2.0) / len(cells.size),
+                AREA_TOLERANCE * self.face,
+            ]
+        )
+        allowed = allowed * self._tolerance_factor(cells, allowed)
         budget = MAX_PARTS * len(cells.size) + MIN_PARTS
         while True:
-            again = [
-                self._add_batch(cells[first : first + CELLS_PER_BATCH], threshold, allowed)
-                for first in range(0, len(cells.size), CELLS_PER_BATCH)
-            ]
-            cells = Cells.join(again)
+            cells = Cells.join(
+                [
+                    self._add_batch(part, turn, is_monotone, threshold, allowed)
+                    for part, turn, is_monotone in _batches(cells)
+                ]
+            )
             budget -= 8 * len(cells.size)
             if not len(cells.size):
                 return
-            if budget < 0 or (cells.size**3).sum() < allowed:
+            if budget < 0 or (cells.size**3).sum() < allowed[0]:
                 self._give_up(cells, threshold)
                 return
             cells = cells.cut_in_eight()
@@ -278,28 +304,49 @@ class _Sums:
             self._add_boxes(cells[inside], threshold)
             cells = cells[~inside & signs.any(axis=(1, 2, 3))]
 
-    def _add_batch(self, cells: Cells, threshold: float, allowed: float) -> Cells:
+    def _tolerance_factor(self, cells: Cells, allowed: Array) -> float:
+        """Return the least factor of the allowed differences that keeps the work within its limit,
+        judged by a sample of the cells.
+
+        So the largest differences are reduced first, and the others are in the bounds.
+        """
+        limit = WORK + LEAST_WORK / len(cells.size)
+        if self.preview or limit >= 1.0 + FINER_WORK + CUTTING_WORK:
+            return 1.0
+        ratios = []
+        for part, turn, is_monotone in _batches(cells[:: max(len(cells.size) // SAMPLE, 1)]):
+            first, finer = (
+                (compare_rules(part, turn, rules, self.metric)[1] / allowed[:, None]).max(axis=0)
+                for rules in RULES
+            )
+            ratios.append((first, finer) if is_monotone else (DOUBT * first, DOUBT * first))
+        first, finer = np.concatenate(ratios, axis=1)
+        for factor in np.geomspace(1.0, max(first.max(), 1.0), 200):
+            refined = np.mean(first > factor)
+            if 1.0 + FINER_WORK * refined + CUTTING_WORK * np.mean(finer > factor) <= limit:
+                break
+        return factor
+
+    def _add_batch(
+        self, cells: Cells, turn: tuple, is_monotone: bool, threshold: float, allowed: Array
+    ) -> Cells:
         """Add the cells that can be integrated to the tolerance; return the other cells."""
-        axes = cells.column_axes()
-        rest = [cells[axes < 0]]
-        for axis, turn in enumerate(TURNS):
-            left = cells[axes == axis]
-            for rules in RULES:
-                if not len(left.size):
-                    break
-                columns, estimates = compare_rules(
-                    left, turn, rules[:1] if self.preview else rules, self.metric
-                )
-                good = (estimates[0] <= allowed) & (estimates[1] <= AREA_TOLERANCE * self.face)
-                self._add_columns(columns, good, left, turn, threshold)
-                kept = left[good]
-                self._add_largest("estimate", kept, threshold, *estimates[:, good])
-                self._add_largest(
-                    "size", kept, threshold, kept.size**3, amounts_of(columns, left)[1, good]
-                )
-                left = left[~good]
-            rest.append(left)
-        return Cells.join(rest)
+        for rules in RULES if is_monotone else RULES[:1]:
+            if not len(cells.size):
+                break
+            columns, estimates = compare_rules(
+                cells, turn, rules[:1] if self.preview else rules, self.metric
+            )
+            estimates *= 1.0 if is_monotone else DOUBT
+            good = (estimates <= allowed[:, None]).all(axis=0)
+            self._add_columns(columns, good, cells, turn, threshold)
+            kept = cells[good]
+            self._add_largest("estimate", kept, threshold, *estimates[:, good])
+            self._add_largest(
+                "size", kept, threshold, kept.size**3, amounts_of(columns, cells)[1, good]
+            )
+            cells = cells[~good]
+        return cells
 
     def _add_columns(
         self, columns: Columns, good: NDArray, cells: Cells, turn: tuple, threshold: float

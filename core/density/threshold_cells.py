@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics import Array, Index, gauss_legendre
+from ..numerics import Array, Index, Mask, gauss_legendre
 
 # By the axis of a cell's columns: the axes along which x, y and the columns run.
 TURNS = ((1, 2, 0), (2, 0, 1), (0, 1, 2))
@@ -67,17 +67,17 @@ class Cells:
         ]
         return Cells.join(parts)
 
-    def column_axes(self) -> Index:
-        """Return for n cells the axis along which the density is most clearly monotone, -1 if it is
-        along none.
+    def column_axes(self) -> tuple[Index, Mask]:
+        """Return for n cells the axis along which the density is most clearly monotone, and whether
+        it is.
         """
         steps = np.stack(
             [np.diff(self.corners, axis=axis).reshape(-1, 4) for axis in (1, 2, 3)], axis=1
         )
-        one_way = (steps >= 0.0).all(axis=2) | (steps <= 0.0).all(axis=2)
-        steps = np.abs(steps)
-        clearness = np.where(one_way, steps.min(axis=2) + 1e-3 * steps.max(axis=2), 0.0)
-        return np.where(clearness.any(axis=1), clearness.argmax(axis=1), -1)
+        steps *= np.sign(steps.sum(axis=2, keepdims=True))
+        least = steps.min(axis=2)
+        axes = (least + 1e-3 * steps.max(axis=2)).argmax(axis=1)
+        return axes, least[np.arange(len(axes)), axes] >= 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,46 +111,52 @@ def columns_of(corners: NDArray, points: int, metric: NDArray) -> Columns:
     # so that no product leaves the range of numbers
     corners = np.ldexp(corners, -exponent[:, None, None, None])
     # by y and z: at x = 0, and along x
-    near = corners[:, 0]
-    step = corners[:, 1] - corners[:, 0]
-    cell, start, length = _smooth_intervals(near.reshape(-1, 4), corners[:, 1].reshape(-1, 4))
-    middle = near[cell] + (start + length / 2.0)[:, None, None] * step[cell]
-    some = (middle > 0.0).any(axis=(1, 2))  # else the whole interval is outside
-    cell = cell[some]
-    start = start[some]
-    length = length[some]
-    x = (start[:, None] + length[:, None] * nodes).ravel()
-    width = (length[:, None] * weights).ravel()
-    cell = np.repeat(cell, points)
-    line = near[cell] + x[:, None, None] * step[cell]  # (m, y, z)
-    row, start, length = _smooth_intervals(line[:, 0], line[:, 1])
-    y = (start[:, None] + length[:, None] * nodes).ravel()
-    weight = (width[row, None] * length[:, None] * weights).ravel()
-    row = np.repeat(row, points)
-    cell, x = cell[row], x[row]
-    # (m, y, z), (m, z)
-    along_x = step[cell]
-    along_y = line[row, 1] - line[row, 0]
-    floor, ceiling = (line[row, 0] + y[:, None] * along_y).T
-    growth = ceiling - floor
-    with np.errstate(divide="ignore"):
-        level = -floor / growth
-    level = np.where(growth == 0.0, np.where(floor >= 0.0, 2.0, -1.0), level)
-    crossed = (level >= 0.0) & (level <= 1.0)
-    level = np.clip(level, 0.0, 1.0)
-    rises = growth > 0.0
-    floor_x, ceiling_x = (along_x[:, 0] + y[:, None] * (along_x[:, 1] - along_x[:, 0])).T
+    near = corners[:, 0].reshape(-1, 4)
+    step = corners[:, 1].reshape(-1, 4) - near
+    start, length = _smooth_intervals(near, corners[:, 1].reshape(-1, 4))
+    middle = near[:, None] + (start + length / 2.0)[..., None] * step[:, None]
+    cell, part = np.nonzero((length > 0.0) & (middle > 0.0).any(axis=2))  # else all is outside
+    x = start[cell, part, None] + length[cell, part, None] * nodes
+    width = length[cell, part, None] * weights
+    line = (near[cell, None] + x[..., None] * step[cell, None]).reshape(-1, 2, 2)  # (m, y, z)
+    along_y = line[:, 1] - line[:, 0]
+    start, length = _smooth_intervals(line[:, 0], line[:, 1])
+    middle = line[:, 0, None] + (start + length / 2.0)[..., None] * along_y[:, None]
+    inside = middle >= 0.0
+    row, part = np.nonzero((length > 0.0) & inside.any(axis=2))
+    # From here on, rows are intervals along y, and columns their points.
+    cell = np.repeat(cell, points)[row]
+    y = start[row, part, None] + length[row, part, None] * nodes
+    weight = (width.ravel()[row] * length[row, part])[:, None] * weights
+    along_x = step[cell, :, None]
+    along_y = along_y[row, :, None]
+    floor = line[row, 0, :1] + y * along_y[:, 0]
+    growth = line[row, 0, 1:] + y * along_y[:, 1] - floor
+    # Between the lines, a column meets the surface everywhere or nowhere.
+    crossed = (inside[row, part, :1] != inside[row, part, 1:]) & (growth != 0.0)
+    divisor = np.where(crossed, growth, 1.0)
+    level = np.clip(-floor / divisor, 0.0, 1.0)
+    floor_x = along_x[:, 0] + y * (along_x[:, 2] - along_x[:, 0])
+    ceiling_x = along_x[:, 1] + y * (along_x[:, 3] - along_x[:, 1])
     slope_x = floor_x + level * (ceiling_x - floor_x)
     slope_y = along_y[:, 0] + level * (along_y[:, 1] - along_y[:, 0])
-    with np.errstate(divide="ignore"):
-        slope = np.where(
-            crossed, np.sqrt(_square(metric, slope_x, slope_y, growth)) / np.abs(growth), 0.0
-        )
-    low = np.where(rises, level, 0.0)
-    high = np.where(rises, 1.0, level)
-    density = np.ldexp(floor, exponent[cell])
-    growth = np.ldexp(growth, exponent[cell])
-    return Columns(cell, x, y, weight, low, high, level, slope, density, growth)
+    slope = np.sqrt(_square(metric, slope_x, slope_y, growth)) / np.abs(divisor) * crossed
+    low = np.where(crossed & (growth > 0.0), level, 0.0)
+    high = np.where(crossed & (growth < 0.0), level, 1.0)
+    exponent = exponent[cell, None]
+    table = np.broadcast_arrays(
+        cell[:, None],
+        x.ravel()[row, None],
+        y,
+        weight,
+        low,
+        high,
+        level,
+        slope,
+        np.ldexp(floor, exponent),
+        np.ldexp(growth, exponent),
+    )
+    return Columns(*(values.ravel() for values in table))
 
 
 def _square(metric: NDArray, x: NDArray, y: NDArray, z: NDArray) -> Array:
@@ -159,16 +165,15 @@ def _square(metric: NDArray, x: NDArray, y: NDArray, z: NDArray) -> Array:
     return square if not (xy or xz or yz) else square + 2.0 * (xy * x * y + xz * x * z + yz * y * z)
 
 
-def _smooth_intervals(low: NDArray, high: NDArray) -> tuple[Index, NDArray, NDArray]:
-    """Cut [0, 1] at roots of linear functions with end values (n, k); return row, start and length
-    of each interval.
+def _smooth_intervals(low: NDArray, high: NDArray) -> tuple[Array, Array]:
+    """Cut [0, 1] at roots of linear functions with end values (n, k); return the starts and lengths
+    of the (n, k + 1) intervals.
     """
     with np.errstate(divide="ignore"):
         roots = np.where((low < 0.0) != (high < 0.0), low / (low - high), 0.0)
     edges = np.sort(np.pad(np.clip(roots, 0.0, 1.0), ((0, 0), (1, 0))), axis=1)
-    ends = np.pad(edges[:, 1:], ((0, 0), (0, 1)), constant_values=1.0)
-    row, column = np.nonzero(ends > edges)
-    return row, edges[row, column], (ends - edges)[row, column]
+    edges = np.pad(edges, ((0, 0), (0, 1)), constant_values=1.0)
+    return edges[:, :-1], np.diff(edges, axis=1)
 
 
 def amounts_of(columns: Columns, cells: Cells) -> Array:
