@@ -82,81 +82,78 @@ class Cells:
 
 @dataclass(frozen=True, eq=False)
 class Columns:
-    """Points on the floors of cells, each with the inside part of its column; those of a cell are
-    consecutive.
+    """Points on the floors of cells, each with the inside part of its column, in (m, k) arrays, or
+    arrays that broadcast to them. Each row lies in one cell.
 
-    cell: (m,) index of the cell. x, y: position in it. weight: area of floor. low, high: ends of
-    the inside part. level: z of the surface. slope: the surface's area per unit of floor, 0 if the
-    column does not cross it. density: density minus threshold at z = 0. growth: its slope along z.
+    cell: (m,) index of the cell. x, y: position in it. weight: area of floor. level: z of the
+    surface, or of the floor if the column does not cross it. end: z of the other end of the inside
+    part, 0 or 1, constant in a row. slope: the surface's area per unit of floor, or 0. density:
+    density minus threshold at z = 0. growth: its slope along z; both in units of 2^exponent.
     """
 
     cell: Index
     x: Array
     y: Array
     weight: Array
-    low: Array
-    high: Array
     level: Array
+    end: Array
     slope: Array
     density: Array
     growth: Array
+    exponent: Index
+
+    def take(self, chosen: Mask) -> Columns:
+        """Return the chosen rows."""
+        return Columns(*(values[chosen] for values in vars(self).values()))
 
 
-def columns_of(corners: NDArray, points: int, metric: NDArray) -> Columns:
-    """Return columns at the Gauss points between the lines where the surface leaves a cell; metric:
-    of its area.
+def columns_of(corners: NDArray, points: int, metric: NDArray) -> list[Columns]:
+    """Return columns at the Gauss points between the lines where the surface leaves a cell: those
+    that cross the surface, and those that are inside.
+
+    metric: of the surface's area.
     """
     nodes, weights = gauss_legendre(points)
     _, exponent = np.frexp(np.abs(corners).max(axis=(1, 2, 3)))
     # so that no product leaves the range of numbers
-    corners = np.ldexp(corners, -exponent[:, None, None, None])
-    # by y and z: at x = 0, and along x
-    near = corners[:, 0].reshape(-1, 4)
-    step = corners[:, 1].reshape(-1, 4) - near
-    start, length = _smooth_intervals(near, corners[:, 1].reshape(-1, 4))
-    middle = near[:, None] + (start + length / 2.0)[..., None] * step[:, None]
-    cell, part = np.nonzero((length > 0.0) & (middle > 0.0).any(axis=2))  # else all is outside
-    x = start[cell, part, None] + length[cell, part, None] * nodes
-    width = length[cell, part, None] * weights
-    line = (near[cell, None] + x[..., None] * step[cell, None]).reshape(-1, 2, 2)  # (m, y, z)
-    along_y = line[:, 1] - line[:, 0]
-    start, length = _smooth_intervals(line[:, 0], line[:, 1])
-    middle = line[:, 0, None] + (start + length / 2.0)[..., None] * along_y[:, None]
-    inside = middle >= 0.0
-    row, part = np.nonzero((length > 0.0) & inside.any(axis=2))
-    # From here on, rows are intervals along y, and columns their points.
-    cell = np.repeat(cell, points)[row]
-    y = start[row, part, None] + length[row, part, None] * nodes
-    weight = (width.ravel()[row] * length[row, part])[:, None] * weights
-    along_x = step[cell, :, None]
-    along_y = along_y[row, :, None]
-    floor = line[row, 0, :1] + y * along_y[:, 0]
-    growth = line[row, 0, 1:] + y * along_y[:, 1] - floor
+    near, far = np.ldexp(corners, -exponent[:, None, None, None]).reshape(-1, 2, 4).T.swapaxes(0, 1)
+    step = far - near  # along x; (4, n) by y and z
+    start, length = _smooth_intervals(near, far)
+    middle = near[:, None] + (start + length / 2.0) * step[:, None]
+    part, cell = np.nonzero((length > 0.0) & (middle > 0.0).any(axis=0))  # else all is outside
+    x = start[part, cell, None] + length[part, cell, None] * nodes
+    width = (length[part, cell, None] * weights).ravel()
+    line = (near[:, cell, None] + x * step[:, cell, None]).reshape(4, -1)
+    along_y = line[2:] - line[:2]  # at the floor and at the ceiling
+    start, length = _smooth_intervals(line[:2], line[2:])
+    middle = line[:2, None] + (start + length / 2.0) * along_y[:, None]
+    below, above = middle >= 0.0
+    x = x.ravel()
+    cell = np.repeat(cell, points)
     # Between the lines, a column meets the surface everywhere or nowhere.
-    crossed = (inside[row, part, :1] != inside[row, part, 1:]) & (growth != 0.0)
-    divisor = np.where(crossed, growth, 1.0)
-    level = np.clip(-floor / divisor, 0.0, 1.0)
-    floor_x = along_x[:, 0] + y * (along_x[:, 2] - along_x[:, 0])
-    ceiling_x = along_x[:, 1] + y * (along_x[:, 3] - along_x[:, 1])
-    slope_x = floor_x + level * (ceiling_x - floor_x)
-    slope_y = along_y[:, 0] + level * (along_y[:, 1] - along_y[:, 0])
-    slope = np.sqrt(_square(metric, slope_x, slope_y, growth)) / np.abs(divisor) * crossed
-    low = np.where(crossed & (growth > 0.0), level, 0.0)
-    high = np.where(crossed & (growth < 0.0), level, 1.0)
-    exponent = exponent[cell, None]
-    table = np.broadcast_arrays(
-        cell[:, None],
-        x.ravel()[row, None],
-        y,
-        weight,
-        low,
-        high,
-        level,
-        slope,
-        np.ldexp(floor, exponent),
-        np.ldexp(growth, exponent),
-    )
-    return Columns(*(values.ravel() for values in table))
+    result = []
+    for crosses, chosen in ((True, below != above), (False, below & above)):
+        part, row = np.nonzero(chosen & (length > 0.0))
+        y = start[part, row, None] + length[part, row, None] * nodes
+        weight = (width[row] * length[part, row])[:, None] * weights
+        floor_y, ceiling_y = along_y[:, row, None]
+        floor = line[0, row, None] + y * floor_y
+        growth = line[1, row, None] + y * ceiling_y - floor
+        level = slope = np.zeros((len(row), 1))
+        end = above[part, row, None].astype(np.float64)
+        if crosses:
+            along_x = step[:, cell[row], None]
+            divisor = np.where(growth == 0.0, 1.0, growth)
+            level = np.clip(-floor / divisor, 0.0, 1.0)
+            floor_x = along_x[0] + y * (along_x[2] - along_x[0])
+            ceiling_x = along_x[1] + y * (along_x[3] - along_x[1])
+            slope_x = floor_x + level * (ceiling_x - floor_x)
+            slope_y = floor_y + level * (ceiling_y - floor_y)
+            slope = np.sqrt(_square(metric, slope_x, slope_y, growth)) / np.abs(divisor)
+        place = cell[row], x[row, None], y
+        density = floor, growth, exponent[cell[row], None]
+        result.append(Columns(*place, weight, level, end, slope, *density))
+    return result
 
 
 def _square(metric: NDArray, x: NDArray, y: NDArray, z: NDArray) -> Array:
@@ -166,35 +163,33 @@ def _square(metric: NDArray, x: NDArray, y: NDArray, z: NDArray) -> Array:
 
 
 def _smooth_intervals(low: NDArray, high: NDArray) -> tuple[Array, Array]:
-    """Cut [0, 1] at roots of linear functions with end values (n, k); return the starts and lengths
-    of the (n, k + 1) intervals.
+    """Cut [0, 1] at roots of linear functions with end values (k, n); return the starts and lengths
+    of the (k + 1, n) intervals.
     """
     with np.errstate(divide="ignore"):
         roots = np.where((low < 0.0) != (high < 0.0), low / (low - high), 0.0)
-    edges = np.sort(np.pad(np.clip(roots, 0.0, 1.0), ((0, 0), (1, 0))), axis=1)
-    edges = np.pad(edges, ((0, 0), (0, 1)), constant_values=1.0)
-    return edges[:, :-1], np.diff(edges, axis=1)
+    edges = np.zeros((len(low) + 2, low.shape[1]))
+    edges[1:-1] = np.clip(np.sort(roots, axis=0), 0.0, 1.0)
+    edges[-1] = 1.0
+    return edges[:-1], np.diff(edges, axis=0)
 
 
-def amounts_of(columns: Columns, cells: Cells) -> Array:
+def amounts_of(columns: Sequence[Columns], cells: Cells) -> Array:
     """Return a (2, n) array: the volume inside each cell, and the area of the surface in the
     cell.
     """
-    volumes, areas = (
-        np.bincount(columns.cell, columns.weight * height, len(cells.size))
-        for height in (columns.high - columns.low, columns.slope)
-    )
-    return np.stack([volumes * cells.size**3, areas * cells.size**2])
+    amounts = np.zeros((2, len(cells.size)))
+    for part in columns:
+        for total, height in zip(amounts, (np.abs(part.end - part.level), part.slope)):
+            shares = (part.weight * height).sum(axis=1)
+            total += np.bincount(part.cell, shares, len(cells.size))
+    return amounts * [cells.size**3, cells.size**2]
 
 
-def compare_rules(
-    cells: Cells, turn: tuple, rules: Sequence[int], metric: NDArray
-) -> tuple[Columns, Array]:
-    """Return the columns of the last rule, and (2, n) differences of cells' volumes and areas from
-    the first rule.
-    """
-    metric = metric[np.ix_(turn, turn)]
+def integrate(
+    cells: Cells, turn: tuple, points: int, metric: NDArray
+) -> tuple[list[Columns], Array]:
+    """Return the columns of a rule, and (2, n) volumes and areas of cells by it."""
     turned = cells.corners.transpose(0, *(1 + np.array(turn)))
-    columns = [columns_of(turned, points, metric) for points in rules]
-    amounts = [amounts_of(each, cells) for each in columns]
-    return columns[-1], np.abs(amounts[-1] - amounts[0])
+    columns = columns_of(turned, points, metric[np.ix_(turn, turn)])
+    return columns, amounts_of(columns, cells)
