@@ -333,7 +333,7 @@ class _Sums:
                 before = amounts
                 continue
             estimates = doubt * np.abs(amounts - before) if before is not None else 0.0 * amounts
-            good = (estimates <= allowed[:, None]).all(axis=0)
+            good = np.asarray((estimates <= allowed[:, None]).all(axis=0))
             for part in columns:
                 self._add_columns(part.take(good[part.cell]), cells, turn, threshold)
             kept = cells[good]
