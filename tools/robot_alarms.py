@@ -352,6 +352,13 @@ class Facts:
             for volume, center, inertia in self.filled(turn)
         )
 
+    def center_distance(self, center: np.ndarray) -> float:
+        """Return the distance of a center from that of the shapes, per radius of gyration."""
+        return min(
+            np.linalg.norm(center - own) / np.sqrt(np.trace(inertia / volume) / 2)
+            for volume, own, inertia in self.filled()
+        )
+
 
 @cache
 def load(path: Path) -> trimesh.Trimesh:
@@ -476,14 +483,17 @@ def misfit(points: np.ndarray, center: np.ndarray, second: np.ndarray | None) ->
 
 
 def is_confirmed(
-    code: str, values: dict, link: LinkAudit, facts: dict[str, Facts], content: Path
+    code: str, values: dict, link: LinkAudit, facts: dict[str, Facts], path: Path, content: Path
 ) -> bool:
     """Return whether another program sees the same fault of a link."""
     own = facts[link.link.name]
     if code == "inertial_missing":
         return own.numbers is None
     if code == "mesh_missing":
-        return not any(content.rglob(Path(values["name"].replace("\\", "/")).name))
+        scheme, _, name = values["name"].rpartition("://")
+        inside = name.partition("/")[2] if scheme == "package" else name
+        places = content.rglob("*" + inside) if scheme else [path.parent / inside]
+        return not any(place.is_file() for place in places)
     if code == "description_number":
         numbers = values["text"].split()
         return own.numbers is None or not numbers or min(map(float, numbers)) <= 0.0
@@ -528,6 +538,9 @@ def is_confirmed(
         return min(own.nearest(own.numbers, up) for up in ups) < own.nearest(own.numbers)
     if link.repaired is not None:
         back = link.repaired.mass, link.repaired.center, link.repaired.inertia
+        if "center" in values.get("part", ""):  # Then the inertia may be that of uneven mass.
+            before, after = own.center_distance(center), own.center_distance(back[1])
+            return after < min(0.02, 0.5 * before)
         return own.nearest(back) < min(0.02, 0.5 * own.nearest(own.numbers))
     return False
 
@@ -546,7 +559,7 @@ def count_alarms(audit: Audit, path: Path, roots: Roots, content: Path, codes: C
         doubtful = False
         for code, values in alarms.items():
             try:
-                is_right = is_confirmed(code, values, link, facts, content)
+                is_right = is_confirmed(code, values, link, facts, path, content)
             except (KeyError, ValueError, IndexError, QhullError) as error:
                 is_right = False
                 print(repr(error), file=sys.stderr)
