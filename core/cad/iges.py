@@ -50,7 +50,7 @@ from .surfaces import (
     bezier_surface,
     placed_surface,
 )
-from .trimmed import Boundary, first_region, trimmed_faces, within
+from .trimmed import Boundary, backward, first_region, trimmed_faces, within
 
 TURNING = 3.0  # the norm of a matrix (3, 3) of ones
 MATRIX = 124
@@ -355,7 +355,7 @@ class IgesReader:
             for _ in range(curves):
                 curve, sense, uses = integers(fields[at:], 3)
                 pieces = self._curves.read(curve, matrix)
-                in_space.append(_backward(pieces) if sense == 2 else pieces)
+                in_space.append(backward(pieces) if pieces and sense == 2 else pieces)
                 ways = integers(fields[at + 3 :], uses)
                 by_parameters += [self._curves.read(way, None) for way in ways] or [None]
                 at += 3 + uses
@@ -398,7 +398,7 @@ class IgesReader:
             integers(self._text.fields(entry)[1 + 5 * (index - 1) :], 1) if index > 0 else (0,)
         )
         curves = self._curves.read(curve, matrix @ self._matrix(entry))
-        return curves if forward else _backward(curves)
+        return backward(curves) if curves and not forward else curves
 
     def _within(
         self, base: Entry, matrix: NDArray, boundaries: Sequence[Boundary], has_outer: bool
@@ -584,11 +584,6 @@ class IgesReader:
         return np.linalg.solve(matrix[:3, :3].T, numbers(fields[:3])) * np.sign(
             np.linalg.det(matrix[:3, :3])
         )
-
-
-def _backward(curves: list[Curve] | None) -> list[Curve] | None:
-    """Return curves end to end, run backward; None if they are unknown."""
-    return None if curves is None else [one.reverse() for one in reversed(curves)]
 
 
 def _join_curves(parts: Sequence[list[Curve] | None]) -> list[Curve] | None:

@@ -29,7 +29,7 @@ from ..nurbs import (
 from ..verdict import WELDING_RTOL, MeasureError
 from .findings import SURFACE_TRIMMED
 from .iges_sweeps import spanned_quadric
-from .regions import curved_region
+from .regions import MISS_RTOL, curved_region
 from .surfaces import SurfaceRefusedError
 
 FLAT_RTOL = 1e-8  # Relative to the size: a surface that is farther from a plane is curved.
@@ -54,6 +54,11 @@ class Boundary:
     curves: list[Curve] | None
     parameters: list[Curve] | None = None
     prefers_parameters: bool = False
+
+
+def backward(curves: Sequence[Curve]) -> list[Curve]:
+    """Return curves end to end, run backward."""
+    return [curve.reverse() for curve in reversed(curves)]
 
 
 def within(
@@ -88,14 +93,14 @@ def within(
         face = curved_region(surface, loops, rounding, beyond)
         return [face if face.loops else spanned_quadric(surface, [])]
     if _is_flat(surface, FLAT_RTOL * patches_size([surface]) + 4.0 * rounding):
-        return [first_region([loops], vector_area([surface]))]
+        return [flat_region(loops, vector_area([surface]), beyond is None)]
     if _follow_sides(surface, _UNIT, in_space):
         return [surface]
     chart = SplineChart(surface)
     if chart.periods[1] and not chart.periods[0]:
         # Strips end at the sides of the direction that does not close.
         turned = SplineChart(surface.reverse_orientation())
-        loops = [[curve.reverse() for curve in reversed(loop)] for loop in loops]
+        loops = [backward(loop) for loop in loops]
         return [curved_region(turned, loops, rounding, beyond).reverse_orientation()]
     return [curved_region(chart, loops, rounding, beyond)]
 
@@ -167,15 +172,38 @@ def trimmed_faces(
         ]
         # A face that goes beyond a seam of its surface has this seam among its boundaries.
         seams = np.concatenate([curve.samples(SEAM_SAMPLES) for curve in around])
-        if quadric is None:
-            return within(patch, [*outer, *lifted], rounding=rounding, beyond=seams)
-        middle = np.array([[np.mean(space.domain)] for space in patch.spaces])
-        place, along, across = SplineChart(patch).evaluate(*middle)
-        _, own_along, own_across = quadric.evaluate(*quadric.project(place.T).T)
-        faces = within(quadric, [*outer, *lifted], rounding=rounding, beyond=seams)
-        is_turned = float(dot(cross(along, across), cross(own_along, own_across))[0]) < 0.0
+        faces = within(quadric or patch, [*outer, *lifted], rounding=rounding, beyond=seams)
+        is_turned = quadric is not None and faces_away(quadric, patch)
         return [face.reverse_orientation() for face in faces] if is_turned else faces
     raise SurfaceRefusedError(SURFACE_TRIMMED)
+
+
+def faces_away(quadric: Quadric, patch: Patch) -> bool:
+    """Return whether a patch of a quadric faces inward."""
+    middle = np.array([[np.mean(space.domain)] for space in patch.spaces])
+    place, along, across = SplineChart(patch).evaluate(*middle)
+    _, own_along, own_across = quadric.evaluate(*quadric.project(place.T).T)
+    return float(dot(cross(along, across), cross(own_along, own_across))[0]) < 0.0
+
+
+def flat_region(loops: Sequence[list[Curve]], normal: NDArray, is_directed: bool) -> FlatFace:
+    """Return the region of a plane within loops; MeasureError if they bound none.
+
+    is_directed: whether the loops run with the region on their left. Then they may touch, and leave
+    the plane a little.
+    """
+    try:
+        return FlatFace.within(loops, normal)
+    except MeasureError:
+        face = FlatFace(tuple(map(tuple, loops)), normal / np.linalg.norm(normal))
+        away = np.abs((face.points - face.center) @ face.normal).max()
+        if not (
+            is_directed
+            and away <= MISS_RTOL * float(np.ptp(face.points, axis=0).max())
+            and face.area_moments(0, face.center).total > 0.0
+        ):
+            raise
+        return face
 
 
 def first_region(choices: Sequence[Sequence[list[Curve] | None]], normal: NDArray) -> FlatFace:
