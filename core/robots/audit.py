@@ -234,7 +234,9 @@ class Auditor:
                 inertial = StatedInertial(body.mass, body.center, body.inertia)
             if inertial is None or masses:
                 inertial = link.rules.complete(inertial)
-            return replace(link, inertial=link.rules.bound(inertial), from_shapes=bool(masses))
+            is_stated = link.rules.mass > 0.0 and link.rules.moments is not None
+            used = link.rules.bound(inertial)
+            return replace(link, inertial=used, from_shapes=bool(masses) and not is_stated)
         except Exception:  # An unforeseen error returns when the link is audited.
             return link
 
@@ -452,6 +454,8 @@ def _scaled(stated: StatedLink, link: StatedLink, factor: float) -> StatedLink:
         used = replace(used, mass=used.mass * factor, tensor=used.tensor * factor)
     if used is stated.inertial:
         return stated
+    if link.rules and link.rules.moments is not None and not link.from_shapes:
+        return replace(link, inertial=used)  # Only a center that is not stated is the colliders'.
     return replace(link, inertial=used, overridden=stated.inertial, span=None)
 
 
@@ -467,14 +471,15 @@ def _describe_overridden(link: StatedLink, used: StatedInertial) -> list[Entry]:
         apart = Reference(1.0, used.center, used.inertia / used.mass).compare(stated)
     if link.from_shapes:
         apart = max(apart, abs(stated.mass / used.mass - 1.0))
-    if link.rules is None and apart <= DIFFERS:
+    is_newton = link.rules is None or link.rules.moments is not None
+    if is_newton and apart <= DIFFERS:
         return []
     first, second, third = np.linalg.eigvalsh(used.inertia).tolist()
     found = finding(
         AUDIT_OVERRIDDEN,
         slight=apart <= DIFFERS,
-        program="Newton" if link.rules is None else "MuJoCo",
-        cause="newton:inertia" if link.rules is None else "<compiler>",
+        program="Newton" if is_newton else "MuJoCo",
+        cause="newton:inertia" if is_newton else "<compiler>",
         mass=used.mass,
         first=first,
         second=second,

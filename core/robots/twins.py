@@ -181,7 +181,7 @@ def disagreement(
 ) -> tuple[str, float]:
     """Return the part that differs more, "masses" or "inertias", and the relative difference."""
     mass = abs(first.mass - second.mass) / max(first.mass, second.mass)
-    largest = max(np.linalg.norm(first.inertia), np.linalg.norm(second.inertia))
+    largest = max(np.linalg.norm(first.inertia), np.linalg.norm(second.inertia)) or 1.0
     tensor = min(
         float(np.linalg.norm(mapped(first, pose).inertia - second.inertia) / largest)
         for pose in maps
