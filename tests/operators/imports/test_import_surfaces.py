@@ -4,6 +4,7 @@
 
 import gzip
 import tarfile
+from pathlib import Path
 
 import bpy
 import pytest
@@ -47,7 +48,8 @@ def test_step_solid_keeps_its_volume_in_a_blend_until_it_is_edited(tmp_path):
 
 
 def test_trimmed_iges_solid_is_measured_as_in_the_file(tmp_path):
-    data = gzip.decompress(open("tests/core/cad/kernel/swept/cross_solid.igs.gz", "rb").read())
+    packed = Path("tests/core/cad/kernel/swept/cross_solid.igs.gz")
+    data = gzip.decompress(packed.read_bytes())
     (tmp_path / "tube.igs").write_bytes(data)
     tube = imported(filepath=str(tmp_path / "tube.igs"))
     tube.name = "Tube"
