@@ -192,12 +192,13 @@ def disagreement(
 def find_copies(audits: Sequence[LinkAudit]) -> Iterator[list[int]]:
     """Yield the links of each inertial that stands at links of different geometry.
 
-    Drawn geometry is compared with drawn geometry alone: colliders are often rougher.
+    Drawn geometry is compared with drawn geometry alone: colliders are often rougher, also those
+    of drawn shapes without a certain volume.
     """
     groups: dict[tuple[bytes, bool], list[int]] = {}
     for index, one in enumerate(audits):
         inertial = one.link.inertial
-        if inertial is not None and one.geometry is not None and inertial.mass > 0.0:
+        if inertial is not None and one.is_drawn and inertial.mass > 0.0:
             numbers = np.concatenate([[inertial.mass], inertial.center, inertial.inertia.ravel()])
             is_drawn = any(shape.role == "visual" for shape in one.link.shapes)
             groups.setdefault((numbers.tobytes(), is_drawn), []).append(index)
