@@ -198,7 +198,7 @@ class Auditor:
         used = [_scaled(stated, link, factor) for stated, link in pairs]
         tree = build_tree(description, self.joints)
         alone = [self._link_alone(link) for link in used]
-        pairs = _twins(alone, build_tree(description, {}))
+        pairs = _twins(alone, build_tree(description, {}) if self.joints else tree)
         for first, second, maps in pairs:
             _repair_by_twin(alone, first, second, maps)
         audits = [self._sure(one) for one in alone]

@@ -120,7 +120,9 @@ def _plane(places: Sequence[tuple[Array, Array] | None]) -> Plane | None:
     ways = second - first
     ways = ways / np.linalg.norm(ways, axis=1)[:, None]
     normal = np.linalg.eigh(ways.T @ ways)[1][:, 2]
-    return Plane(normal, float(np.quantile((first + second) / 2.0 @ normal, 0.5)))
+    offsets = np.sort((first + second) / 2.0 @ normal)
+    half = len(offsets) // 2  # The median; numpy's own functions load much for it.
+    return Plane(normal, float(offsets[half] + offsets[-1 - half]) / 2.0)
 
 
 def _is_copy(first: LinkAudit, second: LinkAudit) -> bool:
