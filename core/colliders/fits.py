@@ -113,9 +113,10 @@ def hull_of(surface: Surface) -> ConvexHull:
     if len(triangles) == 2 * len(points) - 4 and len(triangles) <= MOST_CONVEX_FACES:
         start = triangles.ravel()
         end = triangles[:, NEXT_AXIS].ravel()
-        order = np.argsort(start * len(points) + end)
-        sides = (start * len(points) + end)[order]
-        across = order[np.minimum(np.searchsorted(sides, end * len(points) + start), len(order) - 1)]
+        side = start * len(points) + end
+        order = np.argsort(side)
+        place = np.searchsorted(side[order], end * len(points) + start)
+        across = order[np.minimum(place, len(order) - 1)]
         gap = HULL_RTOL * float(np.ptp(points, axis=0).max())
         if (start[across] == end).all() and (end[across] == start).all():
             hull = ConvexHull(

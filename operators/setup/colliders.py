@@ -78,9 +78,7 @@ class _Making(selection.OnSelectionInObjectMode, modal.ModalSteps):
         self._objects = bodies_of(context)
         known: dict[str, session.colliders.Plan] = {}
         unit = meters_per_unit(context.scene)
-        measured = bodies.measured_in_turn(
-            self._objects, context.evaluated_depsgraph_get()
-        )
+        measured = bodies.measured_in_turn(self._objects, context.evaluated_depsgraph_get())
         wanted = core.colliders.fits.Wanted(*self._wanted())
 
         def plan(obj: Object) -> Generator[float, None, None]:
