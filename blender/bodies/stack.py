@@ -33,7 +33,7 @@ from ...core.mesh import Surface
 from ...core.moments import Moments, are_similarities, are_singular, image
 from ...core.numerics import Array, Index, Mask, rotation_matrix
 from ...core.polyhedron import area_of_images
-from ...core.solid import SolidStack, measure_again
+from ...core.solid import SmallSolid, SolidStack, measure_again
 from ...core.verdict import Finding, Method, Procedure
 from ..read.fingerprint import transform_key
 from ..read.mesh import read_digest
@@ -176,6 +176,21 @@ class Measured:
     @property
     def method(self) -> Method:
         return self.stack.methods[self.index] if self.stack else self.measurement.method
+
+    def closed_surface(self, limit: int) -> Surface | None:
+        """Return the surface in the world if it is closed as it is, with `limit` triangles at most;
+        None if that is not known.
+        """
+        if self.stack is None:
+            return None
+        member = self.stack.members[self.index]
+        solid = self.stack.solids[member.shape]
+        surface = solid.given_surface
+        if solid.method is not Procedure.EXACT or not isinstance(solid, SmallSolid):
+            return None
+        if surface.triangle_count > limit:
+            return None
+        return surface.transform(member.matrix[:3, :3], member.matrix[:3, 3])
 
     def shape_digest(self, obj: bpy.types.Object) -> bytes | None:
         """Return the digest of the object's surface; None if it is large or not the whole shape."""

@@ -23,7 +23,7 @@ from .surfaces import SurfaceRefusedError
 
 CLEAR_RTOL = 1e-3  # relative to the size: a point so far from loops is on one side of them
 SEAM_RTOL = 1e-6  # relative to the size: curves so near run along each other
-MISS_RTOL = 1e-4  # relative to the size: a curve beyond this distance is not on the surface
+MISS_RTOL = 1e-3  # relative to the size: a curve beyond this distance is not on the surface
 POLE_RTOL = 1e-9  # relative to the size: the slope by the angle at a pole
 MIN_CLEARANCE = (
     1e-3  # distance of curves from the poles of a sphere, as one minus the sine of the latitude
@@ -140,11 +140,16 @@ def _chains(samples: Sequence[NDArray], kept: Sequence[int], near: float) -> lis
     chains = []
     while left:
         chain = [left.pop(0)]
-        while np.linalg.norm(samples[chain[-1]][-1] - samples[chain[0]][0]) > near:
-            gaps = [np.linalg.norm(samples[chain[-1]][-1] - samples[k][0]) for k in left]
-            if not gaps or min(gaps) > near:
+        # An edge may be shorter than the tolerance.
+        while True:
+            ends = [chain[0], *left]
+            gaps = [np.linalg.norm(samples[chain[-1]][-1] - samples[k][0]) for k in ends]
+            nearest = int(np.argmin(gaps))
+            if gaps[nearest] > near:
                 raise SurfaceRefusedError(SURFACE_DAMAGED, fault="a loop that does not close")
-            chain.append(left.pop(int(np.argmin(gaps))))
+            if nearest == 0:
+                break
+            chain.append(left.pop(nearest - 1))
         chains.append(chain)
     return chains
 
@@ -248,9 +253,8 @@ def _oriented(
     if tracks:
         steps = np.concatenate([track.steps for track in tracks])
         known = witness[:1] if len(witness) or beyond is None else beyond
-        held = {
-            _covers(chart, steps, spot, axis, base) + is_whole > 0 for spot in chart.project(known)
-        }
+        spots = chart.project(known) if len(known) else ()
+        held = {_covers(chart, steps, spot, axis, base) + is_whole > 0 for spot in spots}
         if len(held) > 1 or not held and beyond is not None:
             raise SurfaceRefusedError(SURFACE_TRIMMED)
         if held == {not len(witness)}:

@@ -29,7 +29,7 @@ from ..nurbs import (
 from ..verdict import WELDING_RTOL, MeasureError
 from .findings import SURFACE_TRIMMED
 from .iges_sweeps import spanned_quadric
-from .regions import curved_region
+from .regions import MISS_RTOL, curved_region
 from .surfaces import SurfaceRefusedError
 
 FLAT_RTOL = 1e-8  # Relative to the size: a surface that is farther from a plane is curved.
@@ -56,21 +56,24 @@ class Boundary:
     prefers_parameters: bool = False
 
 
+def backward(curves: Sequence[Curve]) -> list[Curve]:
+    """Return curves end to end, run backward."""
+    return [curve.reverse() for curve in reversed(curves)]
+
+
 def within(
     surface: Patch | Quadric,
     boundaries: Sequence[Boundary],
     *,
     rounding: float = 0.0,
     beyond: NDArray | None = None,
-    only_patches: bool = False,
 ) -> list[Face]:
     """Return the faces of a surface within boundaries, facing as the surface does;
     SurfaceRefusedError if they bound none.
 
     rounding: largest effect of the file's decimals on a point. beyond: (n, 3)
     points that no face reaches; None if boundaries run with the face on their left, seen from the
-    side of the surface's normal. only_patches: refuse a
-    trimmed surface.
+    side of the surface's normal.
     """
     loops = [one.curves or _lifted(surface, one.parameters or ()) for one in boundaries]
     if not all(loops):
@@ -83,21 +86,20 @@ def within(
             patch = None
         if patch is not None and (not loops or _follow_sides(patch, _UNIT, in_space)):
             return [patch]
-        if only_patches:
-            raise SurfaceRefusedError(SURFACE_TRIMMED)
         face = curved_region(surface, loops, rounding, beyond)
         return [face if face.loops else spanned_quadric(surface, [])]
     if _is_flat(surface, FLAT_RTOL * patches_size([surface]) + 4.0 * rounding):
-        return [first_region([loops], vector_area([surface]))]
+        return [flat_region(loops, vector_area([surface]), beyond is None)]
     if _follow_sides(surface, _UNIT, in_space):
         return [surface]
     chart = SplineChart(surface)
     if chart.periods[1] and not chart.periods[0]:
         # Strips end at the sides of the direction that does not close.
         turned = SplineChart(surface.reverse_orientation())
-        loops = [[curve.reverse() for curve in reversed(loop)] for loop in loops]
+        loops = [backward(loop) for loop in loops]
         return [curved_region(turned, loops, rounding, beyond).reverse_orientation()]
-    return [curved_region(chart, loops, rounding, beyond)]
+    face = curved_region(chart, loops, rounding, beyond)
+    return [face if face.loops else surface]
 
 
 def _lifted(surface: Patch | Quadric, parameters: Sequence[Curve]) -> list[Curve]:
@@ -108,6 +110,12 @@ def _lifted(surface: Patch | Quadric, parameters: Sequence[Curve]) -> list[Curve
     between = (nodes[1:] + nodes[:-1]) / 2.0
     tables = space.collocation_matrix(nodes), space.collocation_matrix(between)
     found = []
+    if isinstance(chart, SplineChart) and parameters:
+        ends = np.array([space.domain for space in chart.patch.spaces])
+        places = np.concatenate([curve.samples(SAMPLES)[:, :2] for curve in parameters])
+        beyond = np.maximum(ends[:, 0] - places, places - ends[:, 1]).max(axis=0)
+        if (beyond > TRIM_RTOL * np.ptp(ends, axis=1))[np.equal(chart.periods, 0.0)].any():
+            raise SurfaceRefusedError(SURFACE_TRIMMED)
     for curve in parameters:
         work = [(low, high, 0) for low, high in curve.space.intervals[::-1].tolist()]
         while work:
@@ -134,7 +142,6 @@ def trimmed_faces(
     has_outer: bool,
     rounding: float = 0.0,
     quadric: Quadric | None = None,
-    only_patches: bool = False,
     lifts: bool = True,
 ) -> list[Face]:
     """Return the faces of a surface within boundaries.
@@ -142,7 +149,7 @@ def trimmed_faces(
     domain: the used part of the surface. patches: that part, in one piece unless the surface may be
     torn. has_outer: False if the outer boundary is that of the surface. rounding: largest effect of
     the file's decimals on a point. quadric: the whole surface, if it is one.
-    only_patches: refuse a trimmed surface. lifts: whether parameters of curved surfaces are those
+    lifts: whether parameters of curved surfaces are those
     of `surface`.
     """
     if not boundaries:
@@ -151,8 +158,6 @@ def trimmed_faces(
         (patch,) = patches
         if has_outer and _follow_sides(patch, domain, boundaries):
             return [patch]
-        if only_patches:
-            raise SurfaceRefusedError(SURFACE_TRIMMED)
         tolerance = FLAT_RTOL * patches_size([surface]) + 4.0 * rounding
         around = [curve if ahead else curve.reverse() for curve, ahead in patch.sides]
         around = [curve for curve in around if np.ptp(curve.points, axis=0).any()]
@@ -167,15 +172,38 @@ def trimmed_faces(
         ]
         # A face that goes beyond a seam of its surface has this seam among its boundaries.
         seams = np.concatenate([curve.samples(SEAM_SAMPLES) for curve in around])
-        if quadric is None:
-            return within(patch, [*outer, *lifted], rounding=rounding, beyond=seams)
-        middle = np.array([[np.mean(space.domain)] for space in patch.spaces])
-        place, along, across = SplineChart(patch).evaluate(*middle)
-        _, own_along, own_across = quadric.evaluate(*quadric.project(place.T).T)
-        faces = within(quadric, [*outer, *lifted], rounding=rounding, beyond=seams)
-        is_turned = float(dot(cross(along, across), cross(own_along, own_across))[0]) < 0.0
+        faces = within(quadric or patch, [*outer, *lifted], rounding=rounding, beyond=seams)
+        is_turned = quadric is not None and faces_away(quadric, patch)
         return [face.reverse_orientation() for face in faces] if is_turned else faces
     raise SurfaceRefusedError(SURFACE_TRIMMED)
+
+
+def faces_away(quadric: Quadric, patch: Patch) -> bool:
+    """Return whether a patch of a quadric faces inward."""
+    middle = np.array([[np.mean(space.domain)] for space in patch.spaces])
+    place, along, across = SplineChart(patch).evaluate(*middle)
+    _, own_along, own_across = quadric.evaluate(*quadric.project(place.T).T)
+    return float(dot(cross(along, across), cross(own_along, own_across))[0]) < 0.0
+
+
+def flat_region(loops: Sequence[list[Curve]], normal: NDArray, is_directed: bool) -> FlatFace:
+    """Return the region of a plane within loops; MeasureError if they bound none.
+
+    is_directed: whether the loops run with the region on their left. Then they may touch, and leave
+    the plane a little.
+    """
+    try:
+        return FlatFace.within(loops, normal)
+    except MeasureError:
+        face = FlatFace(tuple(map(tuple, loops)), normal / np.linalg.norm(normal))
+        away = np.abs((face.points - face.center) @ face.normal).max()
+        if not (
+            is_directed
+            and away <= MISS_RTOL * float(np.ptp(face.points, axis=0).max())
+            and face.area_moments(0, face.center).total > 0.0
+        ):
+            raise
+        return face
 
 
 def first_region(choices: Sequence[Sequence[list[Curve] | None]], normal: NDArray) -> FlatFace:

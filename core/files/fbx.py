@@ -41,6 +41,11 @@ class FbxNode:
         """Return the first node in it with a name."""
         return next((node for node in self.children if node.name == name), None)
 
+    def properties(self) -> dict[str, Any]:
+        """Return the values of its properties."""
+        table = self.child("Properties70") or FbxNode("")
+        return {line.values[0]: line.values[4:] for line in table.children}
+
     def numbers(self) -> Array:
         """Return the numbers of its array, none if it has none."""
         if isinstance(self.source, bytes):

@@ -22,7 +22,8 @@ class Quadric:
 
     frame: (4, 4), third axis: that of the surface. radius: of a cylinder, of a cone at the origin,
     or from a torus' axis to its tube; 0 for a sphere. minor: radius of a sphere or a tube, 0 for a
-    line, whose radius grows by `slope` along the axis.
+    line, whose radius grows by `slope` along the axis. Of a tube that crosses the axis, the part on
+    one side: the outer one, or the inner one with a radius below 0.
 
     Coordinates are the angle about the axis, and the height along it or the angle along the circle.
     """
@@ -35,7 +36,7 @@ class Quadric:
     @property
     def periods(self) -> tuple[float, float]:
         """Periods of both coordinates, 0 if there is none."""
-        return TURN, TURN if self.minor and self.radius else 0.0
+        return TURN, TURN if 0.0 < self.minor < self.radius else 0.0
 
     @property
     def is_closed(self) -> bool:
@@ -46,7 +47,7 @@ class Quadric:
     def limits(self) -> tuple[float, float]:
         """Ends of the second coordinate on a closed surface, or the apex of a cone, or infinite."""
         if self.minor:
-            half = TURN / (2.0 if self.radius else 4.0)
+            half = math.acos(max(-1.0, -self.radius / self.minor))
             return -half, half
         apex = -self.radius / self.slope if self.slope else math.inf
         return (apex, math.inf) if self.slope > 0.0 else (-math.inf, apex)

@@ -44,7 +44,7 @@ from ..moments import (
     monomials,
     unchecked_moments,
 )
-from ..numerics import Array, Index, NDArray, batches, indices_in_range
+from ..numerics import NEXT_AXIS, PREVIOUS_AXIS, Array, Index, NDArray, batches, indices_in_range
 from ..verdict import check_size
 
 # Up to this number of triangles the third order is always exact, which takes half as long again.
@@ -75,7 +75,6 @@ PRODUCT_ROUNDINGS = 8.0 * DEGREE
 THIRD_ORDER_SHARE = np.repeat([1.0, 2.0], 10)
 CONE_DIVISORS = 2.0 * DEGREE + 6.0  # ∫ f over a cone is w E[f] / this
 AREA_FACTORS = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2, this much more
-AXIS_PAIRS = (1, 2), (2, 0), (0, 1)
 TRIPLES = [(i, j, k) for i in range(3) for j in range(i, 3) for k in range(j, 3)]
 PAIR_INDEX = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
 # Indices, in a table of x, y, z times xx, xy, xz, yy, yz, zz, x, y, z, of the terms of the
@@ -158,7 +157,10 @@ def integrate(
         elif planarity is not None and lengths is not None:
             planarity.add_triangles(start, lengths.T.ravel())
         starts = np.arange(0, corners.shape[2], FACES_PER_PART)
-        return _face_sums(sides, lengths, center[:, None], starts, True, area_moments, exact)
+        counts = np.minimum(corners.shape[2] - starts, FACES_PER_PART)
+        return _face_sums(
+            sides, lengths, center[:, None], starts, counts, True, area_moments, exact
+        )
 
     rows = 1 if paired_corners(surface.triangles[:2]) is None else 2
     blocks = [
@@ -216,9 +218,10 @@ def small_moments(
         corners = coordinates.take(rows.T, axis=1).astype(np.float64, copy=False)
         block = Faces(corners)
         lengths = block.lengths() if area else None
-        middle = np.repeat(center[part].T, counts[part], axis=1)
-        starts = np.cumsum(counts[part]) - counts[part]
-        sums.append(_face_sums(block, lengths, middle, starts, False, area_moments, True))
+        number = counts[part]
+        middle = np.repeat(center[part].T, number, axis=1)
+        starts = np.cumsum(number) - number
+        sums.append(_face_sums(block, lengths, middle, starts, number, False, area_moments, True))
     return _moments(
         sums,
         np.arange(len(counts)),
@@ -294,14 +297,15 @@ def _face_sums(
     lengths: Array | None,
     middle: Array,
     starts: Index,
+    counts: NDArray[np.integer],
     is_joint: bool,
     area_moments: bool,
     exact: bool,
 ) -> _Sums:
     """Return the sums of faces, whose corners are overwritten. lengths: doubled areas, (f, t).
 
-    middle: (3, 1 or t) reference points. starts: (s,) first faces of the parts, of one body if
-    `is_joint`, else of a body each.
+    middle: (3, 1 or t) reference points. starts, counts: (s,) first face and number of faces of the
+    parts, of one body if `is_joint`, else of a body each.
     """
     edges = faces.edges
     nodes = np.subtract(faces.corners, middle[:, None], faces.corners)
@@ -363,7 +367,7 @@ def _face_sums(
     return (
         weighted_sums(det),
         weighted_sums(lengths) if area_moments else np.empty((len(body_starts), 0)),
-        np.diff(starts, append=nodes.shape[2])[:, None] * len(det),
+        counts[:, None].astype(np.float64) * len(det),
         np.maximum.reduce(largest[:, ::2], axis=1).T,
         largest[:, 1].T,
         np.array(
@@ -397,7 +401,10 @@ def _moments(
 
     tau = total(
         number
-        * np.array([side[:, i] * base[:, j] + side[:, j] * base[:, i] for i, j in AXIS_PAIRS]).T
+        * (
+            side.take(NEXT_AXIS, 1) * base.take(PREVIOUS_AXIS, 1)
+            + side.take(PREVIOUS_AXIS, 1) * base.take(NEXT_AXIS, 1)
+        )
     )
     lengths = np.sqrt(np.add.reduce(side * side, axis=1)) + np.sqrt(
         np.add.reduce(base * base, axis=1)

@@ -132,7 +132,7 @@ SWAPS = {
     "not in the file": (r"(CYLINDRICAL_SURFACE\('',)#\d+", r"\1#999999", "ADVANCED_FACE"),
     "numbers": (r"(CYLINDRICAL_SURFACE\('',#\d+,)4\.", r"\g<1>-4.", "ADVANCED_FACE"),
     "possible": (r"CYLINDRICAL_SURFACE\(", "CYLINDRICAL_SURFACE" + "(" * 90, "ADVANCED_FACE"),
-    "OFFSET_SURFACE": (r"CYLINDRICAL_SURFACE", "OFFSET_SURFACE", "ADVANCED_FACE"),
+    "BOUNDED_SURFACE": (r"CYLINDRICAL_SURFACE", "BOUNDED_SURFACE", "ADVANCED_FACE"),
 }
 
 
@@ -155,7 +155,7 @@ def test_right_solids_beside_damage_are_measured(tmp_path):
     within = re.search(r"REPRESENTATION_RELATIONSHIP\('','',(#\d+),(#\d+)\)", whole)
     swapped = within[0].replace(within[2], within[1])
     for text, names, faults in (
-        (whole.replace("CYLINDRICAL_SURFACE", "OFFSET_SURFACE", 1), ["Plätte"], 1),
+        (whole.replace("CYLINDRICAL_SURFACE", "BOUNDED_SURFACE", 1), ["Plätte"], 1),
         (whole.replace(within[0], swapped), ["Bolt"] * 4 + ["Plätte"], 1),
     ):
         file = read(tmp_path, text)
