@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 from bpy.types import FCurve, Object, Scene
 
-from ...core.numerics import Array, NDArray
+from ...core.numerics import NDArray
 from ...core.rig import handle_values
 from ...core.verdict import EditRefusedError
 from .findings import INTERPOLATION_UNCUT
@@ -139,13 +139,6 @@ def find(curves: Iterable[FCurve], channel: Channel) -> FCurve | None:
     return next(
         (curve for curve in curves if (curve.data_path, curve.array_index) == channel), None
     )
-
-
-def keys(curve: FCurve) -> Array:
-    """Return the (k, 2) frames and values of a curve's keys."""
-    points = np.empty(2 * len(curve.keyframe_points), np.float32)
-    curve.keyframe_points.foreach_get("co", points)
-    return points.reshape(-1, 2).astype(np.float64)
 
 
 def write_keys(

@@ -233,8 +233,7 @@ def store_scaled(
     obj["body_mass"] = mass
     obj["body_density"] = density
     obj["body_fingerprint"] = fingerprint
-    obj["body_findings"] = findings_text(findings)
-    obj["body_warnings"] = warning_lines(findings)
+    store_findings(obj, findings)
     retrigger_drivers(obj)
 
 
