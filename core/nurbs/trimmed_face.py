@@ -29,11 +29,11 @@ from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
 from ..numerics import Array, Index, SplineSpace, clamped_space, cross, gauss_legendre
-from .bezier import ROUNDING, VOLUME_RTOL, homogeneous
+from .bezier import ROUNDING, VOLUME_RTOL
 from .patch_moments import AREA_RTOL, area_slope, area_terms, flux_terms, sheet_terms
 from .quadric import Quadric
 from .spline_chart import SplineChart
-from .splines import Curve
+from .splines import Curve, homogeneous
 
 SAMPLES = 17  # of a Bézier piece of a loop
 # Gauss points along a loop and across its strips, of two rules that are compared
