@@ -289,11 +289,19 @@ def _follow_sides(
     )
     left = left[np.linalg.norm(left - left[:, :1], axis=2).max(axis=1) > tolerance]
     pieces = []
+    places = np.zeros((4, SAMPLES, 2))
+    if quadric is not None:
+        points = np.concatenate([samples.reshape(4, SAMPLES, 3), left])
+        places = quadric.project(points.reshape(-1, 3)).reshape(-1, SAMPLES, 2)
+        for axis in np.flatnonzero(quadric.periods):
+            places[..., axis] = np.unwrap(places[..., axis], period=quadric.periods[axis], axis=1)
+    places, lines = places[4:], places[:4]
     for axis, end in np.argwhere(~is_pole).tolist():
         if quadric is None:
             share, is_on = _along_side(sides[axis][end], samples[axis, end], left, tolerance)
         else:
-            share, is_on = _along_line(quadric, samples[axis, end], left, tolerance)
+            share, is_on = _along_line(quadric, lines[2 * axis + end], places, left, tolerance)
+            places = places[~is_on]
         if is_closed[1 - axis]:
             share = np.unwrap(share, axis=1, period=1.0)
         ends = np.full((len(left), 2, 2), float(end))
@@ -326,28 +334,21 @@ def _along_side(
 
 
 def _along_line(
-    quadric: Quadric, samples: NDArray, rows: NDArray, tolerance: float
+    quadric: Quadric, side: NDArray, places: NDArray, rows: NDArray, tolerance: float
 ) -> tuple[Array, Mask]:
-    """Return the same for a side along which one coordinate of a quadric is constant, in closed
-    form, as shares of the other one.
+    """Return the same for a side (m, 2) along which one coordinate of a quadric is constant, as
+    shares of the other one. places: (n, m, 2) coordinates of the rows.
     """
-    count = len(samples)
-    place = quadric.project(np.concatenate([samples, rows.reshape(-1, 3)])).reshape(-1, count, 2)
-    periods = quadric.periods
-    for axis in np.flatnonzero(periods):
-        place[..., axis] = np.unwrap(place[..., axis], axis=1, period=periods[axis])
-    middle = count // 2
-    still = int(np.abs(place[0, middle + 1] - place[0, middle]).argmin())
-    side, place = place[0, :, 1 - still], np.where(np.arange(2) == still, place[0, middle], place)
-    miss = np.moveaxis(quadric.evaluate(*np.moveaxis(place[1:], 2, 0))[0], 0, 2) - rows
-    run = place[1:, :, 1 - still]
-    period = periods[1 - still] or np.inf
-    run = run + (0.0 if period == np.inf else period) * np.round(
-        (side[middle] - run[:, middle : middle + 1]) / period
-    )
-    return (run - side[0]) / (side[-1] - side[0]), np.linalg.norm(miss, axis=2).max(
-        axis=1
-    ) <= tolerance
+    middle = len(side) // 2
+    still = int(np.abs(side[middle + 1] - side[middle]).argmin())
+    on_side = np.where(np.arange(2) == still, side[middle], places)
+    miss = np.moveaxis(quadric.evaluate(*np.moveaxis(on_side, 2, 0))[0], 0, 2) - rows
+    is_on = np.linalg.norm(miss, axis=2).max(axis=1) <= tolerance
+    side, run = side[:, 1 - still], places[:, :, 1 - still]
+    period = quadric.periods[1 - still]
+    if period:
+        run = run + period * np.round((side[middle] - run[:, middle, None]) / period)
+    return (run - side[0]) / (side[-1] - side[0]), is_on
 
 
 @dataclass(frozen=True, eq=False)
