@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh import overlapping_box_pairs
-from ..numerics import Array, Index, Mask, SplineSpace, connected_components, cross, following_pairs
+from ..numerics import Array, Index, Mask, connected_components, cross, following_pairs
 from .blender_knots import bezier_curves
 from .flat_face import FlatFace, split_faces
 from .splines import SIDES, Curve, Face, Patch
@@ -328,9 +328,7 @@ def nearest_parameters(curve: Curve, samples: NDArray, points: NDArray, toleranc
     for _ in range(12):
         place, slope = curve.derivatives(t)
         square = (slope**2).sum(axis=1)
-        step = ((points - place) * slope).sum(axis=1) / np.where(
-            square > 0.0, square, 1.0
-        )
+        step = ((points - place) * slope).sum(axis=1) / np.where(square > 0.0, square, 1.0)
         t = t + np.clip(step, steps[0] - steps[1], steps[1] - steps[0])
         t = low + (t - low) % (high - low) if closed else np.clip(t, low, high)
         if not len(t) or np.abs(step).max() <= 1e-15 * (high - low):

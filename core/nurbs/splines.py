@@ -246,13 +246,21 @@ class Patch:
         """Return the boundary curve at the first (end 0) or last (end 1) s (axis 0) or t (axis
         1).
         """
-        weigh: Array = self.spaces[axis].end_weights[end]
-        points, weights = self.points, self.weights
-        if weights is None:
-            return Curve(self.spaces[1 - axis], np.tensordot(weigh, points, (0, axis)))
-        bottom = np.tensordot(weigh, weights, (0, axis))
-        top = np.tensordot(weigh, points * weights[..., None], (0, axis))
-        return Curve(self.spaces[1 - axis], top / bottom[:, None], bottom)
+        return self._side_curves[axis, end]
+
+    @cached_property
+    def _side_curves(self) -> dict[tuple[int, int], Curve]:
+        """The boundary curves by axis and end."""
+        net = self.points
+        if self.weights is not None:
+            net = homogeneous(self.points, self.weights)
+        found = {}
+        for axis, end, _ in SIDES:
+            row = np.tensordot(self.spaces[axis].end_weights[end], net, (0, axis))
+            weights = None if self.weights is None else row[:, 3]
+            points = row if weights is None else row[:, :3] / weights[:, None]
+            found[axis, end] = Curve(self.spaces[1 - axis], points, weights)
+        return found
 
     @property
     def sides(self) -> tuple[tuple[Curve, bool], ...]:
@@ -290,10 +298,8 @@ def control_box(patches: Sequence[Face]) -> tuple[Array, Array]:
     for patch in patches:
         if not hasattr(patch, "sides"):
             check_type("patches", patch, Patch)
-    return (
-        np.min([patch.points.min(axis=(0, 1)) for patch in patches], axis=0),
-        np.max([patch.points.max(axis=(0, 1)) for patch in patches], axis=0),
-    )
+    points = np.concatenate([patch.points.reshape(-1, 3) for patch in patches])
+    return points.min(axis=0), points.max(axis=0)
 
 
 def patches_center(patches: Sequence[Face]) -> Array:

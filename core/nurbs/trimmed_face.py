@@ -517,7 +517,9 @@ def sample_pieces(curves: Sequence[Curve]) -> Array:
 
 
 def _evaluate(nets: NDArray, at: NDArray, origin: NDArray) -> tuple[Array, Array]:
-    """Return (3, n, m) points and velocities of Bézier curves (n, order, 4) at (n, m) parameters."""
+    """Return (3, n, m) points and velocities of Bézier curves (n, order, 4), at (n, m) parameters
+    from 0 to 1.
+    """
     degree = nets.shape[1] - 1
     powers = np.arange(degree)
     choose = np.array([math.comb(degree - 1, k) for k in range(degree)], np.float64)
