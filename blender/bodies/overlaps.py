@@ -19,8 +19,8 @@ from ...core.numerics import Array, Mask, cross_rows
 from ...core.solid import classify_pairs
 from ...core.verdict import CLOSED_SHEET_VOLUME_RTOL, welding_tolerance
 from ...core.verdict.finding import Finding, MeasureError, finding
+from .. import read  # most objects need not be read again
 from ..read.assembly import copies_caveats, copies_in_place, operands_of
-from ..read.objects import read_object
 from .findings import BODIES_OVERLAP
 from .stack import Measured
 
@@ -61,7 +61,7 @@ def overlap_caveats(
 
 
 def _overlapping_pairs(
-    objects: Sequence[Object], read: Callable[[Object, int], Surface | None]
+    objects: Sequence[Object], read_surface: Callable[[Object, int], Surface | None]
 ) -> list[list[str]]:
     """Return the names of the pairs of closed solids that certainly share space, sorted."""
     solids = [
@@ -83,7 +83,7 @@ def _overlapping_pairs(
     surfaces: dict[str, Surface] = {}
     left = MAX_TRIANGLES
     for i in np.unique([first[meet], second[meet]]).tolist():
-        surface = read(solids[i], left)
+        surface = read_surface(solids[i], left)
         if surface is not None:
             left -= len(surface.triangles)
             surfaces[solids[i].name] = surface
@@ -119,7 +119,7 @@ def _closed_surface(obj: Object, depsgraph: Depsgraph, limit: int) -> Surface | 
     `limit`.
     """
     try:
-        reading = read_object(obj, depsgraph, edges=False)
+        reading = read.objects.read_object(obj, depsgraph, edges=False)
     except MeasureError:  # such as a grid of densities
         return None
     count = sum(part.surface.triangle_count * len(part.matrices) for part in reading.parts)

@@ -207,8 +207,7 @@ def measure_mesh_file(
         )
         if kind == "solid" and not volume.total > volume.rounding_error[0]:
             raise ReadError(NO_VOLUME)
-        reading = bare_reading(name, "MESH")
-        return measure_reading(reading, body, replace(settings, unit=1.0))
+        return measure_reading(bare_reading(name, "MESH"), body, replace(settings, unit=1.0))
 
 
 def _in_meters(found: StreamIntegrals, unit: float) -> tuple[Moments, Moments]:

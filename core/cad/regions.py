@@ -141,11 +141,16 @@ def _chains(samples: Sequence[NDArray], kept: Sequence[int], near: float) -> lis
     chains = []
     while left:
         chain = [left.pop(0)]
-        while np.linalg.norm(samples[chain[-1]][-1] - samples[chain[0]][0]) > near:
-            gaps = [np.linalg.norm(samples[chain[-1]][-1] - samples[k][0]) for k in left]
-            if not gaps or min(gaps) > near:
+        # An edge may be shorter than the tolerance.
+        while True:
+            ends = [chain[0], *left]
+            gaps = [np.linalg.norm(samples[chain[-1]][-1] - samples[k][0]) for k in ends]
+            nearest = int(np.argmin(gaps))
+            if gaps[nearest] > near:
                 raise SurfaceRefusedError(SURFACE_DAMAGED, fault="a loop that does not close")
-            chain.append(left.pop(int(np.argmin(gaps))))
+            if nearest == 0:
+                break
+            chain.append(left.pop(nearest - 1))
         chains.append(chain)
     return chains
 

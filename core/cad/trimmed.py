@@ -67,15 +67,13 @@ def within(
     *,
     rounding: float = 0.0,
     beyond: NDArray | None = None,
-    only_patches: bool = False,
 ) -> list[Face]:
     """Return the faces of a surface within boundaries, facing as the surface does;
     SurfaceRefusedError if they bound none.
 
     rounding: largest effect of the file's decimals on a point. beyond: (n, 3)
     points that no face reaches; None if boundaries run with the face on their left, seen from the
-    side of the surface's normal. only_patches: refuse a
-    trimmed surface.
+    side of the surface's normal.
     """
     loops = [one.curves or _lifted(surface, one.parameters or ()) for one in boundaries]
     if not all(loops):
@@ -88,8 +86,6 @@ def within(
             patch = None
         if patch is not None and (not loops or _follow_sides(patch, _UNIT, in_space, surface)):
             return [patch]
-        if only_patches:
-            raise SurfaceRefusedError(SURFACE_TRIMMED)
         face = curved_region(surface, loops, rounding, beyond)
         return [face if face.loops else spanned_quadric(surface, [])]
     if _is_flat(surface, FLAT_RTOL * patches_size([surface]) + 4.0 * rounding):
@@ -102,7 +98,8 @@ def within(
         turned = SplineChart(surface.reverse_orientation())
         loops = [backward(loop) for loop in loops]
         return [curved_region(turned, loops, rounding, beyond).reverse_orientation()]
-    return [curved_region(chart, loops, rounding, beyond)]
+    face = curved_region(chart, loops, rounding, beyond)
+    return [face if face.loops else surface]
 
 
 def _lifted(surface: Patch | Quadric, parameters: Sequence[Curve]) -> list[Curve]:
@@ -113,6 +110,12 @@ def _lifted(surface: Patch | Quadric, parameters: Sequence[Curve]) -> list[Curve
     between = (nodes[1:] + nodes[:-1]) / 2.0
     tables = space.collocation_matrix(nodes), space.collocation_matrix(between)
     found = []
+    if isinstance(chart, SplineChart) and parameters:
+        ends = np.array([space.domain for space in chart.patch.spaces])
+        places = np.concatenate([curve.samples(SAMPLES)[:, :2] for curve in parameters])
+        beyond = np.maximum(ends[:, 0] - places, places - ends[:, 1]).max(axis=0)
+        if (beyond > TRIM_RTOL * np.ptp(ends, axis=1))[np.equal(chart.periods, 0.0)].any():
+            raise SurfaceRefusedError(SURFACE_TRIMMED)
     for curve in parameters:
         work = [(low, high, 0) for low, high in curve.space.intervals[::-1].tolist()]
         while work:
@@ -139,7 +142,6 @@ def trimmed_faces(
     has_outer: bool,
     rounding: float = 0.0,
     quadric: Quadric | None = None,
-    only_patches: bool = False,
     lifts: bool = True,
 ) -> list[Face]:
     """Return the faces of a surface within boundaries.
@@ -147,7 +149,7 @@ def trimmed_faces(
     domain: the used part of the surface. patches: that part, in one piece unless the surface may be
     torn. has_outer: False if the outer boundary is that of the surface. rounding: largest effect of
     the file's decimals on a point. quadric: the whole surface, if it is one.
-    only_patches: refuse a trimmed surface. lifts: whether parameters of curved surfaces are those
+    lifts: whether parameters of curved surfaces are those
     of `surface`.
     """
     if not boundaries:
@@ -156,8 +158,6 @@ def trimmed_faces(
         (patch,) = patches
         if has_outer and _follow_sides(patch, domain, boundaries, quadric):
             return [patch]
-        if only_patches:
-            raise SurfaceRefusedError(SURFACE_TRIMMED)
         tolerance = FLAT_RTOL * patches_size([surface]) + 4.0 * rounding
         around = [curve if ahead else curve.reverse() for curve, ahead in patch.sides]
         around = [curve for curve in around if np.ptp(curve.points, axis=0).any()]

@@ -269,5 +269,4 @@ def _cross_row(
         ends.append(begin[1:] + share * (end[1:] - begin[1:]))
     forward = ends[0][0] < ends[1][0]
     left = np.where(forward, ends[0], ends[1])
-    right = np.where(forward, ends[1], ends[0])
-    return left, right, np.where(forward == single, -1, 1)
+    return left, np.where(forward, ends[1], ends[0]), np.where(forward == single, -1, 1)

@@ -66,8 +66,7 @@ def spread_bits(value: NDArray[np.int64]) -> NDArray[np.int64]:
 
 def segment_ranges(counts: NDArray) -> Index:
     """Return 0, 1, … counts[0] - 1, 0, 1, … counts[1] - 1, and so on."""
-    starts = segment_starts(counts)
-    return np.arange(int(np.add.reduce(counts))) - np.repeat(starts, counts)
+    return np.arange(int(np.add.reduce(counts))) - np.repeat(segment_starts(counts), counts)
 
 
 def segment_starts(counts: NDArray) -> Index:
