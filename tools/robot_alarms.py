@@ -16,6 +16,7 @@ import re
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from xml.etree import ElementTree
@@ -221,8 +222,12 @@ class Robot:
             if not has_alarm(one) and one.apart < AGREES and one.link.inertial.mass > 0.0
         }
 
-    def plant(self, faults: dict[str, Callable], expected: float | None = None) -> Audit:
-        """Return the audit of a copy with faults in some links; they may map their numbers."""
+    def plant(
+        self, faults: dict[str, Callable], expected: float | None = None, alone: bool = False
+    ) -> Audit:
+        """Return the audit of a copy with faults in some links, which map their numbers. alone:
+        True if no other links are audited.
+        """
         root = tree_of(self.path)
         for link in root.findall("link"):
             if link.get("name") in faults:
@@ -233,6 +238,9 @@ class Robot:
             description = read_description(copy, self.roots)
         finally:
             copy.unlink()
+        if alone:
+            links = tuple(one for one in description.links if one.name in faults)
+            description = replace(description, links=links, joints=())
         return Auditor(self.roots, {}, Expectation(expected), self.meshes).audit(description)
 
     def numbers(self) -> dict[str, Numbers]:
@@ -253,7 +261,7 @@ class Robot:
         if not changed:
             return Counter()
         counts = Counter(planted=len(changed))
-        for one in self.plant(dict.fromkeys(changed, fault)).links:
+        for one in self.plant(dict.fromkeys(changed, fault), alone=True).links:
             if one.link.name not in changed:
                 continue
             counts["found"] += has_alarm(one)
@@ -273,7 +281,7 @@ class Robot:
             codes = [entry.finding.code for entry in heavy.entries]
             found = Counter(planted=1, found="audit_total" in codes)
             yield "mass and inertia times 10, by the expected total", found
-        for left, right in self.twins():
+        for left, right in [*self.twins()][:5]:
             for kind, fault in (
                 ("one twin 20 % heavier", inertia_times(1.2, 1.2)),
                 ("one twin's products of the wrong sign", FAULTS["signs of the products"]),
@@ -284,6 +292,8 @@ class Robot:
                     continue
                 audit = {one.link.name: one for one in self.plant({left: fault}).links}
                 found = has_alarm(audit[left]) or has_alarm(audit[right])
+                if not found:
+                    print("not found:", kind, self.path, left, right, file=sys.stderr)
                 undone = audit[left].repaired
                 back = undone and (undone.mass, undone.center, undone.inertia)
                 is_back = back and apart(along_link(numbers[left]), back) < 0.1
@@ -510,7 +520,7 @@ def is_confirmed(
         return misfit(own.points(), center, None) > 5e-4
     if code == "inertial_spread_outside":
         return misfit(own.points(), center, second) > 1e-4
-    if code == "audit_density":
+    if code == "audit_density" or "density" in values:
         hull = trimesh.points.PointCloud(own.points()).convex_hull.volume
         volumes = [hull, *(volume for volume, _, _ in own.filled())]
         return any(not 10.0 <= mass / abs(volume) <= 30000.0 for volume in volumes)
@@ -600,6 +610,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--folder", type=Path, default=ROOT / ".envs" / "robots-audited")
     parser.add_argument("--package", action="append", help="only these, and no page")
+    parser.add_argument("--only-alarms", action="store_true", help="plant no faults")
     options = parser.parse_args()
     faults: dict[str, Counter] = {}
     codes: Counter = Counter()
@@ -613,7 +624,7 @@ def main() -> None:
             roots = Roots.for_file(path, [content])
             audit = Auditor(roots, meshes=meshes).audit(description)
             links.update(count_alarms(audit, path, roots, content, codes))
-            if description.format == "urdf":
+            if description.format == "urdf" and not options.only_alarms:
                 robot = Robot(path, audit, roots, meshes)
                 counts = [(kind, robot.count(kind, fault)) for kind, fault in FAULTS.items()]
                 for kind, count in [*counts, *robot.count_whole()]:

@@ -18,9 +18,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from ..files import DEFAULT_LIMITS, FILE_TOO_LARGE
+from ..files import FILE_TOO_LARGE
 from ..numerics import Array, clamped_space
 from ..nurbs import Curve, Face, close_pairs, patches_size
 from ..verdict import WELDING_RTOL
@@ -434,12 +434,3 @@ class StepReader:
                 made = self._shapes.curve(curve, ends if same else ends[::-1])
                 self._edges[number] = made if same else backward(made)
         return self._edges[number]
-
-
-def read_source(source: bytes, matrix: ArrayLike) -> tuple[tuple[Face, ...], float]:
-    """Return the faces of a body's `source` in place, and their rounding. Raise FileError."""
-    unpacked = zlib.decompressobj().decompress(source, DEFAULT_LIMITS.text_bytes)
-    (body,) = StepReader(Path(), False, unpacked).read().bodies
-    place = np.reshape(matrix, (4, 4))
-    scale = float(np.linalg.norm(place[:3, :3], 2))
-    return tuple(face.transform(place) for face in body.patches), scale * body.rounding

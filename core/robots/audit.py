@@ -96,7 +96,8 @@ class LinkAudit:
     geometry: the inertial of the evenly filled geometry with the stated mass, with 1 kg if that is
     no mass, None if unknown. volume: of the geometry, m³, 0 if unknown.
     apart: the relative difference from it. is_impossible: True if no body within the geometry has
-    the stated inertial. colliders: what the collision geometry beside the inertial does.
+    the stated inertial. colliders: what the collision geometry beside the inertial does. is_drawn:
+    True if the geometry is the drawn one, or nothing is drawn.
     """
 
     link: StatedLink
@@ -108,6 +109,7 @@ class LinkAudit:
     is_impossible: bool = False
     colliders: Effect | None = None
     volume: float = 0.0
+    is_drawn: bool = False
 
     @property
     def findings(self) -> tuple[Finding, ...]:
@@ -196,7 +198,7 @@ class Auditor:
         used = [_scaled(stated, link, factor) for stated, link in pairs]
         tree = build_tree(description, self.joints)
         alone = [self._link_alone(link) for link in used]
-        pairs = _twins(alone, build_tree(description, {}))
+        pairs = _twins(alone, build_tree(description, {}) if self.joints else tree)
         for first, second, maps in pairs:
             _repair_by_twin(alone, first, second, maps)
         audits = [self._sure(one) for one in alone]
@@ -511,9 +513,8 @@ def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete:
         one.shape.pose.apply(piece.points) for several in pieces.values() for one, piece in several
     ]
     hull = Hull(np.concatenate(points)) if points and not incomplete else None
-    references = (
-        [] if incomplete else [made for several in pieces.values() if (made := _reference(several))]
-    )
+    made = {} if incomplete else {role: _reference(several) for role, several in pieces.items()}
+    references = [made[role] for role in ("visual", "collision") if made.get(role)]
     reasons = impossible(stated, hull)
     if not stated.mass > LEAST_MASS or any(one.code == INERTIAL_NOT_FINITE for one in reasons):
         entries = [Entry(one, place, compares=True) for one in reasons]
@@ -571,6 +572,7 @@ def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete:
         apart,
         bool(wrong),
         volume=reference.volume,
+        is_drawn="visual" not in made or made["visual"] is not None,
     )
 
 
