@@ -165,7 +165,9 @@ def _ticks_per_second(header: FbxNode) -> float:
 
 
 def _power(values: Array, exponent: float) -> Array:
-    return np.sign(values) * np.abs(values) ** exponent if exponent < 1.0 else values
+    if 0.0 < exponent < 1.0 and (values < 0.0).any():
+        raise RareError
+    return values**exponent
 
 
 class _Curve:
