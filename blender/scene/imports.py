@@ -167,10 +167,7 @@ def _grid(scene: Scene, shape: tuple[int, int]) -> Curve:
         bpy.ops.object.mode_set(mode="OBJECT")
     bpy.data.objects.remove(obj)
     (spline,) = data.splines
-    if (spline.point_count_v, spline.point_count_u) != shape:
-        raise RuntimeError(
-            "Blender lofted {} x {} points".format(spline.point_count_v, spline.point_count_u)
-        )
+    assert (spline.point_count_v, spline.point_count_u) == shape
     return data
 
 

@@ -68,15 +68,6 @@ class LineGrids:
         origin = np.floor(most / 2.0) + LATTICE_SHIFT
         return cls(axes, center, width / np.array([rows, columns]).T, origin, *size.tolist())
 
-    @classmethod
-    def through_points(cls, points: Array, sizes: Array) -> LineGrids:
-        """Make a grid of a single line for each body, through (b, 3) points; sizes: (b,) of the
-        bodies.
-        """
-        count = len(points)
-        cell = np.repeat(4.0 * sizes[:, None], 2, axis=1)
-        return cls(np.tile(np.arange(3), (count, 1)), points, cell, np.zeros((count, 2)), 1, 1)
-
     def places(self, points: NDArray[np.floating], body: NDArray[np.integer] | None) -> Array:
         """Return the (3, n) rows, columns and lengths along the lines of points. body: (n,), None
         for a single body.
