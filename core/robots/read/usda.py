@@ -449,9 +449,10 @@ def _inertials(
     center = np.zeros(3) if rules.center is None else rules.center
     own = None
     if mass and rules.moments is not None:
-        order = prim.vector("physics:principalAxes", (1.0, 0.0, 0.0, 0.0))
-        turn = np.eye(3) if rules.axes is None else rules.axes
-        own = StatedInertial(mass, center, np.diag(rules.moments), turn, None, tuple(order))
+        own = StatedInertial(mass, center, np.diag(rules.moments), quaternion=(1.0, 0.0, 0.0, 0.0))
+        if rules.axes is not None:
+            order = prim.vector("physics:principalAxes", (1.0, 0.0, 0.0, 0.0)).tolist()
+            own = replace(own, rotation=rules.axes, quaternion=tuple(order))
     entries = prim.values.get("newton:inertia", "None") if "NewtonMassAPI" in prim.metadata else ""
     if not mass or not _FIELD.search(entries) or entries == "None":
         return own, None
