@@ -91,7 +91,7 @@ class MomentsPanel:
         computed = None if table is None else table.computed_moments(obj)
         if computed is None:
             return
-        rows.stale_row(layout, tracking.staleness.stale_reason(obj, context.scene, table.stamp_of))
+        rows.stale_state(layout, tracking.staleness.stale_reason(obj, context.scene, table.stamp_of))
         degrees, missing = table.current_numbers(obj, context.scene)
         if missing is not None:
             rows.message(layout, missing)

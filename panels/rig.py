@@ -130,7 +130,7 @@ def standing(weight: Weight, unit: float) -> tuple[str, dict[str, str], str]:
         return "No mesh can touch the ground", {}, "INFO"
     if support is None:
         lengths = {"height": distance(height * unit)}
-        return "In the air: {height} above the ground", lengths, "INFO"
+        return "In the air: {height} above ground", lengths, "INFO"
     margin = {"margin": distance(abs(support.margin) * unit)}
     if not support.stands:
         return "Falls: {margin} outside", margin, "CANCEL"
@@ -222,7 +222,7 @@ class BONE_PT_body_moments(AmongProperties, Panel):
         elif settings.mass_from == "MASS":
             rows.setting(column, settings, "mass", text="Mass (kg)")
         rows.button(layout, "object.body_moments_measure_bones", "BONE_DATA")
-        rows.stale_row(layout, stale_reason(bone.id_data, context.scene))
+        rows.stale_state(layout, stale_reason(bone.id_data, context.scene))
         _numbers(layout, bone)
 
 

@@ -23,7 +23,7 @@ from .. import read, scene, settings
 from ..bodies.measure_object import measured_in_turn
 from ..bodies.stack import Measured as MeasuredObject
 from ..scale import meters_per_unit
-from ..scene import changes, empties, findings, reframe, rigid_world, snap_targets, transforms
+from ..scene import changes, findings, reframe, rigid_world, snap_targets, transforms
 from ..write import reports
 from . import stored, tracking
 from .colliders import colliders_kept_current
@@ -189,10 +189,8 @@ def _add(context: Context, measured: dict[Object, Measured], type: str, shape: s
             elif shape != "KEEP":
                 part.rigid_body.collision_shape = shape
     for obj in (*new, *added):
-        scale = (obj.parent if settings.given.COLLIDER in obj else obj).matrix_world.to_scale()
-        is_scaled = max(abs(size - 1.0) for size in scale) > empties.PLACE_RTOL
-        if is_scaled and obj.rigid_body.collision_shape == "CONVEX_HULL":
-            # Blender shrinks hulls by the margin, times the scale; Bullet adds it without the scale
+        if obj.rigid_body.collision_shape == "CONVEX_HULL":
+            # The margin rounds acute corners, and Blender shrinks hulls by it before their scale.
             obj.rigid_body.use_margin = True
             obj.rigid_body.collision_margin = 0.0
     return new

@@ -214,12 +214,7 @@ class OBJECT_OT_body_moments_remove_colliders(selection.OnSelectionInObjectMode,
 
 def bodies_of(context: Context) -> list[Object]:
     """Return the selected objects, each once, with the bodies in place of their colliders."""
-    chosen = context.view_layer.objects.selected
-    return list(
-        dict.fromkeys(
-            obj.parent if settings.given.COLLIDER in obj and obj.parent else obj for obj in chosen
-        )
-    )
+    return list(dict.fromkeys(map(settings.given.body_of, context.view_layer.objects.selected)))
 
 
 class OBJECT_OT_body_moments_equal_inertia(_Making, Operator):
