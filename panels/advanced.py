@@ -106,8 +106,7 @@ class MomentsPanel:
             rows.table(column, [(*row, degree.unit) for row in degree.rows])
         if computed.order > table.MAX_SHOWN_ORDER:
             text = "Orders {first} to {last} are only in the copy."
-            first = table.MAX_SHOWN_ORDER + 1
-            rows.remark(layout, text, first=first, last=computed.order)
+            rows.remark(layout, text, first=table.MAX_SHOWN_ORDER + 1, last=computed.order)
 
 
 CLASSES = (

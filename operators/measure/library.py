@@ -144,8 +144,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
         with command.supervisor.Journal(result.with_name(JOURNAL)) as journal:
             paths = list(journal.entries)
             failed = sum(entry.status != "ok" for entry in journal.entries.values())
-            documents = _Documents(journal, paths)
-            pages = measurement.to_html(documents)
+            pages = measurement.to_html(_Documents(journal, paths))
             selection.write_file(
                 self._folder / REPORT, (page.encode("utf-8", "backslashreplace") for page in pages)
             )

@@ -88,8 +88,7 @@ class Level:
         edited = self.cut()
         places = [[vertex.co for vertex in face.verts] for face in edited.faces]
         edited.free()
-        origin = self.liquid.face.center[0]
-        return np.array(places, np.float64).reshape(-1, 3, 3) + origin
+        return np.array(places, np.float64).reshape(-1, 3, 3) + self.liquid.face.center[0]
 
     def cut(self) -> bmesh.types.BMesh:
         """Return the surface as triangles about its centroid, to be freed."""

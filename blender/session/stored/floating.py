@@ -406,8 +406,7 @@ def _read_held(obj: Object, afloat: Afloat, scene: Scene) -> Held | Finding | No
     unit = meters_per_unit(scene)
     turn[:3, 3] *= unit
     up = _up(scene)
-    rest = afloat.rest
-    body = rest.body
+    body = afloat.rest.body
     if body.density != liquid_density(scene):
         body = replace(body, density=liquid_density(scene))
     state = body.at(turn[:3, :3].T @ up)

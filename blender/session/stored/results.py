@@ -175,5 +175,4 @@ def clear_rig(armature: Object) -> bool:
     there were any.
     """
     properties.require_storable(armature)
-    cleared = [properties.clear(owner) for owner in (armature, *armature.pose.bones)]
-    return any(cleared)
+    return any([properties.clear(owner) for owner in (armature, *armature.pose.bones)])
