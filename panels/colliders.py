@@ -12,11 +12,9 @@ from typing import Any
 
 from bpy.types import Context, OperatorProperties
 
+from ..blender import scale, session
 from ..blender.read.visibility import measurable
-from ..blender.scale import meters_per_unit
-from ..blender.session.selected import subject
 from ..blender.session.stored.collider_tolerance import is_beyond_tolerance, tolerance_remedy
-from ..blender.session.tracking import staleness, stamps
 from ..blender.settings.given import COLLIDER, COLLIDERS, body_of
 from ..operators.setup.colliders import SHAPES
 from . import places, rows
@@ -56,7 +54,7 @@ class CollidersPanel:
 
     def draw(self, context: Context) -> None:
         layout = self.layout
-        chosen = subject(context)
+        chosen = session.selected.subject(context)
         body = None if chosen is None else body_of(chosen)
         layout.label(text="" if body is None else body.name, icon="OBJECT_DATA", translate=False)
         group = None if body is None else body.get(COLLIDERS)
@@ -88,7 +86,9 @@ class CollidersPanel:
         reason = (
             None
             if stored is None
-            else staleness.stale_reason(body, context.scene, stamps.of_colliders)
+            else session.tracking.staleness.stale_reason(
+                body, context.scene, session.tracking.stamps.of_colliders
+            )
         )
         rows.stale_state(layout, reason)
         if stored is None:
@@ -98,7 +98,7 @@ class CollidersPanel:
         rows.filled(
             column, "1 Collider" if stored["count"] == 1 else "{:d} Colliders", stored["count"]
         )
-        size = max(body.dimensions) * meters_per_unit(context.scene)
+        size = max(body.dimensions) * scale.meters_per_unit(context.scene)
         shift = dist(stored["center_shift"], (0.0, 0.0, 0.0))
         changes = (
             abs(stored.get("mass_ratio", 1.0) - 1.0),

@@ -16,8 +16,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 from bpy.types import Context, Object, Operator
 
 from ... import core
-from ...blender import scene, session, settings
-from ...blender.write import reports
+from ...blender import scene, session, settings, write
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from .. import findings, modal, selection
 
@@ -89,12 +88,12 @@ class _Making(selection.OnSelectionInObjectMode, modal.ModalSteps):
 
     def _finish(self, context: Context) -> set[str]:
         self._made = session.store_colliders(context, self._plans, self.engine)
-        done = reports.phrase(
+        done = write.reports.phrase(
             "{count} collider made", "{count} colliders made", count=len(self._made)
         )
         if len(self._plans) == 1:
             text = "volume {share:percent} of the object's"
-            done += "; " + reports.phrase(text, share=self._plans[0].record["volume_ratio"])
+            done += "; " + write.reports.phrase(text, share=self._plans[0].record["volume_ratio"])
         beyond = [
             finding(
                 findings.COLLIDERS_BEYOND_TOLERANCE,
@@ -205,10 +204,10 @@ class OBJECT_OT_body_moments_remove_colliders(selection.OnSelectionInObjectMode,
     def execute(self, context: Context) -> set[str]:
         objects = bodies_of(context)
         count = session.remove_colliders(context, objects)
-        done = reports.phrase(
+        done = write.reports.phrase(
             "{count} object without colliders", "{count} objects without colliders", count=count
         )
-        idle = reports.phrase("no selected object has colliders")
+        idle = write.reports.phrase("no selected object has colliders")
         return selection.summarize(self, count, len(objects), done, idle=idle)
 
 
