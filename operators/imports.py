@@ -22,7 +22,8 @@ from bpy.props import (
 from bpy.types import Context, Object, Operator, OperatorFileListElement, UILayout
 from bpy_extras.io_utils import ImportHelper
 
-from .. import blender, core
+from .. import core
+from ..blender import read, scene
 from ..blender.scale import meters_per_unit
 from ..blender.write import reports
 from ..blender.write.findings import FILE_NOT_WRITTEN
@@ -101,7 +102,7 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
         path = Path(bpy.path.abspath(self.filepath))
         if path.is_dir():
             return selection.refuse(self, selection.NO_FILE)
-        module = blender.read.vdb.openvdb()
+        module = read.vdb.openvdb()
         if module is None:
             return selection.refuse(self, "This Python has no openvdb module. Use Blender.")
         try:
@@ -117,20 +118,20 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
         files = {"x": self.x_positions, "y": self.y_positions, "z": self.z_positions}
         files = {axis: bpy.path.abspath(file) for axis, file in files.items() if file}
         spacing = self.spacing if self.use_spacing else None
-        placed = blender.scene.read_placed(path, limits, raw, spacing, files, self.position_unit)
+        placed = scene.read_placed(path, limits, raw, spacing, files, self.position_unit)
         target = placed.target
         if target.exists() and not self.overwrite:
             raise FileError(FILE_EXISTS, file=target.name)
         unit = meters_per_unit(context.scene)
         try:
-            low = blender.scene.write_volume(module, placed, unit)
+            low = scene.write_volume(module, placed, unit)
         except (OSError, RuntimeError) as error:  # OpenVDB's own errors are RuntimeErrors
             raise FileError(
                 FILE_NOT_WRITTEN,
                 file=target.name,
                 error=getattr(error, "strerror", None) or str(error),
             ) from error
-        obj = blender.scene.add_volume(context, placed)
+        obj = scene.add_volume(context, placed)
         samples = list(placed.scan.samples.shape)
         texts = [
             reports.phrase(
@@ -210,9 +211,7 @@ class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, I
 
     def _import(self, context: Context, path: Path) -> tuple[list[Object], list[Finding | str]]:
         """Return the objects of a file, and findings about the steps and decisions."""
-        found = blender.scene.import_surfaces(
-            path, core.files.limits.file_limits(), self.unit, context
-        )
+        found = scene.import_surfaces(path, core.files.limits.file_limits(), self.unit, context)
         texts = (
             "Imported {count} patch of order {order} from {file}.",
             "Imported {count} patches of order {order} at most from {file}.",

@@ -15,7 +15,8 @@ from typing import Any
 import bpy
 from bpy.types import Context, Object, Operator
 
-from .. import blender, core
+from .. import core
+from ..blender import read, scene, settings, write
 from ..blender.session import stored, tracking
 from ..blender.write import reports
 from ..core.verdict import FileError, Finding, MeasureError, Severity, system_reason
@@ -32,13 +33,13 @@ def selected_measurable(context: Context) -> list[Object]:
 
     Works in background too. A scene that is used for the first time gets its defaults.
     """
-    blender.settings.preferences.copy_defaults(context.scene)
+    settings.preferences.copy_defaults(context.scene)
     objects = [
         obj
         for obj in tracking.armatures.subjects(context.view_layer.objects.selected)
-        if blender.read.visibility.measurable(obj)
+        if read.visibility.measurable(obj)
     ]
-    return sorted(objects, key=lambda obj: len([*blender.scene.changes.ancestors(obj)]))
+    return sorted(objects, key=lambda obj: len([*scene.changes.ancestors(obj)]))
 
 
 def poll_object_mode(cls: type[Operator], context: Context) -> bool:
@@ -241,7 +242,7 @@ def write_file(path: Path, pieces: Iterable[str | bytes]) -> None:
             )
     except OSError as error:
         raise FileError(
-            blender.write.findings.FILE_NOT_WRITTEN, file=path.name, error=system_reason(error)
+            write.findings.FILE_NOT_WRITTEN, file=path.name, error=system_reason(error)
         ) from error
 
 

@@ -10,7 +10,8 @@ import bmesh
 from bpy.types import Context, Object, Operator
 from mathutils import Vector
 
-from ... import blender, core
+from ... import core
+from ...blender import bodies, read
 from ...blender.session import selected, stored
 from ...blender.write import properties, reports
 from ...core.inertia import tensor_rows
@@ -34,7 +35,7 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         obj = selected.subject(context)
-        is_measurable = obj is not None and blender.read.visibility.measurable(obj)
+        is_measurable = obj is not None and read.visibility.measurable(obj)
         return is_measurable or reports.unavailable(cls, "Make a measurable object active")
 
     def execute(self, context: Context) -> set[str]:
@@ -83,7 +84,7 @@ class OBJECT_OT_body_moments_measure_section(Operator):
 
         def measure(obj: Object) -> None:
             properties.require_storable(obj)
-            sections.append((obj, blender.bodies.section_of(obj, depsgraph)))
+            sections.append((obj, bodies.section_of(obj, depsgraph)))
 
         measured, failures = selection.apply_to_all(_objects_with_sections(context), measure)
         stored.results.store_sections(context, sections)
@@ -120,7 +121,7 @@ def _objects_with_sections(context: Context) -> list[Object]:
         return [
             obj
             for obj in context.view_layer.objects.selected
-            if obj.type in blender.read.visibility.SECTION_TYPES
+            if obj.type in read.visibility.SECTION_TYPES
         ]
     edited = [
         obj for obj in context.view_layer.objects if obj.type == "MESH" and obj.data.is_editmode

@@ -19,7 +19,8 @@ from bpy.props import (
 )
 from bpy.types import Context, Object, Operator, PropertyGroup
 
-from ... import blender, core
+from ... import core
+from ...blender import bodies, scene, session
 from ...blender.session.tracking import staleness, stamps
 from ...blender.write import reports
 from ...core.verdict import Finding
@@ -90,7 +91,7 @@ class OBJECT_OT_body_moments_find_symmetry(modal.ModalSteps, selection.OnSelecti
         self._results: list[
             tuple[
                 Object,
-                blender.bodies.Shape | blender.bodies.FlatShape,
+                bodies.Shape | bodies.FlatShape,
                 core.shape.Symmetry,
                 core.shape.Symmetry,
             ]
@@ -98,8 +99,8 @@ class OBJECT_OT_body_moments_find_symmetry(modal.ModalSteps, selection.OnSelecti
         self._failures: list[Finding] = []
 
         def find(obj: Object) -> Iterator[float]:
-            blender.scene.changes.require_storable_data(obj)
-            shape = blender.bodies.comparable_shape_of(obj, context.evaluated_depsgraph_get())
+            scene.changes.require_storable_data(obj)
+            shape = bodies.comparable_shape_of(obj, context.evaluated_depsgraph_get())
             yield 0.3
             self._results.append((obj, shape, *shape.find_symmetries(self.tolerance)))
 
@@ -111,7 +112,7 @@ class OBJECT_OT_body_moments_find_symmetry(modal.ModalSteps, selection.OnSelecti
         behind.
         """
         for obj, shape, found_symmetry, allowed in self._results:
-            blender.session.stored.results.store_symmetry(
+            session.stored.results.store_symmetry(
                 obj, shape, found_symmetry, allowed, self.tolerance
             )
         # Blender reports the stored symmetry as a change of the object.
