@@ -154,17 +154,17 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
 
 
 class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, ImportHelper):
-    """Import the solids of STEP files, and the surfaces of IGES and of .obj files with surf"""
+    """Import the solids of STEP and IGES files, and the surfaces of .obj files with surf"""
 
     bl_idname = "object.body_moments_import_surfaces"
-    bl_label = "Import Surfaces"
+    bl_label = "Import CAD"
 
     filter_glob: StringProperty(default="*.step;*.stp;*.igs;*.iges;*.obj", options={"HIDDEN"})
     directory: StringProperty(subtype="DIR_PATH", options={"HIDDEN", "SKIP_SAVE"})
     files: CollectionProperty(type=OperatorFileListElement, options={"HIDDEN", "SKIP_SAVE"})
     unit: FloatProperty(
         name="Unit of .obj",
-        description="Meters per unit of .obj files, which state no unit. IGES files state theirs",
+        description="Meters per unit of .obj files, which state no unit. Others state theirs",
         default=1.0,
         min=1e-9,
         soft_min=1e-3,

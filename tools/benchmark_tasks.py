@@ -113,7 +113,8 @@ def colliders(kind: str) -> Steps:
     """Press Make Colliders, Automatic, on 20 different objects."""
     parts(kind, 20)
     bpy = blender()
-    yield lambda: bpy.ops.object.body_moments_make_colliders(shape="AUTOMATIC")
+    for _ in range(3):
+        yield lambda: bpy.ops.object.body_moments_make_colliders(shape="AUTOMATIC")
 
 
 # Tasks of other programs

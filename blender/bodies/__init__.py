@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from ...core.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from . import measure_body as measure_body
     from . import rig as rig
 
 __getattr__, __dir__, __all__ = lazy_names(

@@ -17,10 +17,10 @@ import numpy as np
 from ...core.measurement import Measurement, Settings
 from ...core.mesh import Surface
 from ...core.verdict import internal_error
+from .. import bodies  # `measure_body` is imported when an object needs it
 from ..read.mesh import mesh_surface, plain_mesh
 from ..read.places import has_places, world_matrices
 from ..settings.options import AS_SET, MeasureOptions, object_settings
-from .measure_body import measure_body
 from .stack import Measured, Member, measure_members
 
 MAX_OBJECTS_PER_STACK = 512
@@ -166,7 +166,9 @@ class _Collector:
                 yield together
                 together = []
             try:
-                outcome: Outcome = measure_body(obj, self.depsgraph, self.options)
+                outcome: Outcome = bodies.measure_body.measure_body(
+                    obj, self.depsgraph, self.options
+                )
             except Exception as error:
                 outcome = error
             yield [(obj, outcome)]

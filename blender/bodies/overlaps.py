@@ -8,20 +8,23 @@ thousand objects takes a fraction of the time of its measurement. Bodies that to
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 
 import numpy as np
 from bpy.types import Depsgraph, Object
 
 from ...core.bodies import float64_matrix
 from ...core.mesh import BoundarySum, Surface, join_surfaces, overlapping_box_pairs, sort_components
+from ...core.numerics import Array, Mask, cross_rows
 from ...core.solid import classify_pairs
 from ...core.verdict import CLOSED_SHEET_VOLUME_RTOL, welding_tolerance
 from ...core.verdict.finding import Finding, MeasureError, finding
+from .. import read  # most objects need not be read again
 from ..read.assembly import copies_caveats, copies_in_place, operands_of
-from ..read.objects import read_object
 from .findings import BODIES_OVERLAP
+from .stack import Measured
 
+NOT_MEASURED: Mapping[Object, Measured] = {}
 MAX_PAIRS = 4_000
 MAX_TRIANGLES = 100_000
 MAX_NAMED = 100  # pairs in the values of a finding
@@ -32,12 +35,23 @@ def shared_space_caveats(objects: Collection[Object], depsgraph: Depsgraph) -> l
     return [*copies_caveats(objects), *overlap_caveats(objects, depsgraph)]
 
 
-def overlap_caveats(objects: Collection[Object], depsgraph: Depsgraph) -> list[Finding]:
-    """Return a note if solids overlap, other than copies left in place and operands of Booleans."""
+def overlap_caveats(
+    objects: Collection[Object],
+    depsgraph: Depsgraph,
+    measured: Mapping[Object, Measured] = NOT_MEASURED,
+) -> list[Finding]:
+    """Return a note if solids overlap, other than copies left in place and operands of Booleans.
+
+    measured: fresh measurements, whose surfaces need not be read again.
+    """
     copies = copies_in_place(objects)
     operands = operands_of(objects)
     pairs = _overlapping_pairs(
-        [obj for obj in objects if obj.name not in copies and obj not in operands], depsgraph
+        [obj for obj in objects if obj.name not in copies and obj not in operands],
+        lambda obj, limit: (
+            (obj in measured and measured[obj].closed_surface(limit))
+            or _closed_surface(obj, depsgraph, limit)
+        ),
     )
     if not pairs:
         return []
@@ -46,7 +60,9 @@ def overlap_caveats(objects: Collection[Object], depsgraph: Depsgraph) -> list[F
     return [finding(BODIES_OVERLAP, count=len(pairs), **values)]
 
 
-def _overlapping_pairs(objects: Sequence[Object], depsgraph: Depsgraph) -> list[list[str]]:
+def _overlapping_pairs(
+    objects: Sequence[Object], read_surface: Callable[[Object, int], Surface | None]
+) -> list[list[str]]:
     """Return the names of the pairs of closed solids that certainly share space, sorted."""
     solids = [
         obj
@@ -63,10 +79,11 @@ def _overlapping_pairs(objects: Sequence[Object], depsgraph: Depsgraph) -> list[
     size = float(np.linalg.norm(high.max(axis=0) - low.min(axis=0)))
     margin = welding_tolerance(size, float(np.spacing(np.float32(np.abs(corners).max()))))
     first, second, _ = overlapping_box_pairs(low, high, margin, MAX_PAIRS)
+    meet = _boxes_meet(corners[first], corners[second])
     surfaces: dict[str, Surface] = {}
     left = MAX_TRIANGLES
-    for i in np.unique([first, second]).tolist():
-        surface = _closed_surface(solids[i], depsgraph, left)
+    for i in np.unique([first[meet], second[meet]]).tolist():
+        surface = read_surface(solids[i], left)
         if surface is not None:
             left -= len(surface.triangles)
             surfaces[solids[i].name] = surface
@@ -84,12 +101,25 @@ def _overlapping_pairs(objects: Sequence[Object], depsgraph: Depsgraph) -> list[
     return [[names[i], names[j]] for i, j in np.unique(pairs, axis=0).tolist()]
 
 
+def _boxes_meet(first: Array, second: Array) -> Mask:
+    """Return a (k,) mask of the pairs of turned boxes, (k, 8, 3) corners each, that no plane along
+    two of their edges separates.
+    """
+    one, other = (box[:, [1, 3, 4]] - box[:, :1] for box in (first, second))
+    across = cross_rows(one[:, :, None], other[:, None]).reshape(-1, 9, 3)
+    faces = [cross_rows(edges, np.roll(edges, 1, axis=1)) for edges in (one, other)]
+    axes = np.concatenate([across, *faces], axis=1).transpose(0, 2, 1)
+    one, other = first @ axes, second @ axes
+    apart = np.maximum(one.min(axis=1) - other.max(axis=1), other.min(axis=1) - one.max(axis=1))
+    return ~(apart > 0.0).any(axis=1)
+
+
 def _closed_surface(obj: Object, depsgraph: Depsgraph, limit: int) -> Surface | None:
     """Return the triangles of a closed object in the world, None if it is open or has more than
     `limit`.
     """
     try:
-        reading = read_object(obj, depsgraph, edges=False)
+        reading = read.objects.read_object(obj, depsgraph, edges=False)
     except MeasureError:  # such as a grid of densities
         return None
     count = sum(part.surface.triangle_count * len(part.matrices) for part in reading.parts)

@@ -124,8 +124,7 @@ def _by_manifold(layers: Sequence[Surface]) -> Surface | None:
     if not max(known) - slack <= volume <= sum(known) + slack:
         return None
     # The solver moves points by twice the rounding of the coordinates, which is done twice.
-    error = 4.0 * united.coordinate_error + joined.coordinate_error
-    return replace(united, displacement=error)
+    return replace(united, displacement=4.0 * united.coordinate_error + joined.coordinate_error)
 
 
 def union_surface(surface: Surface) -> Surface:

@@ -320,8 +320,7 @@ def copies_in_place(objects: Iterable[Object]) -> list[str]:
     for obj in objects:
         if not shows_collection(obj) and (obj.data is None or obj.instance_type != "NONE"):
             continue
-        box = tuple(map(tuple, obj.bound_box))
-        others = seen.setdefault((obj.type, tuple(map(tuple, obj.matrix_world)), box), [])
+        others = seen.setdefault((obj.type, obj.matrix_world.copy().freeze()), [])
         if any(_is_copy(obj, other) for other in others):
             copies.append(obj.name)
         others.append(obj)
@@ -329,9 +328,11 @@ def copies_in_place(objects: Iterable[Object]) -> list[str]:
 
 
 def _is_copy(obj: Object, other: Object) -> bool:
-    """Return whether two objects of one type, box and place have equal modifiers and geometry, by a
-    sample of the vertices.
+    """Return whether two objects of one type and place have equal boxes, modifiers and geometry, by
+    a sample of the vertices.
     """
+    if [*map(tuple, obj.bound_box)] != [*map(tuple, other.bound_box)]:
+        return False
     kinds = [[modifier.type for modifier in one.modifiers] for one in (obj, other)]
     if kinds[0] != kinds[1] or obj.instance_collection != other.instance_collection:
         return False

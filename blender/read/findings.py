@@ -176,7 +176,7 @@ SECTION_SPLINES_OPEN = warning(
 )
 SOLID_CHANGED = error(
     "solid_changed",
-    "The shape was changed after it came from a STEP file, which holds its exact surfaces. Undo "
+    "The shape was changed after it came from a CAD file, which holds its exact surfaces. Undo "
     "the change, or import the file again.",
 )
 SCALE_ZERO_AXIS = error(

@@ -33,7 +33,7 @@ MAX_CONDITION = 1e4  # largest condition number of a direction's samples
 SPACE = ("point_count_", "order_", "use_cyclic_", "use_bezier_", "use_endpoint_")
 
 
-SOURCE = "body_cad"  # property of the data that show a body of a STEP file
+SOURCE = "body_cad"  # property of the data that show a body of a CAD file
 _faces_of_file: dict[int, SplineReading] = {}  # by the identifier of the data in this session
 # These move control points whatever their switch says (curve_get_tessellate_point in displist.cc);
 # other modifiers only with `use_apply_on_spline`. None does after the first constructive modifier.
@@ -79,7 +79,7 @@ def keep_faces(readings: dict[Curve, SplineReading]) -> None:
 
 
 def keep_source(data: Curve, source: bytes, matrix: Sequence[float]) -> None:
-    """Store a body of a STEP file and its (4, 4) matrix with the data that show it."""
+    """Store a body of a CAD file and its (4, 4) matrix with the data that show it."""
     data[SOURCE] = {"source": source, "matrix": matrix, "shown": _shown_digest(data)}
 
 

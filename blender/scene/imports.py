@@ -21,7 +21,7 @@ import numpy as np
 from bpy.types import Context, Curve, Object, Scene
 
 from ...core.bodies import SplineReading
-from ...core.cad import MAX_ORDER, SurfaceBody, is_storable, read_surfaces
+from ...core.cad import SurfaceBody, is_storable, read_surfaces
 from ...core.density import DENSITY_NON_FINITE, positions_text
 from ...core.files import FILE_UNREADABLE, Limits
 from ...core.numerics import Array, NDArray, shortest_decimal
@@ -167,10 +167,7 @@ def _grid(scene: Scene, shape: tuple[int, int]) -> Curve:
         bpy.ops.object.mode_set(mode="OBJECT")
     bpy.data.objects.remove(obj)
     (spline,) = data.splines
-    if (spline.point_count_v, spline.point_count_u) != shape:
-        raise RuntimeError(
-            "Blender lofted {} x {} points".format(spline.point_count_v, spline.point_count_u)
-        )
+    assert (spline.point_count_v, spline.point_count_u) == shape
     return data
 
 
@@ -209,8 +206,7 @@ def show_bodies(
         faces = tuple(face.transform(matrix) for face in body.patches)
         readings[obj.data] = SplineReading(faces, factor * body.rounding, ())
         if body.matrix is not None:
-            place = (matrix @ body.matrix).ravel().tolist()
-            keep_source(obj.data, body.source, place)
+            keep_source(obj.data, body.source, (matrix @ body.matrix).ravel().tolist())
         if body.color:
             obj.data.materials.append(_material(body.color))
         collection.objects.link(obj)
@@ -227,7 +223,7 @@ def _shown(body: SurfaceBody) -> Iterator[Patch]:
     for face in body.patches:
         if not isinstance(face, Patch):
             rows.append(face.quads(SHOWN_SAMPLES))
-        elif not body.source and is_storable(face) and _order(face) <= MAX_ORDER:
+        elif not body.source and is_storable(face):
             yield face
         else:
             grid = face.samples(SHOWN_SAMPLES)
@@ -240,10 +236,6 @@ def _shown(body: SurfaceBody) -> Iterator[Patch]:
     spare = np.repeat(quads[-1:, :1], 4, axis=1)
     quads = np.concatenate([quads, np.repeat(spare, -len(quads) % QUADS_PER_BAND, axis=0)])
     yield from map(_band, quads.reshape(-1, QUADS_PER_BAND, 4, 3))
-
-
-def _order(face: Patch) -> int:
-    return max(space.order for space in face.spaces)
 
 
 def _band(quads: Array) -> Patch:
@@ -296,7 +288,7 @@ def import_surfaces(path: Path, limits: Limits, unit: float, context: Context) -
         return ImportedSurfaces(objects, len(objects), 0, [*file.refused, *file.notes])
     made = import_bodies(file.bodies, context.collection, factor)
     patches = [face for body in file.bodies for face in body.patches if isinstance(face, Patch)]
-    order = max(map(_order, patches))
+    order = max(space.order for patch in patches for space in patch.spaces)
     moved = max(share for _, share in made)
     rounded = [finding(SURFACES_ROUNDED, share=moved)] if moved else []
     return ImportedSurfaces(

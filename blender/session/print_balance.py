@@ -19,6 +19,7 @@ from ...core.numerics import Array, shortest_decimal
 from ..bodies import mesh
 from ..bodies.request import Request
 from ..scene.rigid_world import down
+from ..settings.options import MeasureOptions
 
 MAX_WALLS = 12
 COARSE, FINE = 21, 7  # places of a pocket along each axis, at first and around the best of them
@@ -63,8 +64,9 @@ def balance_print(
         corners, margin = point + margin * ring @ axes.T, 0.0
     if corners is None or len(corners) < 3:
         return None
-    request = Request.resolve(obj, context.evaluated_depsgraph_get())
-    settings = replace(request.settings, kind="printed")
+    as_print = MeasureOptions(kind="printed")
+    request = Request.resolve(obj, context.evaluated_depsgraph_get(), as_print)
+    settings = request.settings
     if change != "BALLAST" and settings.printed.pocket is None:
         settings = replace(settings, mass=None, density=1.0)
     to_body = bodies.to_si([request.surfaces.matrix], settings.unit)[0]

@@ -87,7 +87,9 @@ def object_settings(
         overlap=options.overlap or properties.overlap.lower(),
         wall=options.wall or properties.wall.lower(),
         unit=unit,
-        printed=print_settings(properties)._replace(**dict(options.printed)),
+        printed=print_settings(properties)._replace(**dict(options.printed))
+        if kind == "printed"
+        else PrintSettings(),
         order=options.order,
         surface=options.surface,
         compare=options.compare,

@@ -10,21 +10,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import cos, radians, sin
+from math import nan
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ...core.files import FbxNode
 from ...core.numerics import Array
+from ...core.rig import rotations
+from .fbx_animation import ORDERS, FbxAnimation
 
-_ORDERS = ("XYZ", "XZY", "YZX", "YXZ", "ZXY", "ZYX")  # the first letter's rotation acts first
 _SAME = 1e-9  # larger than the rounding of products in float64
 _RSRS = 1  # InheritType: the product of the matrices
-RRS = 2  # InheritType: without the parent's own scale
-_TICKS = 46186158000.0  # of a file's clock in a second
-_SAME_TIME = 1e-6  # seconds
-_LINEAR = 4  # a flag of keys
+_RRS = 2  # InheritType: without the parent's own scale
 
 
 class Place(NamedTuple):
@@ -43,8 +41,9 @@ class Place(NamedTuple):
 class FbxModel:
     """A model, with its properties, those of its kind included.
 
-    moves: it is animated, and its place at the time to measure is not known. geometry: its mesh,
-    None without one. clusters: of the mesh, each with the bone that moves its points.
+    is_rare: its animation may be read differently. geometry: its mesh, None without one. clusters:
+    of the mesh, each with the bone that moves its points. shapes: of the mesh, their names and
+    weights, NaN if programs may read them differently.
     """
 
     name: str
@@ -52,8 +51,9 @@ class FbxModel:
     parent: FbxModel | None = None
     children: list[FbxModel] = field(default_factory=list)
     geometry: FbxNode | None = None
-    moves: bool = False
+    is_rare: bool = False
     clusters: list[tuple[FbxNode, FbxModel]] = field(default_factory=list)
+    shapes: list[tuple[str, float]] = field(default_factory=list)
     is_lod_group: bool = False
 
     def vector(self, name: str, rest: float = 0.0) -> Array:
@@ -80,9 +80,9 @@ class FbxModel:
         return _matrix(np.eye(3), center + apart / safe)
 
     @property
-    def is_animated(self) -> bool:
-        """Whether it moves, or a model above it."""
-        return self.moves or self.parent is not None and self.parent.is_animated
+    def moves_rarely(self) -> bool:
+        """Whether its animation, or that of a model above it, may be read differently."""
+        return self.is_rare or self.parent is not None and self.parent.moves_rarely
 
     @property
     def is_hidden(self) -> bool:
@@ -101,9 +101,7 @@ class FbxModel:
         moved = np.zeros_like(whole)
         for cluster, bone in self.clusters:
             rows, shares, to_bone = (
-                node.numbers()
-                for node in map(cluster.child, ("Indexes", "Weights", "Transform"))
-                if node is not None
+                node.numbers() for node in map(cluster.child, ("Indexes", "Weights", "Transform"))
             )
             matrix = bone.place.matrix @ to_bone.reshape(4, 4).T
             index = rows.astype(int)
@@ -131,7 +129,7 @@ class FbxModel:
         above = Place(np.eye(4), np.eye(3), None) if self.parent is None else self.parent.place
         order = self.whole("RotationOrder")
         pre, post = self.vector("PreRotation"), self.vector("PostRotation")
-        turn = _turn(self.vector("Lcl Rotation"), _ORDERS[order % 6])
+        turn = _turn(self.vector("Lcl Rotation"), ORDERS[order % 6])
         turn = _turn(pre) @ turn @ _turn(post).T
         scale = self.vector("Lcl Scaling", 1.0)
         pivot, center = self.vector("RotationPivot"), self.vector("ScalingPivot")
@@ -144,7 +142,7 @@ class FbxModel:
         doubt = above.doubt
         if self.whole("InheritType") != _RSRS:
             inherited = above.rotation.T @ above.matrix[:3, :3]
-            is_apart = self.whole("InheritType") == RRS
+            is_apart = self.whole("InheritType") == _RRS
             if is_apart and self.parent is not None:
                 inherited = inherited / self.parent.vector("Lcl Scaling", 1.0)
             matrix[:3, :3] = above.rotation @ turn @ inherited * scale
@@ -153,7 +151,7 @@ class FbxModel:
                 doubt = "a node inherits some scales of the nodes above it"
         if not self.whole("RotationActive") and (order or np.any([pre, post])):
             doubt = "a node has pre-rotations that are switched off"
-        if not 0 <= order < len(_ORDERS):
+        if not 0 <= order < len(ORDERS):
             doubt = "a node has rotations of an unknown order"
         return Place(matrix, above.rotation @ turn, doubt)
 
@@ -166,17 +164,7 @@ def _matrix(linear: Array, move: Array) -> Array:
 
 
 def _turn(degrees: Array, order: str = "XYZ") -> Array:
-    """Return the (3, 3) rotation by angles about x, y and z, the first axis of the order first."""
-    matrix = np.eye(3)
-    for axis in map("XYZ".index, order):
-        j, k = (axis + 1) % 3, (axis + 2) % 3
-        step = np.eye(3)
-        angle = radians(degrees[axis])
-        step[j, j] = step[k, k] = cos(angle)
-        step[k, j] = sin(angle)
-        step[j, k] = -sin(angle)
-        matrix = step @ matrix
-    return matrix
+    return rotations(np.radians(degrees)[None], order)[0]
 
 
 def fbx_to_scene(root: FbxNode) -> Array:
@@ -184,7 +172,7 @@ def fbx_to_scene(root: FbxNode) -> Array:
 
     KeyError or ValueError if the axes are not three right-handed ones.
     """
-    settings = _properties(root.child("GlobalSettings"))
+    settings = root.child("GlobalSettings").properties()
     axes = np.zeros((3, 3))
     # Blender's axes: x to the right, z up, and -y to the front.
     for row, (name, sign) in enumerate((("Coord", 1.0), ("Front", -1.0), ("Up", 1.0))):
@@ -201,90 +189,69 @@ def fbx_models(root: FbxNode, seconds: float) -> list[FbxModel]:
     """
     objects = root.child("Objects")
     connections = root.child("Connections")
-    if objects is None or connections is None:
+    if not objects.name or not connections.name:
         raise ValueError("version")
     kinds = [
-        kind.child("PropertyTemplate")
-        for kind in getattr(root.child("Definitions"), "children", ())
+        kind.child("PropertyTemplate").properties()
+        for kind in root.child("Definitions").children
         if kind.name == "ObjectType" and kind.values[:1] == ["Model"]
     ]
-    rest = _properties(kinds[0]) if kinds else {}  # of models that state none
+    rest = kinds[0] if kinds else {}  # of models that state none
     nodes = {node.values[0]: node for node in objects.children}
     if any(not isinstance(number, int) for number in nodes):
         raise ValueError("version")
     models = {
         number: FbxModel(
-            node.values[1], rest | _properties(node), is_lod_group="LodGroup" in node.values[2:]
+            node.values[1], rest | node.properties(), is_lod_group="LodGroup" in node.values[2:]
         )
         for number, node in nodes.items()
         if node.name == "Model"
     }
-    below_of: dict[int, list[int]] = {}  # the clusters of a skin, the skins of a mesh
+    links = [link.values[1:] for link in connections.children]
+    animation = FbxAnimation(root, nodes, links, seconds)
+    for number, model in models.items():
+        model.is_rare = not animation.animate(number, model.properties)
+    below_of: dict[int, list[int]] = {}  # the deformers of a mesh, the parts and shapes of these
     bones: dict[int, FbxModel] = {}
-    channels: dict[int, dict[str, FbxNode]] = {}
-    animated = []
     ordered = []
-    for link in connections.children:
-        child, parent = (nodes.get(number) for number in link.values[1:3])
-        below, above = (models.get(number) for number in link.values[1:3])
+    for child_number, parent_number, *_ in links:
+        child, parent = nodes.get(child_number), nodes.get(parent_number)
+        below, above = models.get(child_number), models.get(parent_number)
         if below is not None and above is not None:
             below.parent = above
             above.children.append(below)
         elif above is not None and child is not None and child.name == "Geometry":
             above.geometry = child
-            ordered.append((link.values[1], above))
-        elif above is not None and child is not None and child.name == "AnimationCurveNode":
-            animated.append((above, link.values[3], link.values[1]))
-        elif child is not None and parent is not None and child.name == "AnimationCurve":
-            channels.setdefault(link.values[2], {})[link.values[3]] = child
+            ordered.append((child_number, above))
         elif above is not None and child is not None and "LodGroup" in child.values[2:]:
             above.is_lod_group = True
-        elif child is not None and parent is not None and child.name == "Deformer":
-            below_of.setdefault(link.values[2], []).append(link.values[1])
+        elif child is not None and parent is not None and child.name in ("Deformer", "Geometry"):
+            below_of.setdefault(parent_number, []).append(child_number)
         elif below is not None and parent is not None and "Cluster" in parent.values[2:]:
-            bones[link.values[2]] = below
-    is_single = sum(node.name == "AnimationLayer" for node in nodes.values()) == 1
-    for model, name, number in animated:
-        values = [
-            _value_at(channels.get(number, {}).get(channel), rest[0], seconds)
-            for channel, rest in _properties(nodes[number]).items()
-            if channel.startswith("d|")
-        ]
-        if is_single and None not in values:
-            model.properties[name] = values
-        else:
-            model.moves = True
+            bones[parent_number] = below
     for number, model in ordered:
-        model.clusters = [
-            (nodes[cluster], bones[cluster])
-            for skin in below_of.get(number, ())
-            for cluster in below_of.get(skin, ())
-            if cluster in bones
+        parts = [
+            part for deformer in below_of.get(number, ()) for part in below_of.get(deformer, ())
         ]
+        model.clusters = [(nodes[part], bones[part]) for part in parts if part in bones]
+        for part in parts:
+            shapes = [nodes[shape] for shape in below_of.get(part, ())]
+            if shapes:
+                weight = _weight(nodes[part], len(shapes), animation, part)
+                model.shapes.append((shapes[-1].values[1], weight))
     place = {number: index for index, number in enumerate(nodes)}
     ordered.sort(key=lambda pair: place[pair[0]])
     return [*dict.fromkeys([model for _, model in ordered] + [*models.values()])]
 
 
-def _value_at(curve: FbxNode | None, rest: float, seconds: float) -> float | None:
-    """Return the value of an animated channel at a time; None between keys that are not linear."""
-    times, values, flags = (
-        np.empty(0) if node is None else node.numbers()
-        for node in map(
-            FbxNode("").child if curve is None else curve.child,
-            ("KeyTime", "KeyValueFloat", "KeyAttrFlags"),
-        )
-    )
-    if not len(times):
-        return rest
-    times = times / _TICKS
-    near = np.abs(times - np.clip(seconds, times[0], times[-1])) <= _SAME_TIME
-    if near.any():
-        return float(values[near.argmax()])
-    is_linear = (flags.astype(int) & _LINEAR).all()
-    return float(np.interp(seconds, times, values)) if is_linear else None
-
-
-def _properties(node: FbxNode | None) -> dict[str, Any]:
-    table = None if node is None else node.child("Properties70")
-    return {} if table is None else {line.values[0]: line.values[4:] for line in table.children}
+def _weight(channel: FbxNode, shapes: int, animation: FbxAnimation, number: int) -> float:
+    """Return the weight of a channel's last shape; NaN if programs may read it differently."""
+    percent = channel.child("DeformPercent").first(0.0)
+    properties = {"DeformPercent": [percent]} | channel.properties()
+    if not animation.animate(number, properties):
+        return nan
+    weight = properties["DeformPercent"][0] / 100.0
+    # In files of Blender, these are weights of vertices.
+    limits = channel.child("FullWeights").numbers()
+    is_partial = shapes > 1 and weight not in (0.0, 1.0)
+    return nan if is_partial or len(limits) == shapes and limits[-1] != 100.0 else weight

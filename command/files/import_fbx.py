@@ -17,12 +17,14 @@ from ...core.files import MALFORMED, fbx_tree, map_file
 from ...core.numerics import Array
 from ...core.verdict.finding import Finding, finding
 from ..findings import FILE_HIDES, PLACES_UNCHECKED
-from .fbx_models import RRS, FbxModel, fbx_models, fbx_to_scene
+from .fbx_animation import RARE
+from .fbx_models import FbxModel, fbx_models, fbx_to_scene
 from .placing import MOST_WEIGHT, is_at, measure_at, place_objects, show_points, shown_seconds
 from .references import Opened
 
 # What the importer adds to the name of a model: for a mesh that others share, or a name is taken.
 _ADDED = re.compile(r"(_GeomAdjust)?(\.\d{3,})?$")
+_SHORT = 50  # letters of a name that Blender does not cut
 _SAME_POINT = 1e-6  # relative to the largest coordinate; larger than the rounding of float32
 
 
@@ -36,10 +38,6 @@ def import_fbx(path: str, frame: float | None) -> Opened:
     unseen = {obj.name for obj in bpy.context.scene.objects if obj.hide_viewport}
     for name in unseen:  # Blender would not evaluate them.
         bpy.data.objects[name].hide_viewport = False
-    moving = [shapes for shapes in bpy.data.shape_keys if shapes.animation_data is not None]
-    for block in (block for shapes in moving for block in shapes.key_blocks):
-        block.slider_min = -MOST_WEIGHT  # The importer's 0 to 1 would clamp animated weights.
-        block.slider_max = MOST_WEIGHT
     notes = measure_at(frame)
     findings: dict[str, tuple[Finding, ...]] = {}
     coarse: set[str] = set()
@@ -52,15 +50,9 @@ def import_fbx(path: str, frame: float | None) -> Opened:
         unseen |= {obj.name for obj, model in pairs if model.is_hidden}
         levels = {level for model in models for level in model.coarse_levels()}
         coarse = {obj.name for obj, model in pairs if model in levels}
-        clamped = [
-            shapes
-            for shapes in moving
-            if any(abs(block.value) >= MOST_WEIGHT for block in shapes.key_blocks)
-        ]
-        cause = "the weight of a shape key exceeds ±10"
-        exceeding = {obj.name: cause for obj, _ in pairs if obj.data.shape_keys in clamped}
-        is_apart = any(model.whole("InheritType") == RRS for model in models)
-        doubts = _correct(groups, fbx_to_scene(root), is_apart) | exceeding
+        unweighted = [obj.name for obj, model in pairs if not _set_weights(obj, model)]
+        doubts = _correct(groups, fbx_to_scene(root))
+        doubts |= dict.fromkeys(unweighted, "the weight of a shape key exceeds ±10, or is unclear")
         findings = {
             name: (finding(PLACES_UNCHECKED, cause=cause),) for name, cause in doubts.items()
         }
@@ -90,11 +82,29 @@ def _groups(models: list[FbxModel]) -> list[tuple[list[Object], list[FbxModel]]]
     return [*groups.values()]
 
 
-def _correct(
-    groups: list[tuple[list[Object], list[FbxModel]]], to_scene: Array, are_apart: bool
-) -> dict[str, str]:
+def _set_weights(obj: Object, model: FbxModel) -> bool:
+    """Give shape keys the weights that a file states; return False if some cannot be."""
+    if obj.data.shape_keys is None:
+        return True
+    obj.data.shape_keys.animation_data_clear()
+    blocks = obj.data.shape_keys.key_blocks[1:]
+    if len(blocks) != len(model.shapes):
+        return False
+    for block, (_, weight) in zip(blocks, model.shapes):
+        if abs(weight) <= MOST_WEIGHT:
+            block.slider_min = -MOST_WEIGHT  # The importer's 0 to 1 would clamp the weight.
+            block.slider_max = MOST_WEIGHT
+            block.value = weight
+    return all(
+        block.name.startswith(name[:_SHORT])
+        and abs(block.value - weight) <= _SAME_POINT * abs(weight)
+        for block, (name, weight) in zip(blocks, model.shapes)
+    )
+
+
+def _correct(groups: list[tuple[list[Object], list[FbxModel]]], to_scene: Array) -> dict[str, str]:
     """Bring objects to the places that a file states, and return the reasons to doubt those of
-    others. are_apart: some models of the file do not inherit the scale of their parents.
+    others.
     """
     doubts: dict[str, str] = {}
     places: dict[str, Array] = {}
@@ -105,9 +115,8 @@ def _correct(
             continue
         for obj, model in zip(objects, models):
             bones = [bone for _, bone in model.clusters]
-            if any(one.is_animated for one in (model, *bones)):
-                if are_apart:
-                    doubts[obj.name] = "nodes do not inherit the scale of their parents"
+            if any(one.moves_rarely for one in (model, *bones)):
+                doubts[obj.name] = RARE
                 continue
             found = _place(obj, model, to_scene, is_mixed=bool(bones))
             unsure = [one.place.doubt for one in (model, *bones) if one.place.doubt is not None]
@@ -132,8 +141,8 @@ def _place(
     """Return the (n, 3) points of a model's mesh, with the shape keys of the object if they are
     mixed, and the (4, 4) place of the object; None if its points are not the file's.
     """
-    vertices = None if model.geometry is None else model.geometry.child("Vertices")
-    points = np.empty(0) if vertices is None else vertices.numbers()
+    assert model.geometry is not None
+    points = model.geometry.child("Vertices").numbers()
     own = np.empty(3 * len(obj.data.vertices))
     obj.data.vertices.foreach_get("co", own)
     if own.shape != points.shape:

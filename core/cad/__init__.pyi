@@ -8,8 +8,8 @@ from .obj import UPRIGHT as UPRIGHT
 from .obj import has_surfaces as has_surfaces
 from .obj import read_obj_faces as read_obj_faces
 from .obj_text import check_obj_text as check_obj_text
-from .step import read_source as read_source
 from .surface_file import read_meshes as read_meshes
+from .surface_file import read_source as read_source
 from .surface_file import read_surfaces as read_surfaces
 from .surfaces import MAX_ORDER as MAX_ORDER
 from .surfaces import SurfaceBody as SurfaceBody

@@ -12,6 +12,7 @@ refused by name; curves, points and annotation bound nothing and are left out.
 from __future__ import annotations
 
 import math
+import zlib
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -27,7 +28,6 @@ from ..verdict.finding import FileError, finding
 from .findings import (
     CURVES_LEFT_OUT,
     SURFACE_DAMAGED,
-    SURFACE_TRIMMED,
     SURFACE_UNSUPPORTED,
     SURFACES_HIDDEN,
 )
@@ -48,9 +48,10 @@ from .surfaces import (
     SurfaceFile,
     SurfaceRefusedError,
     bezier_surface,
+    is_storable,
     placed_surface,
 )
-from .trimmed import Boundary, first_region, trimmed_faces, within
+from .trimmed import Boundary, backward, first_region, trimmed_faces, within
 
 TURNING = 3.0  # the norm of a matrix (3, 3) of ones
 MATRIX = 124
@@ -133,11 +134,11 @@ Pair: TypeAlias = tuple[Value, Value]
 
 
 class IgesReader:
-    """A reader of the faces of a file, or of those that Blender can hold."""
+    """A reader of the faces of a file."""
 
-    def __init__(self, path: Path, for_blender: bool) -> None:
-        self._for_blender = for_blender
-        self._text = IgesText(path)
+    def __init__(self, path: Path, _for_blender: bool, data: bytes | None = None) -> None:
+        self._data = path.read_bytes() if data is None else data
+        self._text = IgesText(self._data)
         self._entries = self._text.entries
         self._refusals = Refusals()
         # (4, 4) and the effect of the decimals of its directions on points at a unit's distance
@@ -166,7 +167,7 @@ class IgesReader:
                 hidden += 1
             else:
                 patches += self._place(entry, np.eye(4), ())
-        if self._refusals.names and patches and not self._for_blender:
+        if self._refusals.names and patches:
             # A part of a body is no body: what closes without the refused faces is another one.
             patches = closed_parts(patches, self._rounding)
         notes = [
@@ -177,9 +178,11 @@ class IgesReader:
         if self._turning and patches:
             reach = max(float(np.abs(face.points).max()) for face in patches)
             self._rounding += self._turning * reach
-        return self._refusals.file(
-            [SurfaceBody(self._name, tuple(patches), self._rounding)], self._text.unit, notes
+        source = b"" if all(map(is_storable, patches)) else zlib.compress(self._data)
+        body = SurfaceBody(
+            self._name, tuple(patches), self._rounding, source=source, matrix=np.eye(4)
         )
+        return self._refusals.file([body], self._text.unit, notes)
 
     def _references(self) -> Iterator[int]:
         """Yield the numbers of entities that are parts of other entities, and so are not placed by
@@ -355,7 +358,7 @@ class IgesReader:
             for _ in range(curves):
                 curve, sense, uses = integers(fields[at:], 3)
                 pieces = self._curves.read(curve, matrix)
-                in_space.append(_backward(pieces) if sense == 2 else pieces)
+                in_space.append(backward(pieces) if pieces and sense == 2 else pieces)
                 ways = integers(fields[at + 3 :], uses)
                 by_parameters += [self._curves.read(way, None) for way in ways] or [None]
                 at += 3 + uses
@@ -398,7 +401,7 @@ class IgesReader:
             integers(self._text.fields(entry)[1 + 5 * (index - 1) :], 1) if index > 0 else (0,)
         )
         curves = self._curves.read(curve, matrix @ self._matrix(entry))
-        return curves if forward else _backward(curves)
+        return backward(curves) if curves and not forward else curves
 
     def _within(
         self, base: Entry, matrix: NDArray, boundaries: Sequence[Boundary], has_outer: bool
@@ -429,7 +432,6 @@ class IgesReader:
                     for one in boundaries
                 ],
                 rounding=self._rounding,
-                only_patches=self._for_blender,
             )
             # A turn moves a sphere along itself, and a torus or a cylinder as it is long.
             reach = quadric.radius if quadric.minor or quadric.slope else 0.0
@@ -448,12 +450,11 @@ class IgesReader:
             faces = trimmed_faces(
                 surface,
                 domain,
-                bezier_surface(surface, (None, None), self._for_blender),
+                bezier_surface(surface, (None, None), False),
                 in_space,
                 has_outer,
                 self._rounding,
                 quadric and quadric.transform(matrix),
-                self._for_blender,
                 lifts=False,
             )
         elif base.type != SURFACE:
@@ -469,15 +470,12 @@ class IgesReader:
             faces = trimmed_faces(
                 surface,
                 domain,
-                bezier_surface(surface, domain, self._for_blender),
+                bezier_surface(surface, domain, False),
                 boundaries,
                 has_outer,
                 rounding,
                 None,
-                self._for_blender,
             )
-        if self._for_blender and not all(isinstance(face, Patch) for face in faces):
-            raise SurfaceRefusedError(SURFACE_TRIMMED)  # a flat face
         if any(isinstance(face, FlatFace) for face in faces):
             # Its plane is that of its edges; other edges only part one surface from another.
             self._rounding = max(self._rounding, of_edges)
@@ -584,11 +582,6 @@ class IgesReader:
         return np.linalg.solve(matrix[:3, :3].T, numbers(fields[:3])) * np.sign(
             np.linalg.det(matrix[:3, :3])
         )
-
-
-def _backward(curves: list[Curve] | None) -> list[Curve] | None:
-    """Return curves end to end, run backward; None if they are unknown."""
-    return None if curves is None else [one.reverse() for one in reversed(curves)]
 
 
 def _join_curves(parts: Sequence[list[Curve] | None]) -> list[Curve] | None:

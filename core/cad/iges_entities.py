@@ -16,7 +16,6 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -96,8 +95,8 @@ class IgesText:
     FileError if it is damaged, or no IGES file.
     """
 
-    def __init__(self, path: Path) -> None:
-        lines = _lines(path.read_bytes().decode("latin-1"))
+    def __init__(self, data: bytes) -> None:
+        lines = _lines(data.decode("latin-1"))
         sections: dict[str, list[str]] = {letter: [] for letter in "SGDPT"}
         for line in lines:
             letter = line[SECTION : SECTION + 1]

@@ -74,9 +74,7 @@ def revolved_quadric(curve: Curve, begin: NDArray, axis: NDArray) -> Quadric | N
     if np.abs(np.hypot(r - center_r, z - center_z) - minor).max() > SAME_RTOL * size:
         return None
     frame[:3, 3] += center_z * axis
-    if abs(center_r) <= SAME_RTOL * size:
-        return Quadric(frame, 0.0, minor)
-    return Quadric(frame, float(center_r), minor) if center_r > minor else None
+    return Quadric(frame, float(center_r) if abs(center_r) > SAME_RTOL * size else 0.0, minor)
 
 
 def rule(first: Curve, second: Curve) -> Patch:
@@ -118,7 +116,8 @@ def spanned_quadric(quadric: Quadric, curves: Sequence[Curve]) -> Patch:
     if not curves and not minor:
         raise ValueError("no boundary")
     start, end = 0.0, TURN
-    low, high = (0.0, TURN) if radius else (-TURN / 4.0, TURN / 4.0)
+    is_tube = quadric.periods[1] > 0.0
+    low, high = (0.0, TURN) if is_tube else quadric.limits
     local = [one.evaluate(np.linspace(*one.space.domain, SAMPLES)) for one in curves]
     points = np.concatenate([frame[:0, :3], *local]) - frame[:3, 3]
     x, y, z = np.linalg.solve(frame[:3, :3], points.T)
@@ -135,11 +134,12 @@ def spanned_quadric(quadric: Quadric, curves: Sequence[Curve]) -> Patch:
         profile = Curve(clamped_space(2), ends)
     else:
         tube = np.arctan2(z, away - radius)
-        if curves and radius:
+        if curves and is_tube:
             low, high = _spanned_angles(tube)
         elif curves:
+            pole = high
             low, high = (
-                math.copysign(TURN / 4.0, end) if abs(abs(end) - TURN / 4.0) < 1e-7 else end
+                math.copysign(pole, end) if abs(abs(end) - pole) < 1e-7 else end
                 for end in (tube.min(), tube.max())
             )
         circle = Curve(clamped_space(2), np.array([[minor, 0.0, 0.0]] * 2))

@@ -18,9 +18,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from ..files import DEFAULT_LIMITS, FILE_TOO_LARGE
+from ..files import FILE_TOO_LARGE
 from ..numerics import Array, clamped_space
 from ..nurbs import Curve, Face, close_pairs, patches_size
 from ..verdict import WELDING_RTOL
@@ -30,6 +30,7 @@ from .iges_entities import MAX_DEPTH
 from .part21 import Part21, Reference
 from .step_shapes import MISSING, EntityError, Shapes, blame, refuse
 from .surfaces import Refusals, SurfaceBody, SurfaceFile
+from .trimmed import backward
 
 SOLIDS = (
     "MANIFOLD_SOLID_BREP",
@@ -73,11 +74,13 @@ class StepReader:
         self._refusals = Refusals()
         self._edges: dict[int, list[Curve]] = {}
         self._uses: Counter[int] = Counter()
-        self._solids: dict[int, list[Face]] = {}
-        self._contexts: dict[int, tuple[float, float]] = {}
+        self._solids: dict[int, tuple[list[Face], float]] = {}  # with the gaps of their edges
+        self._places: set[tuple[int, bytes]] = set()
+        self._contexts: dict[int, tuple[float, float, float]] = {}
         self._children: dict[int, list[_Child]] = {}  # by representation
         self._twins: dict[int, list[int]] = {}  # representations of the same coordinates
         self._owners: dict[int, int] = {}  # product definitions by representation
+        self._aspects: set[int] = set()  # representations of parts of a shape
         self._relations: dict[int, int] = {}  # child definitions by relationship
         self._colors: dict[int, tuple[float, ...]] = {}
         self._hidden: set[int] = set()
@@ -92,13 +95,8 @@ class StepReader:
         """Read the solids. FileError if none can be kept."""
         text = self._text
         if text.torn:
-            self._note(
-                EntityError(
-                    text.torn,
-                    SURFACE_DAMAGED,
-                    {"fault": "the end of the file, which comes too early"},
-                )
-            )
+            fault = "the end of the file, which comes too early: parts and places are missing"
+            self._note(EntityError(text.torn, SURFACE_DAMAGED, {"fault": fault}))
         for name, take in (
             ("SHAPE_DEFINITION_REPRESENTATION", self._own),
             ("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION", self._use),
@@ -127,8 +125,10 @@ class StepReader:
             for twin in self._group(one.number)
         }
         # First the roots, then what only a circle of assemblies places.
-        for number in [*(one for one in representations if one not in placed), *representations]:
-            if number not in self._visited:
+        roots = [one for one in representations if one not in placed | self._aspects]
+        for number in [*roots, *representations]:
+            is_known = number in self._aspects and self._solids.keys() & self._attribute(number, 1)
+            if number not in self._visited and not is_known:
                 self._place(number, np.eye(4), ())
         notes = [finding(SURFACES_HIDDEN, count=self._left_out)] if self._left_out else []
         return replace(self._refusals.file(self._bodies, self._unit or None, notes), unread=0)
@@ -158,8 +158,12 @@ class StepReader:
         return next(iter(self._text[number].values()))[index]
 
     def _own(self, _: int, values: list[Any]) -> None:
-        """Take the product that has a representation."""
-        self._owners[values[1]] = self._attribute(values[0], 2)
+        """Take the product that has a representation, or note one of a part of its shape."""
+        owner = self._attribute(values[0], 2)
+        if any(name.startswith("PRODUCT_DEFINITION") for name in self._text[owner]):
+            self._owners[values[1]] = owner
+        else:
+            self._aspects.add(values[1])
 
     def _use(self, _: int, values: list[Any]) -> None:
         """Take the part that a relationship places: the related one of a usage."""
@@ -224,8 +228,8 @@ class StepReader:
             group += [twin for twin in self._twins.get(one, ()) if twin not in group]
         return group
 
-    def _units(self, number: int) -> tuple[float, float]:
-        """Return the meters and the radians per unit of a representation."""
+    def _units(self, number: int) -> tuple[float, float, float]:
+        """Return the meters and the radians per unit of a representation, and its uncertainty."""
         context = self._attribute(number, 2)
         if context not in self._contexts:
             with blame(context):
@@ -235,7 +239,13 @@ class StepReader:
                         found[kind] = self._size(unit, 0)
                 if not min(found.values()) > 0.0:
                     raise refuse("a unit of no known length")
-                self._contexts[context] = found["LENGTH_UNIT"], found["PLANE_ANGLE_UNIT"]
+                length, angle = found["LENGTH_UNIT"], found["PLANE_ANGLE_UNIT"]
+                uncertainty = 0.0
+                for one in self._text[context].get("GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT", [[]])[0]:
+                    value, unit = self._measure(one)
+                    if "LENGTH_UNIT" in self._text[unit]:
+                        uncertainty = max(uncertainty, value * self._size(unit, 0) / length)
+                self._contexts[context] = length, angle, uncertainty
                 self._unit = self._unit or found["LENGTH_UNIT"]
         return self._contexts[context]
 
@@ -250,10 +260,14 @@ class StepReader:
         name, factor = parts["CONVERSION_BASED_UNIT"]
         if name.upper().startswith("DEG"):
             return math.radians(1.0)
-        value, unit = next(row for row in self._text[factor].values() if len(row) == 2)
+        value, unit = self._measure(factor)
+        return value * self._size(unit, depth + 1)
+
+    def _measure(self, number: int) -> tuple[float, int]:
+        """Return the value of a measure and its unit."""
+        value, unit = next(row for row in self._text[number].values() if len(row) > 1)[:2]
         # OpenCascade leaves out the type of the value in AP203.
-        value = value[1][0] if isinstance(value, tuple) else value
-        return float(value) * self._size(unit, depth + 1)
+        return float(value[1][0] if isinstance(value, tuple) else value), unit
 
     def _matrix(self, frame: int, representation: int) -> Array:
         matrix = self._shapes.frame(frame)
@@ -269,7 +283,7 @@ class StepReader:
         self._visited |= set(group)
         for one in group:
             with self._noting(one):
-                length, self._shapes.angle = self._units(one)
+                length, self._shapes.angle, self._shapes.uncertainty = self._units(one)
                 scaled = matrix @ np.diag([*[length / self._unit] * 3, 1.0])
                 solids = [item for item in self._attribute(one, 1) if self._is_body(item)]
                 self._left_out += len(self._hidden.intersection(solids))
@@ -292,22 +306,27 @@ class StepReader:
         return any(name.endswith(BODIES) for name in self._text[number])
 
     def _add(self, number: int, owner: int, matrix: NDArray, is_alone: bool) -> None:
-        """Add a solid, in place."""
+        """Add a solid, in place, unless another representation has put it there."""
         if number not in self._solids:
             self._is_whole = True
+            self._shapes.gap = 0.0
+            self._edges.clear()
             faces: list[Face] = []
             with self._noting(number):
                 faces = self._solid(number)
-            self._solids[number] = faces if self._is_whole else []
-        faces = [face.transform(matrix) for face in self._solids[number]]
-        if not faces:
+            self._solids[number] = (faces if self._is_whole else []), self._shapes.gap
+        local, gap = self._solids[number]
+        place = number, matrix.tobytes()
+        if not local or place in self._places:
             return
+        self._places.add(place)
+        faces = [face.transform(matrix) for face in local]
         self._count(len(faces))
         label = self._attribute(number, 0)
         scale = float(np.linalg.norm(matrix[:3, :3], 2))
         reach = max(
             factor * float(np.abs(face.points).max())
-            for factor, own in ((1.0, faces), (scale, self._solids[number]))
+            for factor, own in ((1.0, faces), (scale, local))
             for face in own
         )
         shells = [number, *np.ravel(self._attribute(number, 1)).tolist(), owner]
@@ -315,7 +334,7 @@ class StepReader:
             SurfaceBody(
                 (self._product(owner) if is_alone or not label else label) or self._stem,
                 tuple(faces),
-                scale * self._shapes.gap + 4.0 * self._text.precision * reach,
+                scale * gap + 4.0 * self._text.precision * reach,
                 next((self._colors[one] for one in shells if one in self._colors), None),
                 zlib.compress(
                     self._text.extract(
@@ -392,7 +411,8 @@ class StepReader:
         else:
             for use in values[1]:
                 _, (_, _, _, edge, ahead) = self._shapes.pick(use, ("ORIENTED_EDGE",))
-                curves += _turned(self._edge(edge), ahead)
+                made = self._edge(edge)
+                curves += made if ahead else backward(made)
                 self._uses[edge] += 1
         ends = np.array([curve.points[[0, -1]] for curve in curves])
         gaps = np.abs(ends[:, 0] - np.roll(ends[:, 1], 1, axis=0)).max()
@@ -401,7 +421,7 @@ class StepReader:
             > WELDING_RTOL * np.ptp(np.concatenate([one.points for one in curves]), axis=0).max()
         ):
             raise refuse("a loop that does not close")
-        return _turned(curves, is_ahead)
+        return curves if is_ahead else backward(curves)
 
     def _edge(self, number: int) -> list[Curve]:
         """Return the curves of an edge from its first to its last vertex."""
@@ -414,18 +434,5 @@ class StepReader:
                     for one in vertices
                 ]
                 made = self._shapes.curve(curve, ends if same else ends[::-1])
-                self._edges[number] = _turned(made, same)
+                self._edges[number] = made if same else backward(made)
         return self._edges[number]
-
-
-def read_source(source: bytes, matrix: ArrayLike) -> tuple[tuple[Face, ...], float]:
-    """Return the faces of a body's `source` in place, and their rounding. Raise FileError."""
-    unpacked = zlib.decompressobj().decompress(source, DEFAULT_LIMITS.text_bytes)
-    (body,) = StepReader(Path(), False, unpacked).read().bodies
-    place = np.reshape(matrix, (4, 4))
-    scale = float(np.linalg.norm(place[:3, :3], 2))
-    return tuple(face.transform(place) for face in body.patches), scale * body.rounding
-
-
-def _turned(curves: list[Curve], is_ahead: bool) -> list[Curve]:
-    return curves if is_ahead else [curve.reverse() for curve in reversed(curves)]

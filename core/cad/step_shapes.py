@@ -20,7 +20,6 @@ from ..numerics import Array, SplineSpace, clamped_space
 from ..nurbs import (
     Curve,
     Face,
-    FlatFace,
     Quadric,
     bezier_curves,
     nearest_parameters,
@@ -29,12 +28,13 @@ from ..nurbs import (
 from ..verdict import FileError, MeasureError
 from .findings import SURFACE_DAMAGED, SURFACE_POINTS, SURFACE_UNSUPPORTED
 from .iges_entities import MAX_ARC, MAX_DEPTH
-from .iges_sweeps import TURN, join_pieces, revolve, rule
+from .iges_sweeps import TURN, join_pieces, revolve, revolved_quadric, rule
 from .part21 import Part21, Reference
+from .regions import MISS_RTOL
 from .surfaces import SurfaceRefusedError, bezier_surface, placed_surface
-from .trimmed import Boundary, within
+from .trimmed import Boundary, backward, faces_away, flat_region, within
 
-MISS_RTOL = 1e-4  # Relative to an edge: a vertex may be so far from its curve.
+UNCERTAINTIES = 20.0  # A vertex may be so many uncertainties of the file from its curve.
 SAMPLES = 257  # points of a spline where the search for the parameters of vertices begins
 OVERLAP = 1.0 + 1e-3  # length of a swept surface, relative to its boundary
 MISSING = "a reference to an entity that is not in the file"
@@ -73,13 +73,16 @@ def refuse(fault: str) -> SurfaceRefusedError:
 class Shapes:
     """The curves and surfaces of a file, in its unit.
 
-    angle: radians per unit of angles. gap: largest distance of a vertex from a curve.
+    angle: radians per unit of angles. uncertainty: of points, by the file. gap: largest distance of
+    a vertex from a curve.
     """
 
     def __init__(self, text: Part21) -> None:
         self.text = text
         self.angle = 1.0
+        self.uncertainty = 0.0
         self.gap = 0.0
+        self._depth = 0
 
     def pick(self, number: int, names: Any) -> tuple[str, list[Any]]:
         """Return the first of the names that an instance has, and its attributes."""
@@ -124,43 +127,81 @@ class Shapes:
         matrix[:3] = np.stack([x, np.cross(z, x), z, self.point(values[1])], axis=1)
         return matrix
 
-    def curve(self, number: int, ends: Sequence[Array] | None, depth: int = 0) -> list[Curve]:
+    @contextmanager
+    def _nested(self) -> Iterator[None]:
+        """Refuse an entity that refers to itself."""
+        self._depth += 1
+        try:
+            if self._depth > MAX_DEPTH:
+                raise refuse("references to itself, or nested too deeply")
+            yield
+        finally:
+            self._depth -= 1
+
+    def curve(self, number: int, ends: Sequence[Array] | None) -> list[Curve]:
         """Return a curve from the first to the second of two points, the whole curve for None."""
         name, values = self.pick(number, (*_CURVES, *_BASES))
-        if name not in _BASES:
-            with blame(number):
-                made = _CURVES[name](self, self.text[number], values, ends)
-            return made if ends is None else self._ending(made, ends)
-        if depth == MAX_DEPTH:
-            raise refuse("references to itself, or nested too deeply")
-        if name != "TRIMMED_CURVE" or values[4] or ends is None:
-            return self.curve(values[1], ends, depth + 1)
-        return [one.reverse() for one in self.curve(values[1], ends[::-1], depth + 1)[::-1]]
+        with self._nested():
+            if name not in _BASES:
+                with blame(number):
+                    made = _CURVES[name](self, self.text[number], values, ends)
+                return made if ends is None else self._ending(made, ends)
+            if name != "TRIMMED_CURVE":
+                return self.curve(values[1], ends)
+            _, base, *trims, same, _ = values
+            if ends is None:
+                ends = [self._trim(base, trim) for trim in trims]
+            return self.curve(base, ends) if same else backward(self.curve(base, ends[::-1]))
+
+    def _trim(self, base: int, trims: Sequence[Any]) -> Array:
+        """Return the point where a curve is trimmed."""
+        for one in trims:
+            if isinstance(one, Reference):
+                return self.point(one)
+        name, values = self.pick(base, _CURVES)
+        at = trims[0][1][0] if isinstance(trims[0], tuple) else trims[0]
+        if name == "LINE":
+            _, (_, along, length) = self.pick(values[2], ("VECTOR",))
+            return self.point(values[1]) + at * length * self.direction(along)
+        if name in ("CIRCLE", "ELLIPSE"):
+            angle = self.angle * at
+            place = values[2] * math.cos(angle), values[-1] * math.sin(angle), 0.0, 1.0
+            return (self.frame(values[1]) @ place)[:3]
+        (curve,) = self.curve(base, None)
+        return curve.evaluate([at])[0]
 
     def _ending(self, curves: list[Curve], ends: Sequence[Array]) -> list[Curve]:
         """Return curves whose ends are moved to the vertices."""
         gap = max(float(np.linalg.norm(curves[k].points[k] - ends[k])) for k in (0, -1))
-        self.gap = max(self.gap, gap)
         size = max(float(np.ptp(curve.points, axis=0).max()) for curve in curves)
-        if gap > MISS_RTOL * size:
+        if gap > max(MISS_RTOL * size, UNCERTAINTIES * self.uncertainty):
             raise refuse("an edge whose ends are not on its curve")
+        self.gap = max(self.gap, gap)
         for k in (0, -1):
             points = curves[k].points.copy()
             points[k] = ends[k]
             curves[k] = replace(curves[k], points=points)
         return curves
 
-    def faces(self, number: int, loops: list[list[Curve]], depth: int = 0) -> Sequence[Face]:
+    def faces(self, number: int, loops: list[list[Curve]]) -> Sequence[Face]:
         """Return the faces of a surface within loops, with its normal."""
-        name, values = self.pick(number, (*_SURFACES, "RECTANGULAR_TRIMMED_SURFACE"))
-        if name not in _SURFACES:
-            if depth == MAX_DEPTH:
-                raise refuse("references to itself, or nested too deeply")
-            return self.faces(values[1], loops, depth + 1)
-        surface = _SURFACES[name](self, self.text[number], values, loops)
+        surface = self.surface(number, loops)
         if isinstance(surface, np.ndarray):
-            return [FlatFace.within(loops, surface)]
-        return within(surface, [Boundary(loop, None) for loop in loops], rounding=self.gap)
+            return [flat_region(loops, surface, True)]
+        is_turned = False
+        if isinstance(surface, tuple):
+            surface, is_turned = surface
+            loops = [backward(loop) for loop in loops] if is_turned else loops
+        faces = within(surface, [Boundary(loop, None) for loop in loops], rounding=self.gap)
+        return [face.reverse_orientation() for face in faces] if is_turned else faces
+
+    def surface(self, number: int, loops: list[list[Curve]]) -> Any:
+        """Return a plane's normal, a patch, or a quadric, alone or with True if it faces inward."""
+        name, values = self.pick(number, (*_SURFACES, "RECTANGULAR_TRIMMED_SURFACE"))
+        with self._nested():
+            if name in _SURFACES:
+                return _SURFACES[name](self, self.text[number], values, loops)
+            return self.surface(values[1], loops)
 
 
 def _line(shapes: Shapes, _: Any, values: list[Any], ends: Sequence[Array] | None) -> list[Curve]:
@@ -214,10 +255,27 @@ def _conic_of(kind: str) -> Callable[..., list[Curve]]:
     return lambda shapes, _, values, ends: _conic(shapes, values, ends, kind)
 
 
+def _knots(
+    parts: dict[str, list[Any]], kind: str, degree: int, count: int, multiple: Sequence[Any]
+) -> list[float]:
+    """Return the knots of a B-spline: those of its kind, else from their counts and values."""
+    simple = np.arange(-degree, count + 1.0)
+    knots = {
+        "UNIFORM_": simple,
+        "QUASI_UNIFORM_": simple.clip(0.0, count - degree),
+        "BEZIER_": np.ceil(simple.clip(1.0 - degree, count - 1.0) / degree),
+    }
+    implied = (row for name, row in knots.items() if name + kind in parts)
+    known = next(implied, None)
+    return (np.repeat(multiple[1], multiple[0]) if known is None else known).tolist()
+
+
 def _spline_values(parts: dict[str, list[Any]], kind: str) -> tuple[list[Any], Any]:
     """Return the attributes of a B-spline after its name, and its weights or None."""
     knots = parts.get("B_SPLINE_{}_WITH_KNOTS".format(kind), [])
-    values = knots[1:] if len(parts) == 1 else [*parts["B_SPLINE_" + kind], *knots]
+    values = (
+        next(iter(parts.values()))[1:] if len(parts) == 1 else [*parts["B_SPLINE_" + kind], *knots]
+    )
     weights = parts.get("RATIONAL_B_SPLINE_" + kind)
     return values, weights and np.array(weights[0], np.float64)
 
@@ -225,13 +283,45 @@ def _spline_values(parts: dict[str, list[Any]], kind: str) -> tuple[list[Any], A
 def _spline(
     shapes: Shapes, parts: dict[str, list[Any]], _: Any, ends: Sequence[Array] | None
 ) -> list[Curve]:
-    (degree, points, _, _, _, counts, knots, *_), weights = _spline_values(parts, "CURVE")
+    (degree, points, _, _, _, *multiple), weights = _spline_values(parts, "CURVE")
     places = np.array([shapes.point(point) for point in points])
-    space = SplineSpace(tuple(np.repeat(knots, counts).tolist()), degree + 1, len(places))
-    curve = Curve(space, places, weights)
+    knots = _knots(parts, "CURVE", degree, len(places), multiple)
+    space = SplineSpace(tuple(knots), degree + 1, len(places))
+    return _part(Curve(space, places, weights), ends)
+
+
+def _polyline(
+    shapes: Shapes, _: Any, values: list[Any], ends: Sequence[Array] | None
+) -> list[Curve]:
+    places = np.array([shapes.point(point) for point in values[1]])
+    steps = np.arange(len(places), dtype=np.float64)
+    return _part(Curve(SplineSpace((0.0, *steps, steps[-1]), 2, len(places)), places), ends)
+
+
+def _composite(
+    shapes: Shapes, _: Any, values: list[Any], ends: Sequence[Array] | None
+) -> list[Curve]:
+    """Return the curves of a chain of trimmed curves."""
+    curves: list[Curve] = []
+    for segment in values[1]:
+        _, same, curve = shapes.pick(segment, ("COMPOSITE_CURVE_SEGMENT",))[1]
+        made = shapes.curve(curve, None)
+        curves += made if same else backward(made)
+    gaps = [np.abs(one.points[-1] - two.points[0]).max() for one, two in zip(curves, curves[1:])]
+    size = np.ptp(np.concatenate([curve.points for curve in curves]), axis=0).max()
+    if max(gaps, default=0.0) > MISS_RTOL * size:
+        raise refuse("a chain of curves with a gap")
+    is_back = ends is not None and np.linalg.norm(curves[0].points[0] - ends[0]) > np.linalg.norm(
+        curves[-1].points[-1] - ends[0]
+    )
+    return backward(curves) if is_back else curves
+
+
+def _part(curve: Curve, ends: Sequence[Array] | None) -> list[Curve]:
+    """Return the pieces of a spline from the first to the second of two points, or all of it."""
     if ends is None:
         return [curve]
-    low, high = space.domain
+    low, high = curve.space.domain
     samples = curve.evaluate(np.linspace(low, high, SAMPLES))
     size = float(np.ptp(samples, axis=0).max())
     start, end = nearest_parameters(curve, samples, np.array(ends), 1e-9 * size).tolist()
@@ -255,10 +345,15 @@ def _spline(
 
 def _spline_surface(shapes: Shapes, parts: dict[str, list[Any]], *_: Any) -> Any:
     values, weights = _spline_values(parts, "SURFACE")
-    s_degree, t_degree, rows, _, _, _, _, s_counts, t_counts, s_knots, t_knots = values[:11]
-    points = [[shapes.point(point) for point in row] for row in rows]
-    knots = np.repeat(s_knots, s_counts).tolist(), np.repeat(t_knots, t_counts).tolist()
-    surface = placed_surface(knots, (s_degree + 1, t_degree + 1), points, weights, np.eye(4))
+    degrees, rows, multiple = values[:2], values[2], values[7:11]
+    points = np.array([[shapes.point(point) for point in row] for row in rows])
+    knots = [
+        _knots(parts, "SURFACE", degree, count, multiple[axis::2])
+        for axis, (degree, count) in enumerate(zip(degrees, points.shape))
+    ]
+    surface = placed_surface(
+        (knots[0], knots[1]), (degrees[0] + 1, degrees[1] + 1), points, weights, np.eye(4)
+    )
     patches = bezier_surface(surface, (None, None), False)
     return patches[0] if len(patches) == 1 else surface
 
@@ -275,9 +370,45 @@ def _quadric_of(minor: int | None, major: int | None = 2) -> Callable[..., Quadr
     return make
 
 
-def _cone(shapes: Shapes, _: Any, values: list[Any], __: Any) -> Quadric:
+def _cone(shapes: Shapes, _: Any, values: list[Any], loops: list[list[Curve]]) -> Quadric:
+    """Return the part of a cone on that side of its apex where its boundary is."""
     slope = math.tan(shapes.angle * values[3])
-    return Quadric(shapes.frame(values[1]), float(values[2]), 0.0, slope)
+    frame = shapes.frame(values[1])
+    radius = float(values[2])
+    points = np.concatenate([frame[:1, 3], *(one.points for loop in loops for one in loop)][1:])
+    if radius + slope * float(np.mean((points - frame[:3, 3]) @ frame[:3, 2])) < 0.0:
+        return Quadric(frame @ np.diag([1.0, -1.0, -1.0, 1.0]), -radius, 0.0, slope)
+    return Quadric(frame, radius, 0.0, slope)
+
+
+def _torus(shapes: Shapes, parts: Any, values: list[Any], loops: list[list[Curve]]) -> Any:
+    """Return a torus. Where its tube crosses the axis: the part where its boundary is, and True if
+    this is the inner one, which faces inward.
+    """
+    torus = _quadric_of(3)(shapes, parts, values, loops)
+    inner = replace(torus, radius=-torus.radius)
+    is_inner = len(values) > 4 and not values[4]
+    if torus.minor > torus.radius and loops and len(values) == 4:
+        points = np.concatenate([one.samples(8) for loop in loops for one in loop])
+        apart = [
+            np.linalg.norm(one.evaluate(*one.project(points).T)[0].T - points, axis=1).max()
+            for one in (torus, inner)
+        ]
+        is_inner = apart[1] < apart[0]
+    return (inner, True) if is_inner else torus
+
+
+def _offset(shapes: Shapes, _: Any, values: list[Any], loops: list[list[Curve]]) -> Any:
+    """Return the surface at a distance from a plane, a cylinder, a cone, a sphere or a torus."""
+    surface = shapes.surface(values[1], loops)
+    if isinstance(surface, Quadric):
+        away = float(values[2]) * math.hypot(1.0, surface.slope)
+        if surface.minor:
+            return replace(surface, minor=surface.minor + away)
+        return replace(surface, radius=surface.radius + away)
+    if not isinstance(surface, np.ndarray):
+        raise SurfaceRefusedError(SURFACE_UNSUPPORTED, base="OFFSET_SURFACE")
+    return surface
 
 
 def _extrusion(shapes: Shapes, _: Any, values: list[Any], loops: list[list[Curve]]) -> Any:
@@ -319,10 +450,18 @@ def _revolution(shapes: Shapes, _: Any, values: list[Any], loops: list[list[Curv
     is_flat = np.abs(spokes - np.outer(along, widest)).max() < 1e-9 * np.linalg.norm(widest)
     if is_flat and along.min() < -1e-9:
         raise refuse("a curve that crosses the axis it turns about")
-    swept = revolve(profile, begin, axis, 0.0, TURN)
-    return swept.reverse_orientation()  # The angle is the first parameter.
+    # The angle is the first parameter.
+    swept = revolve(profile, begin, axis, 0.0, TURN).reverse_orientation()
+    quadric = revolved_quadric(profile, begin, axis)
+    return swept if quadric is None else (quadric, faces_away(quadric, swept))
 
 
+_SPLINES = (
+    ("B_SPLINE_", "_WITH_KNOTS"),
+    ("BEZIER_", ""),
+    ("QUASI_UNIFORM_", ""),
+    ("UNIFORM_", ""),
+)
 _BASES = ("TRIMMED_CURVE", "SURFACE_CURVE", "SEAM_CURVE", "INTERSECTION_CURVE")
 _CURVES: dict[str, Callable[..., list[Curve]]] = {
     "LINE": _line,
@@ -330,15 +469,19 @@ _CURVES: dict[str, Callable[..., list[Curve]]] = {
     "ELLIPSE": _conic_of("ELLIPSE"),
     "HYPERBOLA": _conic_of("HYPERBOLA"),
     "PARABOLA": _conic_of("PARABOLA"),
-    "B_SPLINE_CURVE_WITH_KNOTS": _spline,
+    "POLYLINE": _polyline,
+    "COMPOSITE_CURVE": _composite,
 }
+_CURVES |= {name + "CURVE" + end: _spline for name, end in _SPLINES}
 _SURFACES: dict[str, Callable[..., Any]] = {
     "PLANE": lambda shapes, _, values, __: shapes.frame(values[1])[:3, 2],
     "CYLINDRICAL_SURFACE": _quadric_of(None),
     "CONICAL_SURFACE": _cone,
     "SPHERICAL_SURFACE": _quadric_of(2, None),
-    "TOROIDAL_SURFACE": _quadric_of(3),
+    "TOROIDAL_SURFACE": _torus,
+    "DEGENERATE_TOROIDAL_SURFACE": _torus,
+    "OFFSET_SURFACE": _offset,
     "SURFACE_OF_LINEAR_EXTRUSION": _extrusion,
     "SURFACE_OF_REVOLUTION": _revolution,
-    "B_SPLINE_SURFACE_WITH_KNOTS": _spline_surface,
 }
+_SURFACES |= {name + "SURFACE" + end: _spline_surface for name, end in _SPLINES}

@@ -4,13 +4,16 @@
 
 from __future__ import annotations
 
+import zlib
 from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..files import DEFAULT_LIMITS, FILE_TYPE, Limits, check_regular
 from ..numerics import Array
+from ..nurbs import Face
 from ..streams import KINDS, FileMesh, box_of_blocks
 from ..verdict import FileError
 from .iges import IgesReader
@@ -31,15 +34,25 @@ SUFFIXES = tuple(_READERS)
 def read_surfaces(
     path: str | Path, limits: Limits = DEFAULT_LIMITS, for_blender: bool = True
 ) -> SurfaceFile:
-    """Return the B-spline surfaces of an IGES or .obj file of up to `limits.text_bytes`.
+    """Return the bodies of a STEP, IGES or .obj file of up to `limits.text_bytes`.
 
     Raise FileError or OSError.
 
-    for_blender: only surfaces that Blender can represent.
+    for_blender: only those surfaces of .obj files that Blender can represent.
     """
     path, suffix = _existing_file(path, SUFFIXES)
     limits.check(path, "text_bytes", path.stat().st_size)
     return _READERS[suffix](path, for_blender).read()
+
+
+def read_source(source: bytes, matrix: ArrayLike) -> tuple[tuple[Face, ...], float]:
+    """Return the faces of a body's `source` in place, and their rounding. Raise FileError."""
+    data = zlib.decompressobj().decompress(source, DEFAULT_LIMITS.text_bytes)
+    reader = StepReader if data.lstrip().startswith(b"ISO-10303-21") else IgesReader
+    (body,) = reader(Path(), False, data).read().bodies
+    place = np.reshape(matrix, (4, 4))
+    scale = float(np.linalg.norm(place[:3, :3], 2))
+    return tuple(face.transform(place) for face in body.patches), scale * body.rounding
 
 
 def read_meshes(path: str | Path) -> tuple[list[FileMesh], Array]:

@@ -205,9 +205,15 @@ def bezier_surface(
     return patches
 
 
-def is_storable(patch: Patch) -> bool:
-    """Return whether float32 can hold all weights of a patch as positive numbers."""
-    return patch.weights is None or bool(patch.weights.min() >= 1e-30 * patch.weights.max())
+def is_storable(face: Face) -> bool:
+    """Return whether Blender's splines can hold a face: a patch of a low order, whose weights are
+    positive in float32.
+    """
+    return (
+        isinstance(face, Patch)
+        and max(space.order for space in face.spaces) <= MAX_ORDER
+        and (face.weights is None or bool(face.weights.min() >= 1e-30 * face.weights.max()))
+    )
 
 
 def revolved_solid(

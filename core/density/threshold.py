@@ -7,20 +7,25 @@ Soldea, Elber and Rivlin define a body as {f ≥ t} of a trivariate B-spline f. 
 each axis between the samples, and the integrals are over the set itself: nothing is triangulated.
 
 A cell with all eight corners on one side lies on that side, as f is a mean of them. In other cells,
-an axis is chosen along which f is monotone: f = a(x, y) + b(x, y) z with b of one sign. The body's
-columns then end at z = -a/b, and the integrand along z is a polynomial. The remaining integral over
-x and y is smooth except along the lines by which the surface leaves the cell through its floor (a =
-0) or its ceiling (a + b = 0). Along y each of the two lines is met once at most, at the root of a
-linear function; along x, these roots enter or leave the cell at the zeros of four more. Between all
-these Gauss's rule converges geometrically. Two rules are compared in each cell; if they differ by
-too much, or no axis serves, it is cut in eight. The sum of their differences is the estimate of the
-error.
+f = a(x, y) + b(x, y) z along an axis, of the three the one along which f is most clearly monotone.
+The body's columns then end at z = -a/b, and the integrand along z is a polynomial. The remaining
+integral over x and y is smooth except along the lines by which the surface leaves the cell through
+its floor (a = 0) or its ceiling (a + b = 0). Along y each of the two lines is met once at most, at
+the root of a linear function; along x, these roots enter or leave the cell at the zeros of four
+more. Between all these Gauss's rule converges geometrically if b has one sign, and else slower. In
+each cell, rules with more and more points are compared; if the last two differ by too much, it is
+cut in eight. The sum of the differences is the estimate of the error.
+
+In a smooth density few cells need the finer rules, and hardly one is cut. In a noisy one most
+would be cut again and again. Then the allowed difference grows until the work is within a limit:
+the largest errors are reduced first, and the bound says what is left.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -30,9 +35,9 @@ from ..numerics import Array, Mask, float_array, gauss_legendre, number_array, p
 from ..verdict import MeasureError
 from .findings import DENSITY_NON_FINITE, GRID_TRANSFORM_SINGULAR
 from .spline_grid import contract
-from .threshold_cells import TURNS, Cells, Columns, amounts_of, compare_rules
+from .threshold_cells import TURNS, Cells, Columns, integrate
 
-RULES = ((3, 5), (8, 12))  # points along x and y of two rules to compare; then of two finer rules
+RULES = (3, 5, 8, 12)  # points along x and y; each rule is compared with the one before
 TOLERANCE = (
     1e-11  # Relative to the volume: allowed difference of the rules in all uncut cells together.
 )
@@ -41,7 +46,15 @@ AREA_TOLERANCE = 1e-9  # Relative to a cell's face: allowed difference in one ce
 MAX_PARTS = 64
 MIN_PARTS = 1 << 13
 MAX_CUT_CELLS = 1 << 21  # Limit of cells kept for measuring.
-CELLS_PER_BATCH = 1 << 9  # cut cells whose points are in memory at a time
+# Work relative to that of the first two rules: of the other rules, and of a cell that is cut in
+# eight. Its limit is the first number for each cell and the second for all together, judged by a
+# sample of cells.
+WORKS = np.array([1.7, 4.0, 5.0])
+WORK = 1.3
+LEAST_WORK = 50_000.0
+SAMPLE = 1 << 11
+DOUBT = 4.0  # factor of the differences in cells without an axis of monotone values
+CELLS_PER_BATCH = 1 << 10  # cut cells whose points are in memory at a time
 CELLS_PER_SLAB = 1 << 21  # cells of the grid at a time
 
 
@@ -200,6 +213,15 @@ def _corner_counts(inside: Mask) -> NDArray[np.int8]:
     return counts[:, :, 1:] + counts[:, :, :-1]
 
 
+def _batches(cells: Cells) -> Iterator[tuple[Cells, tuple, float]]:
+    """Yield batches of cells with the axes of their columns, and a factor of their estimates."""
+    axes, is_monotone = cells.column_axes()
+    for (axis, turn), doubt in product(enumerate(TURNS), (1.0, DOUBT)):
+        chosen = np.flatnonzero((axes == axis) & (is_monotone == (doubt == 1.0)))
+        for first in range(0, len(chosen), CELLS_PER_BATCH):
+            yield cells[chosen[first : first + CELLS_PER_BATCH]], turn, doubt
+
+
 class _Sums:
     """The moments so far, about the middle of the grid, and bounds of their errors."""
 
@@ -258,85 +280,101 @@ class _Sums:
         """Add the inside parts of cells that the surface passes through."""
         if not len(cells.size):
             return
-        allowed = TOLERANCE * (self.volume[0] + len(cells.size) / 2.0) / len(cells.size)
-        budget = MAX_PARTS * len(cells.size) + MIN_PARTS
-        while True:
-            again = [
-                self._add_batch(cells[first : first + CELLS_PER_BATCH], threshold, allowed)
-                for first in range(0, len(cells.size), CELLS_PER_BATCH)
+        allowed = np.array(
+            [
+                TOLERANCE * (self.volume[0] + len(cells.size) / 2.0) / len(cells.size),
+                AREA_TOLERANCE * self.face,
             ]
-            cells = Cells.join(again)
-            budget -= 8 * len(cells.size)
-            if not len(cells.size):
-                return
-            if budget < 0 or (cells.size**3).sum() < allowed:
-                self._give_up(cells, threshold)
-                return
-            cells = cells.cut_in_eight()
+        )
+        allowed = allowed * self._tolerance_factor(cells, allowed)
+        budget = MAX_PARTS * len(cells.size) + MIN_PARTS
+        while len(cells.size):
+            cells = Cells.join(
+                [
+                    self._add_batch(part, turn, doubt, threshold, allowed)
+                    for part, turn, doubt in _batches(cells)
+                ]
+            ).cut_in_eight()
             signs = cells.corners >= 0.0
             inside = np.asarray(signs.all(axis=(1, 2, 3)))
             self._add_boxes(cells[inside], threshold)
+            budget -= len(cells.size)
             cells = cells[~inside & signs.any(axis=(1, 2, 3))]
+            if budget < 0 or (cells.size**3).sum() < allowed[0]:
+                allowed[:] = np.inf
 
-    def _add_batch(self, cells: Cells, threshold: float, allowed: float) -> Cells:
+    def _tolerance_factor(self, cells: Cells, allowed: Array) -> float:
+        """Return the least factor of the allowed differences that keeps the work within its limit,
+        judged by a sample of the cells.
+
+        So the largest differences are reduced first, and the others are in the bounds.
+        """
+        limit = WORK + LEAST_WORK / len(cells.size)
+        if self.preview or limit >= 1.0 + WORKS.sum():
+            return 1.0
+        ratios = []
+        for part, turn, doubt in _batches(cells[:: max(len(cells.size) // SAMPLE, 1)]):
+            amounts = [integrate(part, turn, points, self.metric)[1] for points in RULES]
+            estimates = doubt * np.abs(np.diff(amounts, axis=0))
+            ratios.append((estimates / allowed[:, None]).max(axis=1))
+        least = np.minimum.accumulate(np.concatenate(ratios, axis=1))
+        factors = np.geomspace(1.0, max(least.max(), 1.0), 200)
+        works = 1.0 + WORKS @ (least[..., None] > factors).mean(axis=1)
+        return factors[np.argmax(works <= limit)]
+
+    def _add_batch(
+        self, cells: Cells, turn: tuple, doubt: float, threshold: float, allowed: Array
+    ) -> Cells:
         """Add the cells that can be integrated to the tolerance; return the other cells."""
-        axes = cells.column_axes()
-        rest = [cells[axes < 0]]
-        for axis, turn in enumerate(TURNS):
-            left = cells[axes == axis]
-            for rules in RULES:
-                if not len(left.size):
-                    break
-                columns, estimates = compare_rules(
-                    left, turn, rules[:1] if self.preview else rules, self.metric
-                )
-                good = (estimates[0] <= allowed) & (estimates[1] <= AREA_TOLERANCE * self.face)
-                self._add_columns(columns, good, left, turn, threshold)
-                kept = left[good]
-                self._add_largest("estimate", kept, threshold, *estimates[:, good])
-                self._add_largest(
-                    "size", kept, threshold, kept.size**3, amounts_of(columns, left)[1, good]
-                )
-                left = left[~good]
-            rest.append(left)
-        return Cells.join(rest)
+        before = None
+        for points in RULES:
+            columns, amounts = integrate(cells, turn, points, self.metric)
+            if before is None and not self.preview:
+                before = amounts
+                continue
+            estimates = doubt * np.abs(amounts - before) if before is not None else 0.0 * amounts
+            good = np.asarray((estimates <= allowed[:, None]).all(axis=0))
+            for part in columns:
+                self._add_columns(part.take(good[part.cell]), cells, turn, threshold)
+            kept = cells[good]
+            self._add_largest("estimate", kept, threshold, *estimates[:, good])
+            self._add_largest("size", kept, threshold, kept.size**3, amounts[1, good])
+            cells = cells[~good]
+            before = amounts[:, ~good]
+            if good.all():
+                break
+        return cells
 
-    def _add_columns(
-        self, columns: Columns, good: NDArray, cells: Cells, turn: tuple, threshold: float
-    ) -> None:
-        kept = good[columns.cell]
-        cell = columns.cell[kept]
-        size = cells.size[columns.cell[kept]]
-        first = cells.origin[cell]
-        place = [first[:, axis] + size * of[kept] for axis, of in zip(turn, (columns.x, columns.y))]
-        z0 = first[:, turn[2]]
-        low, high, level = (
-            z0 + size * of[kept] for of in (columns.low, columns.high, columns.level)
+    def _add_columns(self, columns: Columns, cells: Cells, turn: tuple, threshold: float) -> None:
+        size = cells.size[columns.cell, None]
+        x0, y0, z0 = cells.origin[columns.cell][:, turn].T[..., None]
+        place = [x0 + size * columns.x, y0 + size * columns.y]
+        floor = columns.weight * size**2
+        xs = power_table(place[0][:, 0], self.order)
+        across = [floor * power for power in power_table(place[1], self.order)]
+        levels, ends = (
+            power_table(z0 + size * of, self.order + 1) for of in (columns.level, columns.end)
         )
-        floor = columns.weight[kept] * size**2
-        xs, ys = (power_table(values, self.order) for values in place)
-        ends = zip(power_table(high, self.order + 1)[1:], power_table(low, self.order + 1)[1:])
-        inside = [(upper - lower) / (r + 1) for r, (upper, lower) in enumerate(ends)]
-        levels = power_table(level, self.order)
-        levels = [columns.slope[kept] * power for power in levels]
-        across = {}
+        upward = 2.0 * columns.end[:, 0] - 1.0
+        rows = {}
         for number, (p, q, r) in enumerate(self.powers[:, turn].tolist()):
-            if (p, q) not in across:
-                across[p, q] = floor * xs[p] * ys[q]
-            self.volume[number] += np.einsum("i,i->", across[p, q], inside[r])
-            self.area[number] += np.einsum("i,i->", across[p, q], levels[r])
-        self.terms += len(cell)
+            if (q, r) not in rows:
+                inside = np.einsum("ij,ij->i", across[q], ends[r + 1] - levels[r + 1])
+                surface = np.einsum("ij,ij,ij->i", across[q], columns.slope, levels[r])
+                rows[q, r] = upward * inside / (r + 1), surface
+            for total, sums in zip((self.volume, self.area), rows[q, r]):
+                total[number] += (xs[p] * sums).sum()
+        self.terms += floor.size
         if not self.with_density:
             return
         # The density is linear along a column, so that Gauss's rule is exact for the masses.
-        first = columns.low[kept]
-        height = (columns.high - columns.low)[kept]
+        height = columns.end - columns.level
+        rise = np.ldexp(columns.growth, columns.exponent)
+        bottom = threshold + np.ldexp(columns.density, columns.exponent)
         for node, weight in zip(*gauss_legendre((self.order + 1) // 2 + 1)):
-            z = first + node * height
-            density = threshold + columns.density[kept] + columns.growth[kept] * z
-            self._add_points(
-                "mass", floor * size * height * weight * density, [*place, z0 + size * z], turn
-            )
+            z = columns.level + node * height
+            amounts = floor * size * np.abs(height) * weight * (bottom + rise * z)
+            self._add_points("mass", amounts, [*place, z0 + size * z], turn)
 
     def _add_points(
         self, measure: str, amounts: NDArray, points: list[NDArray], turn: tuple = TURNS[2]
@@ -365,16 +403,6 @@ class _Sums:
                 )
                 self._add_points("mass", volumes * (threshold + above), points)
         self.terms += len(cells.size)
-
-    def _give_up(self, cells: Cells, threshold: float) -> None:
-        """Add half of the remaining cells to the moments, and all of them to the error estimate."""
-        center = cells.origin + cells.size[:, None] / 2.0
-        self._add_points("volume", cells.size**3 / 2.0, list(center.T))
-        if self.with_density:
-            self._add_points("mass", threshold * cells.size**3 / 2.0, list(center.T))
-        self._add_largest(
-            "estimate", cells, threshold, cells.size**3, 6.0 * self.face * cells.size**2
-        )
 
     def _add_largest(
         self, name: str, cells: Cells, threshold: float, volumes: NDArray, areas: NDArray

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics import Array, Index, gauss_legendre
+from ..numerics import Array, Index, Mask, gauss_legendre
 
 # By the axis of a cell's columns: the axes along which x, y and the columns run.
 TURNS = ((1, 2, 0), (2, 0, 1), (0, 1, 2))
@@ -67,90 +67,93 @@ class Cells:
         ]
         return Cells.join(parts)
 
-    def column_axes(self) -> Index:
-        """Return for n cells the axis along which the density is most clearly monotone, -1 if it is
-        along none.
+    def column_axes(self) -> tuple[Index, Mask]:
+        """Return for n cells the axis along which the density is most clearly monotone, and whether
+        it is.
         """
         steps = np.stack(
             [np.diff(self.corners, axis=axis).reshape(-1, 4) for axis in (1, 2, 3)], axis=1
         )
-        one_way = (steps >= 0.0).all(axis=2) | (steps <= 0.0).all(axis=2)
-        steps = np.abs(steps)
-        clearness = np.where(one_way, steps.min(axis=2) + 1e-3 * steps.max(axis=2), 0.0)
-        return np.where(clearness.any(axis=1), clearness.argmax(axis=1), -1)
+        steps *= np.sign(steps.sum(axis=2, keepdims=True))
+        least = steps.min(axis=2)
+        axes = (least + 1e-3 * steps.max(axis=2)).argmax(axis=1)
+        return axes, least[np.arange(len(axes)), axes] >= 0.0
 
 
 @dataclass(frozen=True, eq=False)
 class Columns:
-    """Points on the floors of cells, each with the inside part of its column; those of a cell are
-    consecutive.
+    """Points on the floors of cells, each with the inside part of its column, in (m, k) arrays, or
+    arrays that broadcast to them. Each row lies in one cell.
 
-    cell: (m,) index of the cell. x, y: position in it. weight: area of floor. low, high: ends of
-    the inside part. level: z of the surface. slope: the surface's area per unit of floor, 0 if the
-    column does not cross it. density: density minus threshold at z = 0. growth: its slope along z.
+    cell: (m,) index of the cell. x, y: position in it. weight: area of floor. level: z of the
+    surface, or of the floor if the column does not cross it. end: z of the other end of the inside
+    part, 0 or 1, constant in a row. slope: the surface's area per unit of floor, or 0. density:
+    density minus threshold at z = 0. growth: its slope along z; both in units of 2^exponent.
     """
 
     cell: Index
     x: Array
     y: Array
     weight: Array
-    low: Array
-    high: Array
     level: Array
+    end: Array
     slope: Array
     density: Array
     growth: Array
+    exponent: Index
+
+    def take(self, chosen: Mask) -> Columns:
+        """Return the chosen rows."""
+        return Columns(*(values[chosen] for values in vars(self).values()))
 
 
-def columns_of(corners: NDArray, points: int, metric: NDArray) -> Columns:
-    """Return columns at the Gauss points between the lines where the surface leaves a cell; metric:
-    of its area.
+def columns_of(corners: NDArray, points: int, metric: NDArray) -> list[Columns]:
+    """Return columns at the Gauss points between the lines where the surface leaves a cell: those
+    that cross the surface, and those that are inside.
+
+    metric: of the surface's area.
     """
     nodes, weights = gauss_legendre(points)
     _, exponent = np.frexp(np.abs(corners).max(axis=(1, 2, 3)))
     # so that no product leaves the range of numbers
-    corners = np.ldexp(corners, -exponent[:, None, None, None])
-    # by y and z: at x = 0, and along x
-    near = corners[:, 0]
-    step = corners[:, 1] - corners[:, 0]
-    cell, start, length = _smooth_intervals(near.reshape(-1, 4), corners[:, 1].reshape(-1, 4))
-    middle = near[cell] + (start + length / 2.0)[:, None, None] * step[cell]
-    some = (middle > 0.0).any(axis=(1, 2))  # else the whole interval is outside
-    cell = cell[some]
-    start = start[some]
-    length = length[some]
-    x = (start[:, None] + length[:, None] * nodes).ravel()
-    width = (length[:, None] * weights).ravel()
+    near, far = np.ldexp(corners, -exponent[:, None, None, None]).reshape(-1, 2, 4).T.swapaxes(0, 1)
+    step = far - near  # along x; (4, n) by y and z
+    start, length = _smooth_intervals(near, far)
+    middle = near[:, None] + (start + length / 2.0) * step[:, None]
+    part, cell = np.nonzero((length > 0.0) & (middle > 0.0).any(axis=0))  # else all is outside
+    x = start[part, cell, None] + length[part, cell, None] * nodes
+    width = (length[part, cell, None] * weights).ravel()
+    line = (near[:, cell, None] + x * step[:, cell, None]).reshape(4, -1)
+    along_y = line[2:] - line[:2]  # at the floor and at the ceiling
+    start, length = _smooth_intervals(line[:2], line[2:])
+    middle = line[:2, None] + (start + length / 2.0) * along_y[:, None]
+    below, above = middle >= 0.0
+    x = x.ravel()
     cell = np.repeat(cell, points)
-    line = near[cell] + x[:, None, None] * step[cell]  # (m, y, z)
-    row, start, length = _smooth_intervals(line[:, 0], line[:, 1])
-    y = (start[:, None] + length[:, None] * nodes).ravel()
-    weight = (width[row, None] * length[:, None] * weights).ravel()
-    row = np.repeat(row, points)
-    cell, x = cell[row], x[row]
-    # (m, y, z), (m, z)
-    along_x = step[cell]
-    along_y = line[row, 1] - line[row, 0]
-    floor, ceiling = (line[row, 0] + y[:, None] * along_y).T
-    growth = ceiling - floor
-    with np.errstate(divide="ignore"):
-        level = -floor / growth
-    level = np.where(growth == 0.0, np.where(floor >= 0.0, 2.0, -1.0), level)
-    crossed = (level >= 0.0) & (level <= 1.0)
-    level = np.clip(level, 0.0, 1.0)
-    rises = growth > 0.0
-    floor_x, ceiling_x = (along_x[:, 0] + y[:, None] * (along_x[:, 1] - along_x[:, 0])).T
-    slope_x = floor_x + level * (ceiling_x - floor_x)
-    slope_y = along_y[:, 0] + level * (along_y[:, 1] - along_y[:, 0])
-    with np.errstate(divide="ignore"):
-        slope = np.where(
-            crossed, np.sqrt(_square(metric, slope_x, slope_y, growth)) / np.abs(growth), 0.0
-        )
-    low = np.where(rises, level, 0.0)
-    high = np.where(rises, 1.0, level)
-    density = np.ldexp(floor, exponent[cell])
-    growth = np.ldexp(growth, exponent[cell])
-    return Columns(cell, x, y, weight, low, high, level, slope, density, growth)
+    # Between the lines, a column meets the surface everywhere or nowhere.
+    result = []
+    for crosses, chosen in ((True, below != above), (False, below & above)):
+        part, row = np.nonzero(chosen & (length > 0.0))
+        y = start[part, row, None] + length[part, row, None] * nodes
+        weight = (width[row] * length[part, row])[:, None] * weights
+        floor_y, ceiling_y = along_y[:, row, None]
+        floor = line[0, row, None] + y * floor_y
+        growth = line[1, row, None] + y * ceiling_y - floor
+        level = slope = np.zeros((len(row), 1))
+        end = above[part, row, None].astype(np.float64)
+        if crosses:
+            along_x = step[:, cell[row], None]
+            divisor = np.where(growth == 0.0, 1.0, growth)
+            level = np.clip(-floor / divisor, 0.0, 1.0)
+            floor_x = along_x[0] + y * (along_x[2] - along_x[0])
+            ceiling_x = along_x[1] + y * (along_x[3] - along_x[1])
+            slope_x = floor_x + level * (ceiling_x - floor_x)
+            slope_y = floor_y + level * (ceiling_y - floor_y)
+            slope = np.sqrt(_square(metric, slope_x, slope_y, growth)) / np.abs(divisor)
+        place = cell[row], x[row, None], y
+        density = floor, growth, exponent[cell[row], None]
+        result.append(Columns(*place, weight, level, end, slope, *density))
+    return result
 
 
 def _square(metric: NDArray, x: NDArray, y: NDArray, z: NDArray) -> Array:
@@ -159,37 +162,34 @@ def _square(metric: NDArray, x: NDArray, y: NDArray, z: NDArray) -> Array:
     return square if not (xy or xz or yz) else square + 2.0 * (xy * x * y + xz * x * z + yz * y * z)
 
 
-def _smooth_intervals(low: NDArray, high: NDArray) -> tuple[Index, NDArray, NDArray]:
-    """Cut [0, 1] at roots of linear functions with end values (n, k); return row, start and length
-    of each interval.
+def _smooth_intervals(low: NDArray, high: NDArray) -> tuple[Array, Array]:
+    """Cut [0, 1] at roots of linear functions with end values (k, n); return the starts and lengths
+    of the (k + 1, n) intervals.
     """
     with np.errstate(divide="ignore"):
         roots = np.where((low < 0.0) != (high < 0.0), low / (low - high), 0.0)
-    edges = np.sort(np.pad(np.clip(roots, 0.0, 1.0), ((0, 0), (1, 0))), axis=1)
-    ends = np.pad(edges[:, 1:], ((0, 0), (0, 1)), constant_values=1.0)
-    row, column = np.nonzero(ends > edges)
-    return row, edges[row, column], (ends - edges)[row, column]
+    edges = np.zeros((len(low) + 2, low.shape[1]))
+    edges[1:-1] = np.clip(np.sort(roots, axis=0), 0.0, 1.0)
+    edges[-1] = 1.0
+    return edges[:-1], np.diff(edges, axis=0)
 
 
-def amounts_of(columns: Columns, cells: Cells) -> Array:
+def amounts_of(columns: Sequence[Columns], cells: Cells) -> Array:
     """Return a (2, n) array: the volume inside each cell, and the area of the surface in the
     cell.
     """
-    volumes, areas = (
-        np.bincount(columns.cell, columns.weight * height, len(cells.size))
-        for height in (columns.high - columns.low, columns.slope)
-    )
-    return np.stack([volumes * cells.size**3, areas * cells.size**2])
+    amounts = np.zeros((2, len(cells.size)))
+    for part in columns:
+        for total, height in zip(amounts, (np.abs(part.end - part.level), part.slope)):
+            shares = (part.weight * height).sum(axis=1)
+            total += np.bincount(part.cell, shares, len(cells.size))
+    return amounts * [cells.size**3, cells.size**2]
 
 
-def compare_rules(
-    cells: Cells, turn: tuple, rules: Sequence[int], metric: NDArray
-) -> tuple[Columns, Array]:
-    """Return the columns of the last rule, and (2, n) differences of cells' volumes and areas from
-    the first rule.
-    """
-    metric = metric[np.ix_(turn, turn)]
+def integrate(
+    cells: Cells, turn: tuple, points: int, metric: NDArray
+) -> tuple[list[Columns], Array]:
+    """Return the columns of a rule, and (2, n) volumes and areas of cells by it."""
     turned = cells.corners.transpose(0, *(1 + np.array(turn)))
-    columns = [columns_of(turned, points, metric) for points in rules]
-    amounts = [amounts_of(each, cells) for each in columns]
-    return columns[-1], np.abs(amounts[-1] - amounts[0])
+    columns = columns_of(turned, points, metric[np.ix_(turn, turn)])
+    return columns, amounts_of(columns, cells)

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..moments import SECOND_MOMENT_INDEX, Measure, Moments, U, sum_moments
 from ..numerics import (
+    IDENTITY_3,
     Array,
     Mask,
     PerBody,
@@ -29,10 +30,9 @@ from ..numerics import (
 )
 from ..verdict import MeasureError
 from .findings import NO_CERTAIN_VOLUME
-from .principal_frames import PrincipalFrame, principal_frame, principal_frames
+from .principal_frames import PrincipalFrame, frame_of_body, principal_frames
 from .third_moment_frames import ThirdMomentFrames
 
-IDENTITY_3 = np.eye(3)
 MAX_INPUT_SHARE = 0.1  # relative to a volume: a larger bound for float32 coordinates leaves none
 
 
@@ -91,9 +91,25 @@ class MassProperties:
             raise ValueError("moments below third order")
         if not 0.0 <= density < np.inf:
             raise ValueError("impossible density: {!r}".format(density))
+        axes = (
+            IDENTITY_3
+            if preferred_axes is None
+            else rotation_array("preferred_axes", preferred_axes)
+        )
+        return cls.of_body(moments, density, axes, refine)
+
+    @classmethod
+    def of_body(
+        cls,
+        moments: Moments,
+        density: float,
+        preferred_axes: Array,
+        refine: Callable[[], Moments] | None = None,
+    ) -> MassProperties:
+        """Derive the mass properties as `from_moments` does, from arguments that need no check."""
         if not has_certain_total(moments):
             raise MeasureError(NO_CERTAIN_VOLUME)
-        return cls._with_frame(moments, density, principal_frame(moments, preferred_axes, refine))
+        return cls._with_frame(moments, density, frame_of_body(moments, preferred_axes, refine))
 
     @classmethod
     def of_stack(
@@ -122,16 +138,13 @@ class MassProperties:
             moments.raw[..., SECOND_MOMENT_INDEX] - total[..., None, None] * products
         )
         inertia = inertia_of_second(second)
-        principal = weight[..., None] * frame.moments
-        # rounding may violate this for a flat body
-        principal[..., 2] = np.minimum(principal[..., 2], principal[..., 0] + principal[..., 1])
         mass = weight * total
         rounding, moved = _propagate_errors(moments, weight)
         return cls(
             mass=mass if mass.ndim else float(mass),
             center=moments.about + shift,
             inertia=inertia,
-            principal=replace(frame, moments=principal),
+            principal=frame.scaled(weight),
             rounding_error=rounding,
             input_error=moved,
         )

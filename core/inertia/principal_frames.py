@@ -16,7 +16,8 @@ The pose of a body is its center at the origin and a frame along the axes.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -35,9 +36,11 @@ from .findings import (
 from .plain_body import EQUAL_AXES, SYMMETRIES
 from .third_moment_frames import (
     HALF_TURN_SIGNS,
+    SecondMoments,
     ThirdMomentFrames,
     complete_free_axes,
     nearest_frames,
+    second_moments,
     third_moment_frames,
 )
 
@@ -71,7 +74,32 @@ class PrincipalFrame:
     symmetry: PerBody
     is_unique: PerBody
     finding: PerBody
-    undetermined_axes: PerBody = ()
+    undetermined_axes: PerBody = field(default_factory=tuple)
+
+    @classmethod
+    def on_demand(cls, moments: Array, find: Callable[[], PrincipalFrame]) -> PrincipalFrame:
+        """Return a frame with known principal moments, whose other values `find` is asked for when
+        one is needed.
+        """
+        frame = object.__new__(cls)
+        frame.__dict__.update(moments=moments, find=find)
+        return frame
+
+    def __getattr__(self, name: str) -> Any:
+        find = self.__dict__.pop("find", None)
+        if find is None:
+            raise AttributeError(name)
+        self.__dict__.update({**vars(find()), "moments": self.moments})
+        return getattr(self, name)
+
+    def scaled(self, density: NDArray) -> PrincipalFrame:
+        """Return the frame of a body with another density, (...,)."""
+        frame = object.__new__(PrincipalFrame)
+        moments = density[..., None] * self.moments
+        # rounding may violate this for a flat body
+        moments[..., 2] = np.minimum(moments[..., 2], moments[..., 0] + moments[..., 1])
+        frame.__dict__.update(self.__dict__, moments=moments)
+        return frame
 
     @property
     def quaternion(self) -> Array:
@@ -135,7 +163,26 @@ def principal_frame(
     preferred_axes = (
         np.eye(3) if preferred_axes is None else rotation_array("preferred_axes", preferred_axes)
     )
-    return principal_frames(frames_of_body(moments, refine=refine), preferred_axes[None]).at(0)
+    return frame_of_body(moments, preferred_axes, refine)
+
+
+def frame_of_body(
+    moments: Moments, preferred_axes: NDArray, refine: Callable[[], Moments] | None = None
+) -> PrincipalFrame:
+    """Return the frame of a body with positive total; axes of moments that need no refinement are
+    found on demand.
+    """
+    if refine is not None:
+        fixed = frames_of_body(moments, refine=refine)
+        return principal_frames(fixed, preferred_axes[None]).at(0)
+    stack = moments.at(None)
+    second = _second_moments_of_body(stack)
+    return PrincipalFrame.on_demand(
+        second.inertia[0],
+        lambda: principal_frames(
+            third_moment_frames(stack, second=second), preferred_axes[None]
+        ).at(0),
+    )
 
 
 def principal_frames(fixed: ThirdMomentFrames, preferred_axes: NDArray) -> PrincipalFrame:
@@ -174,14 +221,19 @@ def frames_of_body(
     second moments.
     """
     refined = None if refine is None else (lambda _which: refine().at(None))
-    fixed = third_moment_frames(moments.at(None), refined, noise_factor)
-    if not fixed.is_body[0]:
-        second = moments.truncate(2).about_center().raw[4:]
-        is_lost = np.abs(second).max() < np.finfo(float).tiny  # in the smallest of numbers
-        if is_lost:
+    stack = moments.at(None)
+    return third_moment_frames(stack, refined, noise_factor, _second_moments_of_body(stack))
+
+
+def _second_moments_of_body(stack: Moments) -> SecondMoments:
+    """Return the second moments of a stack of one body, or raise MeasureError."""
+    second = second_moments(stack)
+    if not second.is_body[0]:
+        central = stack.truncate(2).about_center().raw[0, 4:]
+        if np.abs(central).max() < np.finfo(float).tiny:  # lost in the smallest of numbers
             raise MeasureError(OBJECT_SIZE, fault=TOO_SMALL)
         raise MeasureError(NEGATIVE_INERTIA)
-    return fixed
+    return second
 
 
 def zhang_chen_frame(

@@ -102,18 +102,33 @@ class ThirdMomentFrames:
         return self.axes[i] * HALF_TURN_SIGNS[self.allowed[i], None]
 
 
-@np.errstate(all="ignore")  # callers check for overflow
-def third_moment_frames(
-    moments: Moments,
-    refine: Callable[[Index], Moments] | None = None,
-    noise_factor: float = 1.0,
-) -> ThirdMomentFrames:
-    """Find the frames, as far as second and third moments fix them, of n bodies with positive
-    totals.
+@dataclass(frozen=True, eq=False)
+class SecondMoments:
+    """Central second moments of n bodies with positive totals, (n,) each.
 
-    The moments are to order 3 at least. `refine` returns the moments with exact third order of
-    given bodies; it is called if bounds do not decide. `noise_factor` multiplies NOISE_LEVEL.
+    `shift`: (n, 3) center from the reference point. `spread`: (n, 3) eigenvalues over total and
+    `scale`, largest first, and `axes`: (n, 3, 3) their vectors as columns, determinant 1.
+    `rounding`: bounds of the spread's errors. `is_body`: true if a body can have them at all.
     """
+
+    total: Array
+    shift: Array
+    scale: Array
+    spread: Array
+    axes: Array
+    rounding: Array
+    is_body: Mask
+
+    @property
+    def inertia(self) -> Array:
+        """(n, 3) principal moments of inertia, ascending."""
+        spread = self.spread
+        return (spread[:, [1, 0, 0]] + spread[:, [2, 2, 1]]) * (self.scale * self.total)[:, None]
+
+
+@np.errstate(all="ignore")  # callers check for overflow
+def second_moments(moments: Moments) -> SecondMoments:
+    """Return the central second moments of n bodies with positive totals, along their axes."""
     total = moments.raw[:, 0]
     shift = moments.raw[:, 1:4] / total[:, None]
     second = (
@@ -132,8 +147,26 @@ def third_moment_frames(
         + 8.0 * np.finfo(float).eps
     )
     is_body = (spread[:, 2] >= -rounding) & ~is_lost
-    spread = np.maximum(spread, 0.0)
+    return SecondMoments(total, shift, scale, np.maximum(spread, 0.0), axes, rounding, is_body)
 
+
+@np.errstate(all="ignore")  # callers check for overflow
+def third_moment_frames(
+    moments: Moments,
+    refine: Callable[[Index], Moments] | None = None,
+    noise_factor: float = 1.0,
+    second: SecondMoments | None = None,
+) -> ThirdMomentFrames:
+    """Find the frames, as far as second and third moments fix them, of n bodies with positive
+    totals.
+
+    The moments are to order 3 at least. `refine` returns the moments with exact third order of
+    given bodies; it is called if bounds do not decide. `noise_factor` multiplies NOISE_LEVEL.
+    `second`: the bodies' `second_moments`, if they are known.
+    """
+    second = second or second_moments(moments)
+    total, shift, scale = second.total, second.shift, second.scale
+    spread, axes, rounding = second.spread, second.axes, second.rounding
     # a lamina has no extent along an axis, and no skewness
     size = np.sqrt(np.maximum(spread, 1e-30 * spread[:, :1]))
     # Shift of the points by float32: the share of the volume that this moves, times the thinnest
@@ -180,10 +213,9 @@ def third_moment_frames(
     scores, unsure = [
         np.where(is_scored, values[body, AXES, first], 0.0) for values in (third, noise + error)
     ]
-    inertia = (spread[:, [1, 0, 0]] + spread[:, [2, 2, 1]]) * (scale * total)[:, None]
     return ThirdMomentFrames(
-        is_body,
-        inertia,
+        second.is_body,
+        second.inertia,
         axes,
         real,
         symmetry,
@@ -207,8 +239,7 @@ def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: Mask) -> 
     error = error[body, AXES, first]
     noise = noise[body, AXES, first]
     # the least of three scores: both others have to be clear of it
-    last = size.argmin(axis=1)[:, None]
-    least = size[body, last]
+    least = size[body, size.argmin(axis=1)[:, None]]
     unsure = (noise + error).max(axis=1, keepdims=True)
     apart = (size - least > EQUAL_SCORES_RTOL * least + 2.0 * (error + unsure)).sum(axis=1) == 2
     return decided & (apart | ~(fixed & clear.any(axis=2)).all(axis=1))
@@ -321,8 +352,7 @@ def nearest_frames(candidates: NDArray, preferred_axes: NDArray, tilt: ArrayLike
     size = np.abs(local)
     row = (size > size.max(axis=2, keepdims=True) - equal[..., None, None]).argmax(axis=2)
     body = np.arange(len(local))[:, None, None]
-    candidate = np.arange(local.shape[1])[:, None]
-    is_along = local[body, candidate, row, AXES] > 0.0
+    is_along = local[body, np.arange(local.shape[1])[:, None], row, AXES] > 0.0
     rank = np.where(near, is_along @ AXIS_RANK, -1)
     near = rank == rank.max(axis=1, keepdims=True)
     # several frames may still be left

@@ -21,9 +21,15 @@ from ..inertia import (
     has_certain_total,
 )
 from ..mesh import Surface
-from ..moments import KNOWN_ORDER
-from ..moments.moments import Measure, Moments, U, monomial_count
-from ..numerics import Array
+from ..moments import (
+    KNOWN_ORDER,
+    Measure,
+    Moments,
+    U,
+    monomial_count,
+)
+from ..numerics import IDENTITY_3, Array
+from ..polyhedron import MAX_TRIANGLES_EXACT_THIRD
 from ..solid.measure import SolidIntegrals, measure_solid
 from ..verdict import MeshHealth, Method, Procedure
 from ..verdict.finding import Finding, ReadError, finding
@@ -94,12 +100,10 @@ def measure_body(
     solid = body.wall or body.volume
     measured = find_extent(body, settings)
     moments, factor, density = _weigh(body, measured, settings)
-    properties = MassProperties.from_moments(
-        moments,
-        factor,
-        preferred_axes=fields["rotation"],
-        refine=None if shell or body.mass is not None else body.third_order,
-    )
+    # small bodies have exact third moments already
+    is_exact = 2 * body.face_count <= MAX_TRIANGLES_EXACT_THIRD and not wire
+    refine = None if shell or is_exact or body.mass is not None else body.third_order
+    properties = MassProperties.of_body(moments, factor, fields["rotation"], refine)
     volume_moments = None if thin else solid
     area_moments = body.area
     if settings.order is not None:
@@ -372,21 +376,22 @@ def mass_properties(points: ArrayLike, triangles: ArrayLike, *, density: float) 
     >>> str(body.method), round(found.mass, 9), found.center.round(9).tolist()
     ('exact', 1000.0, [0.25, 0.25, 0.25])
     """
-    solid = measure_solid(Surface.from_triangles(points, triangles))
+    surface = Surface.from_triangles(points, triangles)
+    solid = measure_solid(surface)
     body = _SurfaceBody(
         solid.volume,
         solid.area,
         solid.health,
         Method(solid.method),
         solid.findings,
-        face_count=len(solid.repaired_surface.triangles),
+        face_count=len(surface.triangles),
         solid=solid,
     )
     place = {
         "name": "",
         "type": "MESH",
         "fingerprint": "",
-        "rotation": np.eye(3),
+        "rotation": IDENTITY_3.copy(),
         "location": np.zeros(3),
     }
     return measure_body(body, Settings(density=float(density)), **place)

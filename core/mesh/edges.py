@@ -201,8 +201,7 @@ def consistent_orientation(
     flipped = plain > reverse
     part = np.minimum(plain, reverse)
     moved = np.bincount(part, weight * flipped)
-    whole = np.bincount(part, weight)
-    flipped ^= (2.0 * moved > whole)[part]
+    flipped ^= (2.0 * moved > np.bincount(part, weight))[part]
     return flipped & ~twisted, twisted
 
 
@@ -217,8 +216,7 @@ def group_components(edges: Edges, part: Index, parts: int, even: Mask) -> tuple
     non_manifold = edges.count > 2
     if not non_manifold.any():
         return part, parts
-    key = edges.of_side * parts + part.repeat(3)
-    used, uses = np.unique(key, return_counts=True)
+    used, uses = np.unique(edges.of_side * parts + part.repeat(3), return_counts=True)
     odd = (uses % 2 == 1) & ~even[used // parts]
     unfinished = np.zeros(parts, bool)
     unfinished[used[odd] % parts] = True
@@ -237,7 +235,7 @@ def faces_beside_edges(faces: NDArray[np.integer], vertex_count: int) -> NDArray
         return None
     columns = np.ascontiguousarray(faces.T)
     vertex_bits = int(vertex_count).bit_length()
-    side_bits = faces.size.bit_length()
+    face_bits = len(faces).bit_length()
     keys = np.empty(columns.shape, np.uint64)  # both ends of each side, and its direction
     for key, start, stop in zip(keys, columns, np.roll(columns, -1, axis=0)):
         np.minimum(start, stop, out=key, casting="unsafe")
@@ -245,18 +243,17 @@ def faces_beside_edges(faces: NDArray[np.integer], vertex_count: int) -> NDArray
         key |= np.maximum(start, stop).astype(np.uint64)
         key <<= np.uint64(1)
         key |= start < stop
-    keys = keys.ravel()
-    if (
-        2 * vertex_bits + 1 + side_bits <= 64
-    ):  # with the sides' numbers they are sorted in less time
-        keys <<= np.uint64(side_bits)
-        keys |= np.arange(len(keys), dtype=np.uint64)
+    if 2 * vertex_bits + 1 + face_bits <= 64:  # with the faces they are sorted in less time
+        keys <<= np.uint64(face_bits)
+        keys |= np.arange(len(faces), dtype=np.uint64)
+        keys = keys.ravel()
         keys.sort()
-        sides = keys & np.uint64((1 << side_bits) - 1)
-        keys >>= np.uint64(side_bits)
+        beside = keys & np.uint64((1 << face_bits) - 1)
+        keys >>= np.uint64(face_bits)
     else:
-        sides = keys.argsort()
-        keys = keys[sides]
+        sides = keys.ravel().argsort()
+        keys = keys.ravel()[sides]
+        beside = sides % len(faces)
     if not (keys[::2] ^ keys[1::2] == 1).all():
         return None
-    return (sides.astype(np.int64) % len(faces)).astype(np.int32).reshape(-1, 2).T
+    return beside.astype(np.int32).reshape(-1, 2).T

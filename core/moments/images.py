@@ -68,8 +68,7 @@ def sum_of_images(moments: Moments, matrices: ArrayLike) -> Moments:
 
 def invert_through_point(moments: Moments) -> Moments:
     """Return the moments of the body's point reflection in `about`: its mirror image, turned."""
-    sign = (-1.0) ** monomials(moments.order).sum(axis=1)
-    return replace(moments, raw=moments.raw * sign)
+    return replace(moments, raw=moments.raw * ((-1.0) ** monomials(moments.order).sum(axis=1)))
 
 
 def _image_error_bounds(

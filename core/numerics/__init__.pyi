@@ -16,6 +16,7 @@ from .array_types import Array as Array
 from .array_types import Index as Index
 from .array_types import Mask as Mask
 from .array_types import NDArray as NDArray
+from .arrays import IDENTITY_3 as IDENTITY_3
 from .arrays import NEXT_AXIS as NEXT_AXIS
 from .arrays import PREVIOUS_AXIS as PREVIOUS_AXIS
 from .arrays import PerBody as PerBody

@@ -20,6 +20,7 @@ PerBody: TypeAlias = Any
 
 NEXT_AXIS = np.array([1, 2, 0])
 PREVIOUS_AXIS = np.array([2, 0, 1])
+IDENTITY_3 = np.eye(3)
 
 
 def cross_rows(u: NDArray, v: NDArray) -> NDArray:
@@ -65,8 +66,7 @@ def spread_bits(value: NDArray[np.int64]) -> NDArray[np.int64]:
 
 def segment_ranges(counts: NDArray) -> Index:
     """Return 0, 1, … counts[0] - 1, 0, 1, … counts[1] - 1, and so on."""
-    starts = segment_starts(counts)
-    return np.arange(int(np.add.reduce(counts))) - np.repeat(starts, counts)
+    return np.arange(int(np.add.reduce(counts))) - np.repeat(segment_starts(counts), counts)
 
 
 def segment_starts(counts: NDArray) -> Index:
@@ -182,9 +182,9 @@ def distinct_arrays(arrays: NDArray, within: float) -> Array:
 
 def inertia_of_second(second: NDArray) -> Array:
     """Return the (..., 3, 3) inertia tensors of second moments ∫x x' dm about the same point."""
-    return np.trace(second, axis1=-2, axis2=-1)[..., None, None] * np.eye(3) - second
+    return second.trace(axis1=-2, axis2=-1)[..., None, None] * IDENTITY_3 - second
 
 
 def second_of_inertia(inertia: NDArray) -> Array:
     """Return the (..., 3, 3) second moments ∫x x' dm of inertia tensors about the same point."""
-    return np.trace(inertia, axis1=-2, axis2=-1)[..., None, None] / 2.0 * np.eye(3) - inertia
+    return inertia.trace(axis1=-2, axis2=-1)[..., None, None] / 2.0 * IDENTITY_3 - inertia

@@ -152,8 +152,7 @@ class SplineSpace:
         """Return the span of each parameter, or the nearest span if a parameter is outside the
         domain.
         """
-        inner = self.intervals[1:, 0]
-        return self.spans[np.searchsorted(inner, parameters, side="right")]
+        return self.spans[np.searchsorted(self.intervals[1:, 0], parameters, side="right")]
 
     def derivatives(
         self, spans: NDArray[np.integer], parameters: NDArray, highest: int

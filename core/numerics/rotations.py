@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .arguments import float_array
 from .array_types import Array, Mask
+from .arrays import IDENTITY_3
 
 ROTATION_ATOL = 1e-5  # a rotation matrix of float32 numbers is orthonormal to about 1e-7
 
@@ -20,7 +21,7 @@ def rotation_array(name: str, values: ArrayLike) -> Array:
     goes.
     """
     rotation = float_array(name, values, ..., 3, 3, finite=True)
-    off = np.abs(rotation.swapaxes(-1, -2) @ rotation - np.eye(3)).max(initial=0.0)
+    off = np.abs(rotation.swapaxes(-1, -2) @ rotation - IDENTITY_3).max(initial=0.0)
     if off > ROTATION_ATOL or (np.linalg.det(rotation) < 0.0).any():
         raise ValueError("{} must be a rotation".format(name))
     return rotation

@@ -22,7 +22,8 @@ class Quadric:
 
     frame: (4, 4), third axis: that of the surface. radius: of a cylinder, of a cone at the origin,
     or from a torus' axis to its tube; 0 for a sphere. minor: radius of a sphere or a tube, 0 for a
-    line, whose radius grows by `slope` along the axis.
+    line, whose radius grows by `slope` along the axis. Of a tube that crosses the axis, the part on
+    one side: the outer one, or the inner one with a radius below 0.
 
     Coordinates are the angle about the axis, and the height along it or the angle along the circle.
     """
@@ -35,7 +36,7 @@ class Quadric:
     @property
     def periods(self) -> tuple[float, float]:
         """Periods of both coordinates, 0 if there is none."""
-        return TURN, TURN if self.minor and self.radius else 0.0
+        return TURN, TURN if 0.0 < self.minor < self.radius else 0.0
 
     @property
     def is_closed(self) -> bool:
@@ -46,7 +47,7 @@ class Quadric:
     def limits(self) -> tuple[float, float]:
         """Ends of the second coordinate on a closed surface, or the apex of a cone, or infinite."""
         if self.minor:
-            half = TURN / (2.0 if self.radius else 4.0)
+            half = math.acos(max(-1.0, -self.radius / self.minor))
             return -half, half
         apex = -self.radius / self.slope if self.slope else math.inf
         return (apex, math.inf) if self.slope > 0.0 else (-math.inf, apex)
@@ -73,26 +74,26 @@ class Quadric:
             height, inward = self.minor * np.sin(v), self.minor * np.cos(v)
             profile = [(self.radius + inward, height), (-height, inward), (-inward, -height)]
         else:
-            zero = np.zeros_like(v)
-            profile = [(self.radius + self.slope * v, v), (zero + self.slope, zero + 1.0)]
-            profile.append((zero, zero))
+            profile = [(self.radius + self.slope * v, v), (self.slope, 1.0), (0.0, 0.0)]
         (r, z), (r_v, z_v), (r_vv, z_vv) = profile
-        flat = np.zeros_like(z)
         rows = [
             (r * cosine, r * sine, z),
-            (-r * sine, r * cosine, flat),
+            (-r * sine, r * cosine, 0.0),
             (r_v * cosine, r_v * sine, z_v),
         ]
         if most > 1:
             rows += [
-                (-r * cosine, -r * sine, flat),
-                (-r_v * sine, r_v * cosine, flat),
+                (-r * cosine, -r * sine, 0.0),
+                (-r_v * sine, r_v * cosine, 0.0),
                 (r_vv * cosine, r_vv * sine, z_vv),
             ]
-        matrix = self.frame[:3, :3]
-        found = [np.tensordot(matrix, np.stack(np.broadcast_arrays(*row)), 1) for row in rows]
-        found[0] += self.frame[:3, 3].reshape(3, *[1] * r.ndim)
-        return found
+        local = np.empty((3, len(rows), *np.broadcast_shapes(np.shape(u), np.shape(v))))
+        for k, row in enumerate(rows):
+            for axis in range(3):
+                local[axis, k] = row[axis]
+        found = (self.frame[:3, :3] @ local.reshape(3, -1)).reshape(local.shape)
+        found[:, 0] += self.frame[:3, 3].reshape(3, *[1] * (local.ndim - 2))
+        return [found[:, k] for k in range(len(rows))]
 
     def project(self, points: NDArray, guess: NDArray | None = None) -> Array:
         """Return (n, 2) coordinates of the points of the surface nearest to points, in its frame;

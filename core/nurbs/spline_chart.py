@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from ..numerics import Array, dot
 from ..verdict import WELDING_RTOL
-from .bezier import DERIVATIVES, homogeneous, quotient_derivatives
-from .splines import Patch, patches_size
+from .bezier import DERIVATIVES, quotient_derivatives
+from .splines import Patch, homogeneous, patches_size
 
 SAMPLES_PER_SPAN = 6  # density of the grid of first guesses
 POINTS_PER_BLOCK = 1 << 20  # pairs of points and grid points compared at a time
@@ -102,19 +102,32 @@ class SplineChart:
         """Return (n, 2) coordinates of the points of the patch nearest to points, from a guess
         (n, 2).
         """
-        at = (self._nearest_samples(points) if guess is None else guess).copy()
+        best = at = self._nearest_samples(points) if guess is None else guess
         low, high = np.array([space.domain for space in self.patch.spaces]).T
         open_ends = ~np.array(self.periods, bool)
+        flat = np.zeros((3, len(points)))
+        step = np.zeros_like(at)
+        nearest = np.full(len(points), np.inf)
         for _ in range(STEPS):
-            place, along, across = self.evaluate(*at.T)
-            step = _solve(along, across, points.T - place, np.zeros((3, len(points))))
+            place, *slopes = self.evaluate(*at.T)
+            arms = points.T - place
+            away = dot(arms, arms)
+            is_nearer = away <= (1.0 + 1e-10) * nearest + 1e-28 * np.square(self._net).max()
+            best = np.where(is_nearer[:, None], at, best)
+            nearest = np.where(is_nearer, away, nearest)
+            ahead = _solve(*slopes, arms, flat)
+            # A point at the end of a coordinate moves along the other one.
+            is_held = open_ends & (((at <= low) & (ahead < 0.0)) | ((at >= high) & (ahead > 0.0)))
+            if is_held.any():
+                ahead = _solve(*(np.where(is_held.T[:, None], 0.0, slopes)), arms, flat)
+            # A step that led away is tried again, shorter.
+            step = np.where(is_nearer[:, None], ahead, 0.25 * step)
             step = np.clip(step, -0.25 * (high - low), 0.25 * (high - low))
-            before = at.copy()
-            at += step
+            at = best + step
             at[:, open_ends] = np.clip(at, low, high)[:, open_ends]
-            if np.abs(at - before).max(initial=0.0) <= 1e-15 * np.abs(high - low).max():
+            if np.abs(at - best).max(initial=0.0) <= 1e-15 * np.abs(high - low).max():
                 break
-        return at
+        return best
 
     def follow(self, points: NDArray, velocity: NDArray, at: NDArray) -> Array:
         """Return (n, 2) velocities of the nearest points of the patch, at coordinates (n, 2), as

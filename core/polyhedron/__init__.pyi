@@ -16,6 +16,7 @@ from .n_dimensions import facets_of as facets_of
 from .n_dimensions import multi_indices as multi_indices
 from .n_dimensions import outer_facets as outer_facets
 from .third_order import MAX_SMALL_TRIANGLES as MAX_SMALL_TRIANGLES
+from .third_order import MAX_TRIANGLES_EXACT_THIRD as MAX_TRIANGLES_EXACT_THIRD
 from .third_order import MAX_UNSCALED_REACH as MAX_UNSCALED_REACH
 from .third_order import box_center as box_center
 from .third_order import integrate as integrate

@@ -44,7 +44,7 @@ from ..moments import (
     monomials,
     unchecked_moments,
 )
-from ..numerics import Array, Index, NDArray, batches, indices_in_range
+from ..numerics import NEXT_AXIS, PREVIOUS_AXIS, Array, Index, NDArray, batches, indices_in_range
 from ..verdict import check_size
 
 # Up to this number of triangles the third order is always exact, which takes half as long again.
@@ -75,7 +75,6 @@ PRODUCT_ROUNDINGS = 8.0 * DEGREE
 THIRD_ORDER_SHARE = np.repeat([1.0, 2.0], 10)
 CONE_DIVISORS = 2.0 * DEGREE + 6.0  # ∫ f over a cone is w E[f] / this
 AREA_FACTORS = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2, this much more
-AXIS_PAIRS = (1, 2), (2, 0), (0, 1)
 TRIPLES = [(i, j, k) for i in range(3) for j in range(i, 3) for k in range(j, 3)]
 PAIR_INDEX = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
 # Indices, in a table of x, y, z times xx, xy, xz, yy, yz, zz, x, y, z, of the terms of the
@@ -126,7 +125,7 @@ def integrate(
         if not indices_in_range(faces, len(points)):
             raise ValueError(NO_VERTEX)
     if count <= MAX_SMALL_TRIANGLES:
-        volume, areas, cones = small_moments(
+        volume, areas = small_moments(
             points,
             surface.all_triangles()[0],
             np.array([count]),
@@ -136,8 +135,6 @@ def integrate(
             area=area,
             area_moments=area_moments,
         )
-        if planarity is not None:
-            planarity.cones = float(cones[0, 0]), float(cones[0, 1])
         return volume.at(0), areas.at(0)
     exact = exact or count <= MAX_TRIANGLES_EXACT_THIRD
     coordinates = np.ascontiguousarray(points.T)
@@ -158,7 +155,10 @@ def integrate(
         elif planarity is not None and lengths is not None:
             planarity.add_triangles(start, lengths.T.ravel())
         starts = np.arange(0, corners.shape[2], FACES_PER_PART)
-        return _face_sums(sides, lengths, center[:, None], starts, True, area_moments, exact)
+        counts = np.minimum(corners.shape[2] - starts, FACES_PER_PART)
+        return _face_sums(
+            sides, lengths, center[:, None], starts, counts, True, area_moments, exact
+        )
 
     rows = 1 if paired_corners(surface.triangles[:2]) is None else 2
     blocks = [
@@ -175,7 +175,7 @@ def integrate(
             sums = list(pool.map(sum_block, blocks))
     else:
         sums = [sum_block(block) for block in blocks]
-    volume, areas, cones = _moments(
+    volume, areas = _moments(
         sums,
         np.zeros(1, np.intp),
         center[None],
@@ -185,8 +185,6 @@ def integrate(
         area_moments=area_moments,
         exact=exact,
     )
-    if planarity is not None:
-        planarity.cones = float(cones[0, 0]), float(cones[0, 1])
     return volume.at(0), areas.at(0)
 
 
@@ -200,9 +198,8 @@ def small_moments(
     *,
     area: bool,
     area_moments: bool,
-) -> tuple[Moments, Moments, Array]:
-    """Return stacked volumes and areas of n bodies, and (n, 2) sums of the cones over faces,
-    positive and signed.
+) -> tuple[Moments, Moments]:
+    """Return stacked volumes and areas of n bodies.
 
     Triangles are sorted by body, at least one each. reach: (n, 3) largest distances of points from
     `center`. half_ulp: (n, 3) their shifts by storage. Without `area` the areas are zero, and the
@@ -216,9 +213,10 @@ def small_moments(
         corners = coordinates.take(rows.T, axis=1).astype(np.float64, copy=False)
         block = Faces(corners)
         lengths = block.lengths() if area else None
-        middle = np.repeat(center[part].T, counts[part], axis=1)
-        starts = np.cumsum(counts[part]) - counts[part]
-        sums.append(_face_sums(block, lengths, middle, starts, False, area_moments, True))
+        number = counts[part]
+        middle = np.repeat(center[part].T, number, axis=1)
+        starts = np.cumsum(number) - number
+        sums.append(_face_sums(block, lengths, middle, starts, number, False, area_moments, True))
     return _moments(
         sums,
         np.arange(len(counts)),
@@ -294,14 +292,15 @@ def _face_sums(
     lengths: Array | None,
     middle: Array,
     starts: Index,
+    counts: NDArray[np.integer],
     is_joint: bool,
     area_moments: bool,
     exact: bool,
 ) -> _Sums:
     """Return the sums of faces, whose corners are overwritten. lengths: doubled areas, (f, t).
 
-    middle: (3, 1 or t) reference points. starts: (s,) first faces of the parts, of one body if
-    `is_joint`, else of a body each.
+    middle: (3, 1 or t) reference points. starts, counts: (s,) first face and number of faces of the
+    parts, of one body if `is_joint`, else of a body each.
     """
     edges = faces.edges
     nodes = np.subtract(faces.corners, middle[:, None], faces.corners)
@@ -363,7 +362,7 @@ def _face_sums(
     return (
         weighted_sums(det),
         weighted_sums(lengths) if area_moments else np.empty((len(body_starts), 0)),
-        np.diff(starts, append=nodes.shape[2])[:, None] * len(det),
+        counts[:, None].astype(np.float64) * len(det),
         np.maximum.reduce(largest[:, ::2], axis=1).T,
         largest[:, 1].T,
         np.array(
@@ -382,10 +381,8 @@ def _moments(
     area: bool,
     area_moments: bool,
     exact: bool,
-) -> tuple[Moments, Moments, Array]:
-    """Return the stacked volumes, areas and sums of cones of n bodies, whose first blocks and parts
-    are `starts`.
-    """
+) -> tuple[Moments, Moments]:
+    """Return the stacked volumes and areas of n bodies with first blocks and parts `starts`."""
     of_volume, of_area, number, side, base, sizes = (
         blocks[0] if len(blocks) == 1 else map(np.concatenate, zip(*blocks))
     )
@@ -397,7 +394,10 @@ def _moments(
 
     tau = total(
         number
-        * np.array([side[:, i] * base[:, j] + side[:, j] * base[:, i] for i, j in AXIS_PAIRS]).T
+        * (
+            side.take(NEXT_AXIS, 1) * base.take(PREVIOUS_AXIS, 1)
+            + side.take(PREVIOUS_AXIS, 1) * base.take(NEXT_AXIS, 1)
+        )
     )
     lengths = np.sqrt(np.add.reduce(side * side, axis=1)) + np.sqrt(
         np.add.reduce(base * base, axis=1)
@@ -427,17 +427,15 @@ def _moments(
         ).T
         for which in range(2):
             rounding[which, :, 10:] += (1.0 + 1e-9) * total(rest * sizes[:, which, None])
-    sums = total(of_volume)
-    raw = sums / DIVISORS
-    cones = np.array([bounds[:, 0], sums[:, 0]]).T
+    raw = total(of_volume) / DIVISORS
     error = rounding[0] / CONE_DIVISORS + 8.0 * U * np.abs(raw)
     volume = unchecked_moments(raw, center, Measure.VOLUME, error, inputs[0])
     if not area:
-        return volume, Moments(np.zeros((len(starts), 1)), center, Measure.AREA), cones
+        return volume, Moments(np.zeros((len(starts), 1)), center, Measure.AREA)
     raw = total(of_area) / (DIVISORS / AREA_FACTORS) if area_moments else bounds[:, 1:] / 2.0
     kept = raw.shape[1]
     error = rounding[1, :, :kept] / 2.0 + 8.0 * U * np.abs(raw)
-    return volume, unchecked_moments(raw, center, Measure.AREA, error, inputs[1, :, :kept]), cones
+    return volume, unchecked_moments(raw, center, Measure.AREA, error, inputs[1, :, :kept])
 
 
 def nothing(order: int, about: NDArray | None) -> tuple[Moments, Moments]:

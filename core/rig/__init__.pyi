@@ -8,6 +8,7 @@ from .channels import divide_frames as divide_frames
 from .channels import handle_values as handle_values
 from .channels import in_pieces as in_pieces
 from .channels import rotation_values as rotation_values
+from .channels import rotations as rotations
 from .cuts import VertexWeights as VertexWeights
 from .cuts import bone_pieces as bone_pieces
 from .cuts import bones_of_caps as bones_of_caps

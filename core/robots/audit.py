@@ -96,7 +96,8 @@ class LinkAudit:
     geometry: the inertial of the evenly filled geometry with the stated mass, with 1 kg if that is
     no mass, None if unknown. volume: of the geometry, m³, 0 if unknown.
     apart: the relative difference from it. is_impossible: True if no body within the geometry has
-    the stated inertial. colliders: what the collision geometry beside the inertial does.
+    the stated inertial. colliders: what the collision geometry beside the inertial does. is_drawn:
+    True if the geometry is the drawn one, or nothing is drawn.
     """
 
     link: StatedLink
@@ -108,6 +109,7 @@ class LinkAudit:
     is_impossible: bool = False
     colliders: Effect | None = None
     volume: float = 0.0
+    is_drawn: bool = False
 
     @property
     def findings(self) -> tuple[Finding, ...]:
@@ -196,7 +198,7 @@ class Auditor:
         used = [_scaled(stated, link, factor) for stated, link in pairs]
         tree = build_tree(description, self.joints)
         alone = [self._link_alone(link) for link in used]
-        pairs = _twins(alone, build_tree(description, {}))
+        pairs = _twins(alone, build_tree(description, {}) if self.joints else tree)
         for first, second, maps in pairs:
             _repair_by_twin(alone, first, second, maps)
         audits = [self._sure(one) for one in alone]
@@ -234,7 +236,9 @@ class Auditor:
                 inertial = StatedInertial(body.mass, body.center, body.inertia)
             if inertial is None or masses:
                 inertial = link.rules.complete(inertial)
-            return replace(link, inertial=link.rules.bound(inertial), from_shapes=bool(masses))
+            is_stated = link.rules.mass > 0.0 and link.rules.moments is not None
+            used = link.rules.bound(inertial)
+            return replace(link, inertial=used, from_shapes=bool(masses) and not is_stated)
         except Exception:  # An unforeseen error returns when the link is audited.
             return link
 
@@ -452,6 +456,8 @@ def _scaled(stated: StatedLink, link: StatedLink, factor: float) -> StatedLink:
         used = replace(used, mass=used.mass * factor, tensor=used.tensor * factor)
     if used is stated.inertial:
         return stated
+    if link.rules and link.rules.moments is not None and not link.from_shapes:
+        return replace(link, inertial=used)  # Only a center that is not stated is the colliders'.
     return replace(link, inertial=used, overridden=stated.inertial, span=None)
 
 
@@ -467,14 +473,15 @@ def _describe_overridden(link: StatedLink, used: StatedInertial) -> list[Entry]:
         apart = Reference(1.0, used.center, used.inertia / used.mass).compare(stated)
     if link.from_shapes:
         apart = max(apart, abs(stated.mass / used.mass - 1.0))
-    if link.rules is None and apart <= DIFFERS:
+    is_newton = link.rules is None or link.rules.moments is not None
+    if is_newton and apart <= DIFFERS:
         return []
     first, second, third = np.linalg.eigvalsh(used.inertia).tolist()
     found = finding(
         AUDIT_OVERRIDDEN,
         slight=apart <= DIFFERS,
-        program="Newton" if link.rules is None else "MuJoCo",
-        cause="newton:inertia" if link.rules is None else "<compiler>",
+        program="Newton" if is_newton else "MuJoCo",
+        cause="newton:inertia" if is_newton else "<compiler>",
         mass=used.mass,
         first=first,
         second=second,
@@ -506,9 +513,8 @@ def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete:
         one.shape.pose.apply(piece.points) for several in pieces.values() for one, piece in several
     ]
     hull = Hull(np.concatenate(points)) if points and not incomplete else None
-    references = (
-        [] if incomplete else [made for several in pieces.values() if (made := _reference(several))]
-    )
+    made = {} if incomplete else {role: _reference(several) for role, several in pieces.items()}
+    references = [made[role] for role in ("visual", "collision") if made.get(role)]
     reasons = impossible(stated, hull)
     if not stated.mass > LEAST_MASS or any(one.code == INERTIAL_NOT_FINITE for one in reasons):
         entries = [Entry(one, place, compares=True) for one in reasons]
@@ -566,6 +572,7 @@ def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete:
         apart,
         bool(wrong),
         volume=reference.volume,
+        is_drawn="visual" not in made or made["visual"] is not None,
     )
 
 

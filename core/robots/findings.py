@@ -216,7 +216,7 @@ AUDIT_OVERRIDDEN = warning(
     "{program} uses another inertial, because of {cause}: {mass:.6g} kg, principal moments "
     "{first:.6g}, {second:.6g} and {third:.6g} kg·m². State that one, or remove the cause.",
 )
-AUDIT_JOINT = warning("audit_joint", "Joint {joint} is left out: {cause:word}. Correct it.")
+AUDIT_JOINT = warning("audit_joint", "Joint {joint} is left out: {cause:word}.")
 AUDIT_TWINS = warning(
     "audit_twins",
     "{first} and {second} are twins, but their {part:word} differ by {apart:percent}. Correct one.",

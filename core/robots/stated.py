@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from math import inf
+from math import atan2, inf
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -25,6 +25,7 @@ Angles = tuple[float, float, float]
 # of lengths in m and scales: fifth powers and their products stay in the range of float64
 LEAST = 1e-30
 MOST = 1e30
+SINGLE = 1e-7  # relative rounding in single precision, in which USD computes
 
 
 class Place(NamedTuple):
@@ -118,9 +119,9 @@ class Rules(NamedTuple):
 
     from_shapes: "true", "false", or "auto" if only a missing inertial comes from the shapes.
     least_mass, least_moment: lower bounds, kg and kg·m². balances: True if moments that no body has
-    become their mean. mass: kg, of the whole of the shapes; 0 if their own counts. center: (3,) and
-    inertia: (3, 3) about it, along the link's axes, instead of those of the shapes. radius: m, of
-    the ball that stands for missing shapes.
+    become their mean. mass: kg, of the whole of the shapes; 0 if their own counts. center: (3,),
+    moments: (3,) and axes: (3, 3) columns of their directions, instead of those of the shapes.
+    radius: m, of the ball that stands for missing shapes.
     """
 
     from_shapes: str = "auto"
@@ -129,13 +130,14 @@ class Rules(NamedTuple):
     balances: bool = False
     mass: float = 0.0
     center: Array | None = None
-    inertia: Array | None = None
+    moments: Array | None = None
+    axes: Array | None = None
     radius: float = 0.0
 
     def complete(self, body: StatedInertial | None) -> StatedInertial | None:
         """Return the inertial of shapes with the stated values; None if there is neither."""
         if body is None:
-            if not self.mass or not self.radius and self.inertia is None:
+            if not self.mass or not self.radius and self.moments is None:
                 return None
             body = StatedInertial(1.0, np.zeros(3), 0.4 * self.radius**2 * np.eye(3))
             body = replace(body, center=body.center if self.center is None else self.center)
@@ -144,7 +146,12 @@ class Rules(NamedTuple):
         center = body.center if self.center is None else self.center
         arm = center - body.center  # Programs state it about the new center with this term.
         inertia = inertia + mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-        return StatedInertial(mass, center, inertia if self.inertia is None else self.inertia)
+        if self.moments is not None or self.axes is not None:
+            axes = _least_turn(inertia)
+            moments = np.diag(axes.T @ inertia @ axes) if self.moments is None else self.moments
+            axes = axes if self.axes is None else self.axes
+            inertia = (axes * moments) @ axes.T
+        return StatedInertial(mass, center, inertia)
 
     def bound(self, stated: StatedInertial | None) -> StatedInertial | None:
         """Return the inertial within the bounds; itself if nothing changes."""
@@ -162,6 +169,22 @@ class Rules(NamedTuple):
         if mass == old.mass and (used == moments).all():
             return stated
         return old.along_link((axes * used) @ axes.T, mass=mass)
+
+
+def _least_turn(tensor: NDArray) -> Array:
+    """Return the principal axes to which Jacobi's rotations, the largest entry first, turn the
+    coordinate axes.
+    """
+    axes = np.eye(3)
+    for _ in range(24):  # as many as in USD
+        own = axes.T @ tensor @ axes
+        i, j = max(((1, 2), (2, 0), (0, 1)), key=lambda pair: abs(own[pair]))
+        if abs(own[i, j]) <= SINGLE * own.trace():  # Equal moments keep their axes.
+            break
+        angle = atan2(2.0 * own[i, j], abs(own[j, j] - own[i, i])) / 2.0
+        angle = angle if own[j, j] >= own[i, i] else -angle
+        axes = axes @ rotation_about(np.eye(3)[3 - i - j], -angle)
+    return axes
 
 
 @dataclass(frozen=True, eq=False)

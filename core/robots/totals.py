@@ -124,11 +124,13 @@ def build_tree(description: Description, values: Mapping[str, float]) -> Tree:
     for joint in description.joints:
         cause = ""
         if joint.child not in links:
-            cause = "its child is no link"
+            cause = "its child is no link of the file. Name one that is"
         elif joint.parent not in links and (joint.parent or description.format == "urdf"):
-            cause = "its parent is no link"
+            cause = "its parent is no link of the file. Name one that is"
         elif joint.child in above:
-            cause = "its child has a parent already, so that it closes a loop"
+            cause = (
+                "its child has a parent already, so that it closes a loop. Keep one of both joints"
+            )
         if cause:
             findings.append(_unusable(joint.name or joint.child, cause, joint.place))
         else:
@@ -154,7 +156,7 @@ def build_tree(description: Description, values: Mapping[str, float]) -> Tree:
                     joint = above.get(below)
                     name = joint.name if joint and joint.name else below
                     place = joint.place if joint else links[below].place
-                    cause = "its place is no number, or too far away"
+                    cause = "its place is no number, or too far away. Correct its origin"
                     findings.append(_unusable(name, cause, place))
                     pose = None
                 poses[below] = pose
@@ -175,7 +177,8 @@ def _open_loops(above: dict[str, StatedJoint]) -> Iterator[tuple[Finding, Place]
             name = joint.parent if joint else ""
         if name and state[name] == index and name in above:
             joint = above.pop(name)
-            yield _unusable(joint.name, "it closes a loop, which has no root", joint.place)
+            cause = "it closes a loop, which has no root. Remove it, or give another parent"
+            yield _unusable(joint.name or joint.child, cause, joint.place)
 
 
 def _joint_values(
@@ -189,9 +192,11 @@ def _joint_values(
     wrong = []
     for name in stated:
         if name not in by_name:
-            wrong.append(_unusable(name, "the description has no such joint"))
+            wrong.append(_unusable(name, "the file has no such joint. Correct the name in --joint"))
         elif by_name[name].kind not in MOVABLE:
-            wrong.append(_unusable(name, "its position is not one number"))
+            wrong.append(
+                _unusable(name, "its position is not one number. Give --joint a hinge or slide")
+            )
     # MuJoCo's qpos0 does not obey equalities, so that only stated positions have followers.
     zeros = {one.name: one.zero for one in motions if one.name and not one.leader}
     values = ({} if is_mjcf else zeros) | dict(stated)

@@ -120,7 +120,9 @@ def _plane(places: Sequence[tuple[Array, Array] | None]) -> Plane | None:
     ways = second - first
     ways = ways / np.linalg.norm(ways, axis=1)[:, None]
     normal = np.linalg.eigh(ways.T @ ways)[1][:, 2]
-    return Plane(normal, float(np.quantile((first + second) / 2.0 @ normal, 0.5)))
+    offsets = np.sort((first + second) / 2.0 @ normal)
+    half = len(offsets) // 2  # The median; numpy's own functions load much for it.
+    return Plane(normal, float(offsets[half] + offsets[-1 - half]) / 2.0)
 
 
 def _is_copy(first: LinkAudit, second: LinkAudit) -> bool:
@@ -181,7 +183,7 @@ def disagreement(
 ) -> tuple[str, float]:
     """Return the part that differs more, "masses" or "inertias", and the relative difference."""
     mass = abs(first.mass - second.mass) / max(first.mass, second.mass)
-    largest = max(np.linalg.norm(first.inertia), np.linalg.norm(second.inertia))
+    largest = max(np.linalg.norm(first.inertia), np.linalg.norm(second.inertia)) or 1.0
     tensor = min(
         float(np.linalg.norm(mapped(first, pose).inertia - second.inertia) / largest)
         for pose in maps
@@ -192,12 +194,13 @@ def disagreement(
 def find_copies(audits: Sequence[LinkAudit]) -> Iterator[list[int]]:
     """Yield the links of each inertial that stands at links of different geometry.
 
-    Drawn geometry is compared with drawn geometry alone: colliders are often rougher.
+    Drawn geometry is compared with drawn geometry alone: colliders are often rougher, also those
+    of drawn shapes without a certain volume.
     """
     groups: dict[tuple[bytes, bool], list[int]] = {}
     for index, one in enumerate(audits):
         inertial = one.link.inertial
-        if inertial is not None and one.geometry is not None and inertial.mass > 0.0:
+        if inertial is not None and one.is_drawn and inertial.mass > 0.0:
             numbers = np.concatenate([[inertial.mass], inertial.center, inertial.inertia.ravel()])
             is_drawn = any(shape.role == "visual" for shape in one.link.shapes)
             groups.setdefault((numbers.tobytes(), is_drawn), []).append(index)

@@ -131,7 +131,9 @@ class OBJECT_OT_body_moments_measure(modal.ModalSteps, selection.OnSelection, Op
             if obj in refusals
         ]
         measured = [obj for obj, _ in self._results if obj not in failed]
-        shared = bodies.overlap_caveats(measured, context.evaluated_depsgraph_get())
+        shared = bodies.overlap_caveats(
+            measured, context.evaluated_depsgraph_get(), dict(self._results)
+        )
         memory.overlaps[context.scene] = displayed.places(measured), shared
         return self._report(len(measured), shared)
 

@@ -16,7 +16,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 from bpy.types import Context, Object, Operator
 
 from ... import core
-from ...blender import scene, session, settings, write
+from ...blender import bodies, scale, scene, session, settings, write
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from .. import findings, modal, selection
 
@@ -75,13 +75,16 @@ class _Making(selection.OnSelectionInObjectMode, modal.ModalSteps):
         self._failures: list[Finding] = []
         self._objects = bodies_of(context)
         known: dict[str, session.colliders.Plan] = {}
-        depsgraph = context.evaluated_depsgraph_get()
+        unit = scale.meters_per_unit(context.scene)
+        measured = bodies.measured_in_turn(self._objects, context.evaluated_depsgraph_get())
         wanted = core.colliders.fits.Wanted(*self._wanted())
 
         def plan(obj: Object) -> Generator[float, None, None]:
             self._check(obj)
             options = wanted, self.tolerance == "SHARE", self.correct, known
-            self._plans.append((yield from session.plan_colliders(obj, depsgraph, *options)))
+            self._plans.append(
+                (yield from session.plan_colliders(obj, measured(obj), unit, *options))
+            )
 
         self._steps = selection.iterate_objects(self._objects, plan, self._failures)
         return len(self._objects)

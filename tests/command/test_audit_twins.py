@@ -107,6 +107,13 @@ def test_one_inertial_at_different_meshes_is_found(tmp_path):
     assert "audit_copied" not in codes(record(tmp_path, first, same))
     collider = other.replace("visual>", "collision>")
     assert "audit_copied" not in codes(record(tmp_path, first, collider))
+    # The drawn meshes of both are open and equal; only their colliders differ.
+    corners = ["v {} {} {}".format(*point) for point in ((0, 0, 0), (1, 0, 0), (0, 1, 0))]
+    (tmp_path / "open.obj").write_text("\n".join([*corners, "f 1 2 3"]), encoding="utf-8")
+    drawn = '<visual><geometry><mesh filename="open.obj"/></geometry></visual></link>'
+    links = [one.replace("visual>", "collision>").replace("</link>", drawn)
+             for one in (first, other)]  # fmt: skip
+    assert "audit_copied" not in codes(record(tmp_path, *links))
 
 
 @pytest.mark.parametrize("mass", [0, -1])

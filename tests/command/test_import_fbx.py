@@ -10,6 +10,7 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
+from mathutils import Matrix, Quaternion
 
 from tests.blender import batch_files as files
 from tests.blender.batch_files import codes, document, measured
@@ -68,7 +69,7 @@ KeyAttrFlags: *1 {{
 a: {}
 }}
 KeyAttrDataFloat: *4 {{
-a: 0,0,0,0
+a: {}
 }}
 KeyAttrRefCount: *1 {{
 a: 2
@@ -104,9 +105,9 @@ def property_line(name, value):
     return 'P: "{}", "", "", "A",{}\n'.format(name, numbers)
 
 
-def write(path, models, axes=AXES, unit=1.0, more="", more_links=""):
+def write(path, models, axes=AXES, unit=1.0, more="", more_links="", ahead=""):
     """Write a text file. models: (name, kind, properties, number of the parent or 0), from number
-    2; a mesh shows the box.
+    2; a mesh shows the box. ahead: text before the objects.
     """
     settings = {"UnitScaleFactor": unit}
     for name, (axis, sign) in axes.items():
@@ -125,6 +126,7 @@ def write(path, models, axes=AXES, unit=1.0, more="", more_links=""):
         text += "Version: 232\nProperties70: {\n" + lines + "}\n}\n"
         links += 'C: "OO",{},{}\n'.format(number, parent)
         links += 'C: "OO",1,{}\n'.format(number) if kind == "Mesh" else ""
+    text = text.replace("Objects: {", ahead + "Objects: {")
     return files.write_text(path, text + more + "}\nConnections: {\n" + links + more_links + "}\n")
 
 
@@ -134,14 +136,14 @@ def with_shape(text, links, weight):
     return text + SHAPE.format(property_line("DeformPercent", 100 * weight)), links
 
 
-def animation(target, name, values, flags=260):
+def animation(target, name, values, flags=260, data="0,0,0,0"):
     """Key the numbers of a property at 0 s, and 0 at 1 s."""
     channels = ["d|" + axis for axis in ("XYZ" if len(values) == 3 else [name])]
     rest = "".join(property_line(channel, 0.0) for channel in channels)
     text = ANIMATION.format(name.replace("Lcl Rotation", "R"), rest)
     links = 'C: "OO",94,93\nC: "OO",95,94\nC: "OP",95,{}, "{}"\n'.format(target, name)
     for number, (channel, value) in enumerate(zip(channels, values, strict=True), 96):
-        text += CURVE.format(number, value, flags)
+        text += CURVE.format(number, value, flags, data)
         links += 'C: "OP",{},95, "{}"\n'.format(number, channel)
     return text, links
 
@@ -231,13 +233,8 @@ def test_fbx_levels_of_detail_count_once(tmp_path, as_attribute):
     group = "group", "Null" if as_attribute else "LodGroup", {}, 0
     models = [group, ("empty", "Null", {}, 2), ("fine", "Null", {}, 2), ("part", "Mesh", {}, 4)]
     models += [("coarse", "Mesh", {}, 2), ("below", "Mesh", {}, 6), ("coarser", "Mesh", {}, 2)]
-    path = write(tmp_path / "t.fbx", models, more=attribute if as_attribute else "")
-    if as_attribute:
-        with open(path, encoding="utf-8") as file:
-            text = file.read()
-        files.write_text(
-            tmp_path / "t.fbx", text.replace("Connections: {", 'Connections: {\nC: "OO",99,2')
-        )
+    more = (attribute, 'C: "OO",99,2\n') if as_attribute else ("", "")
+    path = write(tmp_path / "t.fbx", models, more=more[0], more_links=more[1])
     found = document(path)
     assert [*by_name(found)] == ["part"] and close(found["total"]["volume"], 6.0, 1e-9)
     assert {entry["name"] for entry in found["left_out"]} == {"coarse", "below", "coarser"}
@@ -293,10 +290,110 @@ def test_binary_fbx_of_blender_agrees_with_its_nodes(tmp_path):
         assert close(body["volume"], volumes[name], 1e-4)
 
 
+def bits(*values):
+    """Numbers of float32, as text files state them; whole ones are the lengths of tangents."""
+    words = [
+        value if isinstance(value, int) else np.float32(value).view(np.int32) for value in values
+    ]
+    return ",".join(map(str, [*words, 0, 0, 0, 0][:4]))
+
+
+@pytest.mark.parametrize(
+    ("flags", "data", "slopes", "lengths"),
+    [
+        (4, bits(), (-1, -1), (1 / 3, 1 / 3)),
+        (0x108, bits(), (-1, -1), (1 / 3, 1 / 3)),
+        (0x6108, bits(), (0, 0), (1 / 3, 1 / 3)),
+        (0x408, bits(300.0, -500.0), (3, -5), (1 / 3, 1 / 3)),
+        (0x3000C08, bits(300.0, -500.0, 8000 << 16 | 2500), (3, -5), (0.25, 0.8)),
+        (0x208, bits(0.5, 0.25, -0.5), (-0.5625, -0.1875), (1 / 3, 1 / 3)),
+        (0x10000408, bits(300.0, -500.0), None, None),
+        (0x108, bits(50.0, 0), None, None),
+    ],
+)
+@pytest.mark.parametrize("name", ["Lcl Translation", "DeformPercent"])
+def test_fbx_curves_between_keys_are_the_files(tmp_path, flags, data, slopes, lengths, name):
+    is_moved = name == "Lcl Translation"
+    more, links = with_shape("", "", 0.0)
+    values = [100.0, 0, 0] if is_moved else [100.0]
+    curves = animation(2 if is_moved else 92, name, values, flags, data)
+    more, links = more + curves[0], links + curves[1]
+    path = write(tmp_path / "t.fbx", [("part", "Mesh", {}, 0)], more=more, more_links=links)
+    document(path)
+    rate = bpy.context.scene.render.fps / bpy.context.scene.render.fps_base
+    (after, before) = lengths or (0.5, 0.5)
+    start, low, high, end = np.array([1, 3, 3, 1]) * 0.3 ** np.arange(4) * 0.7 ** np.arange(4)[::-1]
+    body = measured(path, "--at-frame", str(1 + rate * (low * after + high * (1 - before) + end)))
+    assert (slopes is None) == ("places_unchecked" in codes(body))
+    if slopes is not None:
+        share = start + low * (1 + after * slopes[0]) - high * before * slopes[1]
+        assert close(body["center_of_mass"][0], 0.5 + share / (1 if is_moved else 2), 1e-5)
+
+
+@pytest.mark.parametrize(("flags", "share"), [(2, 1.0), (0x102, 0.0)])
+def test_fbx_curve_of_steps_is_the_files(tmp_path, flags, share):
+    more, links = animation(2, "Lcl Translation", [100.0, 0, 0], flags)
+    path = write(tmp_path / "t.fbx", [("part", "Mesh", {}, 0)], more=more, more_links=links)
+    assert close(measured(path, "--at-frame", "9")["center_of_mass"][0], 0.5 + share, 1e-6)
+
+
+LOW, HIGH = (
+    ([10.0, 20, 30], [20.0, 0, 50], [-2.0, 3, 0.5]),
+    ([5.0, -8, 1], [0.0, 40, 0], [0.5, 2, 4]),
+)
+NAMES = "Lcl Translation", "Lcl Rotation", "Lcl Scaling"
+
+
+@pytest.mark.parametrize("mode", [0, 1, 2, 3])  # additive, override, passed through, unknown
+@pytest.mark.parametrize("by_channel", [0, 1])
+@pytest.mark.parametrize("weight", [100.0, 40.0])
+def test_fbx_layers_blend_as_the_file_states(tmp_path, mode, by_channel, weight):
+    upper = {"BlendMode": mode, "Weight": weight, "RotationAccumulationMode": by_channel}
+    upper["ScaleAccumulationMode"] = by_channel
+    document = 'Document: 1, "", "Scene" {\nProperties70: {\n'
+    document += 'P: "ActiveAnimStackName", "", "", "", "b"\n}\n}\n'
+    more = links = ""
+    for stack, layer, properties, values in (
+        (200, 210, {}, HIGH),  # of another animation, the first one
+        (300, 310, {}, LOW),
+        (300, 320, upper, HIGH),
+    ):
+        lines = "".join(property_line(*pair) for pair in properties.items())
+        more += 'AnimationLayer: {}, "AnimLayer::l", "" {{\n'.format(layer)
+        more += "Properties70: {\n" + lines + "}\n}\n"
+        links += 'C: "OO",{},{}\n'.format(layer, stack)
+        for number, (name, three) in enumerate(zip(NAMES, values, strict=True), layer + 1):
+            lines = "".join(property_line("d|" + a, v) for a, v in zip("XYZ", three, strict=True))
+            more += 'AnimationCurveNode: {}, "AnimCurveNode::n", "" {{\n'.format(number)
+            more += "Properties70: {\n" + lines + "}\n}\n"
+            links += 'C: "OO",{0},{1}\nC: "OP",{0},2, "{2}"\n'.format(number, layer, name)
+    for number, name in ((200, "a"), (300, "b")):
+        more += 'AnimationStack: {}, "AnimStack::{}", "" {{\n}}\n'.format(number, name)
+    models = [("part", "Mesh", ACTIVE, 0)]
+    ahead = "Documents: {\n" + document + "}\n"
+    body = measured(write(tmp_path / "t.fbx", models, AXES, 1.0, more, links, ahead))
+    # The root of a mirroring scale is no number.
+    is_rare = mode == 3 or weight < 100 and (mode == 1 or mode == 2 and not by_channel)
+    assert is_rare == ("places_unchecked" in codes(body))
+    if is_rare:
+        return
+    share = weight / 100
+    rest = 1.0 if mode == 0 else 1.0 - share
+    move, angles, scale = (rest * np.array(a) + share * np.array(b) for a, b in zip(LOW, HIGH))
+    turn = files.turn(angles)
+    if not by_channel:
+        scale = np.array(LOW[2]) ** rest * np.array(HIGH[2]) ** share
+        low, high = files.turn(LOW[1]), files.turn(HIGH[1])
+        between = Matrix(high if mode == 0 else low.T @ high).to_quaternion()
+        turn = low @ np.array(Quaternion().slerp(between, share).to_matrix())
+    assert close(body["volume"], 6 * abs(np.prod(scale)), 1e-5)
+    assert np.allclose(body["center_of_mass"], (turn @ (CENTER * scale) + move) / 100, atol=1e-5)
+
+
 @pytest.mark.parametrize("moves", [False, True])
 @pytest.mark.parametrize("weight", [0.5, 9.75, 20.0, -15.0, 1000.0])
 def test_fbx_weight_is_the_files_or_doubtful(tmp_path, weight, moves):
-    shape, links = with_shape("", "", weight)
+    shape, links = with_shape("", "", 0.25 if moves else weight)
     if moves:
         more, more_links = animation(92, "DeformPercent", [100 * weight])
         shape, links = shape + more, links + more_links
@@ -305,6 +402,17 @@ def test_fbx_weight_is_the_files_or_doubtful(tmp_path, weight, moves):
     is_doubtful = moves and abs(weight) > 10.0
     assert is_doubtful == ("places_unchecked" in codes(body))
     assert is_doubtful or close(body["volume"], 6.0 * abs(1.0 + weight), 1e-5)
+
+
+@pytest.mark.parametrize(("full", "weight"), [("50", 0.5), ("100,100", 0.5), ("100,100", 1.0)])
+def test_fbx_shape_in_between_is_doubtful(tmp_path, full, weight):
+    shape, links = with_shape("", "", weight)
+    count = full.count(",") + 1
+    shape = shape.replace("*1 {\na: 100", "*{} {{\na: {}".format(count, full))
+    links += 'C: "OO",90,92\n' * (count - 1)
+    path = write(tmp_path / "t.fbx", [("part", "Mesh", {}, 0)], more=shape, more_links=links)
+    body = measured(path)
+    assert ("places_unchecked" in codes(body)) == (weight < 1.0)
 
 
 @pytest.mark.parametrize("flags", [None, 4, 8])  # of linear keys, of cubic ones

@@ -82,10 +82,10 @@ def test_damaged_step_solid_is_the_only_error_beside_a_record(tmp_path):
     with tarfile.open("tests/core/cad/kernel/step.tar.xz") as archive:
         text = archive.extractfile("assembly_inch.step").read()
     path = tmp_path / "parts.stp"
-    path.write_bytes(text.replace(b"CYLINDRICAL_SURFACE", b"OFFSET_SURFACE"))
+    path.write_bytes(text.replace(b"CYLINDRICAL_SURFACE", b"BOUNDED_SURFACE"))
     for options in ([], ["--pose"]):
         found = document(path, "--density", "1", *options)
         (error,) = found["errors"]
-        assert "ADVANCED_FACE" in error["reason"] and "OFFSET_SURFACE" in error["reason"]
+        assert "ADVANCED_FACE" in error["reason"] and "BOUNDED_SURFACE" in error["reason"]
         assert [entry["name"] for entry in found["objects"]] == ["Plätte"]
         assert close(found["objects"][0]["volume"], 2.4e-6, 1e-11)

@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 import pytest
 from body_moments.core.numerics.rotations import rotation_matrix
-from body_moments.core.robots.model import Inertial, Joint, Link, Pose, Robot
+from body_moments.core.robots.model import FreeAxis, Inertial, Joint, Link, Pose, Robot
 from body_moments.core.robots.write import mjcf, sdf, urdf, usd
 from body_moments.core.robots.write.text import roll_pitch_yaw
 from body_moments.core.robots.write.texts import robot_text
@@ -268,14 +268,19 @@ def test_forbidden_names_are_changed_and_stay_unique():
         "_a",
     ]
     inertial = bodies(1).links[0].inertial
-    robot = Robot(
-        "odd --> name",
-        tuple(Link(name, inertial) for name in names),
-        (Joint("world", names[0], names[1]),),
+    both = tuple(FreeAxis(kind, np.eye(3)[0]) for kind in ("rotate", "translate"))
+    # MJCF has a joint for each axis: world_1 and world_2.
+    joints = (
+        Joint("world", names[0], names[1], both),
+        Joint("world_1", names[1], names[2], both[:1]),
+        Joint("world_2", names[2], names[3], both[1:]),
     )
+    robot = Robot("odd --> name", tuple(Link(name, inertial) for name in names), joints)
     model = mujoco.MjModel.from_xml_string(robot_text(robot, "mjcf")[0])
     assert len({model.body(index).name for index in range(model.nbody)}) == len(names) + 1
-    assert len(URDF.from_xml_string(urdf.write(robot).encode()).link_map) == len(names) + 1
+    moving = {model.joint(index).name for index in range(model.njnt)} - {""}
+    assert len(moving) == 4 and {"world_1", "world_2"} <= moving
+    assert len(URDF.from_xml_string(urdf.write(robot).encode()).link_map) == len(names) + 2
     sdf_schema.validate(ElementTree.fromstring(sdf.write(robot)))
     stage = stage_of(usd.write(robot))
     assert sum(prim.HasAPI(UsdPhysics.MassAPI) for prim in stage.Traverse()) == len(names)

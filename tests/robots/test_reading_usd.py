@@ -107,6 +107,16 @@ MASSES = (
     ),
     ("", "physics:mass = 3|point3f physics:centerOfMass = (10, 20, 0)", ""),
     ("", "float3 physics:diagonalInertia = (1e4, 2e4, 2.5e4)|physics:mass = 2", ""),
+    ("physics:mass = 9|float3 physics:diagonalInertia = (1e4, 2e4, 2.5e4)", "", ""),
+    (
+        "physics:mass = 9|quatf physics:principalAxes = (0.6, 0, 0, 0.8)|"
+        "float3 physics:diagonalInertia = (1e4, 2e4, 2.5e4)",
+        "physics:mass = 3",
+        "",
+    ),
+    ("quatf physics:principalAxes = (0.6, 0, 0, 0.8)", "physics:mass = 3", ""),
+    ("point3f physics:centerOfMass = (0, 0, 0)", "", ""),
+    ("physics:mass = 5|point3f physics:centerOfMass = (-inf, -inf, -inf)", "", ""),
 )
 
 
@@ -137,7 +147,8 @@ def test_masses_of_colliders_are_those_of_usd(body, shape, material, tmp_path):
     inertial = link.link.inertial
     turn = np.array(Gf.Matrix3f(axes)).T
     inertia = (turn * np.array(moments)) @ turn.T * 1e-4
-    assert link.link.from_shapes and abs(inertial.mass / mass - 1.0) < 1e-6
+    is_stated = "mass" in body and "Inertia" in body
+    assert link.link.from_shapes != is_stated and abs(inertial.mass / mass - 1.0) < 1e-6
     assert near(inertial.center, np.array(center) / 100.0, 1e-6, scale=1.0)
     assert near(inertial.inertia, inertia, 1e-5)
 

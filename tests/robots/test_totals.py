@@ -72,6 +72,47 @@ def test_subtrees_are_those_of_mujoco_in_any_position(values, follower, tmp_path
     assert near(totals.whole.center, data.subtree_com[0], 1e-12)
 
 
+ARM = """<body name="a"><joint name="j1"/><geom size=".1" pos="1 0 0"/><body name="b" pos="1 0 0">
+<joint name="j2" axis="0 1 0"/><geom size=".2" pos="1 0 0"/></body></body>"""
+EQUAL = '<equality><joint joint1="{}" joint2="{}" polycoef="0.1 2"{}/></equality>'
+CLASS = '<default><default class="off"><equality active="false"/></default></default>'
+TWO = '<attach model="m" prefix="l_"/><attach model="m" prefix="r_"/>'
+# Elements of the attached model, of the world, and of the model.
+EQUALITIES = (
+    (EQUAL.format("j2", "j1", ""), TWO, EQUAL.format("r_j1", "l_j1", "")),
+    ("", TWO, EQUAL.format("l_j2", "l_j1", "") + EQUAL.format("r_j2", "l_j2", "")),
+    (EQUAL.format("j2", "j1", ""), '<attach model="m" body="b" prefix="l_"/>', ""),
+    (EQUAL.format("j2", "j1", ""), ARM + '<body pos="0 0 1"><attach body="a" prefix="l_"/></body>',
+     EQUAL.format("l_j1", "j2", "")),
+    ("", '<replicate count="2" euler="0 90 0">{}</replicate>'.format(ARM),
+     EQUAL.format("j2", "j1", "") + EQUAL.format("j11", "j20", "")),
+    ("", ARM, CLASS + EQUAL.format("j2", "j1", ' class="off"')),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("inner, world, outer", EQUALITIES)
+def test_followers_across_attached_models_are_those_of_mujoco(inner, world, outer, tmp_path):
+    text = '<mujoco model="m">{}<worldbody>{}</worldbody>{}</mujoco>'
+    (tmp_path / "m.xml").write_text(text.format("", ARM, inner), encoding="utf-8")
+    asset = '<asset><model name="m" file="m.xml"/></asset>' * ("model=" in world)
+    path = tmp_path / "robot.xml"
+    path.write_text(text.format(asset, world, outer), encoding="utf-8")
+    model = mujoco.MjModel.from_xml_path(str(path))
+    data = mujoco.MjData(model)
+    ends = zip(model.eq_obj1id, model.eq_obj2id, model.eq_active0)
+    leaders = {first: second for first, second, is_active in ends if is_active}
+    (first, *_) = set(range(model.njnt)) - leaders.keys()
+    data.qpos[first] = 0.7
+    for _ in leaders:
+        for follower, leader in leaders.items():
+            if data.qpos[leader]:
+                data.qpos[follower] = 0.1 + 2.0 * data.qpos[leader]
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    found = audit(path, **{model.joint(first).name: 0.7})
+    assert not found.entries and near(found.totals.whole.center, data.subtree_com[0], 1e-12)
+
+
 def test_whole_robot_is_that_of_pinocchio_in_any_position(tmp_path):
     robot = bodies(12, chain=True)
     path = tmp_path / "robot.urdf"

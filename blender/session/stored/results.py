@@ -17,8 +17,9 @@ from .... import core
 from ... import bodies, read, scale, settings
 from ...bodies.stack import Measured, MeasuredStack
 from ...write import properties, section
+from .. import stored  # the sliders are imported when an object has them
 from ..tracking import armatures, staleness, stamps
-from . import density, faults, reference, sliders
+from . import density, faults, reference
 
 MAX_STORED_ELEMENTS = 32  # of a symmetry: nobody reads more for a ball or a fine prism
 
@@ -55,7 +56,7 @@ def _store(obj: Object, found: Measured, values: dict[str, Any], scene: Scene) -
     faults.remember(obj, found)
     reference.follow(obj, scene, about)
     if found.stack is None:
-        sliders.remember(obj, found, scene)
+        stored.sliders.remember(obj, found, scene)
 
 
 def store_measured(
@@ -98,21 +99,21 @@ def store_symmetry(
     """Store the symmetry that the surface confirms, and the group that the moments allow, on an
     object.
     """
-    stored = obj.body_moments_symmetry
-    stored.group = confirmed.group
-    stored.compatible = allowed.group
-    stored.tolerance = tolerance
-    stored.of_display_mesh = shape.is_display_mesh
-    stored.fingerprint = (
+    kept = obj.body_moments_symmetry
+    kept.group = confirmed.group
+    kept.compatible = allowed.group
+    kept.tolerance = tolerance
+    kept.of_display_mesh = shape.is_display_mesh
+    kept.fingerprint = (
         stamps.Stamp.parse(shape.fingerprint)
         ._replace(transform=read.fingerprint.scale_hash(obj))
         .text
     )
-    stored.elements.clear()
+    kept.elements.clear()
     turn = shape.rotation.T
     for kind, order, direction in _elements(confirmed)[:MAX_STORED_ELEMENTS]:
         local = turn @ direction  # sign of a line: its largest component is positive
-        element = stored.elements.add()
+        element = kept.elements.add()
         element.kind, element.order = kind, order
         element.direction = local if local[np.argmax(np.abs(local))] > 0.0 else -local
 

@@ -68,12 +68,6 @@ class _Model:
         self.compiler: dict[str, str] = {}
         self.meshes: dict[str, Node] = {}
         self.models: dict[str, _Model] = {}
-        self.followers = {
-            node.get("joint1"): node
-            for equality in root.all("equality")
-            for node in equality.all("joint")
-            if node.get("joint2") and node.get("active") != "false"
-        }
         self._shapes: dict[Node, Shape] = {}  # those of the meshes that were read
         self._classes: dict[str, dict[str, dict[str, str]]] = {}
         for compiler in root.all("compiler"):
@@ -82,6 +76,13 @@ class _Model:
         self.euler = self.compiler.get("eulerseq", "xyz")
         for defaults in root.all("default"):
             self._add_defaults(defaults, "main", {})
+        self.followers = {
+            node.get("joint1"): node
+            for equality in root.all("equality")
+            for node in equality.all("joint")
+            if node.get("joint2")
+            and self.attributes(node, "main", "equality").get("active") != "false"
+        }
         for asset in (asset for assets in root.all("asset") for asset in assets.children):
             if asset.tag == "mesh":
                 name = asset.get("file").replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
@@ -98,13 +99,12 @@ class _Model:
         for child in node.all("default"):
             self._add_defaults(child, child.get("class"), own)
 
-    def attributes(self, node: Node, current: str = "main") -> dict[str, str]:
+    def attributes(self, node: Node, current: str = "main", tag: str = "") -> dict[str, str]:
         """Return the attributes of an element and its defaults. current: the class of those that
-        name none.
+        name none. tag: that of the defaults, if it is another one.
         """
-        return (
-            self._classes.get(node.get("class") or current, {}).get(node.tag, {}) | node.attributes
-        )
+        defaults = self._classes.get(node.get("class") or current, {})
+        return defaults.get(tag or node.tag, {}) | node.attributes
 
     def is_set(self, name: str) -> bool:
         """Return whether an attribute of the compiler is true."""
@@ -144,7 +144,8 @@ class _Frame(NamedTuple):
     class of its defaults.
 
     scale: (3,) along the frame's axes. mass: the factor of masses. prefix, suffix: of the names of
-    bodies. attached: the elements `attach` that it is in.
+    bodies. attached: the elements `attach` that it is in. outer: the frame that names its elements
+    without the last prefix or suffix.
     """
 
     model: _Model
@@ -155,6 +156,7 @@ class _Frame(NamedTuple):
     prefix: str = ""
     suffix: str = ""
     attached: tuple[Node, ...] = ()
+    outer: _Frame | None = None
 
     @property
     def is_plain(self) -> bool:
@@ -199,6 +201,7 @@ class _Frame(NamedTuple):
             defaults="main",
             prefix=self.prefix + node.get("prefix"),
             attached=(*self.attached, node),
+            outer=self,
         )
         if not names:
             return [child for world in worlds for child in world.children], inner
@@ -228,7 +231,7 @@ class _Frame(NamedTuple):
             # The names of inner copies come before those of outer ones.
             suffix = names(node.get("sep"), index, len(str(count - 1))) + self.suffix
             pose = self.place(position, turn)
-            frames.append(self._replace(pose=pose, scale=scale, suffix=suffix))
+            frames.append(self._replace(pose=pose, scale=scale, suffix=suffix, outer=self))
             position = position + turn @ offset
         return frames
 
@@ -289,12 +292,17 @@ def _motion(joint: Node, frame: _Frame) -> Motion:
     unit = 1.0
     if kind == "hinge" and frame.model.compiler.get("angle") != "radian":
         unit = radians(1.0)
+    name = frame.prefix + joint.get("name") + frame.suffix
     leader, powers = "", (0.0, 1.0)
-    if follower := frame.model.followers.get(joint.get("name")):
-        leader = frame.prefix + follower.get("joint2") + frame.suffix
-        powers = tuple(parse_numbers(follower.get("polycoef") or "0 1"))
+    scope: _Frame | None = frame
+    while scope and not leader:
+        inner = name[len(scope.prefix) :].removesuffix(scope.suffix)
+        if follower := scope.model.followers.get(inner):
+            leader = scope.prefix + follower.get("joint2") + scope.suffix
+            powers = tuple(parse_numbers(follower.get("polycoef") or "0 1"))
+        scope = scope.outer
     return Motion(
-        frame.prefix + joint.get("name") + frame.suffix,
+        name,
         kind,
         frame.pose.rotation @ axis_of(values.get("axis", ""), (0.0, 0.0, 1.0)),
         frame.place(numbers(values.get("pos", ""), 3, (0.0, 0.0, 0.0)), np.eye(3)).position,

@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -54,6 +55,7 @@ JOINTS = {
     "PhysicsJoint": "several axes",
 }
 BALL_RADIUS = 0.1  # m, of the ball that stands for a body of known mass without colliders
+MASS_VALUES = ("physics:mass", "physics:density", "physics:diagonalInertia", "physics:centerOfMass")
 JOINT_AXES = ("X", "Y", "Z")
 TRUE = ("true", "1")
 SINGLE_RTOL = 1e-5  # rounding of places and turns in single precision
@@ -84,9 +86,8 @@ class Prim:
         """
         if self.values.get(name, "None") == "None":
             return None
-        return np.array(
-            [parse_number(word) for word in _FIELD.findall(self.values[name])], np.float64
-        )
+        words = _FIELD.findall(self.values[name].replace("inf", "INF"))
+        return np.array([parse_number(word) for word in words], np.float64)
 
     def vector(self, name: str, default: tuple[float, ...]) -> Array:
         """Return the numbers of an attribute, else its default. ValueError if the counts differ."""
@@ -258,6 +259,9 @@ def _resolve(roots: list[Prim]) -> dict[str, Prim]:
         other = by_path.get(match[1]) if match else None
         if other is not None:
             prim.kind, prim.values = prim.kind or other.kind, other.values | prim.values
+        if not re.search("Mass|Material", prim.metadata):  # Other prims have no mass of their own.
+            for name in MASS_VALUES:
+                prim.values.pop(name, None)
     return by_path
 
 
@@ -395,15 +399,23 @@ def _link(
             )
             return None
 
-    inertial, overridden = attempt(prim, _inertials, to_link @ matrix, scales) or (None, None)
-    rules = None if inertial or findings else attempt(prim, _rules, to_link @ matrix, scales)
+    rules = attempt(prim, _rules, to_link @ matrix, scales)
+    stated = rules and attempt(prim, _inertials, rules, scales)
+    inertial, overridden = stated or (None, None)
     density = rules and attempt(prim, Prim.number, "physics:density", 0.0)
+    if inertial is not None and rules.center is not None or findings:
+        rules = None
+    elif inertial is not None and inertial.quaternion is None:
+        moments, axes = np.linalg.eigh(inertial.tensor)
+        rules = rules._replace(moments=moments, axes=axes)
     shapes = []
     for part, place in _parts(prim, matrix):
         shape = attempt(part, _shape, to_link @ place, scales["length"])
         if shape is not None and rules is not None and shape.role == "collision":
             weight = attempt(part, _weight, density or 0.0, materials, scales)
             own = attempt(part, _rules, to_link @ place, scales)
+            if own and own.axes is None and own.moments is not None:
+                own = own._replace(axes=_turn(to_link @ place))
             shape = replace(shape, weight=weight, rules=own and own._replace(mass=0.0))
         if shape is not None:
             shapes.append(shape)
@@ -432,47 +444,45 @@ def _turn(matrix: NDArray) -> Array:
 
 
 def _inertials(
-    prim: Prim, local: NDArray, scales: Mapping[str, float]
+    prim: Prim, rules: Rules, scales: Mapping[str, float]
 ) -> tuple[StatedInertial | None, StatedInertial | None]:
     """Return the stated inertial, and the one that `newton:inertia` overrides; None for those that
-    come from the colliders.
+    come from the colliders. rules: those of the prim.
     """
-    mass = prim.number("physics:mass", 0.0)
-    diagonal = prim.vector("physics:diagonalInertia", (0.0, 0.0, 0.0))
-    center = prim.vector("physics:centerOfMass", (0.0, 0.0, 0.0))
-    axes = prim.vector("physics:principalAxes", (1.0, 0.0, 0.0, 0.0))
-    axes = axes if axes.any() else np.array([1.0, 0.0, 0.0, 0.0])
-    kilograms = scales["mass"]
-    unit = scales["length"] ** 2 * kilograms
-    placed = local[:3, :3] @ center * scales["length"]
+    mass = prim.number("physics:mass", 0.0) * scales["mass"]
+    center = np.zeros(3) if rules.center is None else rules.center
     own = None
-    if mass and diagonal.any():
-        turn = rotation_matrix(axes)
-        tensor = np.diag(diagonal) * unit
-        own = StatedInertial(mass * kilograms, placed, tensor, turn, None, tuple(axes.tolist()))
+    if mass and rules.moments is not None:
+        order = prim.vector("physics:principalAxes", (1.0, 0.0, 0.0, 0.0))
+        turn = np.eye(3) if rules.axes is None else rules.axes
+        own = StatedInertial(mass, center, np.diag(rules.moments), turn, None, tuple(order))
     entries = prim.values.get("newton:inertia", "None") if "NewtonMassAPI" in prim.metadata else ""
     if not mass or not _FIELD.search(entries) or entries == "None":
         return own, None
     xx, yy, zz, xy, xz, yz = prim.vector("newton:inertia", (0.0,) * 6)
-    tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) * unit
-    return StatedInertial(mass * kilograms, placed, tensor), own
+    tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    return StatedInertial(mass, center, tensor * _unit(scales)), own
+
+
+def _unit(scales: Mapping[str, float]) -> float:
+    """Return the stage's unit of inertia, kg·m²."""
+    return scales["length"] ** 2 * scales["mass"]
 
 
 def _rules(prim: Prim, local: NDArray, scales: Mapping[str, float]) -> Rules:
     """Return the values of PhysicsMassAPI that replace those of colliders, as
-    `UsdPhysics.RigidBodyAPI.ComputeMassProperties` uses them.
+    `UsdPhysics.RigidBodyAPI.ComputeMassProperties` uses them: a center that is finite, other
+    values that are not zero.
     """
-    unit = scales["length"]
-    turn = _turn(local)
-    center = prim.vector("physics:centerOfMass", (0.0, 0.0, 0.0))
-    diagonal = prim.vector("physics:diagonalInertia", (0.0, 0.0, 0.0))
-    axes = prim.vector("physics:principalAxes", (1.0, 0.0, 0.0, 0.0))
-    axes = turn @ rotation_matrix(axes if axes.any() else [1.0, 0.0, 0.0, 0.0])
-    inertia = (axes * diagonal) @ axes.T * unit**2 * scales["mass"]
+    center = prim.vector("physics:centerOfMass", (-inf, -inf, -inf))
+    moments = prim.vector("physics:diagonalInertia", (0.0, 0.0, 0.0)) * _unit(scales)
+    axes = prim.vector("physics:principalAxes", (0.0, 0.0, 0.0, 0.0))
+    place = (local[:3, :3] @ center + local[:3, 3]) * scales["length"]
     return Rules(
         mass=max(prim.number("physics:mass", 0.0), 0.0) * scales["mass"],
-        center=(local[:3, :3] @ center + local[:3, 3]) * unit if center.any() else None,
-        inertia=inertia if diagonal.any() else None,
+        center=None if np.isinf(center).all() else place,
+        moments=moments if moments.any() else None,
+        axes=_turn(local) @ rotation_matrix(axes) if axes.any() else None,
         radius=BALL_RADIUS,
     )
 

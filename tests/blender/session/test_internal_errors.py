@@ -13,7 +13,7 @@ import pytest
 pytest.importorskip("bpy")
 import body_moments
 import bpy
-from body_moments.blender.bodies import measure_object, request
+from body_moments.blender.bodies import measure_body, measure_object, request
 from body_moments.blender.scene import empties, reframe
 from body_moments.blender.session.stored import outcome
 from body_moments.blender.write import properties, section
@@ -75,7 +75,7 @@ def state(obj):
         if key in obj
     }
     points = [tuple(vertex.co) for vertex in obj.data.vertices]
-    found = section.fingerprint(obj), obj.is_property_set("body_moments_symmetry")
+    found = repr(section.stored(obj)), obj.is_property_set("body_moments_symmetry")
     return kept, found, place(obj).tolist(), points, obj.rigid_body, obj.parent
 
 
@@ -133,7 +133,7 @@ def unwritable(monkeypatch, *names):
     """Measurements of these objects of which Blender takes a part only: what comes before the
     fingerprint.
     """
-    real = measure_object.measure_body
+    real = measure_body.measure_body
 
     def damaged(obj, *args):
         measured = real(obj, *args)
@@ -141,7 +141,7 @@ def unwritable(monkeypatch, *names):
             return measured
         return replace(measured, measurement=replace(measured.measurement, fingerprint=object()))
 
-    monkeypatch.setattr(measure_object, "measure_body", damaged)
+    monkeypatch.setattr(measure_body, "measure_body", damaged)
     monkeypatch.setattr(measure_object, "plain_mesh", lambda *_: None)
 
 

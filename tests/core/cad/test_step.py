@@ -114,6 +114,20 @@ def number_of(text, entity):
     return re.search(r"#(\d+) = " + entity, text)[1]
 
 
+def test_representation_of_a_shape_aspect_is_no_second_body(tmp_path):
+    text = TEXTS["assembly_mm"]
+    solid, context = re.search(
+        r"ADVANCED_BREP_SHAPE_REPRESENTATION\('[^']*',\(#\d+,(#\d+)\),(#\d+)\)", text
+    ).groups()
+    more = (
+        "#99990 = SHAPE_ASPECT('','',#{},.F.);\n#99991 = PROPERTY_DEFINITION('','',#99990);\n"
+        "#99992 = SHAPE_REPRESENTATION('',({}),{});\n"
+        "#99993 = SHAPE_DEFINITION_REPRESENTATION(#99991,#99992);\nENDSEC;"
+    ).format(number_of(text, "PRODUCT_DEFINITION_SHAPE"), solid, context)
+    file = read(tmp_path, more.join(text.rsplit("ENDSEC;", 1)))
+    assert [one.name for one in file.bodies] == ["Plätte", *["Bolt"] * 4] and file.refused == ()
+
+
 def test_hidden_step_solid_is_left_out_with_a_note(tmp_path):
     text = TEXTS["assembly_mm"]
     hide = "#99999 = INVISIBILITY((#{}));\nENDSEC;".format(number_of(text, "STYLED_ITEM"))
@@ -132,7 +146,7 @@ SWAPS = {
     "not in the file": (r"(CYLINDRICAL_SURFACE\('',)#\d+", r"\1#999999", "ADVANCED_FACE"),
     "numbers": (r"(CYLINDRICAL_SURFACE\('',#\d+,)4\.", r"\g<1>-4.", "ADVANCED_FACE"),
     "possible": (r"CYLINDRICAL_SURFACE\(", "CYLINDRICAL_SURFACE" + "(" * 90, "ADVANCED_FACE"),
-    "OFFSET_SURFACE": (r"CYLINDRICAL_SURFACE", "OFFSET_SURFACE", "ADVANCED_FACE"),
+    "BOUNDED_SURFACE": (r"CYLINDRICAL_SURFACE", "BOUNDED_SURFACE", "ADVANCED_FACE"),
 }
 
 
@@ -155,7 +169,7 @@ def test_right_solids_beside_damage_are_measured(tmp_path):
     within = re.search(r"REPRESENTATION_RELATIONSHIP\('','',(#\d+),(#\d+)\)", whole)
     swapped = within[0].replace(within[2], within[1])
     for text, names, faults in (
-        (whole.replace("CYLINDRICAL_SURFACE", "OFFSET_SURFACE", 1), ["Plätte"], 1),
+        (whole.replace("CYLINDRICAL_SURFACE", "BOUNDED_SURFACE", 1), ["Plätte"], 1),
         (whole.replace(within[0], swapped), ["Bolt"] * 4 + ["Plätte"], 1),
     ):
         file = read(tmp_path, text)

@@ -5,6 +5,7 @@ in another order.
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -124,6 +125,20 @@ def test_noise_has_moments_of_its_interpolant_at_any_threshold():
         truth = oracle(samples - level, 2)
         assert close(found.volume.about_point((0.0, 0.0, 0.0)).raw, truth, rel=1e-9)
         assert found.clipped
+
+
+def test_noise_of_many_cells_is_within_its_bounds():
+    """The whole has less work for a cell than its halves, which are nearly exact."""
+    samples = RNG.normal(size=(25, 24, 24))
+    whole = threshold_body(samples, 0.3, order=2)
+    halves = [threshold_body(part, 0.3, order=2) for part in (samples[:13], samples[12:])]
+    for name in ("volume", "area"):
+        found = getattr(whole, name)
+        lower, upper = (getattr(half, name) for half in halves)
+        upper = replace(upper, about=upper.about + (12.0, 0.0, 0.0))
+        truth = lower.about_point(found.about) + upper.about_point(found.about)
+        assert (np.abs(found.raw - truth.raw) <= found.rounding_error).all()
+        assert 100.0 * truth.rounding_error[0] < found.rounding_error[0] < 1e-3 * found.total
 
 
 @pytest.mark.parametrize("level", [0.9, 0.3, 0.01, 1e-4])

@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Units of imported surface files."""
 
+import gzip
 import tarfile
+from pathlib import Path
 
 import bpy
 import pytest
@@ -41,5 +43,19 @@ def test_step_solid_keeps_its_volume_in_a_blend_until_it_is_edited(tmp_path):
     assert bolt.active_material.name == "#e7597c"
     assert measured(bolt).volume == pytest.approx(1.8366940367818e-6, rel=1e-11)
     bolt.modifiers.new("Shell", "SOLIDIFY")
-    with pytest.raises(MeasureError, match="STEP"):
+    with pytest.raises(MeasureError, match="CAD file"):
         measured(bolt)
+
+
+def test_trimmed_iges_solid_is_measured_as_in_the_file(tmp_path):
+    packed = Path("tests/core/cad/kernel/swept/cross_solid.igs.gz")
+    data = gzip.decompress(packed.read_bytes())
+    (tmp_path / "tube.igs").write_bytes(data)
+    tube = imported(filepath=str(tmp_path / "tube.igs"))
+    tube.name = "Tube"
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "tube.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "tube.blend"))
+    tube = bpy.data.objects["Tube"]
+    assert measured(tube).volume == pytest.approx(11020.05259343911728e-9, rel=1e-9)
+    tube.scale = 2.0, 2.0, 2.0
+    assert measured(tube).volume == pytest.approx(8.0 * 11020.05259343911728e-9, rel=1e-9)

@@ -1,0 +1,279 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Animation of an FBX file: values of its curves at a time, blended over layers.
+
+Blender's importer makes all curves linear between keys, and shows one layer of an object.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from ...core.files import FbxNode
+from ...core.numerics import Array, Index, quaternion, rotation_about
+from ...core.rig import rotation_values, rotations
+
+ORDERS = ("XYZ", "XZY", "YZX", "YXZ", "ZXY", "ZYX")  # the first letter's rotation acts first
+RARE = "it has curves or layers of a rare kind: bake the animation"
+_SAME_TIME = 1e-6  # seconds
+# flags of keys
+_CONSTANT, _CUBIC = 0x2, 0x8
+_OF_NEXT = 0x100
+_TCB, _USER = 0x200, 0x400
+_CLAMPED, _TIMELESS, _PROGRESSIVE = 0x1000, 0x2000, 0x4000
+_WEIGHTED, _LEFT_WEIGHTED = 0x1000000, 0x2000000
+_VELOCITIES = 0x30000000
+_LEVEL = 1e-3  # a difference of values, up to which some programs level clamped tangents
+_NO_BIAS = 1e-4
+
+
+class RareError(Exception):
+    """A part of an animation that programs may read differently."""
+
+
+class FbxAnimation:
+    """The animation, at a time, that a file names as the active one.
+
+    If it names none, each node has the first animation that moves it, as in Blender, whose exporter
+    makes one for each object.
+    """
+
+    def __init__(
+        self, root: FbxNode, nodes: dict[int, FbxNode], links: Iterable[list[Any]], seconds: float
+    ) -> None:
+        self._nodes = nodes
+        self._seconds = seconds
+        header = root.child("FBXHeaderExtension")
+        self._ticks = _ticks_per_second(header)
+        self._has_bits = header.child("FBXVersion").first(0) >= 7200
+        document = root.child("Documents").child("Document").properties()
+        active = document.get("ActiveAnimStackName", ("",))[0]
+        kinds = {number: node.name for number, node in nodes.items()}
+        stacks = [number for number, kind in kinds.items() if kind == "AnimationStack"]
+        stacks = [number for number in stacks if nodes[number].values[1] == active] or stacks
+        layers: dict[int, list[int]] = {stack: [] for stack in stacks}
+        self._curves: dict[int, dict[str, FbxNode]] = {}
+        layer_of: dict[int, int] = {}
+        self._parts: dict[int, dict[str, list[int]]] = {}
+        for child, parent, *names in links:
+            kind = kinds.get(child)
+            if kind == "AnimationLayer" and parent in layers:
+                layers[parent].append(child)
+            elif kind == "AnimationCurve" and names:
+                self._curves.setdefault(parent, {})[names[0]] = nodes[child]
+            elif kind == "AnimationCurveNode" and names:
+                self._parts.setdefault(parent, {}).setdefault(names[0], []).append(child)
+            elif kind == "AnimationCurveNode":
+                layer_of[child] = parent
+        ranks = {
+            layer: (number, rank, layer)
+            for number, line in enumerate(layers.values())
+            for rank, layer in enumerate(line)
+        }
+        # the number of its animation, its place among the layers of this, its layer
+        self._ranks = {part: ranks[layer] for part, layer in layer_of.items() if layer in ranks}
+
+    def animate(self, number: int, properties: dict[str, Any]) -> bool:
+        """Change the properties of a node to those of the time; return whether it is known."""
+        parts = {
+            name: sorted(self._ranks[part] + (part,) for part in several if part in self._ranks)
+            for name, several in self._parts.get(number, {}).items()
+        }
+        first = min((line[0][0] for line in parts.values() if line), default=0)
+        try:
+            for name, line in parts.items():
+                line = [(rank, layer, part) for one, rank, layer, part in line if one == first]
+                if line:
+                    properties[name] = self._blended(line, name, properties)
+        except RareError:
+            return False
+        return True
+
+    def _blended(
+        self, parts: list[tuple[int, int, int]], name: str, properties: dict[str, Any]
+    ) -> Array:
+        """Return the values of a property.
+
+        parts: its values in layers, each after the place of the layer and the layer.
+        """
+        rest = properties.get(name, (float(name == "Lcl Scaling"),) * 3)
+        total = np.array(rest, np.float64)
+        is_composed = False
+        mode = ORDERS[int(properties.get("RotationOrder", (0,))[0]) % 6]
+        for rank, number, part in parts:
+            values = self._values(part)
+            layer = self._nodes[number].properties()
+            if any(layer.get(switch, (0,))[0] for switch in ("Mute", "Solo")):
+                raise RareError
+            if rank == 0:
+                total = values
+                continue
+            for curves in self._parts.get(number, {}).get("Weight", ()):
+                layer["Weight"] = self._values(curves)
+            weight = min(max(layer.get("Weight", (100.0,))[0] / 100.0, 0.0), 1.0)
+            blending = layer.get("BlendMode", (0,))[0]
+            if blending not in (0, 1, 2) or blending == 1 and weight < 1.0:
+                raise RareError
+            kept = 1.0 if blending == 0 else 1.0 - weight
+            is_turn = name == "Lcl Rotation"
+            if is_turn and not layer.get("RotationAccumulationMode", (0,))[0]:
+                below, above = rotations(np.radians([total, values]), mode)
+                start = np.eye(3) if blending == 0 else below
+                turn = quaternion(start.T @ above)
+                angle = 2.0 * np.arctan2(np.linalg.norm(turn[1:]), turn[0])
+                if angle:
+                    below = below @ rotation_about(turn[1:], weight * angle)
+                total = np.degrees(rotation_values(below[None], mode, np.radians(total))[0])
+                is_composed = True
+            elif is_turn and is_composed and kept:
+                raise RareError  # Its angles are not the only ones of the rotation.
+            elif name == "Lcl Scaling" and not layer.get("ScaleAccumulationMode", (0,))[0]:
+                total = _power(total, kept) * _power(values, weight)
+            else:
+                total = kept * total + weight * values
+        return total
+
+    def _values(self, part: int) -> Array:
+        """Return the numbers of a property in one layer."""
+        rests = {
+            name: rest[0]
+            for name, rest in self._nodes[part].properties().items()
+            if name.startswith("d|")
+        }
+        curves = self._curves.get(part, {})
+        if len(rests) not in (1, 3) or not curves.keys() <= rests.keys():
+            raise RareError
+        for name, curve in curves.items():
+            keys = _Curve(curve, self._ticks, self._has_bits)
+            rests[name] = keys.value(self._seconds, rests[name])
+        return np.array([*rests.values()])
+
+
+def _ticks_per_second(header: FbxNode) -> float:
+    """Return the unit of a file's times: the newer one, if its header says so."""
+    is_stated = header.child("FBXHeaderVersion").first(0) >= 1004
+    definition = header.child("OtherFlags").child("TCDefinition").first(127)
+    return 141120000.0 if is_stated and definition != 127 else 46186158000.0
+
+
+def _power(values: Array, exponent: float) -> Array:
+    if 0.0 < exponent < 1.0 and (values < 0.0).any():
+        raise RareError
+    return values**exponent
+
+
+class _Curve:
+    """The keys of a curve. has_bits: text states numbers of float32 by their bits."""
+
+    def __init__(self, node: FbxNode, ticks: float, has_bits: bool) -> None:
+        self._node = node
+        arrays = {child.name: child for child in node.children}
+        times, self._values, flags, data, counts = (
+            arrays[name].numbers()
+            for name in (
+                "KeyTime",
+                "KeyValueFloat",
+                "KeyAttrFlags",
+                "KeyAttrDataFloat",
+                "KeyAttrRefCount",
+            )
+        )
+        self._times = times / ticks
+        repeats = counts.astype(int)
+        self._flags: Index = np.repeat(flags.astype(int), repeats)
+        if has_bits and arrays["KeyTime"].children:
+            data = data.astype(np.int64).astype(np.uint32).view(np.float32)
+        self._data = np.repeat(data.astype(np.float32).reshape(-1, 4), repeats, axis=0)
+
+    def value(self, seconds: float, rest: float) -> float:
+        """Return its value at a time; `rest` without keys."""
+        times, values = self._times, self._values
+        if not len(times):
+            return rest
+        if not times[0] <= seconds <= times[-1]:
+            name = "Pre-Extrapolation" if seconds < times[0] else "Post-Extrapolation"
+            if self._node.child(name).child("Type").first("C") not in ("C", ord("C")):
+                raise RareError
+        seconds = min(max(seconds, times[0]), times[-1])
+        near = np.abs(times - seconds) <= _SAME_TIME
+        if near.any():
+            return float(values[near.argmax()])
+        index = int(np.searchsorted(times, seconds)) - 1
+        flags = int(self._flags[index])
+        if flags & _CONSTANT:
+            return float(values[index + bool(flags & _OF_NEXT)])
+        length = times[index + 1] - times[index]
+        share = (seconds - times[index]) / length
+        if not flags & _CUBIC:
+            return float((1.0 - share) * values[index] + share * values[index + 1])
+        if flags & _VELOCITIES:
+            raise RareError
+        leaving, arriving = self._weights(index)
+        start, end = leaving, 1.0 - arriving
+        found = np.roots(
+            [1.0 + 3.0 * (start - end), 3.0 * (end - 2.0 * start), 3.0 * start, -share]
+        )
+        place = found[np.argmin(np.abs(found - np.clip(found.real, 0.0, 1.0)))].real
+        rest = 1.0 - place
+        low = values[index] + leaving * length * self._slope(index, True)
+        high = values[index + 1] - arriving * length * self._slope(index + 1, False)
+        return float(
+            rest**3 * values[index]
+            + 3.0 * rest * place * (rest * low + place * high)
+            + place**3 * values[index + 1]
+        )
+
+    def _weights(self, index: int) -> tuple[float, float]:
+        """Return the lengths, as shares of a section, of the tangents at its start and its end."""
+        flags = int(self._flags[index])
+        bits = int(self._data[index, 2:3].view(np.uint32)[0])
+        return (
+            (bits & 0xFFFF) * 1e-4 if flags & _WEIGHTED else 1.0 / 3.0,
+            (bits >> 16) * 1e-4 if flags & _LEFT_WEIGHTED else 1.0 / 3.0,
+        )
+
+    def _slope(self, index: int, is_after: bool) -> float:
+        """Return the slope after or before a key; there the curve is cubic."""
+        flags = int(self._flags[index])
+        previous = int(self._flags[index - 1])
+        given = float(self._data[index, 0] if is_after else self._data[index - 1, 1])
+        is_inner = 0 < index < len(self._times) - 1
+        section = slice(max(index - 1, 0), index + 2)
+        times, changes = np.diff(self._times[section]), np.diff(self._values[section])
+        slopes = changes / times
+        is_tcb = bool(flags & _CUBIC and flags & _TCB)
+        if is_tcb:
+            before = slopes[0] if index else 0.0
+            after = slopes[-1] if index < len(self._times) - 1 else 0.0
+            tension, continuity, bias = map(float, self._data[index, :3])
+            continuity = continuity if is_after else -continuity
+            return (
+                (0.5 if is_inner else 1.0)
+                * (1.0 - tension)
+                * (
+                    (1.0 + bias) * (1.0 + continuity) * before
+                    + (1.0 - bias) * (1.0 - continuity) * after
+                )
+            )
+        if not flags & _CUBIC or flags & _USER:
+            if not is_after and previous & _TCB:
+                raise RareError
+            return given
+        least = np.abs(changes).min() if flags & _CLAMPED else np.inf
+        if abs(given) > _NO_BIAS or 0.0 < least <= _LEVEL:
+            raise RareError
+        if least == 0.0:
+            return 0.0
+        if not is_inner:
+            return 0.0 if flags & _PROGRESSIVE else float(slopes[0])
+        slope = changes.sum() / times.sum()
+        if not flags & _TIMELESS:
+            slope = 0.5 * slope + 0.5 * (slopes @ times[::-1]) / times.sum()
+        if flags & _PROGRESSIVE:
+            weights = self._weights(index - 1)[1], self._weights(index)[0]
+            limits = np.sign(slope) * slopes / weights
+            slope = np.sign(slope) * min(abs(slope), max(limits.min(), 0.0))
+        return float(slope)
