@@ -92,6 +92,10 @@ class PrincipalFrame:
         self.__dict__.update({**vars(find()), "moments": self.moments})
         return getattr(self, name)
 
+    def __getstate__(self) -> dict[str, Any]:
+        _ = self.axes  # they are found now: what finds them cannot be pickled
+        return vars(self)
+
     def scaled(self, density: NDArray) -> PrincipalFrame:
         """Return the frame of a body with another density, (...,)."""
         frame = object.__new__(PrincipalFrame)
