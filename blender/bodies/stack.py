@@ -8,6 +8,7 @@ measured alone.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -23,22 +24,23 @@ from ...core.measurement import (
     DENSITY_FROM_MASS,
     DENSITY_FROM_VALUE,
     Body,
+    Measurement,
     Settings,
     build_measurement,
     find_large_bounds,
     fingerprint,
 )
-from ...core.measurement.measurement import Measurement
 from ...core.mesh import Surface
 from ...core.moments import Moments, are_similarities, are_singular, image
 from ...core.numerics import Array, Index, Mask, rotation_matrix
 from ...core.polyhedron import area_of_images
-from ...core.solid import SmallSolid, SolidStack, measure_again
+from ...core.solid import SmallSolid, SolidIntegrals, SolidStack, measure_again
 from ...core.verdict import Finding, Method, Procedure
 from ..read.fingerprint import transform_key
 from ..read.mesh import read_digest
 from ..settings.accepted import accepted_codes, with_acceptance
 
+PlacedSolids = Sequence[tuple[SolidIntegrals, Array]]
 METHODS = {verdict: Method(verdict) for verdict in Procedure}
 
 
@@ -176,6 +178,17 @@ class Measured:
     @property
     def method(self) -> Method:
         return self.stack.methods[self.index] if self.stack else self.measurement.method
+
+    @property
+    def solids(self) -> PlacedSolids:
+        """The solids, each with (k, 4, 4) maps of its places to the world in m; none for other
+        bodies than meshes.
+        """
+        if self.stack is None:
+            return getattr(self.body, "solids", ())
+        member = self.stack.members[self.index]
+        matrix = member.matrix * np.array([[member.settings.unit]] * 3 + [[1.0]])
+        return [(self.stack.solids[member.shape], matrix[None])]
 
     def closed_surface(self, limit: int) -> Surface | None:
         """Return the surface in the world if it is closed as it is, with `limit` triangles at most;

@@ -1,19 +1,18 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""F-curves of objects: the keys of slotted actions, sections of keys, and additive layers.
+"""F-curves of objects: the keys of slotted actions, and sections of keys.
 
 Keys are structured arrays with all that Blender keeps of them, so that the keys outside a section
 stay to the last bit. Times are those of F-curves, which a scene stretches from its frames.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from math import ceil, floor
+from collections.abc import Callable, Iterable, Iterator
 
 import bpy
 import numpy as np
 from bpy.types import FCurve, Object, Scene
 
-from ...core.numerics import Array, NDArray
+from ...core.numerics import NDArray
 from ...core.rig import handle_values
 from ...core.verdict import EditRefusedError
 from .findings import INTERPOLATION_UNCUT
@@ -61,10 +60,13 @@ def ensure_curves(obj: Object, alone: bool = False):
     action = animation.action
     if animation.action_slot is None:
         animation.action_slot = action.slots.new("OBJECT", obj.name)
-    return _bag(action, animation.action_slot)
+    return slot_curves(action, animation.action_slot)
 
 
-def _bag(action: bpy.types.Action, slot: bpy.types.ActionSlot):
+def slot_curves(action: bpy.types.Action, slot: bpy.types.ActionSlot):
+    """Return the F-curves of a slot in the first strip of an action, which is created if
+    necessary.
+    """
     layer = action.layers[0] if action.layers else action.layers.new("Layer")
     strip = layer.strips[0] if layer.strips else layer.strips.new()
     return strip.channelbag(slot, ensure=True).fcurves
@@ -139,13 +141,6 @@ def find(curves: Iterable[FCurve], channel: Channel) -> FCurve | None:
     return next(
         (curve for curve in curves if (curve.data_path, curve.array_index) == channel), None
     )
-
-
-def keys(curve: FCurve) -> Array:
-    """Return the (k, 2) frames and values of a curve's keys."""
-    points = np.empty(2 * len(curve.keyframe_points), np.float32)
-    curve.keyframe_points.foreach_get("co", points)
-    return points.reshape(-1, 2).astype(np.float64)
 
 
 def write_keys(
@@ -223,7 +218,7 @@ def backup(obj: Object) -> Callable[[], None]:
         animation.action = action
         if slot is not None:
             animation.action_slot = slot
-            curves = _bag(action, slot)
+            curves = slot_curves(action, slot)
             for curve in [*curves]:
                 keys = kept.get((curve.data_path, curve.array_index))
                 if keys is None:
@@ -385,52 +380,3 @@ def stretch(curve: FCurve, first: float, last: float, shift: float) -> None:
         )
     keys["period"][inside] *= factor
     write(curve, keys)
-
-
-def add_layer(obj: Object, name: str, times: NDArray, channels: Mapping[Channel, NDArray]) -> None:
-    """Add a strip of sections that is combined with the animation below; the action becomes a
-    strip, too.
-    """
-    scene = bpy.context.scene
-    scale = time_scale(scene)
-    # stretched times are single precision, so their last one may be later
-    beyond = int(scale != 1.0)
-    animation = obj.animation_data_create()
-    action = animation.action
-    if action is not None:
-        # Without strips below, Blender ignores how the action is combined.
-        is_combined = has_strips(obj)
-        strip = animation.nla_tracks.new().strips.new(
-            action.name, int(action.frame_range[0]), action
-        )
-        strip.action_slot = animation.action_slot
-        if is_combined:
-            strip.blend_type = animation.action_blend_type
-            strip.influence = animation.action_influence
-            strip.use_animated_influence = True
-            strip.extrapolation = animation.action_extrapolation
-        # Cycles and keys outside a manual frame range go on.
-        start, end = action.curve_frame_range
-        _span(
-            strip, min(start, scale * scene.frame_start), max(end, scale * scene.frame_end), beyond
-        )
-        animation.action = None
-    layer = bpy.data.actions.new(name)
-    slot = layer.slots.new("OBJECT", obj.name)
-    curves = _bag(layer, slot)
-    for channel, values in channels.items():
-        write(curves.new(channel[0], index=channel[1]), section_keys(times, values))
-    track = animation.nla_tracks.new()
-    track.name = name
-    strip = track.strips.new(name, int(times[0]), layer)
-    strip.action_slot = slot
-    _span(strip, times[0], times[-1], beyond)
-    strip.blend_type = "COMBINE"
-    strip.extrapolation = "NOTHING"
-
-
-def _span(strip: bpy.types.NlaStrip, start: float, end: float, beyond: int) -> None:
-    """Let a strip show its action from a time to another, and some whole frames beyond."""
-    strip.action_frame_start = floor(start) - beyond
-    strip.action_frame_end = ceil(end) + beyond
-    strip.frame_start_ui = strip.action_frame_start

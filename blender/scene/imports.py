@@ -167,10 +167,7 @@ def _grid(scene: Scene, shape: tuple[int, int]) -> Curve:
         bpy.ops.object.mode_set(mode="OBJECT")
     bpy.data.objects.remove(obj)
     (spline,) = data.splines
-    if (spline.point_count_v, spline.point_count_u) != shape:
-        raise RuntimeError(
-            "Blender lofted {} x {} points".format(spline.point_count_v, spline.point_count_u)
-        )
+    assert (spline.point_count_v, spline.point_count_u) == shape
     return data
 
 
@@ -209,8 +206,7 @@ def show_bodies(
         faces = tuple(face.transform(matrix) for face in body.patches)
         readings[obj.data] = SplineReading(faces, factor * body.rounding, ())
         if body.matrix is not None:
-            place = (matrix @ body.matrix).ravel().tolist()
-            keep_source(obj.data, body.source, place)
+            keep_source(obj.data, body.source, (matrix @ body.matrix).ravel().tolist())
         if body.color:
             obj.data.materials.append(_material(body.color))
         collection.objects.link(obj)

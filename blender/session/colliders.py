@@ -10,14 +10,12 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from bpy.types import Context, Depsgraph, Object
+from bpy.types import Context, Object
 
-from ...core import bodies, colliders, inertia, mesh, moments, robots, verdict
+from ...core import bodies, colliders, inertia, mesh, moments, numerics, robots, verdict
 from ...core.measurement import Measurement, digest, plain
-from ...core.numerics import Array, polar_rotation
 from .. import read, write
-from ..bodies.measure_body import measure_body
-from ..bodies.stack import Measured
+from ..bodies.stack import Measured, PlacedSolids
 from ..read.fingerprint import colliders_digest, scale_products
 from ..scale import meters_per_unit
 from ..scene import changes
@@ -37,7 +35,7 @@ class Plan:
 
     obj: Object
     shapes: tuple[robots.Shape, ...]
-    stretch: Array
+    stretch: numerics.Array
     record: dict[str, Any]
     fingerprint: str
     key: str
@@ -45,7 +43,8 @@ class Plan:
 
 def plan_colliders(
     obj: Object,
-    depsgraph: Depsgraph,
+    measured: Measured,
+    unit: float,
     wanted: colliders.Wanted,
     is_share: bool,
     correct: str,
@@ -58,21 +57,20 @@ def plan_colliders(
     plans of this run by their keys, to which this one is added.
     """
     changes.require_storable_data(obj)
-    measured = measure_body(obj, depsgraph)
     measurement = measured.measurement
-    unit = meters_per_unit(depsgraph.scene)
-    surface = _surface(obj, measured)
+    solids = measured.solids
+    surface = _surface(obj, measured, solids)
     stretch = scene.stretch_of(obj, measurement.rotation)
     if moments.are_singular(stretch[None])[0]:
         raise verdict.ReadError(read.findings.SCALE_ZERO_AXIS)
     body = measurement.in_object_frame()
-    key = _mesh_key(obj, measured)
+    key = _mesh_key(obj, measurement, solids)
     if key in known:
         return replace(known[key], obj=obj, fingerprint=measurement.fingerprint)
     if is_share:
         size = float(np.ptp(surface.points, axis=0).max())
         wanted = replace(wanted, outward=size * wanted.outward, inward=size * wanted.inward)
-    hull = mesh.convex_hull(surface.points)
+    hull = colliders.hull_of(surface)
     shapes = yield from colliders.make_colliders(surface, body, wanted, hull)
     shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
     masses = colliders.uniform_masses(measurement.density, shapes)
@@ -103,14 +101,13 @@ def plan_colliders(
     return known[key]
 
 
-def _mesh_key(obj: Object, measured: Measured) -> str:
+def _mesh_key(obj: Object, measurement: Measurement, solids: PlacedSolids) -> str:
     """Return a key that is equal for objects with the same settings and meshes in the same places
     of their frames.
     """
-    measurement = measured.measurement
     parts = []
     to_frame = robots.Pose(measurement.location, measurement.rotation).inverse()
-    for solid, matrices in getattr(measured.body, "solids", ()):
+    for solid, matrices in solids:
         linear = to_frame.rotation @ matrices[:, :3, :3]
         places = matrices[:, :3, 3] @ to_frame.rotation.T + to_frame.position
         scale = np.abs(linear).max()
@@ -124,10 +121,16 @@ def _mesh_key(obj: Object, measured: Measured) -> str:
     return digest(settings + b"".join(np.ascontiguousarray(part).tobytes() for part in parts))
 
 
-def _surface(obj: Object, measured: Measured) -> mesh.Surface:
+def _surface(obj: Object, measured: Measured, solids: PlacedSolids) -> mesh.Surface:
     """Return the measured surface, repaired if it is a solid's, in the object's frame in m."""
     measurement = measured.measurement
-    pieces = [*measured.body.surfaces(measurement.kind == "shell")]
+    if measured.stack is None:
+        pieces = [*measured.body.surfaces(measurement.kind == "shell")]
+    else:
+        pieces = [
+            solid.repaired_surface.transform(matrix[:3, :3], matrix[:3, 3])
+            for solid, (matrix,) in solids
+        ]
     if not pieces:
         kind = obj.bl_rna.properties["type"].enum_items[obj.type].name
         raise verdict.ReadError(read.findings.OBJECT_WITHOUT_GEOMETRY, subject=obj.name, type=kind)
@@ -196,8 +199,10 @@ def colliders_kept_current(context: Context, objects: Iterable[Object]) -> Itera
     fresh = []
     for obj, before in kept.items():
         group = obj[COLLIDERS]
-        turn = polar_rotation(bodies.float64_matrix(obj.matrix_world)[None, :3, :3])[0][0].T
-        turn = turn @ polar_rotation(before[None, :3, :3])[0][0]
+        turn = numerics.polar_rotation(bodies.float64_matrix(obj.matrix_world)[None, :3, :3])[0][
+            0
+        ].T
+        turn = turn @ numerics.polar_rotation(before[None, :3, :3])[0][0]
         group["center_shift"] = (turn @ group["center_shift"]).tolist()
         group["fingerprint"] = write.properties.fingerprint(obj) or group["fingerprint"]
         group["digest"] = colliders_digest(obj)

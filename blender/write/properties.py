@@ -76,11 +76,7 @@ DESCRIPTIONS = {
     "storing coordinates as float32 may have",
     "body_axis_inertia": "Moment of inertia about the axis of the reference, in kg·m²",
 }
-# beginnings of the keys of results about a reference
-REFERENCE_KEYS = (
-    "body_reference",
-    "body_axis",
-)
+REFERENCE_KEYS = ("body_reference", "body_axis")  # beginnings, of results about a reference
 FRAMES = {  # by the type of the owner of results
     bpy.types.Object: "the object's frame (location and rotation, unit scale)",
     bpy.types.Collection: "the world",
@@ -98,16 +94,12 @@ LENGTHS = {
     "body_principal_axes": 4,
     "body_error_bound": 8,
 }
-BALANCE_GROUP = (
-    "body_balance_group"  # on an empty that shows a group: the names of its objects, one a line
-)
+# on an empty that shows a group: the names of its objects, one a line
+BALANCE_GROUP = "body_balance_group"
 # on it: first frame, last frame, N·s and N·m·s from nothing, span after span
 BALANCE_SPANS = "body_balance_spans"
 # for wires, and for bodies measured without their display mesh
-OPTIONAL = (
-    "body_length",
-    "body_display_volume",
-)
+OPTIONAL = ("body_length", "body_display_volume")
 ROUNDING = 2.0**-52  # relative, for a product of two rounded numbers
 
 
@@ -217,47 +209,27 @@ def store_scaled(
     0 for a wire.
     """
     factor = mass / obj["body_mass"]
-    for key in (
-        "body_inertia",
-        "body_inertia_diagonal",
-        "body_inertia_products",
-        "body_principal_moments",
-    ):
+    for key in [
+        key for key in DESCRIPTIONS if key.startswith(("body_inertia", "body_principal_m"))
+    ]:
         obj[key] = [factor * value for value in obj[key]]
     bounds = list(obj["body_error_bound"])
-    bounds[3], bounds[7] = (
-        factor * bounds[3] + ROUNDING * sum(obj["body_principal_moments"]),
-        factor * bounds[7],
-    )
+    bounds[3] = factor * bounds[3] + ROUNDING * sum(obj["body_principal_moments"])
+    bounds[7] *= factor
     obj["body_error_bound"] = bounds
     obj["body_mass"] = mass
     obj["body_density"] = density
     obj["body_fingerprint"] = fingerprint
-    obj["body_findings"] = findings_text(findings)
-    obj["body_warnings"] = warning_lines(findings)
+    store_findings(obj, findings)
     retrigger_drivers(obj)
 
 
 def store_body(obj: Owner, body: PlainBody, fingerprint: str) -> None:
     """Replace the numbers of stored results, in the object frame; method and findings stay."""
-    bounds = [
-        bound[name]
-        for bound in (body.error_bound, body.error_bound["input"])
-        for name in BOUND_KEYS
-    ]
-    turn = core.numerics.rotations.quaternion([list(axis) for axis in zip(*body.axes)]).tolist()
-    row = (
-        body.mass,
-        body.density,
-        body.volume,
-        body.area,
-        body.center,
-        body.inertia,
-        body.moments,
-        turn,
-        bounds,
-    )
-    values = dict(zip(LENGTHS, row)) | {
+    *numbers, axes, bound = body
+    bounds = [source[name] for source in (bound, bound["input"]) for name in BOUND_KEYS]
+    turn = core.numerics.rotations.quaternion([list(axis) for axis in zip(*axes)]).tolist()
+    values = dict(zip(LENGTHS, (*numbers, turn, bounds))) | {
         "body_inertia_diagonal": body.inertia[:3],
         "body_inertia_products": body.inertia[3:],
         "body_fingerprint": fingerprint,

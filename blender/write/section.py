@@ -81,24 +81,6 @@ def store(
     }
 
 
-def fingerprint(obj: bpy.types.Object) -> str:
-    """Return the fingerprint of the stored section, "" if there is none."""
-    group = obj.get(KEY)
-    return str(group.get("fingerprint", "")) if hasattr(group, "get") else ""
-
-
-def unit(obj: bpy.types.Object) -> float | None:
-    """Return the unit scale of the stored section, in meters; None if there is none, or it is
-    damaged.
-    """
-    group = obj.get(KEY)
-    try:
-        (meters,) = group["unit"]
-    except (KeyError, TypeError, ValueError):
-        return None
-    return float(meters)
-
-
 def stored(obj: bpy.types.Object) -> StoredSection | None:
     """Return the stored section; None if there is none, or it is damaged."""
     group = obj.get(KEY)

@@ -47,10 +47,7 @@ class _Prim(NamedTuple):
 
 _SHAPELESS = "Points", "BasisCurves", "HermiteCurves", "NurbsCurves"  # have no volume
 # of prims that are not rendered
-_PURPOSES = {
-    "proxy": "its purpose is proxy",
-    "guide": "its purpose is guide",
-}
+_PURPOSES = {"proxy": "its purpose is proxy", "guide": "its purpose is guide"}
 
 
 def import_usd(path: str, frame: float | None) -> references.Opened:
@@ -71,9 +68,8 @@ def import_usd(path: str, frame: float | None) -> references.Opened:
 def _is_special(prim: _Prim) -> bool:
     axes = prim.place[:3, :3]
     lengths = np.linalg.norm(axes, axis=0)
-    is_sheared = (
-        np.abs(axes.T @ axes - np.diag(lengths**2)) > _SHEAR * np.outer(lengths, lengths)
-    ).any()
+    off = np.abs(axes.T @ axes - np.diag(lengths**2))
+    is_sheared = (off > _SHEAR * np.outer(lengths, lengths)).any()
     return bool(prim.hidden or prim.scheme or is_sheared or prim.points is not None)
 
 
@@ -98,8 +94,7 @@ def _import(
             try:
                 stage = _Stage(context.get_stage(), frame)
                 blocks = context.get_prim_map()
-                facts = stage.prims(blocks)
-                results.append((stage.unit, facts, stage.unread(blocks), stage.start))
+                results.append((stage.unit, stage.prims(blocks), stage.unread(blocks), stage.start))
             except Exception as error:  # Blender would only print it.
                 results.append(error)
             return True
@@ -196,14 +191,9 @@ class _Stage:
             if self._skel.BindingAPI(prim).GetJointIndicesAttr().HasAuthoredValue()
             or self._skel.BindingAPI(prim).GetBlendShapesAttr().HasAuthoredValue()
         ]
-        moving = {
-            *bound,
-            *(
-                prim
-                for prim in meshes
-                if self._geom.Mesh(prim).GetPointsAttr().GetNumTimeSamples() > 1
-            ),
-        }
+        moving = bound + [
+            prim for prim in meshes if self._geom.Mesh(prim).GetPointsAttr().GetNumTimeSamples() > 1
+        ]
         if bound:
             # Blender's modifiers may read the other layers again.
             self._stage.SetEditTarget(self._stage.GetSessionLayer())
@@ -221,21 +211,18 @@ class _Stage:
             for path, found in blocks.items()
             if any(getattr(b, "type", "") != "EMPTY" for b in found)
         }
-        shapes = [prim for prim in self._stage.Traverse() if prim.IsA(self._geom.Gprim)]
-        left = [
-            prim
-            for prim in shapes
-            if str(prim.GetPath()) not in paths and prim.GetTypeName() not in _SHAPELESS
+        return [
+            "{} ({})".format(prim.GetPath(), prim.GetTypeName())
+            for prim in self._stage.Traverse()
+            if prim.IsA(self._geom.Gprim)
+            and str(prim.GetPath()) not in paths
+            and prim.GetTypeName() not in _SHAPELESS
+            and self._why_hidden(self._geom.Imageable(prim)) is None
         ]
-        shown = [prim for prim in left if self._why_hidden(self._geom.Imageable(prim)) is None]
-        return ["{} ({})".format(prim.GetPath(), prim.GetTypeName()) for prim in shown]
 
     def _facts(self, prim: Any, names: Mapping[Any, str]) -> _Prim:
-        scheme = (
-            self._geom.Mesh(prim).GetSubdivisionSchemeAttr().Get()
-            if prim.IsA(self._geom.Mesh)
-            else "none"
-        )
+        mesh = self._geom.Mesh(prim)
+        scheme = mesh.GetSubdivisionSchemeAttr().Get() if mesh else None
         members = None
         if prim.IsA(self._geom.PointInstancer):
             found: dict[str, list[NDArray]] = {}
@@ -308,15 +295,12 @@ class _Stage:
         kind = prim.GetTypeName().removesuffix("_1")
         if kind not in ("Sphere", "Capsule", "Cylinder", "Cone"):
             return None
-
-        def value(name: str, other: Any) -> Any:
-            attribute = prim.GetAttribute(name)
-            return attribute.Get(self._time) if attribute else other
-
-        radius = value("radius", 0.0)
-        bottom = value("radiusBottom", radius)
-        top = value("radiusTop", 0.0 if kind == "Cone" else radius)
-        return bottom, top, value("height", 0.0), value("axis", "Z"), kind in ("Sphere", "Capsule")
+        values = {one.GetName(): one.Get(self._time) for one in prim.GetAttributes()}
+        radius = values.get("radius", 0.0)
+        bottom = values.get("radiusBottom", radius)
+        top = values.get("radiusTop", 0.0 if kind == "Cone" else radius)
+        is_round = kind in ("Sphere", "Capsule")
+        return bottom, top, values.get("height", 0.0), values.get("axis", "Z"), is_round
 
 
 def _correct(
@@ -339,9 +323,8 @@ def _correct(
             if prim.solid not in surfaces:
                 surfaces[prim.solid] = scene.imports.surface_data(name, [patch], 1.0)[:2]
             data, moved = surfaces[prim.solid]
-            findings[name] = (
-                (finding(scene.findings.SURFACES_ROUNDED, share=moved),) if moved else ()
-            )
+            if moved:
+                findings[name] = (finding(scene.findings.SURFACES_ROUNDED, share=moved),)
             _replace(obj, data)
         elif prim.points is not None and len(prim.points) == len(obj.data.vertices):
             obj.modifiers.clear()
@@ -349,9 +332,8 @@ def _correct(
             obj.data.attributes["position"].data.foreach_set(
                 "vector", prim.points.astype(np.float32).ravel()
             )
-    placing.place_objects(
-        {name: prim.place for name, prim in prims.items() if prim.members is None}
-    )
+    places = {name: prim.place for name, prim in prims.items() if prim.members is None}
+    placing.place_objects(places)
     for name, prim in prims.items():
         if prim.members is not None:
             _show_members(name, prim)

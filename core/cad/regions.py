@@ -74,7 +74,9 @@ def curved_region(
     size = float(np.linalg.norm(np.ptp(box, axis=0)))
     near = SEAM_RTOL * size + 4.0 * rounding
     curves = [one for one in curves if np.ptp(one.points, axis=0).max() > near]
-    samples = [sample_pieces([curve]).reshape(-1, 3) for curve in curves]
+    counts = np.cumsum([len(curve.space.spans) for curve in curves])
+    pieces = np.split(sample_pieces(curves), counts[:-1]) if curves else []
+    samples = [row.reshape(-1, 3) for row in pieces]
     kept, seams = _without_seams(samples, near)
     chains = _chains(samples, kept, MISS_RTOL * size + 4.0 * rounding)
     if isinstance(chart, Quadric) and chart.is_closed and not chart.radius:
@@ -82,7 +84,9 @@ def curved_region(
     tracks = []
     deviation = 0.0
     for chain in chains:
-        track, distance = _track(chart, [curves[k] for k in chain], size)
+        track, distance = _track(
+            chart, [curves[k] for k in chain], np.concatenate([pieces[k] for k in chain]), size
+        )
         tracks.append(track)
         deviation = max(deviation, distance)
     if deviation > MISS_RTOL * size + 10.0 * rounding:
@@ -113,24 +117,21 @@ def _without_seams(samples: Sequence[NDArray], near: float) -> tuple[list[int], 
     """Return the indices of curves that no other curve runs backward, and of one of each pair of
     others.
     """
-    left = list(range(len(samples)))
     kept, seams = [], []
-    while left:
-        k = left.pop(0)
-        back = samples[k][::-1]
-        twin = next(
-            (
-                j
-                for j in left
-                if len(samples[j]) == len(back) and np.abs(samples[j] - back).max() <= near
-            ),
-            None,
-        )
-        if twin is None:
-            kept.append(k)
+    ends = np.array([row[[0, -1]] for row in samples]).reshape(-1, 2, 3)
+    left = np.ones(len(samples), bool)
+    for k, row in enumerate(samples):
+        if not left[k]:
+            continue
+        left[k] = False
+        near_ends = left & (np.abs(ends - ends[k, ::-1]).max(axis=(1, 2)) <= near)
+        for j in np.flatnonzero(near_ends).tolist():
+            if len(samples[j]) == len(row) and np.abs(samples[j] - row[::-1]).max() <= near:
+                left[j] = False
+                seams.append(k)
+                break
         else:
-            left.remove(twin)
-            seams.append(k)
+            kept.append(k)
     return kept, seams
 
 
@@ -140,11 +141,16 @@ def _chains(samples: Sequence[NDArray], kept: Sequence[int], near: float) -> lis
     chains = []
     while left:
         chain = [left.pop(0)]
-        while np.linalg.norm(samples[chain[-1]][-1] - samples[chain[0]][0]) > near:
-            gaps = [np.linalg.norm(samples[chain[-1]][-1] - samples[k][0]) for k in left]
-            if not gaps or min(gaps) > near:
+        # An edge may be shorter than the tolerance.
+        while True:
+            ends = [chain[0], *left]
+            gaps = [np.linalg.norm(samples[chain[-1]][-1] - samples[k][0]) for k in ends]
+            nearest = int(np.argmin(gaps))
+            if gaps[nearest] > near:
                 raise SurfaceRefusedError(SURFACE_DAMAGED, fault="a loop that does not close")
-            chain.append(left.pop(int(np.argmin(gaps))))
+            if nearest == 0:
+                break
+            chain.append(left.pop(nearest - 1))
         chains.append(chain)
     return chains
 
@@ -166,10 +172,11 @@ def _away_from_poles(sphere: Quadric, samples: Sequence[NDArray], kept: Sequence
 
 
 def _track(
-    chart: Quadric | SplineChart, curves: Sequence[Curve], size: float
+    chart: Quadric | SplineChart, curves: Sequence[Curve], points: NDArray, size: float
 ) -> tuple[Track, float]:
-    """Return a loop in coordinates, and its largest distance from the surface."""
-    points = sample_pieces(curves)
+    """Return a loop in coordinates, by (c, m, 3) samples of its pieces, and its largest distance
+    from the surface.
+    """
     flat = points.reshape(-1, 3)
     found = chart.project(flat)
     place, along, _ = chart.evaluate(*found.T)

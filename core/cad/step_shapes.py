@@ -159,7 +159,7 @@ class Shapes:
             if isinstance(one, Reference):
                 return self.point(one)
         name, values = self.pick(base, _CURVES)
-        at = trims[0][1][0]
+        at = trims[0][1][0] if isinstance(trims[0], tuple) else trims[0]
         if name == "LINE":
             _, (_, along, length) = self.pick(values[2], ("VECTOR",))
             return self.point(values[1]) + at * length * self.direction(along)

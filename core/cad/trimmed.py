@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics import Array, clamped_space, cross, dot
+from ..numerics import Array, Mask, clamped_space, cross, dot
 from ..nurbs import (
     Curve,
     Face,
@@ -84,7 +84,7 @@ def within(
             patch = spanned_quadric(surface, [curve for loop in loops for curve in loop])
         except ValueError:
             patch = None
-        if patch is not None and (not loops or _follow_sides(patch, _UNIT, in_space)):
+        if patch is not None and (not loops or _follow_sides(patch, _UNIT, in_space, surface)):
             return [patch]
         face = curved_region(surface, loops, rounding, beyond)
         return [face if face.loops else spanned_quadric(surface, [])]
@@ -156,7 +156,7 @@ def trimmed_faces(
         return [*patches]
     if len(patches) == 1:
         (patch,) = patches
-        if has_outer and _follow_sides(patch, domain, boundaries):
+        if has_outer and _follow_sides(patch, domain, boundaries, quadric):
             return [patch]
         tolerance = FLAT_RTOL * patches_size([surface]) + 4.0 * rounding
         around = [curve if ahead else curve.reverse() for curve, ahead in patch.sides]
@@ -265,68 +265,90 @@ def _follow_sides(
     patch: Patch,
     domain: tuple[tuple[float, float], tuple[float, float]],
     boundaries: Sequence[Boundary],
+    quadric: Quadric | None = None,
 ) -> bool:
     """Return whether boundaries follow a patch's boundary, in its parameters, or in space if these
-    are unknown.
+    are unknown. quadric: the surface that the patch is a part of.
     """
     tolerance = WELDING_RTOL * patches_size([patch])
     sides = [[patch.side(axis, end) for end in (0, 1)] for axis in (0, 1)]
-    samples = [
-        [curve.evaluate(np.linspace(*curve.space.domain, SAMPLES)) for curve in row]
-        for row in sides
-    ]
-    poles = tuple(
-        (_is_point(first, tolerance), _is_point(last, tolerance)) for first, last in samples
-    )
-    closed = tuple(bool(np.abs(first - last).max() <= tolerance) for first, last in samples)
-
-    def along_sides(points: NDArray) -> Piece | None:
-        """Return the run of points along a side, in its parameters from 0 to 1; None if they are on
-        no side.
-        """
-        for axis, end in ((0, 0), (0, 1), (1, 0), (1, 1)):
-            if poles[axis][end]:
-                continue
-            side, places = sides[axis][end], samples[axis][end]
-            apart = np.linalg.norm(points[:, None] - places, axis=2).min(axis=1).max()
-            if apart > 2.0 * np.linalg.norm(np.diff(places, axis=0), axis=1).max() + tolerance:
-                continue
-            t = nearest_parameters(side, places, points, tolerance)
-            if np.linalg.norm(points - side.evaluate(t), axis=1).max() > tolerance:
-                continue
-            low, high = side.space.domain
-            share = (t - low) / (high - low)
-            if closed[1 - axis]:
-                steps = np.diff(share)
-                share = share[0] + np.append(0.0, np.cumsum(steps - np.round(steps)))
-            ends = np.full((2, 2), float(end))
-            ends[:, 1 - axis] = share[[0, -1]]
-            whole = np.round(ends)
-            return Piece(np.where(np.abs(ends - whole) <= END_TOLERANCE, whole, ends), True)
-        return None
-
-    pieces: list[Piece] = []
+    samples = np.array([[curve.uniform(SAMPLES) for curve in row] for row in sides])
+    is_pole = np.linalg.norm(samples - samples[:, :, :1], axis=3).max(axis=2) <= tolerance
+    is_closed = np.abs(samples[:, 0] - samples[:, 1]).max(axis=(1, 2)) <= tolerance
     if all(boundary.parameters is not None for boundary in boundaries):
-        for curve in [curve for boundary in boundaries for curve in boundary.parameters or ()]:
-            pieces.append(Piece(curve.points[:, :2], curve.space.order == 2))
-    else:
-        domain = _UNIT
-        for boundary in boundaries:
-            if boundary.curves is None:
-                return False
-            for curve in boundary.curves:
-                points = curve.evaluate(np.linspace(*curve.space.domain, SAMPLES))
-                if _is_point(points, tolerance):
-                    continue
-                piece = along_sides(points)
-                if piece is None:
-                    return False
-                pieces.append(piece)
-    return trims_nothing(pieces, domain, closed, poles)
+        pieces = [
+            Piece(curve.points[:, :2], curve.space.order == 2)
+            for boundary in boundaries
+            for curve in boundary.parameters or ()
+        ]
+        return trims_nothing(pieces, domain, is_closed, is_pole)
+    if any(boundary.curves is None for boundary in boundaries):
+        return False
+    left = np.array(
+        [curve.uniform(SAMPLES) for boundary in boundaries for curve in boundary.curves or ()]
+    )
+    left = left[np.linalg.norm(left - left[:, :1], axis=2).max(axis=1) > tolerance]
+    pieces = []
+    places = np.zeros((4, SAMPLES, 2))
+    if quadric is not None:
+        points = np.concatenate([samples.reshape(4, SAMPLES, 3), left])
+        places = quadric.project(points.reshape(-1, 3)).reshape(-1, SAMPLES, 2)
+        for axis in np.flatnonzero(quadric.periods):
+            places[..., axis] = np.unwrap(places[..., axis], period=quadric.periods[axis], axis=1)
+    places, lines = places[4:], places[:4]
+    for axis, end in np.argwhere(~is_pole).tolist():
+        if quadric is None:
+            share, is_on = _along_side(sides[axis][end], samples[axis, end], left, tolerance)
+        else:
+            share, is_on = _along_line(quadric, lines[2 * axis + end], places, left, tolerance)
+            places = places[~is_on]
+        if is_closed[1 - axis]:
+            share = np.unwrap(share, axis=1, period=1.0)
+        ends = np.full((len(left), 2, 2), float(end))
+        ends[:, :, 1 - axis] = share[:, [0, -1]]
+        whole = np.round(ends)
+        ends = np.where(np.abs(ends - whole) <= END_TOLERANCE, whole, ends)
+        pieces += [Piece(row, True) for row in ends[is_on]]
+        left = left[~is_on]
+    return not len(left) and trims_nothing(pieces, _UNIT, is_closed, is_pole)
 
 
-def _is_point(points: NDArray, tolerance: float) -> bool:
-    return bool(np.linalg.norm(points - points[0], axis=1).max() <= tolerance)
+def _along_side(
+    side: Curve, samples: NDArray, rows: NDArray, tolerance: float
+) -> tuple[Array, Mask]:
+    """Return (n, m) shares of a side's parameter next to rows (n, m, 3) of points, and a mask of
+    the rows on the side.
+    """
+    share = np.zeros(rows.shape[:2])
+    step = np.linalg.norm(np.diff(samples, axis=0), axis=1).max()
+    apart = np.linalg.norm(rows[:, :, None] - samples, axis=3).min(axis=2).max(axis=1)
+    is_on = apart <= 2.0 * step + tolerance
+    points = rows[is_on].reshape(-1, 3)
+    if len(points):
+        low, high = side.space.domain
+        t = nearest_parameters(side, samples, points, tolerance)
+        miss = np.linalg.norm(points - side.derivatives(t)[0], axis=1)
+        share[is_on] = ((t - low) / (high - low)).reshape(-1, rows.shape[1])
+        is_on[is_on] = miss.reshape(-1, rows.shape[1]).max(axis=1) <= tolerance
+    return share, is_on
+
+
+def _along_line(
+    quadric: Quadric, side: NDArray, places: NDArray, rows: NDArray, tolerance: float
+) -> tuple[Array, Mask]:
+    """Return the same for a side (m, 2) along which one coordinate of a quadric is constant, as
+    shares of the other one. places: (n, m, 2) coordinates of the rows.
+    """
+    middle = len(side) // 2
+    still = int(np.abs(side[middle + 1] - side[middle]).argmin())
+    on_side = np.where(np.arange(2) == still, side[middle], places)
+    miss = np.moveaxis(quadric.evaluate(*np.moveaxis(on_side, 2, 0))[0], 0, 2) - rows
+    is_on = np.linalg.norm(miss, axis=2).max(axis=1) <= tolerance
+    side, run = side[:, 1 - still], places[:, :, 1 - still]
+    period = quadric.periods[1 - still]
+    if period:
+        run = run + period * np.round((side[middle] - run[:, middle, None]) / period)
+    return (run - side[0]) / (side[-1] - side[0]), is_on
 
 
 @dataclass(frozen=True, eq=False)

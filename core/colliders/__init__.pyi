@@ -9,6 +9,7 @@ from .effects import effect as effect
 from .effects import uniform_masses as uniform_masses
 from .fits import Wanted as Wanted
 from .fits import distances as distances
+from .fits import hull_of as hull_of
 from .fits import make_colliders as make_colliders
 
 __all__ = []

@@ -16,12 +16,14 @@ import numpy as np
 
 from ..inertia import MassProperties
 from ..mesh import Bvh, ConvexHull, Surface, convex_hull, normals, tree_of_all, triangle_areas
-from ..numerics import Array, NDArray, spread_directions
+from ..numerics import NEXT_AXIS, Array, NDArray, spread_directions
 from ..polyhedron import volume_and_center
 from ..robots import Inertial, Pose, Shape, equal_inertia_shape, primitive_moments
 from .convex_pieces import cut_into_pieces, distances_from_triangles
 
-AXES_CORNERS = 48  # of the hull whose faces and edges give the directions of boxes
+AXES_CORNERS = 96  # of the hull whose faces and edges give the directions of boxes
+MOST_CONVEX_FACES = 400  # of surfaces that are tested for being their own hull
+HULL_RTOL = 1e-8  # relative to the size: heights over faces that count as none in that test
 BALL_RTOL = 1e-12  # points outside a ball by less are on it
 SIMPLE = ("sphere", "box", "capsule", "cylinder", "hull")  # tried in this order, before pieces
 EQUAL = "equal_"
@@ -75,7 +77,7 @@ def make_colliders(
             body.mass, body.center, body.inertia, frame.moments, frame.axes
         )
         return [equal_inertia_shape(inertial, wanted.shape.removeprefix(EQUAL))]
-    hull = hull or convex_hull(surface.points)
+    hull = hull or hull_of(surface)
     fits = _Fits(hull, body.principal.axes, wanted.vertices)
     if wanted.shape not in ("automatic", "pieces"):
         return [fits.make(wanted.shape)]
@@ -101,6 +103,33 @@ def make_colliders(
     if wanted.outward > 0.0:
         hulls = yield from _merge_within(hulls, surface, wanted)
     return [_hull_shape(hull) for hull in hulls]
+
+
+def hull_of(surface: Surface) -> ConvexHull:
+    """Return the convex hull of a closed surface: its own triangles if it has few and is convex."""
+    points = np.asarray(surface.points, np.float64)
+    triangles = surface.all_triangles()[0].astype(np.intp)
+    # Each corner is used, and only once, as on a sphere.
+    if len(triangles) == 2 * len(points) - 4 and len(triangles) <= MOST_CONVEX_FACES:
+        start = triangles.ravel()
+        end = triangles[:, NEXT_AXIS].ravel()
+        side = start * len(points) + end
+        order = np.argsort(side)
+        place = np.searchsorted(side[order], end * len(points) + start)
+        across = order[np.minimum(place, len(order) - 1)]
+        gap = HULL_RTOL * float(np.ptp(points, axis=0).max())
+        if (start[across] == end).all() and (end[across] == start).all():
+            hull = ConvexHull(
+                points,
+                np.arange(len(points)),
+                triangles,
+                (across // 3).reshape(-1, 3),
+                is_flat=False,
+                gap=gap,
+            )
+            if _heights(points, hull).max() <= gap:
+                return hull
+    return convex_hull(points)
 
 
 def _merge_within(
@@ -208,12 +237,12 @@ def _smallest_box(hull: ConvexHull, fits: _Fits) -> Shape:
     """
     points = fits.points
     corners = hull.points[hull.triangles]
-    sides = (corners[:, [1, 2, 0]] - corners).reshape(-1, 3)
+    sides = _directions((corners[:, [1, 2, 0]] - corners).reshape(-1, 3))
     boxes = [_box(points, fits.axes), _box(points, np.eye(3))]
     least = min(_volume(box) for box in boxes)
-    for normal in np.unique(np.round(_units(normals(hull.points, hull.triangles)), 12), axis=0):
-        across = sides - np.outer(sides @ normal, normal)
-        first = _units(across[np.linalg.norm(across, axis=1) > 1e-9 * np.abs(sides).max()])
+    for normal in _directions(normals(hull.points, hull.triangles)):
+        first = sides - np.outer(sides @ normal, normal)
+        first = _units(first[np.linalg.norm(first, axis=1) > 1e-9])
         second = np.cross(normal, first)
         area = np.ptp(hull.points @ first.T, axis=0) * np.ptp(hull.points @ second.T, axis=0)
         best = int(area.argmin())
@@ -225,6 +254,13 @@ def _smallest_box(hull: ConvexHull, fits: _Fits) -> Shape:
 
 def _volume(shape: Shape) -> float:
     return float(primitive_moments(shape).raw[0])
+
+
+def _directions(vectors: Array) -> Array:
+    """Return the unit vectors along some vectors, each direction once, without its sense."""
+    units = _units(vectors[vectors.any(axis=1)])
+    largest = units[np.arange(len(units)), np.abs(units).argmax(axis=1)]
+    return np.unique(np.round(units * np.sign(largest)[:, None], 12), axis=0)
 
 
 def _units(vectors: Array) -> Array:
@@ -289,7 +325,7 @@ def distances(
     it may be too small. The third number bounds by how much others may be too small. The distance
     from a convex body is largest at a corner, so that only others are sampled.
     """
-    hull = hull or convex_hull(surface.points)
+    hull = hull or hull_of(surface)
     triangles = surface.all_triangles()[0].astype(np.intp)
     points = np.asarray(surface.points, np.float64)
     size = float(np.ptp(hull.points, axis=0).max())
@@ -383,7 +419,7 @@ def _polyhedron(shape: Shape, body: ConvexHull) -> tuple[ConvexHull, float]:
     """
     if shape.surface is not None:
         points = shape.pose.apply(shape.surface.points * shape.size)
-        return body if np.array_equal(points, body.points) else convex_hull(points, 1e-9), 0.0
+        return hull_of(Surface(points, shape.surface.all_triangles()[0])), 0.0
     hull = _unit("sphere" if shape.kind == "ellipsoid" else shape.kind)
     size = shape.size
     if shape.kind == "capsule":  # the ends move apart, and no face changes

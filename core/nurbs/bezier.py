@@ -28,7 +28,7 @@ from ..numerics import (
     gauss_legendre,
     gauss_legendre_with_ends,
 )
-from .splines import Patch
+from .splines import Patch, homogeneous
 
 VOLUME_RTOL = 4e-15  # Relative to the largest possible moment: about the unavoidable rounding.
 ROUNDING = (
@@ -173,14 +173,6 @@ def _cells_of_group(
         for start in range(0, u, spans_per_step):
             spans = slice(start, min(start + spans_per_step, u)), slice(0, v)
             yield cells_of_nets(nets, anchor, spaces, spans, some[0].constant_weights, reach)
-
-
-def homogeneous(points: NDArray, weights: NDArray) -> Array:
-    """Return (..., 4) homogeneous coordinates: points times their weights, and the weights."""
-    net = np.empty((*weights.shape, 4))
-    net[..., 3] = weights
-    np.multiply(points, weights[..., None], out=net[..., :3])
-    return net
 
 
 def cells_of_nets(

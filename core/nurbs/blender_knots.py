@@ -24,8 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..numerics import Array, SplineSpace
-from .bezier import homogeneous
-from .splines import Curve, Patch
+from .splines import Curve, Patch, homogeneous
 
 SAME_KNOT_RTOL = (
     1e-12  # Relative to the domain: ends of a part that are nearer to a knot are moved to it.

@@ -26,8 +26,8 @@ from numpy.typing import NDArray
 from ..moments.moments import Measure, Moments, U, monomials
 from ..numerics import Array, check_type, cross, dot
 from ..verdict import check_size
-from .bezier import ROUNDING, VOLUME_RTOL, bernstein, halves, homogeneous
-from .splines import Curve
+from .bezier import ROUNDING, VOLUME_RTOL, bernstein, halves
+from .splines import Curve, homogeneous
 
 LENGTH_TOLERANCE = 1e-13
 RULES = (8, 12, 18, 27)  # Gauss points per piece; each rule is compared with the one before.

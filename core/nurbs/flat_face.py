@@ -83,9 +83,9 @@ class FlatFace:
         return self.points.mean(axis=(0, 1))
 
     @cached_property
-    def _moments(self) -> dict[int, Moments]:
-        """Area moments about the center, by their order."""
-        return {}
+    def _moments(self) -> Moments:
+        """Area moments of third order about the center."""
+        return plane_moments(self.curves, self.normal, 3, self.center)
 
     @property
     def uneven(self) -> float:
@@ -117,9 +117,9 @@ class FlatFace:
 
     def area_moments(self, order: int, about: NDArray) -> Moments:
         """Return the moments of the region's area about any point (3,)."""
-        if order not in self._moments:
-            self._moments[order] = plane_moments(self.curves, self.normal, order, self.center)
-        return self._moments[order].about_point(about)
+        if order > self._moments.order:
+            return plane_moments(self.curves, self.normal, order, self.center).about_point(about)
+        return self._moments.truncate(order).about_point(about)
 
     def volume_moments(self, order: int, about: NDArray) -> Moments:
         """Return the moments of the cone from a point (3,) to the region: the region's share in a

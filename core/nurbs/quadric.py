@@ -74,26 +74,26 @@ class Quadric:
             height, inward = self.minor * np.sin(v), self.minor * np.cos(v)
             profile = [(self.radius + inward, height), (-height, inward), (-inward, -height)]
         else:
-            zero = np.zeros_like(v)
-            profile = [(self.radius + self.slope * v, v), (zero + self.slope, zero + 1.0)]
-            profile.append((zero, zero))
+            profile = [(self.radius + self.slope * v, v), (self.slope, 1.0), (0.0, 0.0)]
         (r, z), (r_v, z_v), (r_vv, z_vv) = profile
-        flat = np.zeros_like(z)
         rows = [
             (r * cosine, r * sine, z),
-            (-r * sine, r * cosine, flat),
+            (-r * sine, r * cosine, 0.0),
             (r_v * cosine, r_v * sine, z_v),
         ]
         if most > 1:
             rows += [
-                (-r * cosine, -r * sine, flat),
-                (-r_v * sine, r_v * cosine, flat),
+                (-r * cosine, -r * sine, 0.0),
+                (-r_v * sine, r_v * cosine, 0.0),
                 (r_vv * cosine, r_vv * sine, z_vv),
             ]
-        matrix = self.frame[:3, :3]
-        found = [np.tensordot(matrix, np.stack(np.broadcast_arrays(*row)), 1) for row in rows]
-        found[0] += self.frame[:3, 3].reshape(3, *[1] * r.ndim)
-        return found
+        local = np.empty((3, len(rows), *np.broadcast_shapes(np.shape(u), np.shape(v))))
+        for k, row in enumerate(rows):
+            for axis in range(3):
+                local[axis, k] = row[axis]
+        found = (self.frame[:3, :3] @ local.reshape(3, -1)).reshape(local.shape)
+        found[:, 0] += self.frame[:3, 3].reshape(3, *[1] * (local.ndim - 2))
+        return [found[:, k] for k in range(len(rows))]
 
     def project(self, points: NDArray, guess: NDArray | None = None) -> Array:
         """Return (n, 2) coordinates of the points of the surface nearest to points, in its frame;

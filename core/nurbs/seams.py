@@ -12,14 +12,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh import overlapping_box_pairs
-from ..numerics import Array, Index, Mask, SplineSpace, connected_components, cross, following_pairs
+from ..numerics import Array, Index, Mask, connected_components, cross, following_pairs
 from .blender_knots import bezier_curves
 from .flat_face import FlatFace, split_faces
 from .splines import SIDES, Curve, Face, Patch
@@ -33,6 +32,7 @@ PAIRS_PER_BLOCK = 4096  # pairs of sides compared at a time
 PAIRS_PER_BATCH = 1 << 20  # Candidate pairs of sides at a time.
 FOLDED_ANGLE = 1e-3  # radians: patches that lie on each other
 MAX_CUT_SIDES = 10_000  # Limit of open sides that are compared with each other's ends.
+MAX_END_PAIRS = 1 << 22  # Limit of open sides and ends next to them.
 MAX_SIDE_PAIRS = 100_000  # Limit of closed sides compared point by point.
 CREASE_SAMPLES = 17  # samples of a side for its creases
 POLE_RTOL = 1e-9  # Relative to the largest normal: normals at a pole are shorter.
@@ -64,7 +64,7 @@ def join_sides(curves: Sequence[Curve], owner: Index, forward: Mask, tolerance: 
     is on its left.
     """
     count = max([SAMPLES_PER_SIDE] + [2 * len(curve.space.spans) + 1 for curve in curves])
-    points = np.array([curve.apply_weights(_uniform_table(curve.space, count)) for curve in curves])
+    points = np.array([curve.uniform(count) for curve in curves])
     length = np.linalg.norm(np.diff(points, axis=1), axis=2).sum(axis=1)
     free = np.linalg.norm(points - points[:, :1], axis=2).max(axis=1) > tolerance
     coincident = _coincident_sides(curves, points, np.flatnonzero(free), tolerance)
@@ -89,23 +89,37 @@ def cut_open_sides(curves: Sequence[Curve], sides: Sides, tolerance: float) -> l
     open_sides = np.flatnonzero(sides.free)
     if not 3 <= len(open_sides) <= MAX_CUT_SIDES:
         return []
-    all_ends = sides.points[open_sides][:, [0, -1]].reshape(-1, 3)
-    all_ends = all_ends[all_ends[:, 0].argsort()]
+    samples = sides.points[open_sides]
+    ends = samples[:, [0, -1]].reshape(-1, 3)
+    steps = np.linalg.norm(np.diff(samples, axis=1), axis=2).max(axis=1)
+    low, high = samples.min(axis=1) - steps[:, None], samples.max(axis=1) + steps[:, None]
+    pairs = overlapping_box_pairs(
+        np.concatenate([low, ends]), np.concatenate([high, ends]), -tolerance, MAX_END_PAIRS
+    )[:2]
+    side, end = np.sort(pairs, axis=0) - [[0], [len(samples)]]
+    mixed = (side < len(samples)) & (end >= 0)
+    side, end = side[mixed], end[mixed]
+    own_ends = np.linalg.norm(ends[end, None] - samples[side][:, [0, -1]], axis=2).min(axis=1)
+    side, end = side[own_ends > 2.0 * tolerance], end[own_ends > 2.0 * tolerance]
+    order = np.argsort(side, kind="stable")
+    crossed, starts = np.unique(side[order], return_index=True)
     pieces = [[curve] for curve in curves]
     is_cut = False
-    for k in open_sides.tolist():
+    for which, group in zip(crossed.tolist(), np.split(ends[end[order]], starts[1:])):
+        k = int(open_sides[which])
         curve = curves[k]
-        samples = sides.points[k]
-        step = np.linalg.norm(np.diff(samples, axis=0), axis=1).max()
-        low, high = samples.min(axis=0) - step - tolerance, samples.max(axis=0) + step + tolerance
-        ends = all_ends[slice(*all_ends[:, 0].searchsorted([low[0], high[0]]))]
-        ends = ends[((ends >= low) & (ends <= high)).all(axis=1)]
-        near = ends[np.linalg.norm(ends[:, None] - samples, axis=2).min(axis=1) <= step + tolerance]
-        near = near[
-            np.linalg.norm(near[:, None] - samples[[0, -1]], axis=2).min(axis=1) > 2.0 * tolerance
-        ]
-        t = nearest_parameters(curve, samples, near, tolerance) if len(near) else np.zeros(0)
-        t = np.unique(t[np.linalg.norm(near - curve.evaluate(t), axis=1) <= tolerance])
+        # Whole circles are most often cut at their knots.
+        t = curve.space.intervals[1:, 0]
+        gaps = np.linalg.norm(group[:, None] - curve.evaluate(t), axis=2)
+        at_knot = gaps.min(axis=1, initial=np.inf) <= tolerance
+        t = t[(gaps <= tolerance).any(axis=0)]
+        near = group[~at_knot]
+        apart = np.linalg.norm(near[:, None] - samples[which], axis=2).min(axis=1)
+        near = near[apart <= steps[which] + tolerance]
+        if len(near):
+            found = nearest_parameters(curve, samples[which], near, tolerance)
+            miss = np.linalg.norm(near - curve.evaluate(found), axis=1)
+            t = np.unique(np.concatenate([t, found[miss <= tolerance]]))
         if not len(t):
             continue
         marks = [curve.space.domain[0]]
@@ -121,15 +135,6 @@ def cut_open_sides(curves: Sequence[Curve], sides: Sides, tolerance: float) -> l
         ]
         is_cut = True
     return pieces if is_cut else []
-
-
-@lru_cache(maxsize=64)
-def _uniform_table(space: SplineSpace, count: int) -> Array:
-    """Return (count, k) weights of k control points at equal steps of the domain; cached: do not
-    modify.
-    """
-    low, high = space.domain
-    return space.collocation_matrix(low + (high - low) * np.linspace(0.0, 1.0, count))
 
 
 def _coincident_sides(
@@ -306,7 +311,7 @@ def _overlapping_sides(
         t = nearest_parameters(curve, samples, others, tolerance)
         gaps.append(float(np.linalg.norm(others - curve.evaluate(t), axis=1).max()))
         # negative if they run against it
-        ways.append(float((np.diff(others, axis=0) * curve.velocity(t[:-1])).sum()))
+        ways.append(float((np.diff(others, axis=0) * curve.derivatives(t[:-1])[1]).sum()))
         if gaps[-1] > tolerance:
             return []
     return [(max(gaps), i, j, ways[0] > 0.0)]
@@ -321,11 +326,9 @@ def nearest_parameters(curve: Curve, samples: NDArray, points: NDArray, toleranc
     closed = np.linalg.norm(samples[-1] - samples[0]) <= 2.0 * tolerance
     t = steps[np.argmin(((points[:, None] - samples[None]) ** 2).sum(axis=2), axis=1)]
     for _ in range(12):
-        slope = curve.velocity(t)
+        place, slope = curve.derivatives(t)
         square = (slope**2).sum(axis=1)
-        step = ((points - curve.evaluate(t)) * slope).sum(axis=1) / np.where(
-            square > 0.0, square, 1.0
-        )
+        step = ((points - place) * slope).sum(axis=1) / np.where(square > 0.0, square, 1.0)
         t = t + np.clip(step, steps[0] - steps[1], steps[1] - steps[0])
         t = low + (t - low) % (high - low) if closed else np.clip(t, low, high)
         if not len(t) or np.abs(step).max() <= 1e-15 * (high - low):

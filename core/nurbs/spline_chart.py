@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from ..numerics import Array, dot
 from ..verdict import WELDING_RTOL
-from .bezier import DERIVATIVES, homogeneous, quotient_derivatives
-from .splines import Patch, patches_size
+from .bezier import DERIVATIVES, quotient_derivatives
+from .splines import Patch, homogeneous, patches_size
 
 SAMPLES_PER_SPAN = 6  # density of the grid of first guesses
 POINTS_PER_BLOCK = 1 << 20  # pairs of points and grid points compared at a time

@@ -51,6 +51,14 @@ def _frozen_copy(values: Array) -> Array:
     return copy
 
 
+def homogeneous(points: NDArray, weights: NDArray) -> Array:
+    """Return (..., 4) homogeneous coordinates: points times their weights, and the weights."""
+    net = np.empty((*weights.shape, 4))
+    net[..., 3] = weights
+    np.multiply(points, weights[..., None], out=net[..., :3])
+    return net
+
+
 @dataclass(frozen=True, eq=False)
 class Curve:
     """A polynomial or rational B-spline curve in space.
@@ -101,19 +109,23 @@ class Curve:
         origin = self.points[0]
         return np.einsum("ni,id->nd", table, self.points - origin) + origin
 
-    def velocity(self, parameters: ArrayLike) -> Array:
-        """Return the (n, 3) derivatives at n parameters."""
-        values, slopes = (self.space.collocation_matrix(parameters, k) for k in (0, 1))
-        points = self.points - self.points[0]
-        if self.weights is None:
-            return np.einsum("ni,id->nd", slopes, points)
-        values = values * self.weights
-        slopes = slopes * self.weights
-        bottom = values.sum(axis=1, keepdims=True)
-        place = np.einsum("ni,id->nd", values, points) / bottom
-        return (
-            np.einsum("ni,id->nd", slopes, points) - place * slopes.sum(axis=1, keepdims=True)
-        ) / bottom
+    def derivatives(self, parameters: NDArray) -> tuple[Array, Array]:
+        """Return the (n, 3) points and derivatives at n parameters."""
+        spans = self.space.find_spans(parameters)
+        acting = self._net[self.space.controls_of_spans(spans)]
+        place, slope = (
+            np.einsum("nk,nkd->nd", table, acting)
+            for table in self.space.derivatives(spans, parameters, 1)
+        )
+        place[:, :3] /= place[:, 3:]
+        slope = (slope[:, :3] - place[:, :3] * slope[:, 3:]) / place[:, 3:]
+        return place[:, :3] + self.points[0], slope
+
+    @cached_property
+    def _net(self) -> Array:
+        """(count, 4) homogeneous control points about the first."""
+        weights = np.ones(len(self.points)) if self.weights is None else self.weights
+        return homogeneous(self.points - self.points[0], weights)
 
     def transform(self, matrix: ArrayLike) -> Curve:
         """Return the image of the curve under a (4, 4) affine map."""
@@ -134,9 +146,13 @@ class Curve:
             None if self.weights is None else self.weights[order],
         )
 
+    def uniform(self, count: int) -> Array:
+        """Return (count, 3) points at equal steps of the domain."""
+        return self.apply_weights(_uniform_table(self.space, count))
+
     def samples(self, each: int) -> Array:
         """Return (spans * each + 1, 3) points at equal steps in every span, both ends included."""
-        return self.evaluate(self.space.uniform_parameters(each))
+        return self.apply_weights(_sample_table(self.space, each))
 
 
 if TYPE_CHECKING:
@@ -230,13 +246,21 @@ class Patch:
         """Return the boundary curve at the first (end 0) or last (end 1) s (axis 0) or t (axis
         1).
         """
-        weigh: Array = self.spaces[axis].end_weights[end]
-        points, weights = self.points, self.weights
-        if weights is None:
-            return Curve(self.spaces[1 - axis], np.tensordot(weigh, points, (0, axis)))
-        bottom = np.tensordot(weigh, weights, (0, axis))
-        top = np.tensordot(weigh, points * weights[..., None], (0, axis))
-        return Curve(self.spaces[1 - axis], top / bottom[:, None], bottom)
+        return self._side_curves[axis, end]
+
+    @cached_property
+    def _side_curves(self) -> dict[tuple[int, int], Curve]:
+        """The boundary curves by axis and end."""
+        net = self.points
+        if self.weights is not None:
+            net = homogeneous(self.points, self.weights)
+        found = {}
+        for axis, end, _ in SIDES:
+            row = np.tensordot(self.spaces[axis].end_weights[end], net, (0, axis))
+            weights = None if self.weights is None else row[:, 3]
+            points = row if weights is None else row[:, :3] / weights[:, None]
+            found[axis, end] = Curve(self.spaces[1 - axis], points, weights)
+        return found
 
     @property
     def sides(self) -> tuple[tuple[Curve, bool], ...]:
@@ -253,6 +277,15 @@ class Patch:
 
 
 @lru_cache(maxsize=64)
+def _uniform_table(space: SplineSpace, count: int) -> Array:
+    """Return (count, k) weights of k control points at equal steps of the domain; cached: do not
+    modify.
+    """
+    low, high = space.domain
+    return space.collocation_matrix(low + (high - low) * np.linspace(0.0, 1.0, count))
+
+
+@lru_cache(maxsize=64)
 def _sample_table(space: SplineSpace, each: int) -> Array:
     """Return (n, count) weights of control points at `each` equal steps in every span; cached: do
     not modify.
@@ -265,10 +298,8 @@ def control_box(patches: Sequence[Face]) -> tuple[Array, Array]:
     for patch in patches:
         if not hasattr(patch, "sides"):
             check_type("patches", patch, Patch)
-    return (
-        np.min([patch.points.min(axis=(0, 1)) for patch in patches], axis=0),
-        np.max([patch.points.max(axis=(0, 1)) for patch in patches], axis=0),
-    )
+    points = np.concatenate([patch.points.reshape(-1, 3) for patch in patches])
+    return points.min(axis=0), points.max(axis=0)
 
 
 def patches_center(patches: Sequence[Face]) -> Array:

@@ -22,11 +22,11 @@ from numpy.typing import NDArray
 from ..moments.moments import Measure, Moments, monomials, sum_moments
 from ..numerics import Array, SplineSpace
 from ..verdict import Procedure, welding_tolerance
-from .bezier import MAX_CELLS, cells_of_nets, homogeneous
+from .bezier import MAX_CELLS, cells_of_nets
 from .patch_moments import area_slope, exact_points, flux_sums, integrand_in_blocks, volume_moments
 from .patch_topology import PatchTopology, find_topology
 from .solid import PatchIntegrals, assess, measure_patches, oriented_parts
-from .splines import Patch, patches_center, patches_size
+from .splines import Patch, homogeneous, patches_center, patches_size
 
 MAX_RULE_ERROR = (
     1e-10  # Relative to the largest possible moment: rules with larger errors are not used.

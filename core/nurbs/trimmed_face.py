@@ -19,21 +19,22 @@ differences is the stated truncation, which is that of the coarser rule.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property, lru_cache, partial
 from typing import TypeAlias, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
-from ..numerics import Array, Index, SplineSpace, clamped_space, cross, gauss_legendre
-from .bezier import ROUNDING, VOLUME_RTOL, homogeneous
+from ..numerics import Array, Index, SplineSpace, cross, gauss_legendre
+from .bezier import ROUNDING, VOLUME_RTOL
 from .patch_moments import AREA_RTOL, area_slope, area_terms, flux_terms, sheet_terms
 from .quadric import Quadric
 from .spline_chart import SplineChart
-from .splines import Curve
+from .splines import Curve, homogeneous
 
 SAMPLES = 17  # of a Bézier piece of a loop
 # Gauss points along a loop and across its strips, of two rules that are compared
@@ -294,7 +295,8 @@ class TrimmedFace:
         for depth in range(MAX_DEPTH + 1):
             if not len(strips[0]):
                 break
-            coarse, fine = self._strip_integrals(index, ends, strips, terms, about, most)
+            samples = self._samples(index, ends) if depth else self._first_samples
+            coarse, fine = self._strip_integrals(samples, ends, strips, terms, about, most)
             mean = mean or float(fine[k].mean())
             differ = (np.abs(fine[:k] - coarse[:k]) / most_unit).max(axis=0)
             good = differ <= tolerance * np.maximum(fine[k], mean)
@@ -313,14 +315,12 @@ class TrimmedFace:
         """
         index, ends, _ = self._strips
         is_curve = index < len(self.tracks)
-        index, ends = index[is_curve], ends[is_curve]
+        ends = ends[is_curve]
         across, across_weights = gauss_legendre(ACROSS_GAP)
         found = []
-        for points in ALONG:
-            nodes, weights = gauss_legendre(points)
-            at = ends[:, :1] + (ends[:, 1:] - ends[:, :1]) * nodes
-            place, slope = self._coordinates(index, at)
-            curve, velocity = self._on_curves(index, at)
+        for points, samples in zip(ALONG, self._first_samples):
+            weights = gauss_legendre(points)[1]
+            place, slope, curve, velocity = (row[:, is_curve] for row in samples)
             surface, *slopes = self.chart.evaluate(*place)
             move = slopes[0] * slope[0] + slopes[1] * slope[1]
             arm = (curve - surface)[..., None]
@@ -335,22 +335,22 @@ class TrimmedFace:
 
     def _strip_integrals(
         self,
-        index: Index,
+        samples: Sequence[Sequence[Array]],
         ends: NDArray,
         strips: Strips,
         terms: Terms,
         about: NDArray,
         most: int,
     ) -> tuple[Array, Array]:
-        """Return (K + 1, n) integrals over strips by the coarse and by the fine rule."""
+        """Return (K + 1, n) integrals over strips by the coarse and by the fine rule, from the
+        `_samples` of their segments.
+        """
         is_line = isinstance(self.chart, Quadric) and not self.chart.minor and self.axis == 1
         found = []
-        for along, across in zip(ALONG, ACROSS_LINES if is_line else ACROSS):
-            nodes, weights = gauss_legendre(along)
+        rules = zip(samples, ALONG, ACROSS_LINES if is_line else ACROSS)
+        for (place, slope, *_), along, across in rules:
+            weights = gauss_legendre(along)[1]
             inner, inner_weights = gauss_legendre(across)
-            place, slope = self._coordinates(
-                index, ends[:, :1] + (ends[:, 1:] - ends[:, :1]) * nodes
-            )
             top = place[self.axis]
             rate = slope[1 - self.axis] * (ends[:, 1:] - ends[:, :1]) * weights
             blocks = []
@@ -374,6 +374,18 @@ class TrimmedFace:
         return found[0], found[1]
 
     @cached_property
+    def _first_samples(self) -> list[list[Array]]:
+        """The samples of all segments that are not cut yet."""
+        return self._samples(*self._strips[:2])
+
+    def _samples(self, index: Index, ends: NDArray) -> list[list[Array]]:
+        """Return for each rule `_coordinates` at its points of segments."""
+        return [
+            self._coordinates(index, ends[:, :1] + (ends[:, 1:] - ends[:, :1]) * nodes)
+            for nodes, _ in map(gauss_legendre, ALONG)
+        ]
+
+    @cached_property
     def _strips(self) -> tuple[Index, Array, Strips]:
         """Segments of curves and lines, and the strips from the base line to them.
 
@@ -395,7 +407,7 @@ class TrimmedFace:
             begins_above = above[piece, sample, knot]
             at = (low + high) / 2.0
             for _ in range(40):  # Newton's steps, kept within the interval
-                place, slope = self._coordinates(piece, at[:, None])
+                place, slope, *_ = self._coordinates(piece, at[:, None])
                 rest = place[axis, :, 0] - knots[knot]
                 before = (rest > 0.0) == begins_above
                 low, high = np.where(before, at, low), np.where(before, high, at)
@@ -428,18 +440,17 @@ class TrimmedFace:
         segment, *rows = np.array(strips, np.float64).reshape(-1, 5).T
         return index, ends, cast("Strips", (segment.astype(np.intp), *rows))
 
-    def _coordinates(self, index: Index, at: NDArray) -> tuple[Array, Array]:
+    def _coordinates(self, index: Index, at: NDArray) -> list[Array]:
         """Return (2, n, m) coordinates and their slopes on pieces (n,), at (n, m) parameters from 0
-        to 1.
+        to 1, and (3, n, m) points and velocities, zero on lines.
         """
         count = len(self.tracks)
-        place = np.empty((2, *at.shape))
-        slope = np.empty((2, *at.shape))
+        found = [np.zeros((size, *at.shape)) for size in (2, 2, 3, 3)]
         on_line = index >= count
         if on_line.any():
-            begin, end = np.moveaxis(self.lines[index[on_line] - count], 1, 0)
-            place[:, on_line] = begin.T[..., None] + (end - begin).T[..., None] * at[None, on_line]
-            slope[:, on_line] = (end - begin).T[..., None]
+            begin, end = np.moveaxis(self.lines[index[on_line] - count], 1, 0)[..., None]
+            found[0][:, on_line] = np.moveaxis(begin + (end - begin) * at[on_line, None], 1, 0)
+            found[1][:, on_line] = np.moveaxis(end - begin, 1, 0)
         if not on_line.all():
             part, steps = index[~on_line], at[~on_line]
             scaled = steps * (SAMPLES - 1)
@@ -447,17 +458,14 @@ class TrimmedFace:
             share = (scaled - left)[..., None]
             track = self.tracks[part[:, None], left] * (1.0 - share)
             track += self.tracks[part[:, None], left + 1] * share
-            points, velocity = (row.reshape(3, -1).T for row in self._on_curves(part, steps))
-            found = self.chart.project(points, track.reshape(-1, 2))
-            place[:, ~on_line] = found.T.reshape(2, *steps.shape)
-            moved = self.chart.follow(points, velocity, found)
-            slope[:, ~on_line] = moved.T.reshape(2, *steps.shape)
-        return place, slope
-
-    def _on_curves(self, index: Index, at: NDArray) -> tuple[Array, Array]:
-        """Return (3, n, m) points and velocities on Bézier pieces (n,), at (n, m) parameters."""
-        nets, origin = self._nets
-        return _evaluate(nets[index], at, origin)
+            nets, origin = self._nets
+            on_curve = _evaluate(nets[part], steps, origin)
+            points, velocity = (row.reshape(3, -1).T for row in on_curve)
+            place = self.chart.project(points, track.reshape(-1, 2))
+            slope = self.chart.follow(points, velocity, place)
+            for row, values in zip(found, (place.T, slope.T, *on_curve)):
+                row[:, ~on_line] = values.reshape(-1, *steps.shape)
+        return found
 
     @cached_property
     def _nets(self) -> tuple[Array, Array]:
@@ -484,15 +492,21 @@ def bezier_nets(curves: Sequence[Curve]) -> tuple[Array, Array]:
     for curve in curves:
         weights = np.ones(len(curve.points)) if curve.weights is None else curve.weights
         net = homogeneous(curve.points - origin, weights)[curve.space.active_controls]
-        net = np.einsum("sij,sjd->sid", curve.space.bezier_extraction, net)
-        while net.shape[1] < order:
-            degree = net.shape[1]
-            share = (np.arange(degree + 1) / degree)[:, None]
-            net = share * np.pad(net, ((0, 0), (1, 0), (0, 0))) + (1.0 - share) * np.pad(
-                net, ((0, 0), (0, 1), (0, 0))
-            )
-        nets.append(net)
+        nets.append(_raised_extraction(curve.space, order) @ net)
     return np.concatenate(nets), origin
+
+
+@lru_cache(maxsize=64)
+def _raised_extraction(space: SplineSpace, order: int) -> Array:
+    """Return (s, order, k) weights of the acting control points in Bézier points of an order;
+    cached: do not modify.
+    """
+    table = space.bezier_extraction
+    for degree in range(space.order, order):
+        share = (np.arange(degree + 1) / degree)[:, None]
+        first, last = (np.pad(table, ((0, 0), ends, (0, 0))) for ends in ((1, 0), (0, 1)))
+        table = share * first + (1.0 - share) * last
+    return table
 
 
 def sample_pieces(curves: Sequence[Curve]) -> Array:
@@ -503,10 +517,17 @@ def sample_pieces(curves: Sequence[Curve]) -> Array:
 
 
 def _evaluate(nets: NDArray, at: NDArray, origin: NDArray) -> tuple[Array, Array]:
-    space = clamped_space(nets.shape[1])
-    values, slopes = (
-        np.einsum("nmk,nkd->dnm", table, nets) for table in space.derivatives(space.spans, at, 1)
-    )
+    """Return (3, n, m) points and velocities of Bézier curves (n, order, 4), at (n, m) parameters
+    from 0 to 1.
+    """
+    degree = nets.shape[1] - 1
+    powers = np.arange(degree)
+    choose = np.array([math.comb(degree - 1, k) for k in range(degree)], np.float64)
+    t, rest = at[..., None], 1.0 - at[..., None]
+    lower = choose * t**powers * rest ** powers[::-1]
+    begin, end = lower @ nets[:, :-1], lower @ nets[:, 1:]
+    values = np.moveaxis(rest * begin + t * end, -1, 0)
+    slopes = degree * np.moveaxis(end - begin, -1, 0)
     place = values[:3] / values[3]
     velocity = (slopes[:3] - place * slopes[3]) / values[3]
     return place + origin[:, None, None], velocity

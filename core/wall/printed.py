@@ -6,8 +6,7 @@ A face with the normal n moves inward by the larger of two distances: the width 
 the horizontal part of n, and the height of the top or bottom layers times its vertical part (z is
 the direction of the print). So walls keep their width in each layer, and layers their height.
 Vertices follow the planes of their faces, by least squares if there are more than three. Where two
-sides are nearer to each other than their walls are thick, they move to meet: the core is empty
-there. Planar cores, of all bodies with such vertices, have exact moments.
+sides are nearer to each other than their walls are thick, the core is empty (`moved_faces`).
 """
 
 from __future__ import annotations
@@ -28,10 +27,12 @@ from .directions import (
     weld_equal,
 )
 from .findings import PRINT_UNFIT
+from .moved_faces import part_behind
 
 MAX_SAMPLED = 20_000  # triangles with several samples of their thickness; of others, the middle
 SAMPLES = np.array([[1, 1, 1], [4, 1, 1], [1, 4, 1], [1, 1, 4]]) / [[3.0], [6.0], [6.0], [6.0]]
-SAME_PLANE = 1e-6  # difference of the normals, and relative of the heights, of one plane
+LEAST_FACING = 0.5  # cosine between normals of opposite sides
+ALWAYS = 5_000  # fewer triangles are too few samples of thin places
 
 
 class PrintCore(NamedTuple):
@@ -61,18 +62,22 @@ def find_core(surface: Surface, wall: float, top: float, bottom: float) -> Print
     moves = np.maximum(wall * np.hypot(normals[:, 0], normals[:, 1]), layers)
     weights = np.where(solid[:, None], angles, 0.0)
     moves = np.where(solid, moves, 0.0)
-    moves[solid] = _meeting(corners[solid], normals[solid], moves[solid])
     steps = _steps(len(points), triangles, normals, weights, moves)
     depths = np.einsum("mi,mki->mk", normals, steps[triangles])
     ratios = depths[moves > 0.0] / moves[moves > 0.0, None]
     unequal = triangle_areas(points, triangles) * (depths.mean(axis=1) - moves)
     ways = corners.mean(axis=1) - points.mean(axis=0)
     shifted = float(np.linalg.norm(unequal @ ways)) / float(np.ptp(points, axis=0).max())
+    core = Surface(points - steps, triangles)
+    least = float(ratios.min(initial=1.0))
+    if len(triangles) < ALWAYS or _meet(corners[solid], normals[solid], moves[solid]):
+        nearest = wall * least, top * least, bottom * least
+        core = part_behind(points, core.points, triangles, nearest)
+        if core is None:
+            fault = "it has too many faces near each other. Use Decimate"
+            raise ReadError(PRINT_UNFIT, fault=fault)
     return PrintCore(
-        Surface(points - steps, triangles),
-        float(ratios.min(initial=1.0)),
-        float(ratios.max(initial=1.0)),
-        max(abs(float(unequal.sum())), shifted),
+        core, least, float(ratios.max(initial=1.0)), max(abs(float(unequal.sum())), shifted)
     )
 
 
@@ -109,38 +114,16 @@ def _steps(
     return steps
 
 
-def _meeting(corners: Array, normals: Array, moves: Array) -> Array:
-    """Return the moves of triangles, (m, 3, 3), smaller where sides would go through each other."""
+def _meet(corners: Array, normals: Array, moves: Array) -> bool:
+    """Return whether opposite triangles, (m, 3, 3), move to each other or farther."""
     samples = SAMPLES if len(corners) <= MAX_SAMPLED else SAMPLES[:1]
-    count = len(samples)
-    middle = corners.mean(axis=(0, 1))
-    size = float(np.ptp(corners, axis=(0, 1)).max())
-    heights = np.einsum("mi,mi->m", normals, corners[:, 0] - middle) / size
-    keys = np.rint(np.column_stack([normals, heights]) / SAME_PLANE)
-    plane = np.unique(keys, axis=0, return_inverse=True)[1].ravel()
     starts = np.einsum("sk,mki->msi", samples, corners).reshape(-1, 3)
-    reach = 2.0 * float(moves.max())
-    if not reach > 0.0:
-        return moves
+    triangle = np.repeat(np.arange(len(corners)), len(samples))
     tree = tree_of_all(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
-    depth, hit = tree.first_hits(starts - tree.origin, -np.repeat(normals, count, axis=0), reach)
+    reach = 2.0 * float(moves.max(initial=0.0))
+    depth, hit = tree.first_hits(starts - tree.origin, -normals[triangle], reach)
     hit = tree.ids[0, hit] // 3
-    triangle = np.repeat(np.arange(len(corners)), count)
-    own = plane[triangle]
-    sampled = np.repeat(moves, count)
-
-    def limited(limits: Array) -> Array:
-        """Return the moves, each at most the largest limit of the samples in its plane."""
-        largest = np.zeros(int(plane.max()) + 1)
-        np.maximum.at(largest, own, limits)
-        return np.minimum(moves, largest[plane])
-
-    both = np.maximum(sampled + moves[hit], np.finfo(float).tiny)
-    first = limited(np.where(depth < reach, np.minimum(depth, reach) * sampled / both, np.inf))
-    moved = limited(np.where(depth < reach, depth - first[hit], np.inf))
-    facing = np.einsum("ri,ri->r", normals[triangle], normals[hit]) < -1.0 + SAME_PLANE
-    if (facing & (moved[triangle] + moved[hit] > depth + SAME_PLANE * reach)).any():
-        raise ReadError(
-            PRINT_UNFIT, fault="a thin place lies between planes of thick ones. Cut it there"
-        )
-    return moved
+    facing = -np.einsum("ri,ri->r", normals[triangle], normals[hit])
+    near = facing > LEAST_FACING
+    triangle, hit = triangle[near], hit[near]
+    return bool((moves[triangle] + moves[hit] / facing[near] >= depth[near]).any())

@@ -15,7 +15,7 @@ from ....core.bodies import float64_matrix
 from ....core.numerics import Array, polar_rotation, quaternion, rotation_matrix
 from ....core.rig import continuous, divide_frames, in_pieces, rotation_values
 from ...read.tracking import tracking_paused
-from ...scene import fcurves
+from ...scene import fcurves, strips
 from ...scene.changes import require_editable
 from ...scene.transforms import TransformChannels
 from ...write.reports import Refused
@@ -200,7 +200,7 @@ class Carrier:
                 new = new - before
             channels.update({(self.path(name), axis): rows for axis, rows in enumerate(new.T)})
         if as_layer:
-            fcurves.add_layer(armature, LAYER, times, channels)
+            strips.add_layer(armature, LAYER, times, channels)
             return
         for curve in fcurves.ensure_curves(armature):
             rows = channels.get((curve.data_path, curve.array_index))

@@ -132,18 +132,6 @@ class Character:
         model = Parts(tuple(bodies), masses, np.array(centers), np.array(spreads), np.eye(4)[None])
         return cls(model, size)
 
-    @classmethod
-    def from_rig(cls, rig: Rig, unit: float) -> Character | None:
-        """Return a character that has just been measured; None if there is no mass."""
-        several = {
-            part.name: part.measurement for part in rig.parts if part.measurement is not None
-        }
-        bodies = {
-            name: PlainBody.of_body(one.in_object_frame(), 0.0, 0.0, 0.0, {})
-            for name, one in several.items()
-        }
-        return cls.from_bodies(rig.armature, bodies, unit)
-
     def pose(self, armature: Object, depsgraph: Depsgraph) -> Parts:
         """Return the parts as evaluated, held objects included."""
         bones = armature.pose.bones
@@ -178,13 +166,11 @@ class Character:
         """
         parts = self.pose(armature, depsgraph)
         contacts = self.contacts(armature, depsgraph, ground)
-        if not len(contacts.points):
-            return parts, contacts, None
-        return (
-            parts,
-            contacts,
-            support_of_contacts(contacts.points, parts.center, down(depsgraph.scene), OUTLINE),
-        )
+        gravity = down(depsgraph.scene)
+        support = None
+        if len(contacts.points):
+            support = support_of_contacts(contacts.points, parts.center, gravity, OUTLINE)
+        return parts, contacts, support
 
     def contacts(self, armature: Object, depsgraph: Depsgraph, ground: float) -> Contacts:
         """Return the points that touch the ground, at this height against gravity from the world's
@@ -322,7 +308,15 @@ def find(context: Context, armature: Object) -> tuple[Character, float, Rig | No
     if not settings.show:
         require_gravity(context.scene)
     rig = _measure_outdated(context, armature)
-    known = character(armature, unit) if rig is None else Character.from_rig(rig, unit)
+    if rig is None:
+        known = character(armature, unit)
+    else:
+        bodies = {
+            part.name: PlainBody.of_body(part.measurement.in_object_frame(), 0.0, 0.0, 0.0, {})
+            for part in rig.parts
+            if part.measurement is not None
+        }
+        known = Character.from_bodies(armature, bodies, unit)
     if known is None:
         raise ReadError(RIG_WITHOUT_PARTS, subject=armature.name)
     return known, settings.ground if settings.show else _find_ground(context, armature, known), rig
@@ -331,11 +325,9 @@ def find(context: Context, armature: Object) -> tuple[Character, float, Rig | No
 def _measure_outdated(context: Context, armature: Object) -> Rig | None:
     """Measure the bones unless their results are up to date."""
     is_known = weight(armature, context.evaluated_depsgraph_get()) is not None
-    return (
-        None
-        if is_known and stale_reason(armature, context.scene) is None
-        else measure(context, armature)
-    )
+    if is_known and stale_reason(armature, context.scene) is None:
+        return None
+    return measure(context, armature)
 
 
 def store_rest(context: Context, armature: Object) -> None:
@@ -390,14 +382,10 @@ def contact_objects(armature: Object, depsgraph: Depsgraph) -> list[tuple[Object
     """
     skinned = deformed_meshes(armature)
     hanging = [*hanging_objects(armature, skinned), *held_objects(armature, depsgraph)]
-    several = [
-        *((obj, None) for obj in skinned),
-        *((obj, bone) for obj, bone in hanging if obj.type == "MESH"),
-    ]
     return [
         (obj, bone)
-        for obj, bone in several
-        if not obj.hide_render and obj.visible_get() and obj.mode != "EDIT"
+        for obj, bone in [*((obj, None) for obj in skinned), *hanging]
+        if obj.type == "MESH" and not obj.hide_render and obj.visible_get() and obj.mode != "EDIT"
     ]
 
 

@@ -144,4 +144,4 @@ def support(empty: Object, frame: int) -> Support | None:
 
 def _keys(curves: Iterable[bpy.types.FCurve], channel: fcurves.Channel) -> Array | None:
     curve = fcurves.find(curves, channel)
-    return None if curve is None else fcurves.keys(curve)
+    return None if curve is None else fcurves.read(curve)["co"].astype(np.float64)

@@ -129,8 +129,8 @@ def of_results(owner: Object | Collection) -> Stamp | None:
 
 def of_section(obj: Object) -> Stamp | None:
     """Return the stamp of the stored section, None if there is none."""
-    text = section.fingerprint(obj)
-    return Stamp.parse(text, Kind.SECTION, section.unit(obj)) if text else None
+    known = section.stored(obj)
+    return None if known is None else Stamp.parse(known.fingerprint, Kind.SECTION, known.unit)
 
 
 def of_symmetry(obj: Object) -> Stamp | None:

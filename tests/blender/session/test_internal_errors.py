@@ -75,7 +75,7 @@ def state(obj):
         if key in obj
     }
     points = [tuple(vertex.co) for vertex in obj.data.vertices]
-    found = section.fingerprint(obj), obj.is_property_set("body_moments_symmetry")
+    found = repr(section.stored(obj)), obj.is_property_set("body_moments_symmetry")
     return kept, found, place(obj).tolist(), points, obj.rigid_body, obj.parent
 
 

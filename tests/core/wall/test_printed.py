@@ -2,11 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Cores of prints against closed forms, and against counts of voxels eroded by the walls."""
 
+import itertools
+
 import numpy as np
 import pytest
 from body_moments.core.bodies.pocket import ball_moments
 from body_moments.core.mesh import Surface
 from body_moments.core.polyhedron import polyhedron_moments
+from body_moments.core.solid import measure_solid
 from body_moments.core.verdict import MeasureError
 from body_moments.core.wall import find_core
 
@@ -42,8 +45,19 @@ def core_volume(surface, *heights):
 
 
 def test_cube_core_has_exact_volume():
-    assert close(core_volume(box(20, 20, 20)), 18.32**2 * 18.4, 1e-13)
     assert close(core_volume(box(20, 20, 20), 0.0, 0.6), 18.32**2 * 19.4, 1e-13)
+
+
+def test_cube_with_corner_on_edge_of_neighbor_has_its_core():
+    cube = box(20, 20, 20)
+    points = np.vstack([cube.points, [[10.0, 0.0, 20.0]]])
+    faces = cube.triangles.tolist()
+    (cut,) = (face for face in faces if {5, 6, 9} == {*face})
+    faces.remove(cut)
+    turned = np.roll(cut, -cut.index(9)).tolist()
+    faces += [[9, turned[1], 10], [9, 10, turned[2]]]
+    solid = measure_solid(Surface.from_triangles(points, faces))
+    assert close(core_volume(solid.repaired_surface), 18.32**2 * 18.4, 1e-12)
 
 
 @pytest.mark.parametrize("count", [3, 5, 6, 48])
@@ -64,32 +78,66 @@ def test_slope_decides_between_walls_and_layers():
     assert close(found, (2.0 * height) ** 2 * height / 3.0, 1e-12)
 
 
-@pytest.mark.parametrize(("x", "y"), [(1.0, 1.0), (1.0, 20.0), (1.6, 0.2)])
-def test_thin_plates_and_rods_have_no_core(x, y):
-    assert abs(core_volume(box(x, y, 20.0))) < 1e-9
+def stack(filled, edges, matrix=None):
+    """Return the surface of the filled boxes between edges of three axes, and a test of points."""
+    filled = np.array(filled, bool)
+    matrix = np.eye(3) if matrix is None else matrix
+    edges = [np.array(one, float) for one in edges]
+    around = np.pad(filled, 1)
+    numbers = np.arange(np.prod(np.add(filled.shape, 1))).reshape(np.add(filled.shape, 1))
+    quads = []
+    for at in np.argwhere(filled):
+        for axis, side in itertools.product(range(3), (0, 1)):
+            beside = at + 1
+            beside[axis] += 2 * side - 1
+            if not around[tuple(beside)]:
+                corner = np.array([(0, 0), (1, 0), (1, 1), (0, 1)])[:: 2 * side - 1]
+                corner = np.roll(np.column_stack([np.full(4, side), corner]), axis, axis=1)
+                quads.append(numbers[tuple((at + corner).T)])
+    points = np.stack(np.meshgrid(*edges, indexing="ij"), axis=-1).reshape(-1, 3)
+    used, faces = np.unique(quads, return_inverse=True)
+    faces = faces.reshape(-1, 4)
+    triangles = np.concatenate([faces[:, :3], faces[:, [0, 2, 3]]])
+
+    def inside(*places):
+        local = np.einsum("ij,j...->i...", np.linalg.inv(matrix), np.stack(places))
+        cells = [np.searchsorted(one, axis) for one, axis in zip(edges, local)]
+        return around[tuple(cells)]
+
+    return Surface.from_triangles(points[used] @ matrix.T, triangles), inside
 
 
-FIN = [(0, 0), (20, 0), (20, 10), (10.5, 10), (10.5, 25), (9.5, 25), (9.5, 10), (0, 10)]
+def box_core(filled, edges):
+    """Return the volume of places farther from all empty boxes than the walls and layers."""
+    reach = WALL, WALL, LAYERS
+    fine = [np.unique([x, x - r, x + r]) for x, r in zip(edges, reach)]
+    middles = [(x[1:] + x[:-1]) / 2.0 for x in fine]
+    core = np.ones([len(x) for x in middles], bool)
+    wide = [np.concatenate([[-np.inf], x, [np.inf]]) for x in edges]
+    for at in np.argwhere(~np.pad(filled, 1)):
+        near = [(m > x[i] - r) & (m < x[i + 1] + r) for i, m, x, r in zip(at, middles, wide, reach)]
+        core[np.ix_(*near)] = False
+    return np.einsum("ijk,i,j,k->", core.astype(float), *map(np.diff, fine))
 
 
-def test_thin_fin_on_block_is_solid():
-    block = (20 - 2 * WALL) * (10 - 2 * WALL) * (20 - 2 * LAYERS)
-    assert close(core_volume(prism(FIN, 20.0, (10.0, 5.0))), block, 1e-12)
-
-
-STAIR = [(0, 0), (40, 0), (40, -10), (50, -10), (50, 0.5), (10, 0.5), (10, 10), (0, 10)]
-
-
-def test_web_between_planes_of_blocks_is_refused():
-    # The web lies between the bottom plane of the left block and the top plane of the right one.
-    points = np.array([(x, y, z) for z in (0.0, 30.0) for x, y in STAIR], float)
-    caps = [(0, 6, 7), (0, 5, 6), (0, 1, 5), (1, 4, 5), (1, 2, 4), (2, 3, 4)]
-    faces = [(a, c, b) for a, b, c in caps] + [(a + 8, b + 8, c + 8) for a, b, c in caps]
-    for i in range(8):
-        j = (i + 1) % 8
-        faces += [(i, j, j + 8), (i, j + 8, i + 8)]
-    with pytest.raises(MeasureError, match="between planes of thick"):
-        core_volume(Surface.from_triangles(points, faces))
+def test_cores_of_random_stacks_of_boxes_are_exact():
+    chance = np.random.default_rng(7)
+    counts = 0
+    while counts < 40:
+        shape = chance.integers(2, 5, 3)
+        widths = [chance.choice([0.4, 1.0, 1.2, 2.5, 4.0], n) + chance.random(n) / 9 for n in shape]
+        edges = [np.concatenate([[0.0], np.cumsum(width)]) for width in widths]
+        filled = chance.random(shape) < 0.8
+        try:
+            core = find_core(stack(filled, edges)[0], WALL, LAYERS, LAYERS)
+        except MeasureError as error:
+            assert "thin" not in str(error)
+            continue
+        if core.minimum < 1.0 - 1e-9 or core.maximum > 1.0 + 1e-9:
+            continue  # more than three planes meet in a vertex
+        found = polyhedron_moments(core.surface, allow_open=True)[0].total
+        assert abs(found - box_core(filled, edges)) < 1e-7
+        counts += 1
 
 
 def test_wall_of_tube_is_solid_where_thin():
@@ -180,6 +228,15 @@ def cone(sides, radius, height):
     return Surface.from_triangles(points, faces), inside
 
 
+TURNED = np.array([[0.8, -0.6, 0.0], [0.6, 0.8, 0.0], [0.0, 0.0, 1.0]])
+SLANTED = np.array([[1.0, 0.0, 0.1], [0.2, 1.0, 0.0], [0.3, 0.2, 1.0]])
+# A thin web whose sides are in the planes of two thick blocks, and a strut likewise.
+WEB = [[[1], [1], [0]], [[0], [1], [0]], [[0], [1], [1]]], [[0, 4, 9, 13], [0, 4, 5, 9], [0, 5]]
+STRUT = np.zeros((3, 3, 3), bool)
+STRUT[:, 1, 1] = STRUT[0, 1:, 1:] = STRUT[2, :2, :2] = True
+PROFILE = [[[1], [1], [1]], [[0], [1], [0]], [[1], [1], [1]]]
+PROFILE = PROFILE, [[0, 3, 6, 9], [0, 3.5, 4.5, 8], [0, 6]]
+
 SHAPES = {
     "cube": upright([(0, 0), (6, 0), (6, 6), (0, 6)], 6.0),
     "plate": upright([(0, 0), (9, 0), (9, 5), (0, 5)], 2.0),
@@ -193,6 +250,9 @@ SHAPES = {
     "lying cylinder": lying(3.0 * ROUND, 6.0),
     "cone": cone(64, 4.0, 7.0),
     "pyramid": cone(4, 5.0, 5.0),
+    "slanted web": stack(*WEB, SLANTED),
+    "strut": stack(STRUT, [[0, 4, 9, 13], [0, 4, 5, 9], [0, 4, 5, 9]], TURNED),
+    "lying I profile": stack(*PROFILE, TURNED[[1, 2, 0]]),
 }
 
 

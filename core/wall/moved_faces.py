@@ -1,0 +1,195 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The part of a body behind its moved faces.
+
+The moved surface may go through itself, and turn over where the body is thin. Triangles that cross
+others are divided along their planes, so that each piece has one winding number before it and one
+behind it. It bounds the part if one of its sides belongs to it and the other does not. Places that
+are nearer to the surface than the faces moved do not belong to it; rays show it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh import (
+    Surface,
+    faces_beside_edges,
+    normals,
+    overlapping_box_pairs,
+    tree_of_all,
+    triangle_areas,
+)
+from ..numerics import Array, Index, Mask, connected_components
+
+ROUNDING = 1e-9  # relative to the size: nearer points are on a plane
+STEP = 1e-7  # relative to the size: places before and behind a piece
+NEARER = 1e-6  # relative to the moves, and a difference of directions
+MAX_PAIRS = 3_000_000  # pairs of triangles whose boxes overlap
+PAIRS_PER_BLOCK = 1 << 16
+RAYS = 12  # directions, and those against them
+
+
+def part_behind(
+    points: Array,
+    moved: NDArray[np.floating],
+    triangles: NDArray[np.integer],
+    depths: tuple[float, float, float],
+) -> Surface | None:
+    """Return the boundary of the part, triangles with points of their own; None if too many
+    triangles are near each other.
+
+    depths: along the ground, below the top and above the bottom, at which places belong to it.
+    """
+    size = float(np.ptp(points, axis=0).max())
+    corners = moved[triangles].astype(np.float64)
+    units = _unit_normals(corners, size)
+    beside = faces_beside_edges(triangles, len(points))
+    if beside is None:  # T-junctions: each triangle counts by itself
+        beside = np.zeros((2, 0), np.int32)
+    first, second, untested = overlapping_box_pairs(
+        corners.min(axis=1), corners.max(axis=1), -ROUNDING * size, MAX_PAIRS
+    )
+    if untested:
+        return None
+    pairs = np.concatenate([[first, second], [second, first]], axis=1)
+    blocks = np.array_split(pairs, 1 + pairs.shape[1] // PAIRS_PER_BLOCK, axis=1)
+    met, crossed = np.concatenate(
+        [_find_met(corners, units, block, ROUNDING * size) for block in blocks], axis=1
+    )
+    shared = (triangles[pairs[0], :, None] == triangles[pairs[1], None]).sum(axis=(1, 2))
+    apart = np.ones(len(corners), bool)
+    apart[pairs[0, met & (shared < 2)]] = False
+    divided = np.zeros(len(corners), bool)
+    divided[pairs[0, crossed]] = True
+    first, second = pairs[:, crossed]
+    patch, number = connected_components(
+        len(corners), *beside[:, apart[beside].all(axis=0)].astype(np.intp)
+    )
+    order = np.argsort(triangle_areas(moved, triangles))
+    largest = np.zeros(number, np.intp)
+    largest[patch[order]] = order  # the last of equal indices wins
+    largest = largest[~divided[largest]]
+    pieces, owners = [corners[largest]], [largest]
+    order = np.argsort(first, kind="stable")
+    starts = np.flatnonzero(np.diff(first[order], prepend=-1))
+    for planes in np.split(order, starts[1:]) if len(order) else []:
+        triangle = first[planes[0]]
+        cells = [corners[triangle]]
+        for plane in second[planes]:
+            cells = [
+                half
+                for cell in cells
+                for half in _halves(cell, (cell - corners[plane, 0]) @ units[plane], size)
+            ]
+        fans = [cell[[0, k, k + 1]] for cell in cells for k in range(1, len(cell) - 1)]
+        pieces.append(np.array(fans))
+        owners.append(np.full(len(fans), triangle))
+    cells, owner = np.concatenate(pieces), np.concatenate(owners)
+    middles, steps = cells.mean(axis=1), STEP * size * units[owner]
+    sides = np.concatenate([middles + steps, middles - steps])
+    around = tree_of_all(moved, triangles)
+    one = np.zeros(len(sides), np.intp)
+    winding = around.winding_numbers(sides - around.origin, one, 0.0)[0]
+    inside = np.flatnonzero(winding > 0)
+    belongs = np.zeros(len(sides), bool)
+    belongs[inside] = _belong(points, triangles, sides[inside], depths)
+    jump = winding[len(cells) :] - winding[: len(cells)]
+    bounds = belongs[len(cells) :] != belongs[: len(cells)]
+    lying = np.flatnonzero(bounds & (np.abs(jump) != 1))
+    if len(lying):
+        flat = np.abs(np.einsum("ei,ei->e", *units[beside])) > 1.0 - ROUNDING
+        group = connected_components(len(corners), *beside[:, flat].astype(np.intp))[0]
+        for cell in lying:
+            bounds[cell] = _counts(corners, units, group, owner[cell], middles[cell], size)
+    kept = np.zeros(number, bool)
+    kept[patch[largest]] = bounds[: len(largest)]
+    if not divided.any():
+        return Surface(moved, triangles[kept[patch]])
+    cells = np.concatenate(
+        [corners[kept[patch] & ~divided], cells[len(largest) :][bounds[len(largest) :]]]
+    )
+    return Surface(cells.reshape(-1, 3), np.arange(3 * len(cells)).reshape(-1, 3))
+
+
+def _unit_normals(corners: Array, size: float) -> Array:
+    """Return the (k, 3) unit normals of triangles (k, 3, 3), zero if they have no area."""
+    across = normals(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
+    lengths = np.linalg.norm(across, axis=1)
+    return across / np.where(lengths > (ROUNDING * size) ** 2, lengths, np.inf)[:, None]
+
+
+def _find_met(corners: Array, units: Array, pairs: Index, tolerance: float) -> Mask:
+    """Return whether pairs of triangles in two planes meet along a segment, and whether the plane
+    of the second one divides the first one there, (2, k).
+    """
+    first, second = pairs
+    along = np.cross(units[first], units[second])
+    along /= np.maximum(np.linalg.norm(along, axis=1), np.finfo(float).tiny)[:, None]
+    low, high = np.empty((2, 2, len(first)))
+    divided = []
+    for k, (one, other) in enumerate([(first, second), (second, first)]):
+        height = np.einsum("kci,ki->kc", corners[one] - corners[other, :1], units[other])
+        height[np.abs(height) <= tolerance] = 0.0
+        places = np.einsum("kci,ki->kc", corners[one], along)
+        beyond = np.roll(height, -1, axis=1)
+        crosses = height * beyond < 0.0
+        share = height / np.where(crosses, height - beyond, 1.0)
+        places += np.where(crosses, share * (np.roll(places, -1, axis=1) - places), 0.0)
+        meets = crosses | (height == 0.0)
+        low[k] = np.where(meets, places, np.inf).min(axis=1)
+        high[k] = np.where(meets, places, -np.inf).max(axis=1)
+        divided.append(crosses.any(axis=1))
+    met = high.min(axis=0) - low.max(axis=0) > tolerance
+    return np.stack([met, met & divided[0]])
+
+
+def _halves(cell: Array, height: Array, size: float) -> Iterator[Array]:
+    """Yield the parts of a convex polygon, (k, 3), above and below a plane."""
+    height[np.abs(height) <= ROUNDING * size] = 0.0
+    beyond = np.roll(height, -1)
+    crosses = height * beyond < 0.0
+    share = (height / np.where(crosses, height - beyond, 1.0))[:, None]
+    cuts = cell + share * (np.roll(cell, -1, axis=0) - cell)
+    points = np.stack([cell, cuts], axis=1).reshape(-1, 3)
+    for side in (height, -height):
+        if side.max() > 0.0:
+            yield points[np.column_stack([side >= 0.0, crosses]).ravel()]
+
+
+def _belong(
+    points: Array, triangles: NDArray[np.integer], places: Array, depths: tuple[float, float, float]
+) -> Mask:
+    """Return whether places are in the body, and nowhere nearer to its surface than depths."""
+    corners = points[triangles]
+    tree = tree_of_all(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
+    places = places - tree.origin
+    belong = tree.winding_numbers(places, np.zeros(len(places), np.intp), 0.0)[0] > 0
+    units = _unit_normals(corners, float(np.ptp(points, axis=0).max()))
+    ways, group = np.unique(np.rint(units / NEARER), axis=0, return_inverse=True)
+    area = np.bincount(group.ravel(), triangle_areas(points, triangles))
+    ways = ways[np.argsort(-area)[:RAYS]] * NEARER
+    ways = ways[ways.any(axis=1)]
+    wall, *heights = np.maximum(depths, np.finfo(float).tiny) * (1.0 - NEARER)
+    for ray in [*ways, *-ways]:
+        ray = ray / np.linalg.norm(ray)
+        nearest = 1.0 / (np.hypot(ray[0], ray[1]) / wall + abs(ray[2]) / heights[int(ray[2] < 0)])
+        belong &= tree.first_hits(places, np.broadcast_to(ray, places.shape), nearest)[0] > nearest
+    return belong
+
+
+def _counts(
+    corners: Array, units: Array, group: Index, owner: int, place: Array, size: float
+) -> bool:
+    """Return whether the group of a triangle is the first of those at a place that counts there."""
+    away = corners - place
+    sides = np.cross(away, np.roll(away, -1, axis=1)) @ units[owner]
+    covers = (np.abs(away @ units[owner]) <= ROUNDING * size).all(axis=1)
+    covers &= (sides > 0.0).all(axis=1) | (sides < 0.0).all(axis=1)
+    signs = np.where(covers, np.sign(units @ units[owner]), 0.0)
+    running = np.clip(np.cumsum(np.bincount(group, signs)), 0.0, 1.0)
+    before = running[group[owner] - 1] if group[owner] else 0.0
+    return bool(running[group[owner]] != before)
