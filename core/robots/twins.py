@@ -106,9 +106,7 @@ def _cased(word: str, like: str) -> str:
 
 def _places(audits: Sequence[LinkAudit], tree: Tree, pair: Pair) -> tuple[Array, Array] | None:
     first, second = (tree.poses[audits[index].link.name] for index in pair[:2])
-    if first is None or second is None:
-        return None
-    return first.position, second.position
+    return None if first is None or second is None else (first.position, second.position)
 
 
 def _plane(places: Sequence[tuple[Array, Array] | None]) -> Plane | None:

@@ -662,13 +662,14 @@ def test_names_that_no_system_has_are_missing_meshes(tmp_path):
         "",
     ]
     link = (
-        '<link name="a"><inertial><mass value="1"/><inertia ixx="1" iyy="1" '
+        '<link name="{}"><inertial><mass value="1"/><inertia ixx="1" iyy="1" '
         'izz="1"/></inertial><visual><geometry>'
     )
     link += '<mesh filename="{}"/></geometry></visual></link>'
     path = tmp_path / "r.urdf"
     path.write_text(
-        '<robot name="r">{}</robot>'.format("".join(map(link.format, names))), encoding="utf-8"
+        '<robot name="r">{}</robot>'.format("".join(map(link.format, range(7), names))),
+        encoding="utf-8",
     )
     for anywhere in (False, True):
         links = Auditor(Roots.for_file(path, (), anywhere)).audit(read_description(path)).links

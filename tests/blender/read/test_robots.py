@@ -138,6 +138,11 @@ def test_invalid_descriptions_are_refused(tmp_path):
     for code, content in (
         ("file_too_large", deep),
         ("description_invalid", "<robot><link></robot>"),
+        ("description_invalid", "<robot><link name='a'/><link name='a'/></robot>"),
+        (
+            "description_invalid",
+            "<mujoco><worldbody><body name='a'/><body name='a'/></worldbody></mujoco>",
+        ),
         ("description_invalid", b"\xff\xfe\0"),
         ("description_unknown", "<html/>"),
         ("file_without_objects", '<robot name="r"/>'),
