@@ -164,8 +164,7 @@ def find_crossings(
         np.clip(np.ceil(end[0]), 0, grids.columns).astype(np.intp) for end in (left, right)
     )
     count = stop - start
-    further = _rows_apart(sums_by_index(owner, count, bodies), MAX_CROSSINGS, faces)
-    apart = apart * further
+    apart = apart * _rows_apart(sums_by_index(owner, count, bodies), MAX_CROSSINGS, faces)
     count[row % apart[owner] > 0] = 0
     pair = np.repeat(np.arange(len(count)), count)
     column = start[pair] + segment_ranges(count)
