@@ -149,6 +149,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
             options.known = audit_gate.read_baseline(options.baseline)
         except (OSError, ValueError) as error:
             parser.error("--baseline: {} cannot be read: {}".format(options.baseline, error))
+    if len(dict(options.joint)) < len(options.joint):
+        parser.error("--joint: one joint has two positions")
     if options.repair is not None:
         _check_repair(options, parser)
     output.check_targets(options, [*options.names], parser.error)

@@ -4,8 +4,8 @@
 # Blender 5.2.3 (bpy; needs Python 3.13) shrinks a convex hull by the collision margin of 0.04 before
 # the object's scale, and Bullet adds the margin after it: a cube of scale (1, 1, 3) sinks 0.08 m
 # into the floor; with the scale applied to its mesh, or with a margin of 0, it does not. Seen, in m:
-# {'scaled': 0.08, 'meshed': 0.0, 'margin 0': 0.0}. So *Make Rigid Bodies* sets the margin of scaled
-# hulls to 0.
+# {'scaled': 0.08, 'meshed': 0.0, 'margin 0': 0.0}. So *Make Rigid Bodies* sets the margin of hulls
+# to 0.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

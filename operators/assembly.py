@@ -12,8 +12,7 @@ from bpy.props import BoolProperty, EnumProperty, StringProperty
 from bpy.types import Context, Event, Operator
 from mathutils import Matrix
 
-from ..blender import bodies, read, scene, session
-from ..blender.scale import meters_per_unit
+from ..blender import bodies, read, scale, scene, session
 from ..blender.settings.assembly import Root, active_assembly, is_assembly
 from ..blender.write import properties, reports
 from ..core.verdict import EditRefusedError, MeasureError, Procedure, Severity, of_severity
@@ -133,7 +132,7 @@ class _SnapToAssembly:
         for part in assembly.root.walk():
             if part.measurement is not None and part.measurement.method.procedure == Procedure.OPEN:
                 raise EditRefusedError(scene.findings.OPEN_OBJECT, subject=part.member.name)
-        unit = meters_per_unit(context.scene)
+        unit = scale.meters_per_unit(context.scene)
         center = (assembly.measurement.mass_properties.center / unit).tolist()
         return selection.report(self, self._place(context, assembly, center))
 
@@ -180,7 +179,7 @@ class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
             empty[FRAME_OF] = owner
             context.scene.collection.objects.link(empty)
         scene.changes.require_editable(empty)
-        unit = meters_per_unit(context.scene)
+        unit = scale.meters_per_unit(context.scene)
         empty.empty_display_size = max(float(body.radii_of_gyration.max()) / unit, 1e-3)
         frame = Matrix(body.principal.axes.tolist()).to_4x4()
         frame.translation = center

@@ -9,8 +9,7 @@ from bpy.types import Context, Event, Object, Operator
 
 from ..blender.read.visibility import measurable
 from ..blender.scale import meters_per_unit
-from ..blender.session import memory, stored
-from ..blender.session.selected import require_subject, subject
+from ..blender.session import memory, selected, stored
 from ..blender.write import reports
 from ..core.verdict import MeasureError
 from . import selection
@@ -23,7 +22,7 @@ class OnSubject(selection.OnSelectionInObjectMode):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        obj = subject(context)
+        obj = selected.subject(context)
         return super().poll(context) and (
             (obj is not None and measurable(obj)) or reports.unavailable(cls, "Select a mesh")
         )
@@ -87,7 +86,7 @@ class OBJECT_OT_body_moments_level(OnSubject, Operator):
         layout.prop(self, "density")
 
     def execute(self, context: Context) -> set[str]:
-        obj = require_subject(context)
+        obj = selected.require_subject(context)
         unit = meters_per_unit(context.scene)
         amounts = {
             "VOLUME": self.volume * unit**3,
@@ -119,14 +118,14 @@ class OBJECT_OT_body_moments_show_level(selection.OnSelectionInObjectMode, Opera
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        obj = subject(context)
+        obj = selected.subject(context)
         return super().poll(context) and (
             (obj is not None and obj in memory.levels)
             or reports.unavailable(cls, "Compute a level first")
         )
 
     def execute(self, context: Context) -> set[str]:
-        obj = require_subject(context)
+        obj = selected.require_subject(context)
         level = stored.cuts.level_of(obj, context.scene)
         if level is None:
             return selection.refuse(self, "“{object}” has changed. Press Level", object=obj.name)
@@ -172,7 +171,7 @@ class OBJECT_OT_body_moments_cut_fill(OnSubject, Operator):
             layout.prop_search(self, "other", context.scene, "objects")
 
     def execute(self, context: Context) -> set[str]:
-        obj = require_subject(context)
+        obj = selected.require_subject(context)
         height = self.height * meters_per_unit(context.scene)
         try:
             known = stored.cuts.measure_cut_fill(context, obj, self.against, height, self.other)

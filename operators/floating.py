@@ -5,8 +5,7 @@
 from bpy.props import BoolProperty, FloatProperty, IntProperty
 from bpy.types import Context, Object, Operator
 
-from ..blender.session import stored
-from ..blender.write import reports
+from ..blender import session, write
 from ..core.verdict import Finding
 from . import selection
 
@@ -24,7 +23,9 @@ class OnFloating(selection.OnSelectionInObjectMode):
         """Run a function for each body, and report how many it returned True for."""
         bodies = {
             body[0]: body
-            for body in stored.floating.bodies_of(context.view_layer.objects.selected, self.as_one)
+            for body in session.stored.floating.bodies_of(
+                context.view_layer.objects.selected, self.as_one
+            )
         }
         notes: list[Finding] = []
 
@@ -32,8 +33,8 @@ class OnFloating(selection.OnSelectionInObjectMode):
             return act(bodies[root], notes)
 
         changed, failures = selection.apply_to_all([*bodies], run)
-        text = reports.phrase(*done, count=len(changed))
-        idle = reports.phrase("already at rest")
+        text = write.reports.phrase(*done, count=len(changed))
+        idle = write.reports.phrase("already at rest")
         return selection.summarize(
             self, len(changed), len(bodies), text, failures, notes, idle, "Nothing selected floats"
         )
@@ -60,7 +61,7 @@ class OBJECT_OT_body_moments_float(OnFloating, Operator):
 
     def execute(self, context: Context) -> set[str]:
         def settle(members: tuple[Object, ...], notes: list[Finding]) -> bool:
-            return stored.floating.float_body(context, members, self.position, notes)
+            return session.stored.floating.float_body(context, members, self.position, notes)
 
         texts = ("Set {count} body afloat", "Set {count} bodies afloat")
         return self.for_each_body(context, settle, texts)
@@ -78,7 +79,7 @@ class OBJECT_OT_body_moments_float_positions(OnFloating, Operator):
 
     def execute(self, context: Context) -> set[str]:
         def find(members: tuple[Object, ...], _notes: list[Finding]) -> bool:
-            return bool(stored.floating.find_positions(context, members).rests)
+            return bool(session.stored.floating.find_positions(context, members).rests)
 
         texts = ("Found the positions of {count} body", "Found the positions of {count} bodies")
         return self.for_each_body(context, find, texts)
@@ -127,9 +128,9 @@ class OBJECT_OT_body_moments_righting_arms(OnFloating, Operator):
         angles = [self.last * i / count for i in range(-count, count + 1)]
 
         def heel(members: tuple[Object, ...], _notes: list[Finding]) -> bool:
-            afloat = stored.floating.heel(context, members, angles, self.free_trim)
+            afloat = session.stored.floating.heel(context, members, angles, self.free_trim)
             if self.add_curve:
-                stored.floating.add_curve(context, afloat)
+                session.stored.floating.add_curve(context, afloat)
             return True
 
         texts = (

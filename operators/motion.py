@@ -11,9 +11,7 @@ from bpy.types import Context, Event, Operator, Scene, UILayout
 from ..blender import session
 from ..blender.write import reports
 from ..core.verdict import MeasureError, Severity
-from . import selection
-from .modal import ModalDialog, ModalSteps
-from .rig import OnArmature
+from . import modal, rig, selection
 
 EMPTY_FLIGHT = "Landing must be at least two frames after Take-off. Change one of them."
 LOOK_SECONDS = 2.0  # for the flight that the dialog shows; a longer search waits until it is closed
@@ -26,7 +24,7 @@ def _scene_frames(scene: Scene) -> range:
     return range(scene.frame_start, scene.frame_end + 1)
 
 
-class KeyedFlight(ModalDialog, OnArmature):
+class KeyedFlight(modal.ModalDialog, rig.OnArmature):
     """Base of operators that key a character between take-off and landing."""
 
     TURNS = False
@@ -199,7 +197,7 @@ class POSE_OT_body_moments_keep_spin(KeyedFlight, Operator):
     )
 
 
-class KeyedPath(ModalSteps, OnArmature):
+class KeyedPath(modal.ModalSteps, rig.OnArmature):
     """Base of operators that key the path of a character's center on an empty."""
 
     CURVES = False

@@ -10,13 +10,11 @@ from bpy.types import Context, Operator
 from ..blender import bodies, read, scene, session
 from ..blender.bodies.findings import BONE_PARTS_IMPOSSIBLE
 from ..blender.read.tracking import tracking_paused
-from ..blender.session import character, stored
 from ..blender.session.selected import armature_of
 from ..blender.session.tracking.armatures import stands_for_meshes
 from ..blender.write import reports
 from ..core.verdict import Severity, of_severity
-from . import selection
-from .assembly import report_cleared
+from . import assembly, selection
 
 NOTABLE = Severity.WARNING, Severity.ERROR
 BALANCED = "Nothing to do: the center of mass is over its target"
@@ -54,7 +52,7 @@ class OBJECT_OT_body_moments_measure_bones(OnArmature, Operator):
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
         rig = bodies.measure_rig(context, read.rig.require_armature(armature_of(context)))
-        failures = stored.results.store_rig(rig)
+        failures = session.stored.results.store_rig(rig)
         done = reports.phrase(
             "{armature}: {mass:.7g} kg in the parts of {count} bone",
             "{armature}: {mass:.7g} kg in the parts of {count} bones",
@@ -75,7 +73,9 @@ class OBJECT_OT_body_moments_clear_bones(OnArmature, Operator):
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
-        return report_cleared(self, context, stored.results.clear_rig(armature_of(context)))
+        return assembly.report_cleared(
+            self, context, session.stored.results.clear_rig(armature_of(context))
+        )
 
 
 class OBJECT_OT_body_moments_physics_rig(OnArmature, Operator):
@@ -137,7 +137,10 @@ class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
         ]
         shown = not context.object.body_moments_weight.show
         rigs = list(
-            filter(None, [character.weight.prepare(context, armature) for armature in armatures])
+            filter(
+                None,
+                [session.character.weight.prepare(context, armature) for armature in armatures],
+            )
         )
         shown = shown or bool(rigs)  # numbers that were out of date are shown anew
         for armature in armatures:

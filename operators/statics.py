@@ -9,7 +9,6 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 from bpy.types import Context, Object, Operator
 
 from ..blender import session
-from ..blender.session import selected, stored, tracking
 from ..blender.write import reports, translations
 from ..core.verdict.finding import Finding, finding
 from . import findings, modal, selection
@@ -35,13 +34,15 @@ class OBJECT_OT_body_moments_stability(selection.OnSelection, Operator):
             notes.extend(session.check_stability(context, obj, measured))
 
         known, failures = selection.apply_to_all(objects, check)
-        tracking.staleness.mark_up_to_date(context, measured)
-        supports = {obj: stored.stability.support(obj, context.scene) for obj in objects}
+        session.tracking.staleness.mark_up_to_date(context, measured)
+        supports = {obj: session.stored.stability.support(obj, context.scene) for obj in objects}
         standing = [
             obj for obj, support in supports.items() if support is not None and support.stands
         ]
         falling = [
-            obj.name for obj in objects if stored.stability.is_known(obj) and obj not in standing
+            obj.name
+            for obj in objects
+            if session.stored.stability.is_known(obj) and obj not in standing
         ]
         if falling:
             notes.insert(0, finding(findings.OBJECTS_TIP, count=len(falling), names=falling))
@@ -84,8 +85,8 @@ class OBJECT_OT_body_moments_rest_on_ground(selection.OnSelectionInObjectMode, O
         layout = self.layout
         layout.use_property_split = True
         layout.prop(self, "pose")
-        obj = selected.subject(context)
-        poses = None if obj is None else stored.stability.poses(obj)
+        obj = session.selected.subject(context)
+        poses = None if obj is None else session.stored.stability.poses(obj)
         if self.pose and poses is not None and not isinstance(poses, Finding):
             count = len(poses.shares)
             place = (self.pose - 1) % count

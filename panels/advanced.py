@@ -9,10 +9,9 @@ from __future__ import annotations
 
 from bpy.types import Context, Object, UILayout
 
-from ..blender.session import selected, stored, tracking
+from ..blender import session, write
 from ..blender.session.displayed import displayed
 from ..blender.settings.preferences import shows_advanced
-from ..blender.write import properties
 from ..core import inertia, lazy
 from . import places, rows
 
@@ -24,11 +23,11 @@ class AdvancedPanel:
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return shows_advanced() and selected.subject(context) is not None
+        return shows_advanced() and session.selected.subject(context) is not None
 
     def draw(self, context: Context) -> None:
         layout = self.layout
-        obj = selected.subject(context)
+        obj = session.selected.subject(context)
         scene = context.scene
         rows.button(layout, "object.body_moments_fourier", "MOD_WAVE", short="Fourier")
         shown = displayed(obj, scene)
@@ -39,7 +38,7 @@ class AdvancedPanel:
 
 
 def _display_mesh(layout: UILayout, obj: Object, shown: inertia.PlainBody) -> None:
-    display = properties.optional(obj, "body_display_volume")
+    display = write.properties.optional(obj, "body_display_volume")
     if display is None:
         return
     body = rows.fold(layout, "body_moments_display_mesh", "Display Mesh")
@@ -55,7 +54,7 @@ def _bounds(layout: UILayout, obj: Object, shown: inertia.PlainBody) -> None:
         return
     rounding = (
         "Quadrature and Rounding, Estimated"
-        if properties.is_estimated(obj)
+        if write.properties.is_estimated(obj)
         else "Rounding, at Most"
     )
     sources = (
@@ -77,7 +76,7 @@ class MomentsPanel:
 
     def draw(self, context: Context) -> None:
         layout = self.layout
-        obj = selected.subject(context)
+        obj = session.selected.subject(context)
         settings = context.scene.body_moments
         column = layout.column()
         rows.setting(column, settings, "moments_order")
@@ -87,11 +86,13 @@ class MomentsPanel:
         row = layout.row(align=True)
         rows.button(row, "object.body_moments_compute_moments", "PHYSICS", short="Compute")
         row.operator("object.body_moments_copy", text="", icon="COPYDOWN").what = "MOMENTS"
-        table = lazy.loaded_module(stored, "moments")
+        table = lazy.loaded_module(session.stored, "moments")
         computed = None if table is None else table.computed_moments(obj)
         if computed is None:
             return
-        rows.stale_row(layout, tracking.staleness.stale_reason(obj, context.scene, table.stamp_of))
+        rows.stale_state(
+            layout, session.tracking.staleness.stale_reason(obj, context.scene, table.stamp_of)
+        )
         degrees, missing = table.current_numbers(obj, context.scene)
         if missing is not None:
             rows.message(layout, missing)
@@ -106,8 +107,7 @@ class MomentsPanel:
             rows.table(column, [(*row, degree.unit) for row in degree.rows])
         if computed.order > table.MAX_SHOWN_ORDER:
             text = "Orders {first} to {last} are only in the copy."
-            first = table.MAX_SHOWN_ORDER + 1
-            rows.remark(layout, text, first=first, last=computed.order)
+            rows.remark(layout, text, first=table.MAX_SHOWN_ORDER + 1, last=computed.order)
 
 
 CLASSES = (

@@ -15,12 +15,10 @@ from typing import NamedTuple
 
 from bpy.types import Context, Object, UILayout
 
+from ..blender import session, settings, write
 from ..blender.read.visibility import measurable
-from ..blender.session import stored, tracking
 from ..blender.session.displayed import Displayed, Verdict, displayed, shown_objects, total
 from ..blender.session.live.following import Lag, current_numbers, is_live
-from ..blender.settings import chosen, preferences
-from ..blender.write import properties
 from ..blender.write.translations import localized
 from ..core import inertia, wall
 from ..core.verdict import METHODS, Group, Source, method_key, truncate_list
@@ -80,7 +78,7 @@ class BodyPanel:
         row = self.layout.row(align=True)
         header_switch(row, context)
         if not rows.is_narrow():  # the name would be below them
-            preferences.draw_links(row, icons_only=True)
+            settings.preferences.draw_links(row, icons_only=True)
 
     def draw(self, context: Context) -> None:
         layout = self.layout
@@ -116,14 +114,16 @@ class BodyPanel:
 def _answer(context: Context) -> Answer:
     objects = shown_objects(context)
     obj = context.object
-    is_sum = len(objects) > 1 or obj is not None and tracking.armatures.stands_for_meshes(obj)
+    is_sum = (
+        len(objects) > 1 or obj is not None and session.tracking.armatures.stands_for_meshes(obj)
+    )
     return _of_several(context) if is_sum else _of_one(context, objects[0])
 
 
 def _of_one(context: Context, obj: Object) -> Answer:
     shown = displayed(obj, context.scene)
     frame = context.scene.body_moments.frame
-    length = properties.optional(obj, "body_length")
+    length = write.properties.optional(obj, "body_length")
     numbers = None if shown is None else shown.in_frame(frame)
     is_rig = obj.type == "ARMATURE" and shown is not None and not shown.is_posed
     size = ("Volume", "volume", None if numbers is None else numbers.volume)
@@ -138,7 +138,7 @@ def _of_one(context: Context, obj: Object) -> Answer:
         state = live, "REC"
     findings = () if shown is None else shown.findings
     now = current_numbers(obj)
-    if now is not None and now.refusal is not None and stored.outcome.last() is None:
+    if now is not None and now.refusal is not None and session.stored.outcome.last() is None:
         findings = now.refusal, *findings
     return Answer(
         obj.name,
@@ -159,13 +159,13 @@ def _of_several(context: Context) -> Answer:
     active = context.object
     count = shown.count + len(shown.missing)
     posed = None
-    if active is not None and tracking.armatures.stands_for_meshes(active):
+    if active is not None and session.tracking.armatures.stands_for_meshes(active):
         posed = displayed(active, context.scene)
         name = localized("{:s}: {:d} Mesh" if count == 1 else "{:s}: {:d} Meshes")
         name = name.format(active.name, count)
     else:
         name = localized("{:d} Objects").format(count)
-    is_rest = posed is not None and properties.optional(active, "body_mass") is not None
+    is_rest = posed is not None and write.properties.optional(active, "body_mass") is not None
     numbers = shown.numbers if posed is None else posed.world
     density = ""
     if numbers is not None:
@@ -237,7 +237,7 @@ def _buttons(layout: UILayout, context: Context) -> None:
     buttons.scale_y = 1.4
     shown = shown_objects(context)
     selected = context.view_layer.objects.selected
-    subjects = [obj for obj in tracking.armatures.subjects(selected) if measurable(obj)]
+    subjects = [obj for obj in session.tracking.armatures.subjects(selected) if measurable(obj)]
     text = "Measure" if not subjects or len(shown) == 1 and subjects == shown else "Measure {:s}"
     name = (
         subjects[0].name if len(subjects) == 1 else localized("{:d} Objects").format(len(subjects))
@@ -258,7 +258,7 @@ def _method(obj: Object, shown: Displayed) -> str:
     origin = (
         Source.POLYGONS if shown.method is None or key == str(shown.method) else shown.method.source
     )
-    name = METHODS[key][0] if key in METHODS else properties.method_text(obj).title()
+    name = METHODS[key][0] if key in METHODS else write.properties.method_text(obj).title()
     return localized(SOURCES.get(origin, "{:s}")).format(localized(name))
 
 
@@ -275,7 +275,7 @@ class FindingsPanel:
             remedies.unit_question(layout, context, *questioned)
         remedies.notes(layout, "body_moments_notes", groups)
         objects = shown_objects(context)
-        source = properties.density_from(objects[0]) if len(objects) == 1 else ""
+        source = write.properties.density_from(objects[0]) if len(objects) == 1 else ""
         if source:
             rows.remark(layout, "Mean density, from {cause}", icon="BLANK1", cause=source)
 
@@ -296,7 +296,7 @@ class RefusedPanel:
 
     @classmethod
     def poll(cls, _context: Context) -> bool:
-        return stored.outcome.last() is not None
+        return session.stored.outcome.last() is not None
 
     def draw(self, context: Context) -> None:
         remedies.last_action(self.layout, context)
@@ -322,7 +322,7 @@ class ApplyPanel:
         passive = row.operator("object.body_moments_rigid_bodies", text="Passive")
         passive.type = "PASSIVE"
         button = rows.button(column, "object.body_moments_set_rigid_body_mass", "RIGID_BODY")
-        button.add = not any(obj.rigid_body for obj in chosen.chosen_objects(context))
+        button.add = not any(obj.rigid_body for obj in settings.chosen.chosen_objects(context))
         rows.button(layout, "object.body_moments_add_nodes", "GEOMETRY_NODES")
         rows.button(layout, "object.body_moments_sculpt_balance", "SCULPTMODE_HLT")
 

@@ -10,14 +10,12 @@ from collections.abc import Mapping
 from math import degrees, dist
 from typing import Any
 
-from bpy.types import Context, Object, OperatorProperties
+from bpy.types import Context, OperatorProperties
 
+from ..blender import scale, session
 from ..blender.read.visibility import measurable
-from ..blender.scale import meters_per_unit
-from ..blender.session.selected import subject
 from ..blender.session.stored.collider_tolerance import is_beyond_tolerance, tolerance_remedy
-from ..blender.session.tracking import staleness, stamps
-from ..blender.settings.given import COLLIDER, COLLIDERS
+from ..blender.settings.given import COLLIDER, COLLIDERS, body_of
 from ..operators.setup.colliders import SHAPES
 from . import places, rows
 
@@ -56,8 +54,8 @@ class CollidersPanel:
 
     def draw(self, context: Context) -> None:
         layout = self.layout
-        chosen = subject(context)
-        body = None if chosen is None else _body(chosen)
+        chosen = session.selected.subject(context)
+        body = None if chosen is None else body_of(chosen)
         layout.label(text="" if body is None else body.name, icon="OBJECT_DATA", translate=False)
         group = None if body is None else body.get(COLLIDERS)
         stored = group if hasattr(group, "keys") and KEYS.issubset(group.keys()) else None
@@ -76,6 +74,7 @@ class CollidersPanel:
         text = SHAPE_NAMES.get(kind, "Shape")
         choice = layout.operator_menu_enum(make_colliders, "shape", text=text, icon="MESH_DATA")
         _repeat(choice, stored, correct)
+        layout.label(text="Correct")
         row = layout.row(align=True)
         for name, label in (("NONE", "Off"), ("MASSES", "Masses"), ("VERTICES", "Vertices")):
             is_chosen = stored is not None and name == correct
@@ -83,11 +82,13 @@ class CollidersPanel:
             again.shape = kind
             _repeat(again, stored, name)
         if getattr(context.space_data, "type", "") == "VIEW_3D":
-            layout.prop(context.space_data.shading, "wireframe_color_type", text="Wire Color")
+            layout.prop(context.space_data.shading, "wireframe_color_type", text="Wire")
         reason = (
             None
             if stored is None
-            else staleness.stale_reason(body, context.scene, stamps.of_colliders)
+            else session.tracking.staleness.stale_reason(
+                body, context.scene, session.tracking.stamps.of_colliders
+            )
         )
         rows.stale_state(layout, reason)
         if stored is None:
@@ -97,7 +98,7 @@ class CollidersPanel:
         rows.filled(
             column, "1 Collider" if stored["count"] == 1 else "{:d} Colliders", stored["count"]
         )
-        size = max(body.dimensions) * meters_per_unit(context.scene)
+        size = max(body.dimensions) * scale.meters_per_unit(context.scene)
         shift = dist(stored["center_shift"], (0.0, 0.0, 0.0))
         changes = (
             abs(stored.get("mass_ratio", 1.0) - 1.0),
@@ -148,11 +149,6 @@ def _repeat(make: OperatorProperties, stored: Mapping[str, Any] | None, correct:
         make.tolerance = "LENGTH"
         make.outward, make.inward = stored["tolerance"]
         make.pieces, make.vertices = stored["limits"]
-
-
-def _body(obj: Object) -> Object:
-    """Return the body of a collider, and any other object itself."""
-    return obj.parent if COLLIDER in obj and obj.parent is not None else obj
 
 
 CLASSES = places.in_both_places(CollidersPanel, "colliders", shown_for=measurable, of_all=True)

@@ -10,11 +10,9 @@ from typing import TYPE_CHECKING
 from bpy.types import Context, UILayout
 
 from ..blender.read.visibility import measurable
-from ..blender.session import memory, stored
-from ..blender.session.selected import subject
+from ..blender.session import memory, selected, stored
 from ..core.lazy import loaded_module
-from . import rows
-from .places import in_both_places
+from . import places, rows
 
 if TYPE_CHECKING:
     from ..blender.session.stored.cuts import KnownCutFill, Level
@@ -29,7 +27,7 @@ class CutsPanel:
 
     def draw(self, context: Context) -> None:
         layout = self.layout
-        obj = subject(context)
+        obj = selected.subject(context)
         column = layout.column(align=True)
         rows.button(column, "object.body_moments_level", "MATFLUID")
         rows.button(column, "object.body_moments_cut_fill", "MOD_BOOLEAN", short="Cut, Fill")
@@ -127,6 +125,6 @@ def _cut_fill(layout: UILayout, known: KnownCutFill) -> None:
                 rows.group(body, label, rows.AXIS_LABELS, "length", center, area**0.5)
 
 
-CLASSES = in_both_places(
+CLASSES = places.in_both_places(
     CutsPanel, "cuts", parent="section", options=frozenset(), shown_for=measurable
 )

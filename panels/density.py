@@ -15,14 +15,11 @@ from bpy.types import Context, Mesh, Object, Panel, PropertyGroup, UILayout
 
 from ..blender.session import stored
 from ..blender.session.selected import chosen_settings, common, is_mixed, owners
-from ..blender.settings.given import has_density, shows_collection
-from ..blender.settings.preferences import default_material, shows_advanced
-from ..blender.settings.properties import density_field_name
+from ..blender.settings import given, preferences, properties
 from ..blender.write.translations import CONTEXT
 from ..core.lazy import loaded_module
 from . import material_menus as materials
-from . import rows
-from .places import in_both_places
+from . import places, rows
 
 
 class DensityPanel:
@@ -40,7 +37,7 @@ def material_row(layout: UILayout, context: Context) -> None:
     """
     settings = chosen_settings(context)
     objects = owners(context)
-    if settings is None or not has_density(objects[0]):
+    if settings is None or not given.has_density(objects[0]):
         return
     are_volumes = all(obj.type == "VOLUME" for obj in objects)
     column = layout.column()
@@ -64,7 +61,7 @@ def _density_source(column: UILayout, settings: PropertyGroup) -> None:
     show them.
     """
     source = common(settings, "density_from")
-    if shows_advanced() or source in (None, "POLYNOMIAL"):
+    if preferences.shows_advanced() or source in (None, "POLYNOMIAL"):
         rows.setting(column, settings, "density_from")
         return
     grid = column.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
@@ -209,7 +206,7 @@ def _materials(layout: UILayout, context: Context, settings: PropertyGroup) -> N
 def _uniform_density(column: UILayout, context: Context, settings, heading: str) -> None:
     """Draw the object's own density, with the table and the user's presets."""
     _material(column, context, settings, heading)
-    rows.setting(column, settings, density_field_name(context.scene))
+    rows.setting(column, settings, properties.density_field_name(context.scene))
 
 
 def _material(column: UILayout, context: Context, settings: PropertyGroup, heading: str) -> None:
@@ -219,7 +216,11 @@ def _material(column: UILayout, context: Context, settings: PropertyGroup, headi
         settings.material or not is_mixed(settings, "density_kg_m3")
     ):
         is_set = owners(context)[0].body_moments.is_property_set("density")
-        name = settings.material or (not is_set and default_material(context.scene)) or "Custom"
+        name = (
+            settings.material
+            or (not is_set and preferences.default_material(context.scene))
+            or "Custom"
+        )
     row.menu("OBJECT_MT_body_moments_materials", text=name)
     row.popover("OBJECT_PT_body_moments_presets", text="", icon="PRESET")
 
@@ -294,7 +295,7 @@ class GivenPanel:
 
 
 def _may_be_point(obj) -> bool:
-    return obj.type == "EMPTY" and not shows_collection(obj)
+    return obj.type == "EMPTY" and not given.shows_collection(obj)
 
 
 def given_rows(layout: UILayout, settings: PropertyGroup) -> None:
@@ -311,8 +312,8 @@ def given_rows(layout: UILayout, settings: PropertyGroup) -> None:
 
 CLASSES = (
     OBJECT_PT_body_moments_mixed,
-    *in_both_places(DensityPanel, "density", shown_for=has_density, of_all=True),
-    *in_both_places(
+    *places.in_both_places(DensityPanel, "density", shown_for=given.has_density, of_all=True),
+    *places.in_both_places(
         GivenPanel,
         "given",
         shown_for=lambda obj: _may_be_point(obj) or obj.body_moments.mass_from == "MASS",

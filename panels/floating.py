@@ -10,13 +10,9 @@ from typing import TYPE_CHECKING
 from bpy.types import Context, UILayout
 
 from ..blender.read.visibility import measurable
-from ..blender.session import stored
-from ..blender.session.displayed import shown_objects
-from ..blender.session.selected import subject
-from ..core.lazy import loaded_module
-from ..core.verdict import Finding
-from . import rows
-from .places import in_both_places
+from ..blender.session import displayed, selected, stored
+from ..core import lazy, verdict
+from . import places, rows
 
 if TYPE_CHECKING:
     from ..blender.session.stored.floating import Afloat, Held
@@ -32,8 +28,8 @@ class FloatingPanel:
 
     def draw(self, context: Context) -> None:
         layout = self.layout
-        objects = shown_objects(context)
-        obj = objects[0] if len(objects) == 1 else subject(context)
+        objects = displayed.shown_objects(context)
+        obj = objects[0] if len(objects) == 1 else selected.subject(context)
         settings = context.scene.body_moments_liquid
         column = layout.column(align=True)
         rows.button(column, "object.body_moments_float", "MOD_OCEAN").position = 0
@@ -51,13 +47,13 @@ class FloatingPanel:
             column.prop(tank, "role")
             if tank.role == "TANK":
                 column.prop(tank, "fill")
-        floating = loaded_module(stored, "floating")
+        floating = lazy.loaded_module(stored, "floating")
         afloat = None if floating is None or obj is None else floating.known_body(obj)
         if afloat is None:
             rows.remark(layout, "Press Float to see where it rests.")
             return
         held = floating.held_body(obj, context.scene)
-        if isinstance(held, Finding):
+        if isinstance(held, verdict.Finding):
             rows.message(layout, held)
         elif held is None:
             rows.remark(layout, "The object has changed. Press Float again.", icon="FILE_REFRESH")
@@ -153,4 +149,4 @@ def _stability(layout: UILayout, curve: RightingCurve) -> None:
         rows.remark(column, "It comes back from any heel.")
 
 
-CLASSES = in_both_places(FloatingPanel, "floating", shown_for=measurable, of_all=True)
+CLASSES = places.in_both_places(FloatingPanel, "floating", shown_for=measurable, of_all=True)

@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from bpy.types import Context
 
-from ..blender import read, write
-from ..blender.session import selected, stored, tracking
+from ..blender import read, session, write
 from ..blender.session.displayed import displayed, shown_objects, total
 from ..core import inertia, verdict
 from . import places, rows
@@ -68,15 +67,15 @@ def _equal_moments(shown: inertia.PlainBody) -> str:
 
 
 def _are_several(context: Context) -> bool:
-    obj = selected.subject(context)
-    is_posed = obj is not None and tracking.armatures.stands_for_meshes(obj)
+    obj = session.selected.subject(context)
+    is_posed = obj is not None and session.tracking.armatures.stands_for_meshes(obj)
     return not is_posed and len(shown_objects(context)) > 1
 
 
 def _shown(context: Context) -> inertia.PlainBody | None:
     if _are_several(context):
         return total(context).numbers
-    obj = selected.subject(context)
+    obj = session.selected.subject(context)
     current = None if obj is None else displayed(obj, context.scene)
     return None if current is None else current.in_frame(context.scene.body_moments.frame)
 
@@ -89,7 +88,7 @@ class ReferencePanel:
     def draw(self, context: Context) -> None:
         layout, scene = self.layout, context.scene
         settings = scene.body_moments_reference
-        obj = selected.subject(context)
+        obj = session.selected.subject(context)
         column = layout.column()
         rows.setting(column, settings, "about")
         if settings.about == "OBJECT":
@@ -107,7 +106,7 @@ class ReferencePanel:
         rows.button(row, "object.body_moments_store_reference", "FILE_TICK", short="Store")
         rows.button(row, "object.body_moments_copy", "COPYDOWN").what = "REFERENCE"
         result = (
-            stored.reference.referred(obj, scene)
+            session.stored.reference.referred(obj, scene)
             if obj is not None and "body_mass" in obj
             else None
         )

@@ -13,8 +13,7 @@ from dataclasses import replace
 import bpy
 from bpy.types import Context, Object, UILayout
 
-from ..blender.session.selected import subject
-from ..blender.session.stored import outcome
+from ..blender.session import selected, stored
 from ..blender.write.remedies import DEFECTS, REMEDIES, REPAIR, SELECT, remedies_of
 from ..blender.write.translations import localized, localized_sentence
 from ..core.inertia import PlainBody
@@ -122,7 +121,7 @@ def _headline(context: Context, group: Group) -> str:
 def _remedies(context: Context, group: Group) -> tuple[str, ...]:
     if group.finding.values.get("objects"):
         return (SELECT,)  # a caveat about a total or an assembly
-    obj = subject(context)  # a collection may be shown without an object
+    obj = selected.subject(context)  # a collection may be shown without an object
     if group.objects and (obj is None or group.objects != (obj.name_full,)):
         return (SELECT,)
     return remedies_of(group.finding.code, "" if obj is None else obj.type)
@@ -154,7 +153,7 @@ def _accept(layout: UILayout, code: str, icon: str, text: str = "", accepted: bo
 
 def last_action(layout: UILayout, context: Context) -> None:
     """Draw the refusals of the last action, equal ones of several objects once."""
-    last = outcome.last()
+    last = stored.outcome.last()
     if last is None:
         return
     box = layout.box()

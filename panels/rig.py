@@ -11,19 +11,11 @@ from typing import TYPE_CHECKING
 
 from bpy.types import Context, Menu, Panel, PoseBone, UILayout
 
-from ..blender.scale import meters_per_unit
-from ..blender.session import character
-from ..blender.session.displayed import shown_objects
-from ..blender.session.selected import armature_of
-from ..blender.session.tracking.armatures import stands_for_meshes
-from ..blender.session.tracking.staleness import stale_reason
-from ..blender.write import properties
-from ..blender.write.reports import distance
-from ..blender.write.translations import localized
-from ..core.lazy import loaded_module
-from ..core.verdict import truncate_list
-from . import rows
-from .places import AmongProperties, in_both_places
+from ..blender import scale, session, write
+from ..blender.session.tracking import armatures, staleness
+from ..blender.write import reports, translations
+from ..core import lazy, verdict
+from . import places, rows
 
 if TYPE_CHECKING:
     from ..blender.session.character.weight import Weight
@@ -38,16 +30,16 @@ class BonesPanel:
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return armature_of(context) is not None
+        return session.selected.armature_of(context) is not None
 
     def draw(self, context: Context) -> None:
-        layout, armature = self.layout, armature_of(context)
-        if len(shown_objects(context)) > 1:
+        layout, armature = self.layout, session.selected.armature_of(context)
+        if len(session.displayed.shown_objects(context)) > 1:
             layout.label(text=armature.name, icon="ARMATURE_DATA", translate=False)
         button = layout.row()
         button.scale_y = 1.4
         button.operator("object.body_moments_measure_bones", icon="BONE_DATA")
-        is_measured = properties.stored(armature) is not None
+        is_measured = write.properties.stored(armature) is not None
         column = layout.column(align=True)
         column.enabled = is_measured
         rows.button(column, "object.body_moments_physics_rig", "RIGID_BODY")
@@ -55,12 +47,12 @@ class BonesPanel:
         rows.button(column, "object.body_moments_clear_bones", "TRASH")
         if not is_measured:
             return
-        rows.stale_state(layout, stale_reason(armature, context.scene))
+        rows.stale_state(layout, staleness.stale_reason(armature, context.scene))
         units = rows.scene_units()
         measured = [
             (bone, own.mass)
             for bone in armature.pose.bones
-            if (own := properties.stored(bone)) is not None
+            if (own := write.properties.stored(bone)) is not None
         ]
         total = sum(mass for _, mass in measured)
         column = layout.column(align=True)
@@ -99,7 +91,7 @@ class WeightPanel:
         spans = _spans(context)
         row = column.row()
         row.enabled = bool(spans)
-        text = localized("Momentum from nothing: {:d}").format(len(spans))
+        text = translations.localized("Momentum from nothing: {:d}").format(len(spans))
         icon = "ERROR" if spans else "BLANK1"
         row.menu("VIEW3D_MT_body_moments_spans", text=text, icon=icon, translate=False)
         column = layout.column()
@@ -113,13 +105,13 @@ class WeightPanel:
             column.prop(bone.body_moments, "is_contact")
         else:
             column.label(text="Contact: no active bone", icon="CHECKBOX_DEHLT")
-        posed = loaded_module(character, "weight")
+        posed = lazy.loaded_module(session.character, "weight")
         depsgraph = context.view_layer.depsgraph
         weight = None
         if posed is not None and depsgraph is not None:
             weight = posed.weight(armature, depsgraph)
-        rows.stale_state(layout, stale_reason(armature, context.scene))
-        _standing(layout, weight, meters_per_unit(context.scene))
+        rows.stale_state(layout, staleness.stale_reason(armature, context.scene))
+        _standing(layout, weight, scale.meters_per_unit(context.scene))
 
 
 def standing(weight: Weight, unit: float) -> tuple[str, dict[str, str], str]:
@@ -129,9 +121,9 @@ def standing(weight: Weight, unit: float) -> tuple[str, dict[str, str], str]:
     if height is None:
         return "No mesh can touch the ground", {}, "INFO"
     if support is None:
-        lengths = {"height": distance(height * unit)}
-        return "In the air: {height} above the ground", lengths, "INFO"
-    margin = {"margin": distance(abs(support.margin) * unit)}
+        lengths = {"height": reports.distance(height * unit)}
+        return "In the air: {height} above ground", lengths, "INFO"
+    margin = {"margin": reports.distance(abs(support.margin) * unit)}
     if not support.stands:
         return "Falls: {margin} outside", margin, "CANCEL"
     if support.is_near_edge:
@@ -143,14 +135,14 @@ def _standing(layout: UILayout, weight: Weight | None, unit: float) -> None:
     """Draw how a character stands, its mass, and the contacts that carry it, in as many rows
     however it stands.
     """
-    text = localized("Not measured. Show the weight again.")
+    text = translations.localized("Not measured. Show the weight again.")
     icon = "INFO"
     mass = None
     lengths: dict[str, float] = {}
     names: dict[str, Sequence[str]] = {}
     if weight is not None:
         template, shown, icon = standing(weight, unit)
-        text = localized(template).format(**shown)
+        text = translations.localized(template).format(**shown)
         mass = weight.parts.mass
         unmeasured = [name for name, own in zip(weight.parts.names, weight.parts.masses) if not own]
         contacts = weight.contacts
@@ -165,10 +157,12 @@ def _standing(layout: UILayout, weight: Weight | None, unit: float) -> None:
     rows.quantities(column, [("Mass", "mass", mass)])
     for name in ("Margin", "Height"):
         value = lengths.get(name)
-        cell = ("–", "", "") if value is None else (distance(value), repr(float(value)), "m")
+        cell = (
+            ("–", "", "") if value is None else (reports.distance(value), repr(float(value)), "m")
+        )
         rows.table(column, [(name, *cell)])
     for word in ("Carries", "Lifted", "Not Measured"):
-        listed = truncate_list(names.get(word, ()), translate=localized) or "–"
+        listed = verdict.truncate_list(names.get(word, ()), translate=translations.localized) or "–"
         row = column.split(factor=rows.LABEL_SHARE)
         row.label(text=word)
         row.label(text=listed, translate=False)
@@ -180,8 +174,8 @@ def _spans(context: Context) -> list[tuple[float, ...]]:
     """
     name = context.object.name_full
     for obj in context.scene.objects:
-        if obj.type == "EMPTY" and obj.get(properties.BALANCE_GROUP) == name:
-            spans = list(obj.get(properties.BALANCE_SPANS, ()))
+        if obj.type == "EMPTY" and obj.get(write.properties.BALANCE_GROUP) == name:
+            spans = list(obj.get(write.properties.BALANCE_SPANS, ()))
             return [tuple(spans[at : at + 4]) for at in range(0, len(spans), 4)]
     return []
 
@@ -193,7 +187,7 @@ class VIEW3D_MT_body_moments_spans(Menu):
 
     def draw(self, context: Context) -> None:
         for first, last, impulse, twist in _spans(context)[:LISTED]:
-            text = localized("Frames {:.0f}–{:.0f}: {:.3g} N·s, {:.3g} N·m·s").format(
+            text = translations.localized("Frames {:.0f}–{:.0f}: {:.3g} N·s, {:.3g} N·m·s").format(
                 first, last, impulse, twist
             )
             jump = self.layout.operator("wm.context_set_int", text=text, translate=False)
@@ -201,7 +195,7 @@ class VIEW3D_MT_body_moments_spans(Menu):
             jump.value = round(first)
 
 
-class BONE_PT_body_moments(AmongProperties, Panel):
+class BONE_PT_body_moments(places.AmongProperties, Panel):
     """The part of the active bone, in rest pose and the bone's rest frame"""
 
     bl_context = "bone"
@@ -222,7 +216,7 @@ class BONE_PT_body_moments(AmongProperties, Panel):
         elif settings.mass_from == "MASS":
             rows.setting(column, settings, "mass", text="Mass (kg)")
         rows.button(layout, "object.body_moments_measure_bones", "BONE_DATA")
-        rows.stale_row(layout, stale_reason(bone.id_data, context.scene))
+        rows.stale_state(layout, staleness.stale_reason(bone.id_data, context.scene))
         _numbers(layout, bone)
 
 
@@ -234,7 +228,7 @@ def _pose_bone(context: Context) -> PoseBone | None:
 
 
 def _numbers(layout: UILayout, bone: PoseBone) -> None:
-    stored = properties.stored(bone)
+    stored = write.properties.stored(bone)
     if stored is None:
         return
     column = layout.column(align=True)
@@ -245,8 +239,10 @@ def _numbers(layout: UILayout, bone: PoseBone) -> None:
 
 
 CLASSES = (
-    *in_both_places(WeightPanel, "weight", options=frozenset(), shown_for=stands_for_meshes),
-    *in_both_places(BonesPanel, "bones"),
+    *places.in_both_places(
+        WeightPanel, "weight", options=frozenset(), shown_for=armatures.stands_for_meshes
+    ),
+    *places.in_both_places(BonesPanel, "bones"),
     VIEW3D_MT_body_moments_spans,
     BONE_PT_body_moments,
 )

@@ -394,14 +394,6 @@ def stale_state(layout: UILayout, reason: str | None) -> None:
     state(layout, outdated(reason) if reason else "", "FILE_REFRESH" if reason else "")
 
 
-def stale_row(layout: UILayout, reason: str | None) -> None:
-    """Draw the reason why numbers are out of date, if any."""
-    if reason is not None:
-        row = layout.row()
-        row.alert = True
-        sentence(row, outdated(reason), icon="FILE_REFRESH")
-
-
 def outdated(reason: str) -> str:
     """Return the translated sentence on why numbers are out of date."""
     return localized("Out of date: {:s}").format(localized(reason))

@@ -65,7 +65,7 @@ def _verdict(layout: UILayout, stored: write.section.StoredSection, outdated: st
         "{:s}: {:s}".format(write.translations.localized(stored.description), ", ".join(parts)),
         icon="CHECKMARK",
     )
-    rows.stale_row(column, outdated)
+    rows.stale_state(column, outdated)
 
 
 def _numbers(layout: UILayout, section) -> None:

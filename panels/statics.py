@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING
 
 from bpy.types import Context, UILayout
 
+from ..blender import scale, session
 from ..blender.read.visibility import measurable
-from ..blender.scale import meters_per_unit
-from ..blender.session import displayed, selected, stored, tracking
 from ..blender.write.translations import localized
 from ..core import lazy, verdict
 from . import places, rows
@@ -31,9 +30,9 @@ class StabilityPanel:
 
     def draw(self, context: Context) -> None:
         layout = self.layout
-        objects = displayed.shown_objects(context)
-        obj = objects[0] if len(objects) == 1 else selected.subject(context)
-        stability = lazy.loaded_module(stored, "stability")
+        objects = session.displayed.shown_objects(context)
+        obj = objects[0] if len(objects) == 1 else session.selected.subject(context)
+        stability = lazy.loaded_module(session.stored, "stability")
         is_known = stability is not None and obj is not None and stability.is_known(obj)
         support = stability.support(obj, context.scene) if is_known else None
         tips_over_edge = support is not None and not support.stands and len(support.polygon) > 2
@@ -56,7 +55,10 @@ class StabilityPanel:
         )
         rest.pose = 1
         _support(layout, context, support, is_known)
-        _poses(layout, stored.stability.poses(obj, context.scene) if support is not None else None)
+        _poses(
+            layout,
+            session.stored.stability.poses(obj, context.scene) if support is not None else None,
+        )
 
 
 def _support(layout: UILayout, context: Context, support: Support | None, is_known: bool) -> None:
@@ -73,7 +75,7 @@ def _support(layout: UILayout, context: Context, support: Support | None, is_kno
         text = "Tips Over" if is_on_area else "On an edge or corner: lay it down"
         rows.state(column, localized(text), "ERROR")
     if support is not None:
-        margin = support.margin * meters_per_unit(context.scene)
+        margin = support.margin * scale.meters_per_unit(context.scene)
         toward = atan2(support.direction[1], support.direction[0])
         cells = [
             rows.quantity_cell("Margin", "length", margin),
@@ -119,6 +121,6 @@ def _poses(layout: UILayout, poses: RestingPoses | verdict.Finding | None) -> No
 CLASSES = places.in_both_places(
     StabilityPanel,
     "stability",
-    shown_for=lambda obj: measurable(obj) or tracking.armatures.stands_for_meshes(obj),
+    shown_for=lambda obj: measurable(obj) or session.tracking.armatures.stands_for_meshes(obj),
     of_all=True,
 )

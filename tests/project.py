@@ -19,6 +19,7 @@ and what is run by hand, from the folder tools:
     python3 tests/project.py film         the film of the thrown crates in the manual
     python3 tests/project.py retrieval    the rate at which moved and noisy parts are recognized
     python3 tests/project.py robots       audit robots of the Python index: the manual's page
+    python3 tests/project.py alarms       faults planted in them that are found; alarms confirmed
     python3 tests/project.py soak         what takes long: hostile files, kills, random damage, ...
 
 Each sets up what it needs in .envs/, and no more: one environment for each Blender that exists as a
@@ -86,6 +87,11 @@ TOOLBOX = {
     "film": ("tumbling.py", ("tools",), "the film of the thrown crates in the manual"),
     "retrieval": ("retrieval.py", (), "the rate at which moved and noisy parts are recognized"),
     "robots": ("published_robots.py", ("tools",), "audit robots of the Python index"),
+    "alarms": (
+        "robot_alarms.py",
+        ("benchmark", "tools"),
+        "faults planted in these robots that are found, and alarms that trimesh and others confirm",
+    ),
     "consumers": ("robot_consumers.py", (), "load exported robots in all programs that read them"),
     "soak": (
         "soak",

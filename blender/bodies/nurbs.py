@@ -32,8 +32,16 @@ from ...core.bodies import (
 )
 from ...core.measurement import WALL_UNSUPPORTED, Body
 from ...core.mesh import Surface
-from ...core.moments import affine_matrices, are_similarities, distinct_linear_parts, sum_of_images
-from ...core.moments.moments import Measure, Moments, monomial_count, sum_moments
+from ...core.moments import (
+    Measure,
+    Moments,
+    affine_matrices,
+    are_similarities,
+    distinct_linear_parts,
+    monomial_count,
+    sum_moments,
+    sum_of_images,
+)
 from ...core.numerics import Array
 from ...core.nurbs import (
     ERROR_ESTIMATE_LARGE,

@@ -19,13 +19,13 @@ from ...core.measurement import (
     NO_VOLUME,
     ZERO_QUANTITY,
     Extent,
+    Measurement,
     add_extents,
     digest,
     extent_of,
     fingerprint,
     measure_total,
 )
-from ...core.measurement.measurement import Measurement
 from ...core.mesh import Surface
 from ...core.moments import KNOWN_ORDER, Measure, Moments, are_similarities, sum_moments
 from ...core.numerics import Array, shortest_decimal
@@ -134,8 +134,7 @@ class _Measuring:
         self.objects: list[Object] = []
 
     def rig(self) -> Rig:
-        objects = list(self.depsgraph.view_layer.objects)
-        skinned = skinned_objects(self.armature, objects)
+        skinned = skinned_objects(self.armature, list(self.depsgraph.view_layer.objects))
         if skinned and not self.bones.deforming:
             raise ReadError(RIG_WITHOUT_PARTS, subject=self.armature.name)
         hanging = hanging_objects(self.armature, skinned)

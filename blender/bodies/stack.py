@@ -24,12 +24,12 @@ from ...core.measurement import (
     DENSITY_FROM_MASS,
     DENSITY_FROM_VALUE,
     Body,
+    Measurement,
     Settings,
     build_measurement,
     find_large_bounds,
     fingerprint,
 )
-from ...core.measurement.measurement import Measurement
 from ...core.mesh import Surface
 from ...core.moments import Moments, are_similarities, are_singular, image
 from ...core.numerics import Array, Index, Mask, rotation_matrix

@@ -206,8 +206,7 @@ def show_bodies(
         faces = tuple(face.transform(matrix) for face in body.patches)
         readings[obj.data] = SplineReading(faces, factor * body.rounding, ())
         if body.matrix is not None:
-            place = (matrix @ body.matrix).ravel().tolist()
-            keep_source(obj.data, body.source, place)
+            keep_source(obj.data, body.source, (matrix @ body.matrix).ravel().tolist())
         if body.color:
             obj.data.materials.append(_material(body.color))
         collection.objects.link(obj)

@@ -185,7 +185,8 @@ def matrix_for_bullet(obj: Object, body: SnapTarget) -> NDArray | None:
     it already.
 
     A scale is applied if it mirrors or shears, or if the object has colliders: Bullet knows no
-    mirrored or sheared bodies, and scales the margins of colliders.
+    mirrored or sheared bodies, and scales the margins of colliders. Of a mirrored object only the
+    axes with a negative scale turn over.
     """
     linear = world(obj)[:3, :3]
     products = linear.T @ linear
@@ -195,6 +196,9 @@ def matrix_for_bullet(obj: Object, body: SnapTarget) -> NDArray | None:
     if np.linalg.det(linear) > 0.0 and off <= UNIT_SCALE * products.max():
         return matrix_at_center(obj, body)
     turn = np.array([obj.matrix_world.to_quaternion().to_matrix()])
+    signs = np.sign(obj.scale)
+    if np.linalg.det(linear) < 0.0 and signs.prod() < 0.0:
+        turn *= -signs  # the quaternion reverses all axes, and the scale mirrors some
     return affine_matrices(polar_rotation(turn)[0][0], body.center)
 
 

@@ -126,12 +126,15 @@ def set_location(obj: Object, location: NDArray, tolerance: float) -> None:
 
 
 def rotation_and_scale(linear: NDArray, scale: NDArray) -> tuple[Array, NDArray, Mask]:
-    """Return rotations and scales, signed as `scale`, of (..., 3, 3) maps, and a mask of maps
-    without shear or zero.
+    """Return rotations and scales, signed as `scale` if the handedness is the same, of (..., 3, 3)
+    maps, and a mask of maps without shear or zero.
     """
     length = np.linalg.norm(linear, axis=-2)
     sign = np.where(scale < 0.0, -1.0, 1.0)
-    sign[..., 0] *= np.where(np.prod(sign, axis=-1) * np.linalg.det(linear) < 0.0, -1.0, 1.0)
+    side = np.linalg.det(linear)
+    is_other = np.prod(sign, axis=-1) * side < 0.0
+    sign = np.where(is_other[..., None], 1.0, sign)
+    sign[..., 0] *= np.where(is_other & (side < 0.0), -1.0, 1.0)
     is_scaled = length.min(axis=-1) > 0.0
     with np.errstate(divide="ignore", invalid="ignore"):
         unscaled = np.where(

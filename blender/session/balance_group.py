@@ -12,17 +12,14 @@ import numpy as np
 from bpy.types import Collection, Context, Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
-from ...core.numerics import Array
-from ...core.statics import Support, find_contacts, support_of_contacts
+from ...core import numerics, statics
 from ...core.verdict import EditRefusedError, MeasureError, internal_error
+from .. import scale, write
 from ..bodies.assembly.assembly import measure_assembly
 from ..read import assembly, rig, visibility
-from ..scale import meters_per_unit
 from ..scene import fcurves, rigid_world
-from ..write import properties, reports
-from .findings import BALANCE_GROUP_EMPTY, NO_SUCH_NAME
+from . import findings, stored
 from .live.motion import Motion
-from .stored import balance_groups
 
 REACH = (
     0.01  # contact with the ground within this distance, relative to the contact objects' extent
@@ -53,9 +50,9 @@ class BalanceGroup:
             else []
         )
         if contacts and not self.feet:
-            raise EditRefusedError(BALANCE_GROUP_EMPTY, place=[contacts])
+            raise EditRefusedError(findings.BALANCE_GROUP_EMPTY, place=[contacts])
         self.centers: list[NDArray] = []
-        self.supports: list[Support | None] = []
+        self.supports: list[statics.Support | None] = []
 
     def _members(self, collection: str) -> list[Object]:
         """Return the followed objects, sorted by name; keep the collection in `_assembly` if its
@@ -86,7 +83,7 @@ class BalanceGroup:
                 members |= {one for one in layer if one.parent == obj and one.parent_type == "BONE"}
         followed = [obj for obj in members & layer if visibility.measurable(obj)]
         if not followed:
-            raise EditRefusedError(BALANCE_GROUP_EMPTY, place="the selection")
+            raise EditRefusedError(findings.BALANCE_GROUP_EMPTY, place="the selection")
         return sorted(followed, key=lambda obj: obj.name_full)
 
     def follow(self, scene: Scene, frames: Sequence[float]) -> Generator[int, None, None]:
@@ -102,7 +99,7 @@ class BalanceGroup:
                 scene.frame_set(floor(frame), subframe=frame % 1.0)
                 self._add_frame(motion, self._context.evaluated_depsgraph_get())
                 yield done
-        except (MeasureError, reports.Refused):
+        except (MeasureError, write.reports.Refused):
             raise
         except Exception as error:
             raise MeasureError(internal_error.finding_of(error)) from error
@@ -116,16 +113,18 @@ class BalanceGroup:
         if self.feet:
             points = np.concatenate([motion.hull_points(obj, depsgraph) for obj in self.feet])
             reach = self._reach or REACH * float(np.ptp(points, axis=0).max())
-            _, touching, _ = find_contacts(points, np.eye(4), gravity, self._ground, reach)
+            _, touching, _ = statics.find_contacts(points, np.eye(4), gravity, self._ground, reach)
         self.supports.append(
-            support_of_contacts(touching, self.centers[-1], gravity) if len(touching) else None
+            statics.support_of_contacts(touching, self.centers[-1], gravity)
+            if len(touching)
+            else None
         )
 
-    def _center(self, motion: Motion, depsgraph: Depsgraph) -> Array:
+    def _center(self, motion: Motion, depsgraph: Depsgraph) -> numerics.Array:
         """Return the common center at this frame, in Blender's units."""
         if self._assembly is not None:
             body = measure_assembly(self._assembly, depsgraph).measurement.mass_properties
-            return body.center / meters_per_unit(depsgraph.scene)
+            return body.center / scale.meters_per_unit(depsgraph.scene)
         masses, centers = zip(*[motion.mass_and_center(obj, depsgraph) for obj in self.objects])
         return centers[0] + np.einsum(
             "i,ij->j", np.array(masses) / np.sum(masses), np.array(centers) - centers[0]
@@ -144,16 +143,16 @@ class BalanceGroup:
         centers = np.array(self.centers)
         if self.feet:
             stands = [support is not None and support.stands for support in self.supports]
-            signals[balance_groups.INSIDE] = np.array(stands)
-        empty = balance_groups.find(context.scene, self.objects)
+            signals[stored.balance_groups.INSIDE] = np.array(stands)
+        empty = stored.balance_groups.find(context.scene, self.objects)
         if empty is None:
             empty = bpy.data.objects.new("Balance", None)
             empty.empty_display_type = "SPHERE"
             empty.show_in_front = True
             empty.empty_display_size = 0.05 * float(np.ptp(centers, axis=0).max())
-            empty[properties.BALANCE_GROUP] = balance_groups.group_text(self.objects)
+            empty[write.properties.BALANCE_GROUP] = stored.balance_groups.group_text(self.objects)
             context.scene.collection.objects.link(empty)
-        balance_groups.store(
+        stored.balance_groups.store(
             empty,
             np.array(self._frames, np.float64),
             fcurves.time_scale(context.scene),
@@ -169,7 +168,7 @@ class BalanceGroup:
 def _collection(name: str) -> Collection:
     collection = bpy.data.collections.get(name)
     if collection is None:
-        raise EditRefusedError(NO_SUCH_NAME, kind="collection", name=name)
+        raise EditRefusedError(findings.NO_SUCH_NAME, kind="collection", name=name)
     return collection
 
 

@@ -12,9 +12,8 @@ from typing import Any
 import numpy as np
 from bpy.types import Context, Object
 
-from ...core import bodies, colliders, inertia, mesh, moments, robots, verdict
+from ...core import bodies, colliders, inertia, mesh, moments, numerics, robots, verdict
 from ...core.measurement import Measurement, digest, plain
-from ...core.numerics import Array, polar_rotation
 from .. import read, write
 from ..bodies.stack import Measured, PlacedSolids
 from ..read.fingerprint import colliders_digest, scale_products
@@ -36,7 +35,7 @@ class Plan:
 
     obj: Object
     shapes: tuple[robots.Shape, ...]
-    stretch: Array
+    stretch: numerics.Array
     record: dict[str, Any]
     fingerprint: str
     key: str
@@ -200,8 +199,10 @@ def colliders_kept_current(context: Context, objects: Iterable[Object]) -> Itera
     fresh = []
     for obj, before in kept.items():
         group = obj[COLLIDERS]
-        turn = polar_rotation(bodies.float64_matrix(obj.matrix_world)[None, :3, :3])[0][0].T
-        turn = turn @ polar_rotation(before[None, :3, :3])[0][0]
+        turn = numerics.polar_rotation(bodies.float64_matrix(obj.matrix_world)[None, :3, :3])[0][
+            0
+        ].T
+        turn = turn @ numerics.polar_rotation(before[None, :3, :3])[0][0]
         group["center_shift"] = (turn @ group["center_shift"]).tolist()
         group["fingerprint"] = write.properties.fingerprint(obj) or group["fingerprint"]
         group["digest"] = colliders_digest(obj)

@@ -14,8 +14,7 @@ from bpy.types import Object
 
 from ...core.measurement import FRAMES, record
 from ...core.verdict import internal_error
-from .. import settings, write
-from ..bodies import measure_object, stack
+from .. import bodies, settings, write
 from .stored import density, results
 
 WORDS = {
@@ -82,7 +81,7 @@ def describe(
     depsgraph = bpy.context.evaluated_depsgraph_get()
     found = [
         pair
-        for batch in measure_object.measure_many(
+        for batch in bodies.measure_object.measure_many(
             chosen, depsgraph, settings.options.MeasureOptions(**options)
         )
         for pair in batch
@@ -133,7 +132,7 @@ def _chosen(objects: Object | str | Iterable[Object | str] | None) -> list[Objec
 
 def _description(
     obj: Object,
-    found: stack.Measured | Exception,
+    found: bodies.stack.Measured | Exception,
     frame: str,
     is_stored: bool,
     is_overridden: bool,

@@ -30,8 +30,7 @@ from ...core.verdict import (
     grouped,
     open_body_caveats,
 )
-from .. import read, write
-from ..scale import meters_per_unit
+from .. import read, scale, write
 from ..settings.chosen import chosen_objects, pinned_object
 from ..write import properties
 from . import character, live, memory, stored
@@ -135,7 +134,7 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
     if own is None:
         return None
     verdict = Verdict.OUT_OF_DATE if is_behind else find_verdict(method, findings)
-    unit = meters_per_unit(scene)
+    unit = scale.meters_per_unit(scene)
     return Displayed(
         own, own.in_world(obj.matrix_world, unit), unit, method, findings, verdict, reason, now, lag
     )
@@ -230,7 +229,7 @@ def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
     own = properties.stored(bone)
     if own is None:
         return None
-    unit = meters_per_unit(scene)
+    unit = scale.meters_per_unit(scene)
     world = own.in_world(armature.matrix_world @ bone.matrix, unit)
     method = properties.method(bone)
     findings = properties.findings(armature)
@@ -247,7 +246,7 @@ def _as_one(armature: Object, scene: Scene, parts: Iterable[Displayed | None]) -
     world = add_bodies([part.world for part in known])
     if world is None:
         return None
-    unit = meters_per_unit(scene)
+    unit = scale.meters_per_unit(scene)
     rest = properties.optional(armature, "body_mass")
     if rest is not None:  # posing stretches and squeezes the skin, and leaves the mass
         factor = rest / world.mass
@@ -276,7 +275,7 @@ def _weighed(armature: Object, scene: Scene) -> Displayed | None:
     weight = posed.weight(armature, depsgraph)
     if weight is None:
         return None
-    unit = meters_per_unit(scene)
+    unit = scale.meters_per_unit(scene)
     method = properties.method(armature)
     findings = properties.findings(armature)
     reason = staleness.stale_reason(armature, scene)

@@ -19,12 +19,10 @@ from ...core.inertia import combine
 from ...core.measurement import NO_VOLUME
 from ...core.mesh import convex_hull, triangle_areas
 from ...core.verdict import EditRefusedError, Finding, MeasureError, Procedure
-from .. import read, scene, settings
+from .. import read, scale, scene, settings, write
 from ..bodies.measure_object import measured_in_turn
 from ..bodies.stack import Measured as MeasuredObject
-from ..scale import meters_per_unit
-from ..scene import changes, empties, findings, reframe, rigid_world, snap_targets, transforms
-from ..write import reports
+from ..scene import changes, findings, reframe, rigid_world, snap_targets, transforms
 from . import stored, tracking
 from .colliders import colliders_kept_current
 
@@ -77,7 +75,7 @@ def make_rigid_bodies(
     failures: list[Finding] = []
     floors: list[Object] = []
     ask = _measure_in_turn(context, bodies)
-    with reports.progress(len(bodies)) as step:
+    with write.reports.progress(len(bodies)) as step:
         for done, body in enumerate(bodies, 1):
             try:
                 measured[body.obj] = _measured(context, body, ask)
@@ -87,7 +85,7 @@ def make_rigid_bodies(
                     floors += body.obj, *body.members  # no engine asks for their mass
                     step(done)
                     continue
-                failures.append(reports.failure(body.obj.name_full, error))
+                failures.append(write.reports.failure(body.obj.name_full, error))
             step(done)
     # Blender reports a rigid body as a change of the shape, and again when results are stored on it
     with (
@@ -138,18 +136,18 @@ def _place(context: Context, measured: dict[Object, Measured], frame: str) -> li
                 reframe.check(obj)
                 joints[obj] = _joint_in_place(context, obj)
             except Exception as error:
-                failures.append(reports.failure(obj.name_full, error))
+                failures.append(write.reports.failure(obj.name_full, error))
                 del measured[obj]
                 continue
             move_only = np.array_equal(target[:3, :3], transforms.world(obj)[:3, :3])
             plans.append(reframe.Plan(obj, target, one.target.size, move_only=move_only))
-        with reports.progress(len(plans)) as step:
+        with write.reports.progress(len(plans)) as step:
             changed, refused = reframe.reframe(context, plans, step)
         for plan in changed:
             if joints[plan.obj] is not None:
                 rigid_world.remove_joint(context, plan.obj)
         for obj, refusal in refused:
-            failures.append(reports.failure(obj.name_full, refusal))
+            failures.append(write.reports.failure(obj.name_full, refusal))
             del measured[obj]
             if joints[obj] is not None:
                 bpy.data.objects.remove(joints[obj])
@@ -189,10 +187,8 @@ def _add(context: Context, measured: dict[Object, Measured], type: str, shape: s
             elif shape != "KEEP":
                 part.rigid_body.collision_shape = shape
     for obj in (*new, *added):
-        scale = (obj.parent if settings.given.COLLIDER in obj else obj).matrix_world.to_scale()
-        is_scaled = max(abs(size - 1.0) for size in scale) > empties.PLACE_RTOL
-        if is_scaled and obj.rigid_body.collision_shape == "CONVEX_HULL":
-            # Blender shrinks hulls by the margin, times the scale; Bullet adds it without the scale
+        if obj.rigid_body.collision_shape == "CONVEX_HULL":
+            # The margin rounds acute corners, and Blender shrinks hulls by it before their scale.
             obj.rigid_body.use_margin = True
             obj.rigid_body.collision_margin = 0.0
     return new
@@ -250,7 +246,7 @@ def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredObje
     if body.members:
         moments = [measurement.mass_moments for measurement in measurements]
         whole = combine(moments, preferred_axes=measurements[0].rotation)
-        unit = meters_per_unit(context.scene)
+        unit = scale.meters_per_unit(context.scene)
         target = snap_targets.SnapTarget.of_body(body.obj, whole, whole.principal, unit)
     else:
         target = snap_targets.target_of(context, *parts[0])

@@ -13,10 +13,8 @@ import bpy
 import numpy as np
 from bpy.types import Collection, Context, Depsgraph, Object
 
-from ...core.bodies import float64_matrix
+from ...core import bodies, mesh, numerics
 from ...core.measurement import Measurement
-from ...core.mesh import Surface, join_surfaces
-from ...core.numerics import Array, polar_rotation, rotation_matrix
 from ...core.robots import (
     ROBOT_WITHOUT_LINKS,
     Candidate,
@@ -30,9 +28,8 @@ from ...core.robots import (
 )
 from ...core.robots.write.shapes import with_colliders
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
+from ..bodies import measure_object, overlaps
 from ..bodies.assembly.assembly import measure_assembly
-from ..bodies.measure_object import measured_in_turn
-from ..bodies.overlaps import shared_space_caveats
 from ..bodies.rig import measure_rig
 from ..read.joints import (
     bone_freedom,
@@ -63,7 +60,7 @@ class SceneLinks:
     findings: list[Finding]
     unit: float
     members: dict[str, list[Object]] = field(default_factory=dict)
-    pieces: dict[str, tuple[tuple[Surface, Array], ...]] = field(default_factory=dict)
+    pieces: dict[str, tuple[tuple[mesh.Surface, numerics.Array], ...]] = field(default_factory=dict)
 
     def with_colliders(self) -> SceneLinks:
         """Return the links with the colliders of their objects in place of their geometry as
@@ -75,7 +72,9 @@ class SceneLinks:
             placed: list[Shape] = []
             for obj in self.members.get(link.name, ()):
                 location, turn, _scale = obj.matrix_world.decompose()
-                frame = Pose(np.array(location, np.float64) * self.unit, rotation_matrix(turn))
+                frame = Pose(
+                    np.array(location, np.float64) * self.unit, numerics.rotation_matrix(turn)
+                )
                 shapes = read_colliders(by_body.get(obj, ()), frame.rotation, self.unit)
                 is_own = (
                     np.array_equal(frame.rotation, link.pose.rotation)
@@ -88,7 +87,7 @@ class SceneLinks:
 
         return replace(self, robot=with_colliders(self.robot, colliders_of))
 
-    def surface(self, context: Context, label: str) -> Surface | None:
+    def surface(self, context: Context, label: str) -> mesh.Surface | None:
         """Return a link's surface, in meters along the link's axes; None if the link shows no
         faces.
         """
@@ -97,7 +96,7 @@ class SceneLinks:
             depsgraph = context.evaluated_depsgraph_get()
             return link_surface(self.members.get(label, ()), depsgraph, pose, self.unit)
         to_link = pose.inverse()
-        return join_surfaces(
+        return mesh.join_surfaces(
             [
                 surface.transform(
                     to_link.rotation @ matrix[:3, :3],
@@ -133,7 +132,7 @@ def jointed_robot(
     connections, bases, findings = constraint_connections(context.scene, labels, unit)
     robot, more = assemble_robot(name, [*made, *bases], connections)
     placed = sorted(labels, key=lambda obj: obj.name)
-    shared = shared_space_caveats(placed, context.evaluated_depsgraph_get())
+    shared = overlaps.shared_space_caveats(placed, context.evaluated_depsgraph_get())
     return robot, [*findings, *more, *shared]
 
 
@@ -149,7 +148,7 @@ def object_links(
     depsgraph = context.evaluated_depsgraph_get()
     chosen = [obj for obj in objects if measurable(obj)]
     measured: dict[Object, Measurement] = {}
-    in_turn = measured_in_turn(chosen, depsgraph)
+    in_turn = measure_object.measured_in_turn(chosen, depsgraph)
     failures = []
     for done, obj in enumerate(chosen, 1):
         try:
@@ -276,7 +275,7 @@ def object_candidate(
 
 def link_surface(
     objects: Iterable[Object], depsgraph: Depsgraph, pose: Pose, unit: float
-) -> Surface | None:
+) -> mesh.Surface | None:
     """Return the surface of a link's objects as triangles in m, in the link's frame; None without
     visible faces.
     """
@@ -289,7 +288,7 @@ def link_surface(
             continue
         pieces.append(surface.transform(unit * to_link.rotation, to_link.position))
     if len(pieces) > 1:
-        return join_surfaces(pieces)
+        return mesh.join_surfaces(pieces)
     return pieces[0] if pieces else None
 
 
@@ -298,7 +297,9 @@ def sheared_objects(objects: Iterable[Object]) -> list[str]:
     located = list(objects)
     if not located:
         return []
-    _, sheared = polar_rotation(np.array([float64_matrix(obj.matrix_world) for obj in located]))
+    _, sheared = numerics.polar_rotation(
+        np.array([bodies.float64_matrix(obj.matrix_world) for obj in located])
+    )
     return [obj.name_full for obj, skew in zip(located, sheared) if skew]
 
 

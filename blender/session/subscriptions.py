@@ -11,7 +11,6 @@ from typing import Any
 
 from ..settings import hooks
 from . import displayed, live, memory, stored
-from .stored import outcome
 from .tracking import armatures, handlers, staleness, updates
 
 SUBSCRIPTIONS: tuple[tuple[list[Any], Callable[..., None]], ...] = (
@@ -26,7 +25,7 @@ SUBSCRIPTIONS: tuple[tuple[list[Any], Callable[..., None]], ...] = (
     (handlers.on_note, displayed.forget_drawn),
     (handlers.before_undo, staleness.note_all_edits),
     (handlers.on_undo, updates.note_undo),
-    (handlers.on_undo, outcome.forget),
+    (handlers.on_undo, stored.outcome.forget),
     (handlers.on_undo, armatures.watch_all),  # undo makes Python's references to objects invalid
     (handlers.on_load, armatures.watch_all),
     (handlers.on_save, staleness.write_notes),

@@ -152,6 +152,11 @@ def has_density(obj: Object) -> bool:
     return obj.type in GEOMETRY_TYPES or shows_collection(obj)
 
 
+def body_of(obj: Object) -> Object:
+    """Return the body of a collider, and any other object itself."""
+    return obj.parent if COLLIDER in obj and obj.parent is not None else obj
+
+
 def is_point_mass(obj: Object) -> bool:
     """Return whether an object without geometry is a part of given mass."""
     settings = getattr(obj, "body_moments", None)  # None if the add-on is not registered

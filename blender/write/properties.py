@@ -210,7 +210,7 @@ def store_scaled(
     """
     factor = mass / obj["body_mass"]
     for key in [
-        key for key in DESCRIPTIONS if key.startswith(("body_inertia", "body_principal_m"))
+        key for key in DESCRIPTIONS if key.startswith(("body_inertia", "body_principal_moments"))
     ]:
         obj[key] = [factor * value for value in obj[key]]
     bounds = list(obj["body_error_bound"])

@@ -46,13 +46,11 @@ class FbxAnimation:
     ) -> None:
         self._nodes = nodes
         self._seconds = seconds
-        header = root.child("FBXHeaderExtension") or FbxNode("")
+        header = root.child("FBXHeaderExtension")
         self._ticks = _ticks_per_second(header)
-        version = header.child("FBXVersion")
-        self._has_bits = version is not None and version.values[0] >= 7200
-        documents = root.child("Documents") or FbxNode("")
-        document = documents.child("Document") or FbxNode("")
-        active = document.properties().get("ActiveAnimStackName", ("",))[0]
+        self._has_bits = header.child("FBXVersion").first(0) >= 7200
+        document = root.child("Documents").child("Document").properties()
+        active = document.get("ActiveAnimStackName", ("",))[0]
         kinds = {number: node.name for number, node in nodes.items()}
         stacks = [number for number, kind in kinds.items() if kind == "AnimationStack"]
         stacks = [number for number in stacks if nodes[number].values[1] == active] or stacks
@@ -156,16 +154,15 @@ class FbxAnimation:
 
 def _ticks_per_second(header: FbxNode) -> float:
     """Return the unit of a file's times: the newer one, if its header says so."""
-    flags = header.child("OtherFlags")
-    definition = None if flags is None else flags.child("TCDefinition")
-    version = header.child("FBXHeaderVersion")
-    if definition is None or version is None or version.values[0] < 1004:
-        return 46186158000.0
-    return 46186158000.0 if definition.values[0] == 127 else 141120000.0
+    is_stated = header.child("FBXHeaderVersion").first(0) >= 1004
+    definition = header.child("OtherFlags").child("TCDefinition").first(127)
+    return 141120000.0 if is_stated and definition != 127 else 46186158000.0
 
 
 def _power(values: Array, exponent: float) -> Array:
-    return np.sign(values) * np.abs(values) ** exponent if exponent < 1.0 else values
+    if 0.0 < exponent < 1.0 and (values < 0.0).any():
+        raise RareError
+    return values**exponent
 
 
 class _Curve:
@@ -187,7 +184,7 @@ class _Curve:
         self._times = times / ticks
         repeats = counts.astype(int)
         self._flags: Index = np.repeat(flags.astype(int), repeats)
-        if has_bits and arrays["KeyTime"].child("a") is not None:
+        if has_bits and arrays["KeyTime"].children:
             data = data.astype(np.int64).astype(np.uint32).view(np.float32)
         self._data = np.repeat(data.astype(np.float32).reshape(-1, 4), repeats, axis=0)
 
@@ -198,8 +195,7 @@ class _Curve:
             return rest
         if not times[0] <= seconds <= times[-1]:
             name = "Pre-Extrapolation" if seconds < times[0] else "Post-Extrapolation"
-            kind = (self._node.child(name) or FbxNode("")).child("Type")
-            if kind is not None and kind.values[0] not in ("C", ord("C")):
+            if self._node.child(name).child("Type").first("C") not in ("C", ord("C")):
                 raise RareError
         seconds = min(max(seconds, times[0]), times[-1])
         near = np.abs(times - seconds) <= _SAME_TIME

@@ -101,9 +101,7 @@ class FbxModel:
         moved = np.zeros_like(whole)
         for cluster, bone in self.clusters:
             rows, shares, to_bone = (
-                node.numbers()
-                for node in map(cluster.child, ("Indexes", "Weights", "Transform"))
-                if node is not None
+                node.numbers() for node in map(cluster.child, ("Indexes", "Weights", "Transform"))
             )
             matrix = bone.place.matrix @ to_bone.reshape(4, 4).T
             index = rows.astype(int)
@@ -174,7 +172,7 @@ def fbx_to_scene(root: FbxNode) -> Array:
 
     KeyError or ValueError if the axes are not three right-handed ones.
     """
-    settings = (root.child("GlobalSettings") or FbxNode("")).properties()
+    settings = root.child("GlobalSettings").properties()
     axes = np.zeros((3, 3))
     # Blender's axes: x to the right, z up, and -y to the front.
     for row, (name, sign) in enumerate((("Coord", 1.0), ("Front", -1.0), ("Up", 1.0))):
@@ -191,11 +189,11 @@ def fbx_models(root: FbxNode, seconds: float) -> list[FbxModel]:
     """
     objects = root.child("Objects")
     connections = root.child("Connections")
-    if objects is None or connections is None:
+    if not objects.name or not connections.name:
         raise ValueError("version")
     kinds = [
-        (kind.child("PropertyTemplate") or FbxNode("")).properties()
-        for kind in getattr(root.child("Definitions"), "children", ())
+        kind.child("PropertyTemplate").properties()
+        for kind in root.child("Definitions").children
         if kind.name == "ObjectType" and kind.values[:1] == ["Model"]
     ]
     rest = kinds[0] if kinds else {}  # of models that state none
@@ -248,14 +246,12 @@ def fbx_models(root: FbxNode, seconds: float) -> list[FbxModel]:
 
 def _weight(channel: FbxNode, shapes: int, animation: FbxAnimation, number: int) -> float:
     """Return the weight of a channel's last shape; NaN if programs may read it differently."""
-    field = channel.child("DeformPercent")
-    properties = {} if field is None else {"DeformPercent": field.values}
-    properties |= channel.properties()
+    percent = channel.child("DeformPercent").first(0.0)
+    properties = {"DeformPercent": [percent]} | channel.properties()
     if not animation.animate(number, properties):
         return nan
-    weight = properties.get("DeformPercent", (0.0,))[0] / 100.0
-    full = channel.child("FullWeights")
+    weight = properties["DeformPercent"][0] / 100.0
     # In files of Blender, these are weights of vertices.
-    limits = np.empty(0) if full is None else full.numbers()
+    limits = channel.child("FullWeights").numbers()
     is_partial = shapes > 1 and weight not in (0.0, 1.0)
     return nan if is_partial or len(limits) == shapes and limits[-1] != 100.0 else weight

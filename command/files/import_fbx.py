@@ -141,8 +141,8 @@ def _place(
     """Return the (n, 3) points of a model's mesh, with the shape keys of the object if they are
     mixed, and the (4, 4) place of the object; None if its points are not the file's.
     """
-    vertices = None if model.geometry is None else model.geometry.child("Vertices")
-    points = np.empty(0) if vertices is None else vertices.numbers()
+    assert model.geometry is not None
+    points = model.geometry.child("Vertices").numbers()
     own = np.empty(3 * len(obj.data.vertices))
     obj.data.vertices.foreach_get("co", own)
     if own.shape != points.shape:

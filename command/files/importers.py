@@ -8,7 +8,7 @@ Blender has none for .3mf and IGES; that of .obj leaves out ``surf``.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -93,7 +93,12 @@ def import_3mf(path: str) -> Opened:
         if one.print_settings is None:
             remarks.append(finding(UNCHECKED, subject=PRINT_SETTINGS))
         else:
-            _set_print(obj.body_moments, one.print_settings)
+            found = dict(one.print_settings)
+            if found:
+                obj.body_moments.kind = "PRINTED"
+            if "density" in found:
+                obj.body_moments.density = found.pop("density")
+            set_print(obj.body_moments, found)
         if negative:
             remarks.append(finding(streams.NEGATIVE_PARTS_CUT, names=negative))
         notes[obj.name] = tuple(remarks)
@@ -111,14 +116,6 @@ def import_3mf(path: str) -> Opened:
             )
     bpy.context.view_layer.update()
     return Opened(tuple(errors), by_object=notes, hidden=hidden)
-
-
-def _set_print(settings: bpy.types.PropertyGroup, found: Mapping[str, float]) -> None:
-    if found:
-        settings.kind = "PRINTED"
-    if "density" in found:
-        settings.density = found["density"]
-    set_print(settings, {name: value for name, value in found.items() if name != "density"})
 
 
 def _without_negative_parts(

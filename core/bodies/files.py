@@ -265,8 +265,7 @@ def measure_labels(
             label_value(label, scan.slope, scan.intercept): row
             for label, row in sum_labels(samples).items()
         }
-        present = sorted(sums.keys() - {0})
-        chosen = present if wanted is None else [*dict.fromkeys(wanted)]
+        chosen = sorted(sums.keys() - {0}) if wanted is None else [*dict.fromkeys(wanted)]
         if absent := [label for label in chosen if label not in sums]:
             values = {"labels": absent, "others": sorted(sums), "remedy": "--label"}
             raise ReadError(LABEL_ABSENT, file=os.path.basename(path), **values)

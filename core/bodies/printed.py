@@ -35,8 +35,8 @@ def find_cores(body: MeshBody, printed: PrintSettings) -> tuple[list[PrintCore],
             raise ReadError(PRINT_UNFIT, fault="its surface is open. Close it")
         for matrix in matrices:
             surface = solid.repaired_surface.transform(matrix[:3, :3], matrix[:3, 3])
-            thicknesses = printed.wall, printed.top_height, printed.bottom_height
-            cores.append(find_core(surface, *thicknesses))
+            heights = np.array([printed.top, printed.bottom]) * printed.layer_height
+            cores.append(find_core(surface, printed.wall, *heights.tolist()))
             outsides.append(surface)
     return cores, outsides
 

@@ -80,6 +80,7 @@ class StepReader:
         self._children: dict[int, list[_Child]] = {}  # by representation
         self._twins: dict[int, list[int]] = {}  # representations of the same coordinates
         self._owners: dict[int, int] = {}  # product definitions by representation
+        self._aspects: set[int] = set()  # representations of parts of a shape
         self._relations: dict[int, int] = {}  # child definitions by relationship
         self._colors: dict[int, tuple[float, ...]] = {}
         self._hidden: set[int] = set()
@@ -94,13 +95,8 @@ class StepReader:
         """Read the solids. FileError if none can be kept."""
         text = self._text
         if text.torn:
-            self._note(
-                EntityError(
-                    text.torn,
-                    SURFACE_DAMAGED,
-                    {"fault": "the end of the file, which comes too early"},
-                )
-            )
+            fault = "the end of the file, which comes too early: parts and places are missing"
+            self._note(EntityError(text.torn, SURFACE_DAMAGED, {"fault": fault}))
         for name, take in (
             ("SHAPE_DEFINITION_REPRESENTATION", self._own),
             ("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION", self._use),
@@ -129,8 +125,10 @@ class StepReader:
             for twin in self._group(one.number)
         }
         # First the roots, then what only a circle of assemblies places.
-        for number in [*(one for one in representations if one not in placed), *representations]:
-            if number not in self._visited:
+        roots = [one for one in representations if one not in placed | self._aspects]
+        for number in [*roots, *representations]:
+            is_known = number in self._aspects and self._solids.keys() & self._attribute(number, 1)
+            if number not in self._visited and not is_known:
                 self._place(number, np.eye(4), ())
         notes = [finding(SURFACES_HIDDEN, count=self._left_out)] if self._left_out else []
         return replace(self._refusals.file(self._bodies, self._unit or None, notes), unread=0)
@@ -160,8 +158,12 @@ class StepReader:
         return next(iter(self._text[number].values()))[index]
 
     def _own(self, _: int, values: list[Any]) -> None:
-        """Take the product that has a representation."""
-        self._owners[values[1]] = self._attribute(values[0], 2)
+        """Take the product that has a representation, or note one of a part of its shape."""
+        owner = self._attribute(values[0], 2)
+        if any(name.startswith("PRODUCT_DEFINITION") for name in self._text[owner]):
+            self._owners[values[1]] = owner
+        else:
+            self._aspects.add(values[1])
 
     def _use(self, _: int, values: list[Any]) -> None:
         """Take the part that a relationship places: the related one of a usage."""

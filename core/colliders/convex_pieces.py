@@ -33,8 +33,10 @@ MAX_PLANES = 24  # through concave edges
 # directions that choose planes, and planes that are compared exactly
 DIRECTIONS = 120
 LIKELY_PLANES = 6
+LIKELY_CUTS = 2  # that are followed by another one exactly
 SAMPLES_PER_BLOCK = 32  # after the first few, which most often decide
 SHARES = np.array([1, 2, 3]) / 4.0  # shares of the extent, where planes divide a piece evenly
+SAME_AXIS = 1.0 - 1e-9  # cosine: nearer axes are one
 LEAST_GAIN = 1e-3  # relative to the body's volume: a smaller reduction is none
 LEAST_EXCESS = 0.01  # of the hull over the volume of a piece that is worth two cuts
 HOPE = 0.02  # The gain of a cut that gains nothing yet, relative to the excess.
@@ -89,26 +91,35 @@ def _best_plane(piece: Piece, outward: float, volume: float) -> tuple[float, Arr
     No single plane reduces the hulls of a ring or a cup: then planes through the middle are
     followed by another one.
     """
+    excess = float(_volumes([piece.points])[0]) - piece.volume()
     coarse = _coarse(piece)
-    if outward > 0.0 and _is_near_hull(coarse, outward):
+    # No cut gains more than the excess.
+    if excess <= LEAST_GAIN * volume or outward > 0.0 and _is_near_hull(coarse, outward):
         return 0.0, np.zeros(4)
     gain, best = _best_of(coarse, piece)
-    if gain > LEAST_GAIN * volume:
-        return gain, best
-    excess = float(_volumes([piece.points])[0]) - piece.volume()
-    if excess < LEAST_EXCESS * piece.volume():
+    if gain > LEAST_GAIN * volume or excess < LEAST_EXCESS * piece.volume():
         return gain, best
     middle = _even_planes(coarse.points, np.array([0.5]))
-    gains = [sum(_best_of(part, part)[0] for part in cut(coarse, plane)) for plane in middle]
+    halves = [[*cut(coarse, plane)] for plane in middle]
+    rough = [
+        sum(_gains(part, _planes(part), _rough_volumes).max() for part in parts) for parts in halves
+    ]
+    likely = np.argsort(rough, kind="stable")[-LIKELY_CUTS:]
+    gains = [sum(_best_of(part, part)[0] for part in halves[i]) for i in likely]
     # The hulls of a spiral's halves overlap: nothing gains until it is cut often, and most is
     # merged again.
-    return max(*gains, HOPE * excess), middle[int(np.argmax(gains))]
+    return max(*gains, HOPE * excess), middle[likely[int(np.argmax(gains))]]
+
+
+def _planes(piece: Piece) -> Array:
+    """Return the (k, 4) candidates for a cut."""
+    size = float(np.ptp(piece.points, axis=0).max())
+    return np.concatenate([_concave_planes(piece, size), _even_planes(piece.points, SHARES)])
 
 
 def _best_of(coarse: Piece, piece: Piece) -> tuple[float, Array]:
     """Return the largest reduction of the hulls by one plane, and the plane."""
-    size = float(np.ptp(piece.points, axis=0).max())
-    planes = np.concatenate([_concave_planes(piece, size), _even_planes(piece.points, SHARES)])
+    planes = _planes(piece)
     planes = planes[
         np.argsort(-_gains(coarse, planes, _rough_volumes), kind="stable")[:LIKELY_PLANES]
     ]
@@ -116,6 +127,7 @@ def _best_of(coarse: Piece, piece: Piece) -> tuple[float, Array]:
     best = planes[gains.argmax()]
     if coarse is piece:
         return float(gains.max()), best
+    size = float(np.ptp(piece.points, axis=0).max())
     shifts = size * np.array([-0.06, -0.03, -0.015, 0.015, 0.03, 0.06])
     near = np.concatenate([best[None], best + shifts[:, None] * (0.0, 0.0, 0.0, 1.0)])
     gains = _gains(coarse, near)
@@ -218,7 +230,9 @@ def _even_planes(points: Array, shares: Array) -> Array:
     x, y and z.
     """
     offsets = points - points.mean(axis=0)
-    axes = np.concatenate([np.linalg.eigh(offsets.T @ offsets)[1].T, np.eye(3)])
+    principal = np.linalg.eigh(offsets.T @ offsets)[1].T
+    is_own = np.abs(principal).max(axis=1) < SAME_AXIS
+    axes = np.concatenate([principal[is_own], np.eye(3)])
     along = points @ axes.T
     low, high = along.min(axis=0), along.max(axis=0)
     levels = low[:, None] + (high - low)[:, None] * shares

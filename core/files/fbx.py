@@ -37,22 +37,24 @@ class FbxNode:
     children: list[FbxNode] = field(default_factory=list)
     source: tuple[Data, int] | bytes | None = None
 
-    def child(self, name: str) -> FbxNode | None:
-        """Return the first node in it with a name."""
-        return next((node for node in self.children if node.name == name), None)
+    def child(self, name: str) -> FbxNode:
+        """Return the first node in it with a name, an empty one if there is none."""
+        return next((node for node in self.children if node.name == name), FbxNode(""))
+
+    def first(self, other: Any) -> Any:
+        """Return its first value, or another one if it has none."""
+        return self.values[0] if self.values else other
 
     def properties(self) -> dict[str, Any]:
         """Return the values of its properties."""
-        table = self.child("Properties70") or FbxNode("")
-        return {line.values[0]: line.values[4:] for line in table.children}
+        return {line.values[0]: line.values[4:] for line in self.child("Properties70").children}
 
     def numbers(self) -> Array:
         """Return the numbers of its array, none if it has none."""
         if isinstance(self.source, bytes):
             return np.array(self.source.replace(b",", b" ").split(), np.float64)
-        inner = self.child("a")
         if self.source is None:
-            return np.empty(0) if inner is None else inner.numbers()
+            return self.child("a").numbers() if self.children else np.empty(0)
         blocks = [block for _, block in fbx_array(*self.source)]
         return np.concatenate([np.empty(0), *blocks])
 

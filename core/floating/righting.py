@@ -117,11 +117,8 @@ def righting_curve(
             near = heeled[angle] = _heel(angle, *near, frame, free_trim)
     states = [heeled[angle] for angle in angles.tolist()]
 
-    def arm_at(angle: float, near: tuple[float, Flotation]) -> float:
-        return _arm(angle, _heel(angle, *near, frame, free_trim)[1], frame)
-
-    def depth_at(angle: float, near: tuple[float, Flotation]) -> float:
-        return -_heel(angle, *near, frame, free_trim)[1].depth_of_openings
+    def heeled_to(angle: float, near: tuple[float, Flotation]) -> Flotation:
+        return _heel(angle, *near, frame, free_trim)[1]
 
     arms = np.array([_arm(angle, state, frame) for angle, (_, state) in zip(angles, states)])
     arms = np.where(np.abs(arms) <= LEVEL_TRIM * rest.body.size, 0.0, arms)
@@ -136,10 +133,16 @@ def righting_curve(
         else:
             capsize.append(
                 _first_change(
-                    angles, righting, heeled_side, states, lambda *at, s=sign: s * arm_at(*at)
+                    angles,
+                    righting,
+                    heeled_side,
+                    states,
+                    lambda at, near, s=sign: s * _arm(at, heeled_to(at, near), frame),
                 )
             )
-        flooding.append(_first_change(angles, dry, side, states, depth_at))
+        flooding.append(
+            _first_change(angles, dry, side, states, lambda *at: -heeled_to(*at).depth_of_openings)
+        )
     return RightingCurve(
         wanted,
         arms[is_wanted],

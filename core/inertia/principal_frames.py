@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, NoReturn
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -36,6 +36,7 @@ from .findings import (
 from .plain_body import EQUAL_AXES, SYMMETRIES
 from .third_moment_frames import (
     HALF_TURN_SIGNS,
+    SecondMoments,
     ThirdMomentFrames,
     complete_free_axes,
     nearest_frames,
@@ -90,6 +91,10 @@ class PrincipalFrame:
             raise AttributeError(name)
         self.__dict__.update({**vars(find()), "moments": self.moments})
         return getattr(self, name)
+
+    def __getstate__(self) -> dict[str, Any]:
+        _ = self.axes  # they are found now: what finds them cannot be pickled
+        return vars(self)
 
     def scaled(self, density: NDArray) -> PrincipalFrame:
         """Return the frame of a body with another density, (...,)."""
@@ -175,9 +180,7 @@ def frame_of_body(
         fixed = frames_of_body(moments, refine=refine)
         return principal_frames(fixed, preferred_axes[None]).at(0)
     stack = moments.at(None)
-    second = second_moments(stack)
-    if not second.is_body[0]:
-        _refuse(moments)
+    second = _second_moments_of_body(stack)
     return PrincipalFrame.on_demand(
         second.inertia[0],
         lambda: principal_frames(
@@ -222,18 +225,19 @@ def frames_of_body(
     second moments.
     """
     refined = None if refine is None else (lambda _which: refine().at(None))
-    fixed = third_moment_frames(moments.at(None), refined, noise_factor)
-    if not fixed.is_body[0]:
-        _refuse(moments)
-    return fixed
+    stack = moments.at(None)
+    return third_moment_frames(stack, refined, noise_factor, _second_moments_of_body(stack))
 
 
-def _refuse(moments: Moments) -> NoReturn:
-    """Raise MeasureError for second moments that no body can have."""
-    second = moments.truncate(2).about_center().raw[4:]
-    if np.abs(second).max() < np.finfo(float).tiny:  # lost in the smallest of numbers
-        raise MeasureError(OBJECT_SIZE, fault=TOO_SMALL)
-    raise MeasureError(NEGATIVE_INERTIA)
+def _second_moments_of_body(stack: Moments) -> SecondMoments:
+    """Return the second moments of a stack of one body, or raise MeasureError."""
+    second = second_moments(stack)
+    if not second.is_body[0]:
+        central = stack.truncate(2).about_center().raw[0, 4:]
+        if np.abs(central).max() < np.finfo(float).tiny:  # lost in the smallest of numbers
+            raise MeasureError(OBJECT_SIZE, fault=TOO_SMALL)
+        raise MeasureError(NEGATIVE_INERTIA)
+    return second
 
 
 def zhang_chen_frame(

@@ -239,8 +239,7 @@ def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: Mask) -> 
     error = error[body, AXES, first]
     noise = noise[body, AXES, first]
     # the least of three scores: both others have to be clear of it
-    last = size.argmin(axis=1)[:, None]
-    least = size[body, last]
+    least = size[body, size.argmin(axis=1)[:, None]]
     unsure = (noise + error).max(axis=1, keepdims=True)
     apart = (size - least > EQUAL_SCORES_RTOL * least + 2.0 * (error + unsure)).sum(axis=1) == 2
     return decided & (apart | ~(fixed & clear.any(axis=2)).all(axis=1))
@@ -353,8 +352,7 @@ def nearest_frames(candidates: NDArray, preferred_axes: NDArray, tilt: ArrayLike
     size = np.abs(local)
     row = (size > size.max(axis=2, keepdims=True) - equal[..., None, None]).argmax(axis=2)
     body = np.arange(len(local))[:, None, None]
-    candidate = np.arange(local.shape[1])[:, None]
-    is_along = local[body, candidate, row, AXES] > 0.0
+    is_along = local[body, np.arange(local.shape[1])[:, None], row, AXES] > 0.0
     rank = np.where(near, is_along @ AXIS_RANK, -1)
     near = rank == rank.max(axis=1, keepdims=True)
     # several frames may still be left

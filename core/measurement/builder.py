@@ -21,8 +21,13 @@ from ..inertia import (
     has_certain_total,
 )
 from ..mesh import Surface
-from ..moments import KNOWN_ORDER
-from ..moments.moments import Measure, Moments, U, monomial_count
+from ..moments import (
+    KNOWN_ORDER,
+    Measure,
+    Moments,
+    U,
+    monomial_count,
+)
 from ..numerics import IDENTITY_3, Array
 from ..polyhedron import MAX_TRIANGLES_EXACT_THIRD
 from ..solid.measure import SolidIntegrals, measure_solid

@@ -181,8 +181,7 @@ def to_csv(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
     names = dict.fromkeys(_COLUMNS)
     for row in _csv_rows(documents):
         names.update(dict.fromkeys(name for name in row if name not in _LAST_COLUMNS))
-    header = [*names, *_LAST_COLUMNS]
-    yield from table(header, _csv_rows(documents))
+    yield from table([*names, *_LAST_COLUMNS], _csv_rows(documents))
 
 
 def table(header: Sequence[str], rows: Iterable[dict[str, Any]]) -> Iterator[str]:

@@ -14,8 +14,12 @@ from ..inertia import MassProperties
 from ..mesh import Surface
 from ..moments import Measure, Moments
 from ..numerics import Array
-from ..verdict import MeshHealth, Method
-from ..verdict.finding import Finding, ReadError
+from ..verdict import (
+    Finding,
+    MeshHealth,
+    Method,
+    ReadError,
+)
 from .findings import DENSITY_FROM_VALUE, UNIFORM_DENSITIES, WALL_UNSUPPORTED
 
 

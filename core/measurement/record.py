@@ -23,8 +23,13 @@ from numpy.typing import NDArray
 
 from ..flat import Plane, foot, plane_positions
 from ..inertia import MassProperties, combine
-from ..moments import Invariant, Moments, U, monomials
-from ..moments.exponents import monomial_index
+from ..moments import (
+    Invariant,
+    Moments,
+    U,
+    monomial_index,
+    monomials,
+)
 from ..numerics import Array
 from ..polyhedron import multi_indices
 from ..verdict import Finding, MeasureError, Severity, find_verdict, sentence, severity

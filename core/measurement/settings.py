@@ -51,16 +51,6 @@ class PrintSettings(NamedTuple):
         """Width of all walls, m."""
         return self.walls * self.line_width
 
-    @property
-    def top_height(self) -> float:
-        """Height of all top layers, m."""
-        return self.top * self.layer_height
-
-    @property
-    def bottom_height(self) -> float:
-        """Height of all bottom layers, m."""
-        return self.bottom * self.layer_height
-
     def check(self) -> None:
         """Raise ReadError if nothing can be printed with these settings."""
         if not 0.0 <= self.infill <= 100.0:

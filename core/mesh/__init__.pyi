@@ -34,6 +34,7 @@ from .point_triangle import solid_angles as solid_angles
 from .point_triangle import triangle_distances as triangle_distances
 from .point_triangle import winding_number as winding_number
 from .scan_lines import FACES_PER_BLOCK as FACES_PER_BLOCK
+from .scan_lines import LINE_SLOPES as LINE_SLOPES
 from .scan_lines import Crossings as Crossings
 from .scan_lines import LineGrids as LineGrids
 from .scan_lines import find_crossings as find_crossings

@@ -201,8 +201,7 @@ def consistent_orientation(
     flipped = plain > reverse
     part = np.minimum(plain, reverse)
     moved = np.bincount(part, weight * flipped)
-    whole = np.bincount(part, weight)
-    flipped ^= (2.0 * moved > whole)[part]
+    flipped ^= (2.0 * moved > np.bincount(part, weight))[part]
     return flipped & ~twisted, twisted
 
 
@@ -217,8 +216,7 @@ def group_components(edges: Edges, part: Index, parts: int, even: Mask) -> tuple
     non_manifold = edges.count > 2
     if not non_manifold.any():
         return part, parts
-    key = edges.of_side * parts + part.repeat(3)
-    used, uses = np.unique(key, return_counts=True)
+    used, uses = np.unique(edges.of_side * parts + part.repeat(3), return_counts=True)
     odd = (uses % 2 == 1) & ~even[used // parts]
     unfinished = np.zeros(parts, bool)
     unfinished[used[odd] % parts] = True

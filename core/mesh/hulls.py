@@ -133,8 +133,7 @@ def hull_volumes(points: Array, starts: Index, tolerance: float) -> Array:
     """
     sizes = np.diff(np.append(starts, len(points)))
     low = np.minimum.reduceat(points, starts)
-    high = np.maximum.reduceat(points, starts)
-    extent = (high - low).max(axis=1)
+    extent = (np.maximum.reduceat(points, starts) - low).max(axis=1)
     steps = 2.0**GRID_BITS / np.where(extent > 0.0, extent, 1.0)
     grid = np.rint((points - low.repeat(sizes, axis=0)) * steps.repeat(sizes)[:, None]).astype(
         np.int64
@@ -180,8 +179,7 @@ def _first_corners(grid: Array, least: float) -> list[int]:
     third = _farthest(distances, reach, least)
     if distances[third] <= least:
         return [first, second]
-    normal = np.cross(along, across[third] / distances[third])
-    heights = offsets @ normal
+    heights = offsets @ np.cross(along, across[third] / distances[third])
     fourth = _farthest(np.abs(heights), reach, least)
     if abs(heights[fourth]) <= least:
         return [first, second, third]
@@ -328,8 +326,7 @@ class _GrowingHull:
         following = order[np.searchsorted((apex * count + start)[order], apex * count + end)]
         preceding = np.empty(added, np.intp)
         preceding[following] = np.arange(added)
-        new = size + np.arange(added)
-        self.neighbors[beyond, back] = new
+        self.neighbors[beyond, back] = size + np.arange(added)
         removed = np.zeros(size, bool)
         removed[visible[:, 1]] = True
 
@@ -391,8 +388,7 @@ def convex_polygon(points: Array, tolerance: float = 0.0) -> Index:
     side = np.tile([0, 1], len(points))  # the side of the polygon that the points may be outside of
     while len(rest):
         start = points[corners[side]]
-        end = points[np.roll(corners, -1)[side]]
-        along = end - start
+        along = points[np.roll(corners, -1)[side]] - start
         offset = points[rest] - start
         length = np.linalg.norm(along, axis=1)
         height = (offset[:, 0] * along[:, 1] - offset[:, 1] * along[:, 0]) / np.where(

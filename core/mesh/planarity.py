@@ -72,8 +72,7 @@ class PlanarityAccumulator:
 
     Safe in threads.
 
-    error: bound of the distance of points from their intended places (unit). cones: sums, absolute
-    and signed, of the cones from the reference point over all faces; None if unknown.
+    error: bound of the distance of points from their intended places (unit).
     """
 
     def __init__(self, surface: Surface, error: float):
@@ -82,7 +81,6 @@ class PlanarityAccumulator:
         self.extent = size = float((high - low).max())
         self.quads: dict[int, _PlanarityPartial] = {}
         self.triangles: dict[int, _PlanarityPartial] = {}
-        self.cones: tuple[float, float] | None = None
         # Faces classified one by one are scaled to about size 1, because sixth powers of small
         # lengths underflow.
         self.exponent = int(np.frexp(max(size, float(np.finfo(np.float32).tiny)))[1])

@@ -68,15 +68,6 @@ class LineGrids:
         origin = np.floor(most / 2.0) + LATTICE_SHIFT
         return cls(axes, center, width / np.array([rows, columns]).T, origin, *size.tolist())
 
-    @classmethod
-    def through_points(cls, points: Array, sizes: Array) -> LineGrids:
-        """Make a grid of a single line for each body, through (b, 3) points; sizes: (b,) of the
-        bodies.
-        """
-        count = len(points)
-        cell = np.repeat(4.0 * sizes[:, None], 2, axis=1)
-        return cls(np.tile(np.arange(3), (count, 1)), points, cell, np.zeros((count, 2)), 1, 1)
-
     def places(self, points: NDArray[np.floating], body: NDArray[np.integer] | None) -> Array:
         """Return the (3, n) rows, columns and lengths along the lines of points. body: (n,), None
         for a single body.
@@ -173,8 +164,7 @@ def find_crossings(
         np.clip(np.ceil(end[0]), 0, grids.columns).astype(np.intp) for end in (left, right)
     )
     count = stop - start
-    further = _rows_apart(sums_by_index(owner, count, bodies), MAX_CROSSINGS, faces)
-    apart = apart * further
+    apart = apart * _rows_apart(sums_by_index(owner, count, bodies), MAX_CROSSINGS, faces)
     count[row % apart[owner] > 0] = 0
     pair = np.repeat(np.arange(len(count)), count)
     column = start[pair] + segment_ranges(count)

@@ -82,8 +82,7 @@ def _first_of_clusters(place: Array, tolerance: Array, cell: float) -> Index:
     """Return the (n,) points of `first_at_near_position`, on grids of cells of this size."""
     left, right = [], []
     for shift in np.ndindex(2, 2, 2):
-        grid = np.floor(place / cell + 0.5 * np.array(shift))
-        first = first_at_equal_position(grid)
+        first = first_at_equal_position(np.floor(place / cell + 0.5 * np.array(shift)))
         distance = np.linalg.norm(place - place[first], axis=1)
         near = (distance <= np.minimum(tolerance, tolerance[first])) & (
             first != np.arange(len(place))

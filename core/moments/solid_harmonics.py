@@ -52,8 +52,7 @@ def along_first(table: NDArray, values: NDArray) -> NDArray:
 
 def with_negative_orders(half: NDArray[np.complex128]) -> NDArray[np.complex128]:
     """Return (2l+1, …) for m = -l..l from (l+1, …) for m = 0..l: c[-m] = (-1)^m conj(c[m])."""
-    l = len(half) - 1
-    sign = ((-1.0) ** np.arange(l, 0, -1)).reshape(-1, *[1] * (half.ndim - 1))
+    sign = ((-1.0) ** np.arange(len(half) - 1, 0, -1)).reshape(-1, *[1] * (half.ndim - 1))
     return np.concatenate([half[:0:-1].conj() * sign, half])
 
 

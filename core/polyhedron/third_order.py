@@ -125,7 +125,7 @@ def integrate(
         if not indices_in_range(faces, len(points)):
             raise ValueError(NO_VERTEX)
     if count <= MAX_SMALL_TRIANGLES:
-        volume, areas, cones = small_moments(
+        volume, areas = small_moments(
             points,
             surface.all_triangles()[0],
             np.array([count]),
@@ -135,8 +135,6 @@ def integrate(
             area=area,
             area_moments=area_moments,
         )
-        if planarity is not None:
-            planarity.cones = float(cones[0, 0]), float(cones[0, 1])
         return volume.at(0), areas.at(0)
     exact = exact or count <= MAX_TRIANGLES_EXACT_THIRD
     coordinates = np.ascontiguousarray(points.T)
@@ -177,7 +175,7 @@ def integrate(
             sums = list(pool.map(sum_block, blocks))
     else:
         sums = [sum_block(block) for block in blocks]
-    volume, areas, cones = _moments(
+    volume, areas = _moments(
         sums,
         np.zeros(1, np.intp),
         center[None],
@@ -187,8 +185,6 @@ def integrate(
         area_moments=area_moments,
         exact=exact,
     )
-    if planarity is not None:
-        planarity.cones = float(cones[0, 0]), float(cones[0, 1])
     return volume.at(0), areas.at(0)
 
 
@@ -202,9 +198,8 @@ def small_moments(
     *,
     area: bool,
     area_moments: bool,
-) -> tuple[Moments, Moments, Array]:
-    """Return stacked volumes and areas of n bodies, and (n, 2) sums of the cones over faces,
-    positive and signed.
+) -> tuple[Moments, Moments]:
+    """Return stacked volumes and areas of n bodies.
 
     Triangles are sorted by body, at least one each. reach: (n, 3) largest distances of points from
     `center`. half_ulp: (n, 3) their shifts by storage. Without `area` the areas are zero, and the
@@ -386,10 +381,8 @@ def _moments(
     area: bool,
     area_moments: bool,
     exact: bool,
-) -> tuple[Moments, Moments, Array]:
-    """Return the stacked volumes, areas and sums of cones of n bodies, whose first blocks and parts
-    are `starts`.
-    """
+) -> tuple[Moments, Moments]:
+    """Return the stacked volumes and areas of n bodies with first blocks and parts `starts`."""
     of_volume, of_area, number, side, base, sizes = (
         blocks[0] if len(blocks) == 1 else map(np.concatenate, zip(*blocks))
     )
@@ -434,17 +427,15 @@ def _moments(
         ).T
         for which in range(2):
             rounding[which, :, 10:] += (1.0 + 1e-9) * total(rest * sizes[:, which, None])
-    sums = total(of_volume)
-    raw = sums / DIVISORS
-    cones = np.array([bounds[:, 0], sums[:, 0]]).T
+    raw = total(of_volume) / DIVISORS
     error = rounding[0] / CONE_DIVISORS + 8.0 * U * np.abs(raw)
     volume = unchecked_moments(raw, center, Measure.VOLUME, error, inputs[0])
     if not area:
-        return volume, Moments(np.zeros((len(starts), 1)), center, Measure.AREA), cones
+        return volume, Moments(np.zeros((len(starts), 1)), center, Measure.AREA)
     raw = total(of_area) / (DIVISORS / AREA_FACTORS) if area_moments else bounds[:, 1:] / 2.0
     kept = raw.shape[1]
     error = rounding[1, :, :kept] / 2.0 + 8.0 * U * np.abs(raw)
-    return volume, unchecked_moments(raw, center, Measure.AREA, error, inputs[1, :, :kept]), cones
+    return volume, unchecked_moments(raw, center, Measure.AREA, error, inputs[1, :, :kept])
 
 
 def nothing(order: int, about: NDArray | None) -> tuple[Moments, Moments]:

@@ -43,9 +43,9 @@ from .findings import (
     INERTIAL_TRIANGLE_SLIGHTLY,
 )
 from .formats import FORMATS
-from .model import Effect, Pose, Shape
+from .model import Effect, Pose, Shape, second_moments
 from .plausibility import CENTER_RTOL, LEAST_MASS, Hull, impossible, spread_directions
-from .primitives import primitive_moments, second_moments
+from .primitives import primitive_moments
 from .read.descriptions import Roots
 from .read.mjcf_meshes import CLOSED
 from .stated import Description, Place, StatedInertial, StatedLink, StatedShape, rotation_of_angles
@@ -158,9 +158,7 @@ class _Piece:
 
     def turned(self) -> _Piece:
         """Return the piece rotated so that the up axis of its mesh file becomes z."""
-        if self.upright is None:
-            return self
-        return self.placed(Pose(rotation=self.upright))
+        return self if self.upright is None else self.placed(Pose(rotation=self.upright))
 
     def placed(self, pose: Pose) -> _Piece:
         """Return the piece in the coordinates in which its own have a pose."""
@@ -298,7 +296,8 @@ class Auditor:
                 for role, several in pieces.items()
             }
             other = _judge(link, inertial, turned, incomplete)
-            if (other.is_impossible, 2.0 * other.apart) < (found.is_impossible, found.apart):
+            agrees = other.apart <= min(DIFFERS, found.apart / 2.0)
+            if not other.is_impossible and (found.is_impossible or agrees):
                 found = other
                 entries.append(Entry(finding(AUDIT_UP_AXIS), place))
                 pieces = turned
@@ -443,8 +442,7 @@ def _weighed(shape: StatedShape, mass: Moments) -> Moments:
     own = combine([(placed, 1.0)])
     body = shape.rules.complete(StatedInertial(own.mass, own.center, own.inertia))
     assert body is not None
-    second = second_of_inertia(body.inertia)
-    return replace(second_moments(body.mass, body.center, second), measure=placed.measure)
+    return second_moments(body.mass, body.center, second_of_inertia(body.inertia), placed.measure)
 
 
 def _scaled(stated: StatedLink, link: StatedLink, factor: float) -> StatedLink:

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from ..inertia import EQUAL_MOMENTS_RTOL, combine
 from ..mesh import Surface
+from ..moments import KNOWN_ORDER
 from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, monomial_count
 from ..numerics import Array, second_of_inertia
 
@@ -338,14 +339,25 @@ class Robot:
         return combine_inertials([inertial.place(to_link @ part.pose) for part, inertial in parts])
 
 
+def second_moments(
+    size: float, center: Array, second: Array, measure: Measure = Measure.VOLUME
+) -> Moments:
+    """Return the moments of a body from its volume or mass, (3,) center and (3, 3) second moments
+    about it.
+    """
+    raw = np.zeros(monomial_count(KNOWN_ORDER))
+    raw[0] = size
+    raw[SECOND_MOMENT_INDEX] = second
+    return Moments(raw, center, measure)
+
+
 def combine_inertials(inertials: list[Inertial]) -> Inertial:
     """Return the total of several inertials that are given in the same frame."""
-    bodies = []
-    for inertial in inertials:
-        raw = np.zeros(monomial_count(3))
-        raw[0] = inertial.mass
-        raw[SECOND_MOMENT_INDEX] = second_of_inertia(inertial.inertia)
-        bodies.append((Moments(raw, inertial.center, Measure.MASS), 1.0))
+    seconds = [second_of_inertia(one.inertia) for one in inertials]
+    bodies = [
+        (second_moments(one.mass, one.center, second, Measure.MASS), 1.0)
+        for one, second in zip(inertials, seconds)
+    ]
     total = combine(bodies)
     return Inertial.with_agreeing_axes(
         total.mass, total.center, total.inertia, total.principal.moments, total.principal.axes

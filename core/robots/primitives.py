@@ -15,11 +15,10 @@ from math import pi, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from ..moments import KNOWN_ORDER
-from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, monomial_count
+from ..moments.moments import Moments
 from ..numerics import Array
 from ..polyhedron import integrate
-from .model import Inertial, Pose, Shape
+from .model import Inertial, Pose, Shape, second_moments
 
 LEAST_SPREAD = float(np.finfo(np.float64).eps)  # Relative to the largest one.
 BISECTIONS = 200  # more than the digits of a float64 need
@@ -135,13 +134,3 @@ def primitive_moments(shape: Shape) -> Moments:
             )
         second = np.array([across, across, along])
     return second_moments(volume, np.zeros(3), np.diag(second))
-
-
-def second_moments(volume: float, center: Array, second: Array) -> Moments:
-    """Return the moments of a body from its volume, (3,) center and (3, 3) second moments about
-    it.
-    """
-    raw = np.zeros(monomial_count(KNOWN_ORDER))
-    raw[0] = volume
-    raw[SECOND_MOMENT_INDEX] = second
-    return Moments(raw, center, Measure.VOLUME)

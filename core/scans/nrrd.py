@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -168,7 +168,11 @@ def read_nrrd(path: Path, limits: Limits) -> Scan:
         raise _field(fields, "sizes", "three numbers")
     if _numbers(fields, "dimension", parse_whole) != [len(sizes)]:
         raise _field(fields, "dimension", "the count of “sizes”")
-    fields |= dict(_spatial_fields(fields, space_axes(sizes), len(sizes)))
+    axes = space_axes(sizes)
+    for name in _PER_AXIS & fields.keys() if len(sizes) > 3 else ():
+        words = re.findall(r'"[^"]*"|\([^()]*\)|[^\s"()]+', fields[name])
+        if len(words) == len(sizes):
+            fields[name] = " ".join(words[axis] for axis in axes)
     shape = shape_of(sizes)
     kind = TYPES.get(fields.get("type", "").lower())
     if kind is None:
@@ -208,16 +212,6 @@ def read_nrrd(path: Path, limits: Limits) -> Scan:
         samples = unpack_samples(source, start, dtype, shape, byte_skip, limits, encoding)
     usual = 1e-3 if is_anatomical else None
     return Scan(samples, matrix, unit, placed, usual_unit=usual, labels=segment_labels(fields))
-
-
-def _spatial_fields(
-    fields: dict[str, str], axes: Sequence[int], count: int
-) -> Iterator[tuple[str, str]]:
-    """Yield the fields with an entry for each of `count` axes, left with those of three axes."""
-    for name in _PER_AXIS & fields.keys() if count > 3 else ():
-        words = re.findall(r'"[^"]*"|\([^()]*\)|[^\s"()]+', fields[name])
-        if len(words) == count:
-            yield name, " ".join(words[axis] for axis in axes)
 
 
 def _samples_start(
@@ -342,7 +336,10 @@ def _even_axes(
     cells are assumed, as by the format's own library. The last resort is the thickness.
     """
     names = "spacings", "axis mins", "axis maxs", "thicknesses"
-    stated, lows, highs, thicknesses = (_per_axis(fields, name) for name in names)
+    rows = [_numbers(fields, _alias(fields, name), parse_number) for name in names]
+    stated, lows, highs, thicknesses = (
+        row[:3] if len(row) >= 3 else [math.nan] * 3 for row in rows
+    )
     field = "centers" if "centers" in fields else "centerings"
     centers = [*fields.get(field, "").lower().split(), *["???"] * 3][:3]
     if not {"cell", "node", "none", "???"}.issuperset(centers):
@@ -382,12 +379,6 @@ def _even_axes(
 
 def _is_spacing(number: float) -> bool:
     return 0.0 < abs(number) < math.inf
-
-
-def _per_axis(fields: dict[str, str], name: str) -> list[float]:
-    """Return a field's numbers for the first three axes; NaN if it has fewer."""
-    numbers = _numbers(fields, _alias(fields, name), parse_number)
-    return numbers[:3] if len(numbers) >= 3 else [math.nan] * 3
 
 
 def _vectors(fields: dict[str, str], name: str) -> list[list[float] | None]:

@@ -11,13 +11,11 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh import Planarity, PlanarityAccumulator, Surface, closed_side_faces, faces_beside_edges
 from ..moments import Moments
 from ..numerics import (
     Index,
-    Mask,
     connected_components,
     indices_in_range,
 )
@@ -26,8 +24,6 @@ from ..verdict import MAX_COORDINATE, MeasureError, MeshHealth, check_size, weld
 from ..verdict.findings import NO_FACES, OBJECT_SIZE, TOO_LARGE
 from .findings import INVALID_FACES, NON_FINITE_VERTICES
 from .repaired_mesh import RepairedMesh
-
-SUM_ROUNDING = 1e-13  # Relative rounding of a sum of numbers of one sign.
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,14 +46,12 @@ class CheckedSurface:
 class GivenIntegrals:
     """Integrals over the faces as given: `volume` to order 3, and `area`.
 
-    `all_cones_agree`: True if all cones from the reference point over the faces are known to have
-    the same sign. `proven`: the mesh if its own edges prove it closed and oriented, else None.
+    `proven`: the mesh if its own edges prove it closed and oriented, else None.
     """
 
     volume: Moments
     area: Moments
     planarity: Planarity
-    all_cones_agree: bool
     proven: RepairedMesh | None
 
 
@@ -130,15 +124,7 @@ def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> G
     else:
         volume, area = integrate()
         proven = prove_closed(surface)
-    agree = accumulator.cones is not None and bool(same_sign(*accumulator.cones))
-    return GivenIntegrals(volume, area, accumulator.planarity(), agree, proven)
-
-
-def same_sign(total: float | NDArray, signed: float | NDArray) -> bool | Mask:
-    """Return whether numbers have one sign, to rounding. total: the sum of their sizes; signed:
-    their own sum.
-    """
-    return total - abs(signed) <= SUM_ROUNDING * total
+    return GivenIntegrals(volume, area, accumulator.planarity(), proven)
 
 
 def prove_closed(surface: Surface) -> RepairedMesh | None:

@@ -240,7 +240,7 @@ def _judge(
     A shell is not searched for self-intersections; its copies of faces are reported.
     """
     if not shell:
-        return judge(checked, given, oriented, find_self_intersection(checked, given, oriented))
+        return judge(checked, given, oriented, find_self_intersection(checked, oriented))
     solid = judge(checked, given, oriented, None)
     found = solid.health.defective_elements
     copies = np.union1d(found.duplicate_faces, copied_faces(checked.surface))

@@ -221,8 +221,7 @@ def orient_nested_components(
             follows = (sign[parent[at]] != given[parent[at]]) & (given[at] == -given[parent[at]])
             sign[at[follows]] *= -1.0
             around += np.bincount(inner[at_level], sign[outer[at_level]], minlength=number)
-        misplaced = at[(sign[at] < 0.0) & (around[at] <= 0.0)]
-        sign[misplaced] = 1.0
+        sign[at[(sign[at] < 0.0) & (around[at] <= 0.0)]] = 1.0
     return sign != given, (sign > 0.0) & (around >= 1.0), (sign < 0.0) & (around >= 1.0)
 
 

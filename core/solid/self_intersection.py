@@ -2,10 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Self-intersection of closed surfaces, and the volume that it counts twice or as negative.
 
-If all cones of a surface from some point have the same sign, and their sum surrounds that point
+If all cones of a surface from some point are positive, and a ray from that point leaves the surface
 once, it is the radial image of a sphere, and cannot meet itself; for a convex body the center of
-mass is such a point. For most bodies, sums over faces show this on the way. The others need a pass
-over the faces, which ends early if a face looks away.
+mass is such a point. The pass over the faces that shows this ends early if a face looks away.
 
 Other surfaces are sampled along lines. Each place on a line must be in a closed part once or not at
 all, if the part faces outward. The total length of violations, times the lines' distances, is the
@@ -15,15 +14,14 @@ follows from the number of faces, so that the search costs little.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh import (
-    FACES_PER_BLOCK,
     HALVES,
+    LINE_SLOPES,
     Crossings,
     LineGrids,
     Surface,
@@ -32,15 +30,16 @@ from ..mesh import (
     turned_quads,
 )
 from ..moments import SECOND_MOMENT_INDEX
-from ..numerics import Array, cross, dot, sums_by_index
+from ..numerics import Array, Mask, sums_by_index
 from ..verdict import Intersection
-from .closedness import CheckedSurface, GivenIntegrals, same_sign
+from .closedness import CheckedSurface
 from .orientation import OrientedSolid
 
 MAX_UNSURE_LINES = (
     0.05  # Share of lines: if more enter and leave unequally often, the rest says nothing.
 )
-FACES_LOOKED_AT_FIRST = 1024
+FACES_PER_BLOCK = 4096
+SUM_ROUNDING = 1e-13  # Relative rounding of a sum of numbers of one sign.
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,13 +56,8 @@ class SelfIntersection:
     effect: float = 0.0
 
 
-def find_self_intersection(
-    checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid
-) -> SelfIntersection:
-    """Search the surface of a solid for self-intersections.
-
-    All three arguments are of the same surface.
-    """
+def find_self_intersection(checked: CheckedSurface, oriented: OrientedSolid) -> SelfIntersection:
+    """Search the surface of a solid for self-intersections."""
     mesh = oriented.mesh
     surface = oriented.surface
     volume = oriented.volume
@@ -78,10 +72,7 @@ def find_self_intersection(
         component = parts.part
     else:
         center = volume.about + volume.raw[1:4] / volume.total
-        as_given = oriented.is_proven and given.all_cones_agree
-        if (as_given and surrounds_once(surface, volume.about, checked.size)) or (
-            all_cones_agree(surface, center) and surrounds_once(surface, center, checked.size)
-        ):
+        if is_star(surface, center) or is_star(surface, volume.about):
             return SelfIntersection(Intersection.EXCLUDED)
     low, high = surface.box
     grids = LineGrids.over_boxes(
@@ -99,40 +90,46 @@ def find_self_intersection(
     return SelfIntersection(Intersection.FOUND, float(excess.volume[0]), effect)
 
 
-def all_cones_agree(surface: Surface, center: Array) -> bool:
-    """Return whether no two faces have opposite sides toward a point.
+def is_star(surface: Surface, center: Array) -> bool:
+    """Return whether a closed surface, facing outward, is certainly star-shaped about a point.
 
-    The surface may go around it several times.
+    The search ends early if a face looks away; the first blocks are short.
     """
+    coordinates = along_ray(surface.points.T, center[:, None])
     total = signed = 0.0
-    for corners in _corner_blocks(surface):
-        a, b, c = (corner - center[:, None] for corner in corners)
-        cones = dot(a, cross(b, c))
-        total = total + float(np.abs(cones).sum())
-        signed = signed + float(cones.sum())
-        if not same_sign(total, signed):
-            return False
-    return True
-
-
-def _corner_blocks(surface: Surface) -> Iterator[list[Array]]:
-    """Yield the corners of blocks of triangles, three (3, k) arrays; the first blocks of each kind
-    are short.
-    """
+    crossings = 0
     for faces in (surface.quads, surface.triangles):
-        starts = [0, *range(FACES_LOOKED_AT_FIRST, len(faces), FACES_PER_BLOCK), len(faces)]
+        starts = [*range(0, len(faces), FACES_PER_BLOCK), len(faces)]
         for start, stop in zip(starts[:-1], starts[1:]):
             block = faces[start:stop]
             if faces is surface.quads:
                 block = turned_quads(surface.points, block)[:, HALVES].reshape(-1, 3)
-            if len(block):
-                yield [surface.points[block[:, k]].T.astype(np.float64) for k in range(3)]
+            cones, is_crossed = find_cones(coordinates.take(block.T, 1, mode="clip"))
+            total += float(np.abs(cones).sum())
+            signed += float(cones.sum())
+            crossings += int(np.count_nonzero(is_crossed))
+            if not total - signed <= SUM_ROUNDING * total:
+                return False
+    return crossings == 1
 
 
-def surrounds_once(surface: Surface, point: Array, size: float) -> bool:
-    """Return whether a closed surface goes around a point once, one way or the other."""
-    found = find_crossings(surface, LineGrids.through_points(point[None], np.array([size])))
-    return abs(int(found.sign[found.along > 0.0].sum())) == 1
+def along_ray(points: NDArray, origin: NDArray) -> Array:
+    """Return coordinates of (3, n) points from an origin, sheared so that a ray is the z axis."""
+    rows = np.subtract(points, origin, dtype=np.float64, order="C")
+    rows[:2] -= np.multiply.outer(LINE_SLOPES, rows[2])
+    return rows
+
+
+def find_cones(corners: NDArray) -> tuple[Array, Mask]:
+    """Return (t,) signed cones, times 6, from the origin over triangles, (3, 3, t) coordinates of
+    corners; and the triangles that the z axis may cross upward, if all cones are positive.
+    """
+    x, y, z = corners
+    first, second, third = [x[i - 2] * y[i - 1] - y[i - 2] * x[i - 1] for i in range(3)]
+    # A side that the ray meets counts for both of its triangles: no surface that goes around the
+    # origin twice seems to be crossed once.
+    is_crossed = np.minimum(np.minimum(first, second), third) >= 0.0
+    return z[0] * first + z[1] * second + z[2] * third, is_crossed
 
 
 @dataclass(frozen=True, eq=False)

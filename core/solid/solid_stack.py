@@ -33,7 +33,7 @@ from ..mesh import (
     stack_planarity,
 )
 from ..moments import Moments, U, sum_moments
-from ..numerics import NEXT_AXIS, PREVIOUS_AXIS, Array, Index, Mask
+from ..numerics import Array, Index, Mask
 from ..polyhedron import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH, box_center, small_moments
 from ..verdict import (
     WELDING_RTOL,
@@ -44,10 +44,10 @@ from ..verdict import (
     Procedure,
 )
 from .boundary_loops import OwnedLoops, has_distinct_vertices, side_ends
-from .closedness import SUM_ROUNDING, GivenIntegrals, prove_closed, same_sign
+from .closedness import GivenIntegrals, prove_closed
 from .orientation import OrientedSolid, zero_volume
 from .repaired_mesh import RepairedMesh
-from .self_intersection import MAX_UNSURE_LINES, measure_excess
+from .self_intersection import MAX_UNSURE_LINES, SUM_ROUNDING, along_ray, find_cones, measure_excess
 from .solid_method import SolidIntegrals, cap_finding, shape_findings
 
 MAX_COMPONENTS = 16  # Limit for one body: all pairs are compared.
@@ -60,15 +60,13 @@ class SmallSolids:
     """The bodies of n small surfaces, meaningless unless measured.
 
     `is_measured`: (n,) surfaces closed as they are or by caps; `is_integrated`: (n,) surfaces whose
-    integrals hold for the faces as given, at least. `cones`: (n, 2) sums of the cones over faces,
-    positive and signed. `volume`, `area`: to order 3 and 0, about each body's own point; area
-    without caps. `size`: (n,) diagonal of the bounding box. `intersection`: (n,) objects of type
-    Intersection.
+    integrals hold for the faces as given, at least. `volume`, `area`: to order 3 and 0, about each
+    body's own point; area without caps. `size`: (n,) diagonal of the bounding box. `intersection`:
+    (n,) objects of type Intersection.
     """
 
     is_measured: Mask
     is_integrated: Mask
-    cones: Array
     volume: Moments
     area: Moments
     size: Array
@@ -108,9 +106,8 @@ class SmallSolid(SolidIntegrals):
         """
         if not self.stack.is_integrated[self.i]:
             return None
-        agree = bool(same_sign(*self.stack.cones[self.i].tolist()))
         flat = self.stack.planarity.at(self.i)
-        return GivenIntegrals(self.volume, self.area, flat, agree, prove_closed(self.given_surface))
+        return GivenIntegrals(self.volume, self.area, flat, prove_closed(self.given_surface))
 
     def _method(self) -> Procedure:
         return Procedure.CAPPED if self.stack.caps.is_capped[self.i] else Procedure.EXACT
@@ -163,7 +160,7 @@ def measure_small(surfaces: Sequence[Surface]) -> SmallSolids:
     low, high = stack.box
     center = box_center(low, high, stack.points.dtype)
     reach = np.maximum(high - center, center - low) * (1.0 + 4.0 * U)
-    volume, area, cones = small_moments(
+    volume, area = small_moments(
         stack.points,
         stack.triangles,
         stack.triangle_counts,
@@ -230,7 +227,6 @@ def measure_small(surfaces: Sequence[Surface]) -> SmallSolids:
     return SmallSolids(
         is_measured,
         is_integrated & ~capped,
-        cones,
         volume,
         area,
         size,
@@ -278,25 +274,13 @@ def _stand_apart(
 
 
 def _are_stars(stack: TriangleStack, points: NDArray) -> Mask:
-    """Return an (n,) mask of the bodies that are star-shaped about their (n, 3) points.
-
-    All cones from the point over the faces have one sign, and their solid angles (van Oosterom and
-    Strackee 1983) surround the point once.
-    """
+    """Return an (n,) mask of the bodies that certainly are stars about their (n, 3) points."""
     places = points.take(np.repeat(np.arange(len(stack)), stack.triangle_counts), 0).T[:, None]
-    corners = stack.points.T.take(stack.triangles.T, 1) - places
-    after = corners.take(NEXT_AXIS, 0)
-    before = corners.take(PREVIOUS_AXIS, 0)
-    cones = np.add.reduce(corners[:, 0] * (after[:, 1] * before[:, 2] - before[:, 1] * after[:, 2]))
-    la, lb, lc = np.sqrt(np.add.reduce(corners * corners))
-    ab, bc, ca = np.add.reduce(corners * corners.take(NEXT_AXIS, 1))
-    # beyond the range of float32 a body counts as no star
-    with np.errstate(over="ignore", invalid="ignore"):
-        halves = np.arctan2(cones, la * lb * lc + ab * lc + bc * la + ca * lb)
-    total, signed, angle = np.add.reduceat(
-        np.array([np.abs(cones), cones, halves]), stack.first_triangle, axis=1
+    cones, is_crossed = find_cones(along_ray(stack.points.T.take(stack.triangles.T, 1), places))
+    total, signed, crossings = np.add.reduceat(
+        np.array([np.abs(cones), cones, is_crossed]), stack.first_triangle, axis=1
     )
-    return (total - signed <= SUM_ROUNDING * total) & (np.rint(angle / (2.0 * np.pi)) == 1.0)
+    return (total - signed <= SUM_ROUNDING * total) & (crossings == 1.0)
 
 
 def _search_self_intersections(
@@ -342,7 +326,7 @@ class StackCaps:
         low, high = stack.box
         first_cap = stack.first_triangle + stack.triangle_counts - counts
         is_cap = np.arange(len(stack.triangles)) >= np.repeat(first_cap, stack.triangle_counts)
-        caps, _, _ = small_moments(
+        caps, _ = small_moments(
             stack.points,
             stack.triangles[is_cap],
             counts,

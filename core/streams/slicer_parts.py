@@ -40,7 +40,12 @@ _NAMES = {
     "layer_height": ("layer_height",),
     "outer": ("external_perimeter_extrusion_width", "outer_wall_line_width"),
     "inner": ("perimeter_extrusion_width", "inner_wall_line_width"),
+    "top_least": ("top_solid_min_thickness", "top_shell_thickness"),
+    "bottom_least": ("bottom_solid_min_thickness", "bottom_shell_thickness"),
+    "vase": ("spiral_vase", "spiral_mode"),
 }
+_VASE = {"walls": 1.0, "top": 0.0, "infill": 0.0}
+LEAST_LAYER = 1e-6  # a smaller share of a layer is rounding
 USUAL_LINE = 0.45  # mm, where the width is left to the slicer
 
 
@@ -141,20 +146,27 @@ class SlicerProject:
         infill = number("infill", percent=True)
         if infill is None:
             return {}
-        found = {name: number(name) for name in ("walls", "top", "bottom", "layer_height")}
+        made = {name: number(name) for name in ("walls", "top", "bottom", "layer_height")}
+        made = {name: value for name, value in made.items() if value is not None}
+        made |= {"infill": infill} | (_VASE if number("vase") else {})
         outer, inner = number("outer") or USUAL_LINE, number("inner") or USUAL_LINE
-        walls = max(1.0, found["walls"] or 1.0)
-        widths = (outer + (walls - 1.0) * inner) / walls
-        made = {name: value for name, value in found.items() if value is not None}
+        walls = made.get("walls", 1.0)
+        height = made.get("layer_height", math.inf)
+        if not (walls >= 1.0 and height > 0.0 and 0.0 <= infill <= 100.0):
+            raise ValueError("a print setting is out of its range")
+        for side in ("top", "bottom"):
+            least = math.ceil((number(side + "_least") or 0.0) / height - LEAST_LAYER)
+            if made.get(side):
+                made[side] = max(made[side], least)
         if "layer_height" in made:
             made["layer_height"] *= 1e-3
+        made["line_width"] = 1e-3 * (outer + (walls - 1.0) * inner) / walls
         extruder = max(0, parse_whole(str(known.get("extruder", "1"))) - 1)
         densities = known.get("filament_density", ())
         if isinstance(densities, str):
             densities = densities.split(",")
         if extruder < len(densities) and parse_number(str(densities[extruder]).strip()) > 0.0:
             made["density"] = 1e3 * parse_number(str(densities[extruder]).strip())
-        made |= {"infill": infill, "line_width": widths * 1e-3}
         if not all(map(math.isfinite, made.values())):
             raise ValueError("a print setting is not finite")
         return made

@@ -236,7 +236,7 @@ class _Package:
             settings = {**project.objects.get(top, {}), **part.settings}
             try:
                 printed = project.print_settings(settings)
-            except (ValueError, TypeError):
+            except (ValueError, TypeError, OverflowError):
                 printed = None
             yield replace(
                 one,

@@ -48,8 +48,8 @@ def part_behind(
     corners = moved[triangles].astype(np.float64)
     units = _unit_normals(corners, size)
     beside = faces_beside_edges(triangles, len(points))
-    if beside is None:
-        return None
+    if beside is None:  # T-junctions: each triangle counts by itself
+        beside = np.zeros((2, 0), np.int32)
     first, second, untested = overlapping_box_pairs(
         corners.min(axis=1), corners.max(axis=1), -ROUNDING * size, MAX_PAIRS
     )
@@ -119,7 +119,7 @@ def _unit_normals(corners: Array, size: float) -> Array:
     """Return the (k, 3) unit normals of triangles (k, 3, 3), zero if they have no area."""
     across = normals(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
     lengths = np.linalg.norm(across, axis=1)
-    return across * np.where(lengths > (ROUNDING * size) ** 2, 1.0 / lengths, 0.0)[:, None]
+    return across / np.where(lengths > (ROUNDING * size) ** 2, lengths, np.inf)[:, None]
 
 
 def _find_met(corners: Array, units: Array, pairs: Index, tolerance: float) -> Mask:
@@ -172,6 +172,7 @@ def _belong(
     ways, group = np.unique(np.rint(units / NEARER), axis=0, return_inverse=True)
     area = np.bincount(group.ravel(), triangle_areas(points, triangles))
     ways = ways[np.argsort(-area)[:RAYS]] * NEARER
+    ways = ways[ways.any(axis=1)]
     wall, *heights = np.maximum(depths, np.finfo(float).tiny) * (1.0 - NEARER)
     for ray in [*ways, *-ways]:
         ray = ray / np.linalg.norm(ray)

@@ -266,7 +266,7 @@ def offset_solid(surface: Surface) -> OffsetSolid:
         bounds += prisms.bounds(slide, lift, stored)
         swept[0] += prisms.swept(slide[0] + slid, lift[0] + slid, rounded)
         swept[1] += prisms.swept(slide[1], lift[1], stored)
-        tested.append(prisms.jacobians())
+        tested.append((prisms.own_size, JACOBIAN_ROUNDINGS * U * prisms.sizes(), prisms.double))
     jacobian, jacobian_error, double = (np.concatenate(column, axis=-1) for column in zip(*tested))
     solid = directions.has_normal
     lost = float(double[~solid].sum())
@@ -334,13 +334,7 @@ class _Prisms:
             for vectors_by_axis in (self.edges, self.turns, self.vectors)
         )
 
-    def jacobians(self) -> tuple[NDArray, NDArray, NDArray]:
-        """Return (3, 3, m) coefficients in s of J at each corner, (3, m) bounds of their rounding,
-        and (m,) |N(0)|.
-        """
-        return self.own_size, JACOBIAN_ROUNDINGS * U * self._sizes(), self.double
-
-    def _sizes(self) -> Array:
+    def sizes(self) -> Array:
         """Return (3, m) bounds of the coefficients of J."""
         return (
             np.array([self.long**2, 2.0 * self.long * self.turned_length, self.turned_length**2])
@@ -381,7 +375,7 @@ class _Prisms:
         move by the first row of the errors; in the last row by the second row of the errors, and
         the points by `stored`.
         """
-        sizes = self._sizes()
+        sizes = self.sizes()
         coefficients = [np.zeros((7, len(self.double)))]
         coefficients[0][:3] = sizes
         long = self.long

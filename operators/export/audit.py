@@ -13,11 +13,9 @@ from bpy.types import Context, Operator
 from bpy_extras.io_utils import ImportHelper
 
 from ...blender.write import reports
-from ...core import robots
+from ...core import robots, verdict
 from ...core.robots import AUDITED_SUFFIXES, read, write
-from ...core.verdict import FileError, MeasureError
-from .. import selection
-from ..findings import FILE_EXISTS
+from .. import findings, selection
 
 if TYPE_CHECKING:
     from ...core.robots import Audit
@@ -52,7 +50,7 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
         path = Path(bpy.path.abspath(self.filepath))
         try:
             document, text = self._audit(path)
-        except MeasureError as error:
+        except verdict.MeasureError as error:
             raise error.about(path.name) from error
         counts = write.audit_report.count_findings(document)
         done = reports.phrase(
@@ -84,7 +82,7 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
             return None
         target = path.with_name("{}_repaired{}".format(path.stem, path.suffix))
         if target.exists():
-            raise FileError(FILE_EXISTS, file=target.name)
+            raise verdict.FileError(findings.FILE_EXISTS, file=target.name)
         selection.write_file(target, [robots.audit.repaired_copy(audit.description, repairs)])
         return str(target)
 

@@ -17,8 +17,6 @@ from bpy.types import Context, Event, Operator
 
 from ... import core
 from ...blender import bodies, read, session, settings, write
-from ...blender.write import reports
-from ...core import numerics, verdict
 from .. import modal, selection
 
 SUFFIX = ".npz"
@@ -85,7 +83,7 @@ class OBJECT_OT_body_moments_fourier(modal.ModalSteps, Operator):
     def poll(cls, context: Context) -> bool:
         obj = session.selected.subject(context)
         if obj is None or not read.visibility.measurable(obj):
-            return reports.unavailable(cls, "Make an object with a surface active")
+            return write.reports.unavailable(cls, "Make an object with a surface active")
         return True
 
     def invoke(self, context: Context, event: Event) -> set[str]:
@@ -124,7 +122,7 @@ class OBJECT_OT_body_moments_fourier(modal.ModalSteps, Operator):
         depsgraph = context.evaluated_depsgraph_get()
         self._path = Path(bpy.path.abspath(bpy.path.ensure_ext(self.filepath, SUFFIX)))
         if not self._path.parent.is_dir():
-            raise verdict.FileError(
+            raise core.verdict.FileError(
                 write.findings.FILE_NOT_WRITTEN, file=self._path.name, error=os.strerror(ENOENT)
             )
         self._dimension, frame = 2 if self.of == "FLAT" else 3, self.frame.lower()
@@ -145,7 +143,7 @@ class OBJECT_OT_body_moments_fourier(modal.ModalSteps, Operator):
 
         Without a given largest frequency, its step is π over the size.
         """
-        largest = numerics.shortest_decimal(self.largest) or pi / size * (self.count // 2)
+        largest = core.numerics.shortest_decimal(self.largest) or pi / size * (self.count // 2)
         return core.fourier.FrequencyGrid(self.count, largest, self._dimension)
 
     def _finish(self, context: Context) -> set[str]:
@@ -153,10 +151,10 @@ class OBJECT_OT_body_moments_fourier(modal.ModalSteps, Operator):
         try:
             write.spectrum.save(self._path, transform, self.frame.lower(), plane=self._work.arrays)
         except OSError as error:
-            raise verdict.FileError(
+            raise core.verdict.FileError(
                 write.findings.FILE_NOT_WRITTEN,
                 file=self._path.name,
-                error=verdict.system_reason(error),
+                error=core.verdict.system_reason(error),
             ) from error
         name = "Fourier Transform of {:s}".format(self._work.name)
         image = write.spectrum.picture(name, transform.values, self.count, self._dimension)
@@ -164,14 +162,14 @@ class OBJECT_OT_body_moments_fourier(modal.ModalSteps, Operator):
             if area.type == "IMAGE_EDITOR":
                 area.spaces.active.image = image
         bpy.ops.ed.undo_push(message=self.bl_label)
-        done = reports.phrase(
+        done = write.reports.phrase(
             "Wrote {count} frequencies to {file}; the image {image} shows slices of their "
             "magnitude",
             count=len(transform.q),
             file=self._path.name,
             image=image.name,
         )
-        return reports.report(self, done, *reports.first(findings))
+        return write.reports.report(self, done, *write.reports.first(findings))
 
 
 CLASSES = (OBJECT_OT_body_moments_fourier,)

@@ -15,9 +15,8 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 from bpy.types import Context, Event, Operator
 
-from ... import command
+from ... import command, core
 from ...blender.write import reports
-from ...core import measurement, verdict
 from .. import selection
 from ..modal import ModalSteps
 
@@ -93,7 +92,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
             return selection.reporting(self, self._run, context, in_window)
         except OSError as error:
             return selection.refuse(
-                self, "No process can be started: {error}.", error=verdict.system_reason(error)
+                self, "No process can be started: {error}.", error=core.verdict.system_reason(error)
             )
 
     def modal(self, context: Context, event: Event) -> set[str]:
@@ -144,15 +143,16 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
         with command.supervisor.Journal(result.with_name(JOURNAL)) as journal:
             paths = list(journal.entries)
             failed = sum(entry.status != "ok" for entry in journal.entries.values())
-            documents = _Documents(journal, paths)
-            pages = measurement.to_html(documents)
+            pages = core.measurement.to_html(_Documents(journal, paths))
             selection.write_file(
                 self._folder / REPORT, (page.encode("utf-8", "backslashreplace") for page in pages)
             )
         counts = {"count": len(paths), "failed": failed, "file": str(self._folder / REPORT)}
         if failed:
             text = "Files measured: {count}, not or not fully: {failed}; report: {file}"
-            reports.report(self, reports.phrase(text, **counts), level=verdict.Severity.WARNING)
+            reports.report(
+                self, reports.phrase(text, **counts), level=core.verdict.Severity.WARNING
+            )
         else:
             texts = (
                 "{count} file measured; report: {file}",

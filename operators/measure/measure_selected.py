@@ -19,8 +19,7 @@ from ...blender.session import character, displayed, live, memory
 from ...blender.session.tracking import armatures, staleness, stamps
 from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
 from ...blender.write import properties, reports
-from ...core.density import BY_NAME
-from ...core.verdict import internal_error, of_severity
+from ...core import density, verdict
 from ...core.verdict.finding import Finding, Severity, finding
 from .. import findings, modal, selection
 
@@ -102,7 +101,7 @@ class OBJECT_OT_body_moments_measure(modal.ModalSteps, selection.OnSelection, Op
         if self.material != AS_SET:
             settings.mass_from = "DENSITY"
             settings.density_from = "VALUE"
-            settings.density = BY_NAME[self.material].density
+            settings.density = density.BY_NAME[self.material].density
             settings.material = self.material
 
     def _measure(
@@ -112,7 +111,7 @@ class OBJECT_OT_body_moments_measure(modal.ModalSteps, selection.OnSelection, Op
         for together in bodies.measure_many(objects, depsgraph):
             for obj, found in together:
                 if isinstance(found, Exception):
-                    self._refusals[obj] = internal_error.finding_of(found)
+                    self._refusals[obj] = verdict.internal_error.finding_of(found)
                 else:
                     self._results.append((obj, found))
             done += len(together)
@@ -146,7 +145,7 @@ class OBJECT_OT_body_moments_measure(modal.ModalSteps, selection.OnSelection, Op
                 causes=[cause.as_record() for cause in causes],
             )
             for obj, measured in self._results
-            if (causes := of_severity(measured.findings, Severity.WARNING, Severity.ERROR))
+            if (causes := verdict.of_severity(measured.findings, Severity.WARNING, Severity.ERROR))
         ]
         tried = count + len(self._failures)
         names = [warning.values["object"] for warning in warnings]

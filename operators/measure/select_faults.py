@@ -11,9 +11,8 @@ from bpy.props import EnumProperty
 from bpy.types import Context, Object, Operator
 
 from ... import core
-from ...blender import bodies, read, scene, session
+from ...blender import bodies, read, scene, session, write
 from ...blender.session.tracking import staleness
-from ...blender.write import properties, reports
 from ...core.verdict import FLIPPED_FACES
 from ...core.verdict.finding import finding
 from .. import findings, selection
@@ -51,9 +50,9 @@ class OBJECT_OT_body_moments_select_faults(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.mode not in {"OBJECT", "EDIT_MESH"}:
-            return reports.unavailable(cls, "Switch to Object Mode")
+            return write.reports.unavailable(cls, "Switch to Object Mode")
         if not any(obj.type == "MESH" for obj in context.view_layer.objects.selected):
-            return reports.unavailable(cls, "Select mesh objects")
+            return write.reports.unavailable(cls, "Select mesh objects")
         return True
 
     def execute(self, context: Context) -> set[str]:
@@ -71,7 +70,7 @@ class OBJECT_OT_body_moments_select_faults(Operator):
 
         def store(obj: Object) -> None:
             staleness.note_edits(obj)
-            properties.store(
+            write.properties.store(
                 obj, session.stored.density.noted(obj, measurements[obj], context.scene)
             )
             wrong = {
@@ -93,7 +92,7 @@ class OBJECT_OT_body_moments_select_faults(Operator):
             bpy.ops.object.mode_set(mode="EDIT")
         staleness.mark_up_to_date(context, done)
         if faults:
-            text = reports.phrase(
+            text = write.reports.phrase(
                 "{count} of {total} measured objects has defects",
                 "{count} of {total} measured objects have defects",
                 count=len(faults),
@@ -101,7 +100,7 @@ class OBJECT_OT_body_moments_select_faults(Operator):
             )
         else:
             texts = ("Measured {count} object: no defects", "Measured {count} objects: no defects")
-            text = reports.phrase(*texts, count=len(done))
+            text = write.reports.phrase(*texts, count=len(done))
         defects = [
             finding(findings.OBJECT_WARNINGS, object=obj.name, causes=_counts(found))
             for obj, found in faults.items()

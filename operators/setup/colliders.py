@@ -16,9 +16,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 from bpy.types import Context, Object, Operator
 
 from ... import core
-from ...blender import bodies, scene, session, settings
-from ...blender.scale import meters_per_unit
-from ...blender.write import reports
+from ...blender import bodies, scale, scene, session, settings, write
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from .. import findings, modal, selection
 
@@ -77,7 +75,7 @@ class _Making(selection.OnSelectionInObjectMode, modal.ModalSteps):
         self._failures: list[Finding] = []
         self._objects = bodies_of(context)
         known: dict[str, session.colliders.Plan] = {}
-        unit = meters_per_unit(context.scene)
+        unit = scale.meters_per_unit(context.scene)
         measured = bodies.measured_in_turn(self._objects, context.evaluated_depsgraph_get())
         wanted = core.colliders.fits.Wanted(*self._wanted())
 
@@ -93,12 +91,12 @@ class _Making(selection.OnSelectionInObjectMode, modal.ModalSteps):
 
     def _finish(self, context: Context) -> set[str]:
         self._made = session.store_colliders(context, self._plans, self.engine)
-        done = reports.phrase(
+        done = write.reports.phrase(
             "{count} collider made", "{count} colliders made", count=len(self._made)
         )
         if len(self._plans) == 1:
             text = "volume {share:percent} of the object's"
-            done += "; " + reports.phrase(text, share=self._plans[0].record["volume_ratio"])
+            done += "; " + write.reports.phrase(text, share=self._plans[0].record["volume_ratio"])
         beyond = [
             finding(
                 findings.COLLIDERS_BEYOND_TOLERANCE,
@@ -209,21 +207,16 @@ class OBJECT_OT_body_moments_remove_colliders(selection.OnSelectionInObjectMode,
     def execute(self, context: Context) -> set[str]:
         objects = bodies_of(context)
         count = session.remove_colliders(context, objects)
-        done = reports.phrase(
+        done = write.reports.phrase(
             "{count} object without colliders", "{count} objects without colliders", count=count
         )
-        idle = reports.phrase("no selected object has colliders")
+        idle = write.reports.phrase("no selected object has colliders")
         return selection.summarize(self, count, len(objects), done, idle=idle)
 
 
 def bodies_of(context: Context) -> list[Object]:
     """Return the selected objects, each once, with the bodies in place of their colliders."""
-    chosen = context.view_layer.objects.selected
-    return list(
-        dict.fromkeys(
-            obj.parent if settings.given.COLLIDER in obj and obj.parent else obj for obj in chosen
-        )
-    )
+    return list(dict.fromkeys(map(settings.given.body_of, context.view_layer.objects.selected)))
 
 
 class OBJECT_OT_body_moments_equal_inertia(_Making, Operator):

@@ -10,8 +10,7 @@ and a diagonal inertia along the object's axes; after Axes to Principal Axes bot
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
-from ...blender import read, scene, session, write
-from ...blender.scale import meters_per_unit
+from ...blender import read, scale, scene, session, write
 from ...blender.write import reports, translations
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from .. import modal, selection
@@ -259,7 +258,7 @@ def _display_scaled(context: Context, count: int) -> list[str]:
     """Return the message that Blender shows masses multiplied by the cube of the unit scale, if it
     shows any.
     """
-    unit = meters_per_unit(context.scene)
+    unit = scale.meters_per_unit(context.scene)
     if not count or unit == 1.0 or context.scene.unit_settings.system == "NONE":
         return []
     text = (

@@ -15,9 +15,8 @@ import bpy
 from bpy.props import BoolProperty, CollectionProperty, FloatProperty, StringProperty
 from bpy.types import Context, Event, Operator, PropertyGroup, Scene
 
-from ...blender import read, session
+from ...blender import read, session, write
 from ...blender.session.selected import require_subject, subject
-from ...blender.write import reports
 from ...core.verdict import Finding, MeasureError, system_reason
 from .. import modal, selection
 
@@ -73,7 +72,7 @@ class _SearchMixin:
     @classmethod
     def poll(cls, context: Context) -> bool:
         if subject(context) is None:
-            return reports.unavailable(cls, "Make an object active to compare with")
+            return write.reports.unavailable(cls, "Make an object active to compare with")
         return selection.poll_object_mode(cls, context)
 
     def store_and_report(
@@ -96,16 +95,22 @@ class _SearchMixin:
                 setattr(row, name, getattr(match, name))
         counts = Counter(match.verdict for match in matches)
         alike = [
-            reports.phrase(*COUNTS[kind], count=counts[kind]) for kind in COUNTS if counts[kind]
+            write.reports.phrase(*COUNTS[kind], count=counts[kind])
+            for kind in COUNTS
+            if counts[kind]
         ]
-        found = ", ".join(alike) if alike else reports.phrase("none is similar")
+        found = ", ".join(alike) if alike else write.reports.phrase("none is similar")
         done = [
-            reports.phrase("Compared {count} shape", "Compared {count} shapes", count=len(matches)),
+            write.reports.phrase(
+                "Compared {count} shape", "Compared {count} shapes", count=len(matches)
+            ),
             found,
         ]
         if matches:
             text = "nearest is {object}, at {distance:.2e}"
-            done.append(reports.phrase(text, object=matches[0].name, distance=matches[0].distance))
+            done.append(
+                write.reports.phrase(text, object=matches[0].name, distance=matches[0].distance)
+            )
         return selection.finish(self, done, failures)
 
 

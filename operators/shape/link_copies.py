@@ -5,8 +5,7 @@
 from bpy.props import EnumProperty, FloatProperty
 from bpy.types import Context, Event, Operator
 
-from ...blender import read, scene, session
-from ...blender.scale import meters_per_unit
+from ...blender import read, scale, scene, session
 from ...blender.write import reports
 from .. import selection
 
@@ -138,7 +137,7 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
             "{count} objects linked, {size} saved, vertices moved by up to {maximum:length}",
             count=len(linked.objects),
             size=_size(linked.saved),
-            maximum=linked.farthest * meters_per_unit(context.scene),
+            maximum=linked.farthest * scale.meters_per_unit(context.scene),
         )
         total = len(linked.objects) + len(left_out)
         return selection.summarize(

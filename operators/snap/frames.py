@@ -16,8 +16,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Object, Operator, View3DCursor
 from mathutils import Matrix
 
-from ...blender import bodies, read, scene, session
-from ...blender.scale import meters_per_unit
+from ...blender import bodies, read, scale, scene, session
 from ...blender.write import reports
 from ...core import inertia, verdict
 from .. import selection
@@ -188,7 +187,7 @@ class VIEW3D_OT_body_moments_cursor_to_center(selection.OnSelection, Operator):
             if len(bodies_measured) > 1:
                 total = inertia.combine([moments for moments, _ in bodies_measured])
             cursor = context.scene.cursor
-            cursor.location = total.center / meters_per_unit(context.scene)
+            cursor.location = total.center / scale.meters_per_unit(context.scene)
             if self.rotate:
                 turn_cursor(cursor, total.principal.axes.tolist())
                 findings = [total.principal.finding] if total.principal.finding is not None else []

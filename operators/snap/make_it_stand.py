@@ -77,8 +77,7 @@ class OBJECT_OT_body_moments_make_it_stand(Operator):
         try:
             session.check_stability(context, obj, [])
             support = session.stored.stability.support(obj, context.scene)
-            over_cursor = self.target == "CURSOR"
-            point = context.scene.cursor.location[:] if over_cursor else None
+            point = context.scene.cursor.location[:] if self.target == "CURSOR" else None
             corners = None if support is None else support.polygon
             found = session.print_balance.balance_print(
                 context, obj, corners, self.margin, point, self.change, self.ballast

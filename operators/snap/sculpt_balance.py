@@ -11,7 +11,6 @@ from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, StringPr
 from bpy.types import Context, Operator
 
 from ...blender import scene, session
-from ...blender.session import selected, stored
 from ...blender.write import reports
 from ...core.verdict import MeasureError
 from .. import selection
@@ -73,7 +72,7 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        obj = selected.subject(context)
+        obj = session.selected.subject(context)
         if obj is None or obj.type != "MESH":
             return reports.unavailable(cls, "Make a mesh object active")
         if context.mode not in {"OBJECT", "EDIT_MESH"}:
@@ -91,10 +90,12 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
         layout.prop(self, "axes")
         layout.prop(self, "limit")
         if context.mode == "OBJECT":
-            layout.prop_search(self, "group", selected.require_subject(context), "vertex_groups")
+            layout.prop_search(
+                self, "group", session.selected.require_subject(context), "vertex_groups"
+            )
 
     def execute(self, context: Context) -> set[str]:
-        obj = selected.require_subject(context)
+        obj = session.selected.require_subject(context)
         target = context.scene.cursor.location if self.target == "CURSOR" else self.point
         try:
             balanced = scene.balance_mesh(
@@ -103,7 +104,7 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
         except MeasureError as error:
             return selection.refuse(self, reports.failure(obj.name_full, error))
         session.remeasure(context, [obj])
-        if stored.stability.is_known(obj):
+        if session.stored.stability.is_known(obj):
             session.check_stability(context, obj, [])
         texts = [
             reports.phrase(

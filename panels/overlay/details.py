@@ -12,12 +12,11 @@ import numpy as np
 from bpy.types import Context, Object, Scene
 from numpy.typing import NDArray
 
-from ...blender import session, write
+from ... import blender, core
 from ...blender.scale import meters_per_unit
 from ...blender.scene import fcurves
 from ...blender.session.character.weight import Weight
 from ...blender.session.stored import balance_groups, cuts, faults, floating, stability
-from ...core import rig, statics
 from ...core.cuts import cut_outline
 from ...core.numerics import Array
 from ..rig import standing
@@ -66,7 +65,7 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
     details += [_faults(obj, shown) for obj, shown in zip(objects, found) if shown is not None]
     for obj in objects:
         weight = (
-            session.character.weight.weight(obj, context.view_layer.depsgraph)
+            blender.session.character.weight.weight(obj, context.view_layer.depsgraph)
             if draw.shows_weight(obj)
             else None
         )
@@ -75,7 +74,7 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
     checked = [obj for obj in objects if stability.is_known(obj)] if settings.show_support else ()
     supports = [stability.support(obj, context.scene) for obj in checked]
     details += [support_detail(support) for support in supports if support is not None]
-    if settings.show_level and any(obj in session.memory.levels for obj in objects):
+    if settings.show_level and any(obj in blender.session.memory.levels for obj in objects):
         unit = meters_per_unit(context.scene)
         levels = [cuts.level_of(obj, context.scene) for obj in objects]
         details += [_surface(level, unit) for level in levels if level is not None]
@@ -119,13 +118,13 @@ def _arcs(scene: Scene, path: balance_groups.Path) -> list[Detail]:
         return []
     details = []
     size = 0.02 * float(np.ptp(path.centers, axis=0).max())
-    for first, last in rig.find_flights(path.contact):
+    for first, last in core.rig.find_flights(path.contact):
         if path.contact[first] and path.contact[last]:
             time = (path.frames[last] - path.frames[first]) / fcurves.time_scale(scene)
             time *= scene.render.fps_base / scene.render.fps
             ends = path.centers[[first, last]]
             shares = np.linspace(0.0, 1.0, last - first + 1)
-            arc = rig.ballistic_arc(*ends, shares, time, scene.gravity)
+            arc = core.rig.ballistic_arc(*ends, shares, time, scene.gravity)
             crosses = ends[:, None, None] + size * np.stack([-np.eye(3), np.eye(3)], axis=1)
             lines = np.concatenate(
                 [np.stack([arc[:-1], arc[1:]], axis=1), crosses.reshape(-1, 2, 3)]
@@ -178,14 +177,14 @@ def _weight(context: Context, weight: Weight) -> list[Detail]:
     polygon = None if weight.support is None else support_detail(weight.support)
     color = look.TIPS if polygon is None else polygon.segments[1][0]
     plumb = _tinted(np.array([[weight.parts.center, weight.foot]]), color)
-    texts = ((weight.foot, write.reports.phrase(text, **lengths), color),)
+    texts = ((weight.foot, blender.write.reports.phrase(text, **lengths), color),)
     return [
         Detail(plumb, _tinted(np.zeros((0, 3, 3)), color), texts),
         *([] if polygon is None else [polygon]),
     ]
 
 
-def support_detail(support: statics.Support) -> Detail:
+def support_detail(support: core.statics.Support) -> Detail:
     """Return the support polygon, filled if the body stands, and an arrow from the foot to the
     tipping edge.
     """

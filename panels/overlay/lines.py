@@ -76,8 +76,7 @@ def box_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> Array:
     / m.
     """
     half = np.sqrt(6.0 * _spread(gyration)) / 2.0
-    corners = centers[:, None] + np.einsum("nij,kj,nj->nki", axes, CORNERS, half)
-    return corners[:, EDGES]
+    return (centers[:, None] + np.einsum("nij,kj,nj->nki", axes, CORNERS, half))[:, EDGES]
 
 
 def ellipsoid_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> Array:

@@ -364,7 +364,10 @@ def test_followers_stand_at_their_offset(words, form, tmp_path):
 
 @pytest.mark.parametrize(
     "words",
-    [("--expect-mass", "3 m"), ("--within", "1"), ("--joint", "j=x"), ("--expect-center", "1,2")],
+    [
+        *[("--expect-mass", "3 m"), ("--within", "1"), ("--expect-center", "1,2")],
+        *[("--joint", "j=x"), ("--joint", "j=1", "--joint", "j=2")],
+    ],
 )
 def test_expectation_that_is_no_number_is_wrong_usage(words, tmp_path):
     path = description(tmp_path / "r.urdf", *PAIR)

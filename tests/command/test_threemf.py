@@ -428,7 +428,32 @@ def test_settings_of_bambu_and_orca_are_read(tmp_path, widths, wall, own, infill
     assert close(block["mass"], density * (19_200e-9 - (1.0 - infill / 100.0) * core), 1e-6)
 
 
-@pytest.mark.parametrize("own", [{"extruder": "x"}, {"wall_loops": "two"}])
+@pytest.mark.parametrize(
+    ("own", "expected"),
+    [
+        ({"spiral_mode": "1"}, {"walls": 1, "top": 0, "bottom": 4, "infill": 0.0}),
+        (
+            {"layer_height": "0.08", "top_shell_thickness": "1.0", "bottom_shell_thickness": "0.2"},
+            {"walls": 3, "top": 13, "bottom": 4, "infill": 20.0},
+        ),
+    ],
+)
+def test_vase_and_least_thickness_count(tmp_path, own, expected):
+    path = bambu(tmp_path / "a.3mf", INSIDE, "modifier_part", "", json.dumps(BAMBU_SETTINGS | own))
+    (block,) = document(path)["objects"]
+    assert {name: block["print"][name] for name in expected} == expected
+
+
+@pytest.mark.parametrize(
+    "own",
+    [
+        {"extruder": "x"},
+        {"wall_loops": "two"},
+        {"wall_loops": "0"},
+        {"sparse_infill_density": "120%"},
+        {"layer_height": "0"},
+    ],
+)
 def test_unreadable_print_settings_leave_the_part_solid(tmp_path, own):
     metadata = "".join('<metadata key="{}" value="{}"/>'.format(*pair) for pair in own.items())
     path = bambu(tmp_path / "a.3mf", INSIDE, "modifier_part", metadata, json.dumps(BAMBU_SETTINGS))

@@ -70,7 +70,6 @@ CALLS = {
     "Curve": (Curve, {"space": LINE, "points": CURVE_POINTS, "weights": np.array([1.0, 2.0])}),
     "Curve.evaluate": (CURVE.evaluate, {"parameters": np.array([0.0, 0.5])}),
     "Curve.transform": (CURVE.transform, {"matrix": MATRIX}),
-    "Curve.velocity": (CURVE.velocity, {"parameters": np.array([0.0, 0.5])}),
     "Hull.transform": (convex_hull(POINTS).transform, {"linear": AXES}),
     "MassProperties.from_moments": (
         MassProperties.from_moments,

@@ -3,6 +3,7 @@
 """The tutorials' steps in the real window, with the picture of each step (see test_pictures.py)."""
 
 import pytest
+from body_moments.core.robots.formats import FORMATS
 
 from tests.window.conftest import FIGURE, ROOT, open_window
 
@@ -308,9 +309,12 @@ def test_copies_are_found_and_laid_onto_the_part(window):
 def test_menu_names_the_formats_of_robots(window):
     begin(window, PAGES["arm"][0])
     x, y, width, height = window.region("WINDOW")
-    window.move(x + 0.1 * width, y + 0.8 * height)
+    x, y = x + 0.1 * width, y + 0.8 * height
+    window.move(x, y)
     window.ask("bpy.ops.wm.call_menu(name='TOPBAR_MT_body_moments_export')")
     window.picture("page-robots")
+    entries = {window.button_at(x, y - down) for down in range(-60, 200, 9)}
+    assert {"export_scene.body_moments_" + name for name in FORMATS} <= entries
     window.key("Escape")
 
 

@@ -22,12 +22,12 @@ from ....core.measurement import (
     DENSITY_FROM,
     DENSITY_FROM_MASS,
     Extent,
+    Measurement,
     add_extents,
     extent_of,
     fingerprint,
     measure_total,
 )
-from ....core.measurement.measurement import Measurement
 from ....core.moments import KNOWN_ORDER, Measure, Moments, are_similarities, sum_moments
 from ....core.numerics import rotation_matrix, shortest_decimal
 from ....core.verdict import internal_error, open_body_caveats

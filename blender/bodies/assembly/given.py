@@ -18,11 +18,12 @@ from ....core.bodies import Reading, to_si
 from ....core.measurement import (
     DENSITY_FROM_MASS,
     ZERO_QUANTITY,
+    Body,
+    Measurement,
     find_extent,
     fingerprint,
     measure_total,
 )
-from ....core.measurement.measurement import Body, Measurement
 from ....core.moments import KNOWN_ORDER, placed_boxes
 from ....core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count
 from ....core.numerics import Array, shortest_decimal
@@ -80,8 +81,7 @@ def _second_moments(inertia: NDArray) -> Array:
     """Return the (3, 3) second moments of a body with this inertia tensor; ReadError if no body can
     have it.
     """
-    second = np.trace(inertia) / 2.0 * np.eye(3) - inertia
-    values, axes = np.linalg.eigh(second)
+    values, axes = np.linalg.eigh(np.trace(inertia) / 2.0 * np.eye(3) - inertia)
     if values[0] < -GIVEN_RTOL * np.trace(inertia) or not np.isfinite(values).all():
         raise ReadError(
             GIVEN_INERTIA_IMPOSSIBLE, moments=np.sort(np.linalg.eigvalsh(inertia)).tolist()

@@ -131,16 +131,11 @@ def _solid_pieces(
         fields = matrices
         if not in_world:  # a union is in the world
             place = to_si(reading.parts[0].matrices, unit)
-            fields = _to_local(place) @ matrices if is_united else local_coordinates(matrices)
+            fields = local_coordinates(matrices)
+            if is_united:  # world coordinates, in meters, along the axes of the place
+                axes = polar_rotation(place)[0].transpose(0, 2, 1)
+                fields = affine_matrices(axes, -(axes @ place[:, :3, 3, None])[..., 0]) @ matrices
         yield _Piece(solid.repaired_surface, matrices, fields, solid.volume.about)
-
-
-def _to_local(matrices: NDArray) -> Array:
-    """Return (k, 4, 4) maps from world coordinates, in meters, to coordinates along the axes of
-    each place.
-    """
-    axes = polar_rotation(matrices)[0].transpose(0, 2, 1)
-    return affine_matrices(axes, -(axes @ matrices[:, :3, 3, None])[..., 0])
 
 
 def _sheet_pieces(reading: Reading, in_world: bool, unit: float) -> Iterator[_Piece]:

@@ -40,8 +40,13 @@ from ....core.flat import (
 )
 from ....core.inertia import MOMENTS_OVERFLOW, NO_CERTAIN_VOLUME
 from ....core.measurement import NO_VOLUME, Body
-from ....core.moments import Measure, Moments, affine_matrices
-from ....core.moments.exponents import monomial_count, monomials
+from ....core.moments import (
+    Measure,
+    Moments,
+    affine_matrices,
+    monomial_count,
+    monomials,
+)
 from ....core.numerics import Array, Index
 from ....core.nurbs import Curve, length_moments, planar_region, plane_moments
 from ....core.solid import UNCHECKED
@@ -251,8 +256,7 @@ def _curves(
 
 
 def _curve_moments(curves: tuple[Curve, ...], order: int, rounded: float, stored: float) -> Moments:
-    first = plane_moments(curves, NORMAL, 1)
-    about = first.center * [1.0, 1.0, 0.0]
+    about = plane_moments(curves, NORMAL, 1).center * [1.0, 1.0, 0.0]
     moments = plane_moments(curves, NORMAL, order, about)
     lengths = [np.hypot(*np.diff(curve.points[:, :2], axis=0).T).sum() for curve in curves]
     corners = np.concatenate([curve.points[:, :2] for curve in curves])

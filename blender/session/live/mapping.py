@@ -9,8 +9,7 @@ from bpy.types import Object, Scene
 from numpy.typing import NDArray
 
 from ....core import bodies, inertia, measurement, moments, numerics
-from ... import read, settings
-from ...scale import meters_per_unit
+from ... import read, scale, settings
 from .. import memory
 from .following import Followed, Lag
 
@@ -73,7 +72,7 @@ def _mapped(
     if linear is None or current.matrix is None:
         return shown
     now = bodies.float64_matrix(obj.matrix_world)
-    unit = meters_per_unit(scene)
+    unit = scale.meters_per_unit(scene)
     stretch = abs(np.linalg.det(linear))
     center = measured.mass_properties.center / unit
     if current.first_order is None:

@@ -26,9 +26,8 @@ import numpy as np
 from bpy.types import Depsgraph, Object
 from numpy.typing import NDArray
 
-from ....core import bodies, mesh, nurbs, polyhedron
+from ....core import bodies, mesh, numerics, nurbs, polyhedron
 from ....core.measurement import Body, Measurement
-from ....core.numerics import Array
 from ....core.verdict import MeasureError, Method, Procedure, ReadError, Source, internal_error
 from ...bodies.measure_body import measure_body
 from ...bodies.request import Request, measurement_of
@@ -289,7 +288,7 @@ class MovingSurface:
             return None
         return cls(surface, read.corner_vertices)
 
-    def follow(self, obj: Object, depsgraph: Depsgraph) -> tuple[float, Array] | None:
+    def follow(self, obj: Object, depsgraph: Depsgraph) -> tuple[float, numerics.Array] | None:
         """Return the object's current volume and (3,) center, in its own coordinates; None if it
         shows other faces.
         """

@@ -16,13 +16,11 @@ import numpy as np
 from bpy.types import Depsgraph, Object
 from numpy.typing import NDArray
 
-from ....core import bodies, mesh, statics, verdict
+from ....core import bodies, mesh, numerics, statics, verdict
 from ....core.moments import Measure, Moments, are_similarities, are_singular
-from ....core.numerics import Array
-from ... import read, scene
+from ... import read, scale, scene
 from ...bodies.measure_object import measure_object
 from ...bodies.mesh import object_hull
-from ...scale import meters_per_unit
 from ...settings.options import object_settings
 from ..tracking import updates
 
@@ -62,11 +60,11 @@ class Motion:
     # by session uid, as undo replaces objects
     _followed: dict[int, _Followed] = field(default_factory=dict)
 
-    def mass_and_center(self, obj: Object, depsgraph: Depsgraph) -> tuple[float, Array]:
+    def mass_and_center(self, obj: Object, depsgraph: Depsgraph) -> tuple[float, numerics.Array]:
         """Return an object's mass, kg, and (3,) center, Blender's units; MeasureError if there is
         no certain one.
         """
-        unit = meters_per_unit(depsgraph.scene)
+        unit = scale.meters_per_unit(depsgraph.scene)
         matrix = bodies.float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
         followed = self._entry(obj)
         if followed.change == -1 and followed.mixes is None:
@@ -81,7 +79,7 @@ class Motion:
         """Return the moments of an object's mass to second order, in the world and SI units, or
         raise MeasureError.
         """
-        unit = meters_per_unit(depsgraph.scene)
+        unit = scale.meters_per_unit(depsgraph.scene)
         matrix = bodies.float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
         followed = self._entry(obj)
         change = updates.last_change_of_geometry(obj)
@@ -102,7 +100,7 @@ class Motion:
     def _entry(self, obj: Object) -> _Followed:
         return self._followed.setdefault(obj.session_uid, _Followed())
 
-    def hull_points(self, obj: Object, depsgraph: Depsgraph) -> Array:
+    def hull_points(self, obj: Object, depsgraph: Depsgraph) -> numerics.Array:
         """Return the corners of an object's convex hull, (k, 3) in Blender's units and the
         world.
         """
@@ -170,7 +168,7 @@ def _mixed_keys(obj: Object) -> tuple[str, ...]:
     return tuple(block.name for block in blocks if not block.mute)
 
 
-def _coordinates(data) -> Array:
+def _coordinates(data) -> numerics.Array:
     points = np.empty(3 * len(data), np.float32)
     data.foreach_get("co", points)
     return points.reshape(-1, 3).astype(np.float64)
@@ -178,7 +176,7 @@ def _coordinates(data) -> Array:
 
 def _mixed(
     obj: Object, followed: _Followed, depsgraph: Depsgraph, matrix: NDArray, unit: float
-) -> tuple[float, Array] | None:
+) -> tuple[float, numerics.Array] | None:
     """Return mass and center by the mix of shape keys; None if triangles changed, or the mesh is
     flat or inside out.
     """

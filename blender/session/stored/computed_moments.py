@@ -9,11 +9,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ....core import inertia, measurement, polyhedron
+from ....core import inertia, measurement, numerics, polyhedron
 from ....core.flat import Plane, foot, plane_positions
 from ....core.moments import Invariant, flusser_invariants, hu_invariants, normalize
 from ....core.moments.moments import Moments, monomials
-from ....core.numerics import Array
 from ....core.verdict import Finding, ReadError
 from ..findings import (
     INVARIANTS_ORDER,
@@ -46,8 +45,8 @@ class ComputedMoments:
     volume: Moments | None
     area: Moments | None
     mass: Moments | None
-    rotation: Array
-    location: Array
+    rotation: numerics.Array
+    location: numerics.Array
     flat: FlatMoments | None = None
     not_flat: Finding | None = None
 
@@ -64,7 +63,7 @@ class ComputedMoments:
         return self.flat.moments
 
     @property
-    def center(self) -> Array:
+    def center(self) -> numerics.Array:
         """The (3,) center of the volume, or of the flat shape, in the world."""
         if self.volume is not None:
             return self.volume.center

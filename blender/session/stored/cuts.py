@@ -16,7 +16,7 @@ from bpy.types import Context, Mesh, Object, Scene
 from mathutils import Vector
 from numpy.typing import NDArray
 
-from ....core.bodies import vessel_surface
+from ....core import bodies, numerics, verdict
 from ....core.cuts import (
     TABLE_ROWS,
     CutFill,
@@ -27,19 +27,14 @@ from ....core.cuts import (
     spill_tilt,
     surface_cut_fill,
 )
-from ....core.numerics import Array
-from ....core.verdict import Finding, MeasureError, QueryError
+from ... import read, scale
 from ...bodies.cuts import cut_fill_against, world_surface
 from ...bodies.measure_body import THREADS, measure_body
 from ...bodies.mesh import mesh_body
-from ...read.fingerprint import matrix_hash, settings_hash
-from ...read.objects import read_object
-from ...scale import meters_per_unit
 from ...scene.rigid_world import down
 from ...settings.options import object_settings
-from .. import memory
+from .. import memory, tracking
 from ..findings import NO_SUCH_NAME
-from ..tracking import handlers, staleness, stamps
 from ..tracking.stamps import Kind
 
 MAX_TILTED_TRIANGLES = 20_000  # of vessels whose spill tilt is computed
@@ -74,22 +69,21 @@ class Level:
         return surface.total, low, high
 
     @cached_property
-    def table(self) -> Array:
+    def table(self) -> numerics.Array:
         """(33, 2) heights over the bottom and volumes."""
         heights = np.linspace(self.hollow.bottom, self.hollow.spill, TABLE_ROWS)
         volumes = self.hollow.below(heights).volume
         return np.stack([heights - self.hollow.bottom, volumes], axis=1)
 
     @cached_property
-    def triangles(self) -> Array:
+    def triangles(self) -> numerics.Array:
         """(k, 3, 3) triangles of the surface."""
         if not self.surface_moments[0]:
             return np.empty((0, 3, 3))
         edited = self.cut()
         places = [[vertex.co for vertex in face.verts] for face in edited.faces]
         edited.free()
-        origin = self.liquid.face.center[0]
-        return np.array(places, np.float64).reshape(-1, 3, 3) + origin
+        return np.array(places, np.float64).reshape(-1, 3, 3) + self.liquid.face.center[0]
 
     def cut(self) -> bmesh.types.BMesh:
         """Return the surface as triangles about its centroid, to be freed."""
@@ -120,25 +114,27 @@ class KnownCutFill:
     """Cut and fill of a surface, and findings about them."""
 
     found: CutFill
-    findings: tuple[Finding, ...]
+    findings: tuple[verdict.Finding, ...]
 
 
-def _vessel(obj: Object, context: Context) -> tuple[Array, NDArray[np.integer], Array]:
+def _vessel(
+    obj: Object, context: Context
+) -> tuple[numerics.Array, NDArray[np.integer], numerics.Array]:
     """Return points (m, world) and triangles of a vessel, and the direction against gravity."""
     depsgraph = context.evaluated_depsgraph_get()
     settings = object_settings(obj, context.scene)
     if settings.kind == "shell" and settings.wall != "thin":
-        surface = vessel_surface(measure_body(obj, depsgraph).body)
+        surface = bodies.vessel_surface(measure_body(obj, depsgraph).body)
     else:
-        reading = read_object(obj, depsgraph, edges=False)
-        unit = meters_per_unit(context.scene)
+        reading = read.objects.read_object(obj, depsgraph, edges=False)
+        unit = scale.meters_per_unit(context.scene)
         body = partial(mesh_body, reading, unit, shell=False, threads=THREADS)
         try:
-            surface = vessel_surface(body(union=False))
-        except MeasureError:
+            surface = bodies.vessel_surface(body(union=False))
+        except verdict.MeasureError:
             if settings.overlap != "union":
                 raise
-            surface = vessel_surface(body(union=True))
+            surface = bodies.vessel_surface(body(union=True))
     points = surface.points.astype(np.float64)
     return points, surface.all_triangles()[0], -down(context.scene)
 
@@ -168,12 +164,12 @@ def measure_cut_fill(
 ) -> KnownCutFill:
     """Compute and remember cut and fill against a height (m), the RIM or another OBJECT."""
     depsgraph = context.evaluated_depsgraph_get()
-    unit = meters_per_unit(context.scene)
+    unit = scale.meters_per_unit(context.scene)
     surface = world_surface(obj, depsgraph, unit)
     if against == "OBJECT":
         reference = context.scene.objects.get(other)
         if reference is None:
-            raise QueryError(NO_SUCH_NAME, kind="object", name=other)
+            raise verdict.QueryError(NO_SUCH_NAME, kind="object", name=other)
         found = cut_fill_against(reference, surface, depsgraph, unit)
     else:
         found = surface_cut_fill(surface, None if against == "RIM" else height)
@@ -185,16 +181,16 @@ def measure_cut_fill(
 
 def _remember(obj: Object, kind: Kind, context: Context) -> None:
     scene = context.scene
-    stamp = stamps.carry(
+    stamp = tracking.stamps.carry(
         obj,
         kind,
         memory.state.updates,
-        matrix_hash(obj),
-        settings_hash(obj, scene),
-        meters_per_unit(scene),
+        read.fingerprint.matrix_hash(obj),
+        read.fingerprint.settings_hash(obj, scene),
+        scale.meters_per_unit(scene),
     )
-    staleness.mark_stamp(obj, stamp, context.evaluated_depsgraph_get())
-    handlers.count_change(obj)
+    tracking.staleness.mark_stamp(obj, stamp, context.evaluated_depsgraph_get())
+    tracking.handlers.count_change(obj)
 
 
 def level_of(obj: Object, scene: Scene) -> Level | None:
@@ -209,12 +205,14 @@ def cut_fill_of(obj: Object, scene: Scene) -> KnownCutFill | None:
 
 def is_stale(obj: Object, scene: Scene, kind: Kind) -> bool:
     """Return whether a remembered result no longer holds."""
-    return bool(staleness.stale_reason(obj, scene, partial(stamps.carried, kind=kind)))
+    return bool(
+        tracking.staleness.stale_reason(obj, scene, partial(tracking.stamps.carried, kind=kind))
+    )
 
 
 def add_surface(context: Context, obj: Object, level: Level) -> Object:
     """Add a mesh object of the liquid's surface, with its level in the object's name."""
-    unit = meters_per_unit(context.scene)
+    unit = scale.meters_per_unit(context.scene)
     edited = level.cut()
     bmesh.ops.scale(edited, vec=Vector((1, 1, 1)) / unit, verts=edited.verts)
     return _add_mesh(context, obj.name + " Level", edited, level.liquid.face.center[0] / unit)
@@ -233,7 +231,9 @@ def add_table(context: Context, obj: Object, level: Level) -> Object:
     return _add_mesh(context, obj.name + " Level Table", edited, place)
 
 
-def _add_mesh(context: Context, name: str, edited: bmesh.types.BMesh, place: Array) -> Object:
+def _add_mesh(
+    context: Context, name: str, edited: bmesh.types.BMesh, place: numerics.Array
+) -> Object:
     mesh: Mesh = bpy.data.meshes.new(name)
     edited.to_mesh(mesh)
     edited.free()

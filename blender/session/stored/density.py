@@ -20,8 +20,7 @@ from ....core.verdict.finding import EditRefusedError, Finding, finding
 from ... import bodies, read
 from ...settings.density import default_density, unset_density
 from ...write import properties
-from .. import stored
-from ..tracking import staleness, stamps
+from .. import stored, tracking
 
 if TYPE_CHECKING:
     from ....core.measurement import Measurement
@@ -53,7 +52,7 @@ def follow_density(obj: Object, scene: Scene) -> None:
     """Update stored results if the settings change them by a factor alone; else leave them out of
     date.
     """
-    stamp = stamps.of_results(obj)
+    stamp = tracking.stamps.of_results(obj)
     if stamp is None or stamp.version != VERSION or "body_density_from" in obj:
         return
     try:
@@ -96,7 +95,7 @@ def follow_density(obj: Object, scene: Scene) -> None:
         findings,
         stamp._replace(settings=now).text,
     )
-    staleness.replace_stamp(obj, stamp.text)
+    tracking.staleness.replace_stamp(obj, stamp.text)
     if "body_reference" in obj:
         stored.reference.follow(obj, scene, stored.reference.stored_choice(obj))
 

@@ -11,8 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from bpy.types import Object
 
-from ....core import bodies, verdict
-from ....core.numerics import Array
+from ....core import bodies, numerics, verdict
 from ....core.solid import SmallSolid
 from ...bodies.stack import Measured
 from .. import memory, tracking
@@ -31,8 +30,8 @@ class Faults:
     duplicate and zero-area faces. change: number of the last update of the geometry.
     """
 
-    edges: Array
-    triangles: Array
+    edges: numerics.Array
+    triangles: numerics.Array
     change: int
 
 

@@ -33,21 +33,15 @@ from ....core.numerics import Array
 from ....core.verdict import EditRefusedError, Finding, MeasureError
 from ...bodies.measure_body import measure_body
 from ...bodies.measure_object import measure_many
-from ...read.fingerprint import settings_hash
-from ...read.visibility import measurable
+from ...read import fingerprint, visibility
 from ...scale import meters_per_unit
-from ...scene import fcurves, reframe
-from ...scene.changes import ancestors
-from ...scene.findings import CHILD_NOT_HELD
-from ...scene.rigid_world import down, has_gravity
+from ...scene import changes, fcurves, findings, reframe, rigid_world
 from ...scene.transforms import TransformChannels, world
 from ...settings.floating import liquid_density
 from ...settings.options import AS_SET, MeasureOptions
 from ...write import properties
-from .. import memory
-from ..live import following
+from .. import live, memory
 from ..tracking import handlers, staleness, stamps
-from ..tracking.stamps import Kind, Stamp
 from . import results
 
 PLACE_RTOL = 1e-5  # of float32 matrices
@@ -101,12 +95,14 @@ class Held:
 def bodies_of(objects: Iterable[Object], as_one: bool) -> list[tuple[Object, ...]]:
     """Return the objects of each floating body, those that carry others first."""
     chosen = [_carrier(obj) for obj in objects]
-    roots = [obj for obj in chosen if not any(other in chosen for other in ancestors(obj.parent))]
+    roots = [
+        obj for obj in chosen if not any(other in chosen for other in changes.ancestors(obj.parent))
+    ]
     bodies = [
-        (root, *[child for child in root.children_recursive if measurable(child)])
+        (root, *[child for child in root.children_recursive if visibility.measurable(child)])
         for root in dict.fromkeys(roots)
     ]
-    bodies = [body for body in bodies if any(map(measurable, body))]
+    bodies = [body for body in bodies if any(map(visibility.measurable, body))]
     if as_one and bodies:
         return [tuple(dict.fromkeys(obj for body in bodies for obj in body))]
     return bodies
@@ -120,9 +116,9 @@ def _carrier(obj: Object) -> Object:
 
 
 def _up(scene: Scene) -> Array:
-    if not has_gravity(scene):
+    if not rigid_world.has_gravity(scene):
         raise MeasureError(FLOAT_UNAVAILABLE, fault=NO_GRAVITY)
-    return -down(scene)
+    return -rigid_world.down(scene)
 
 
 def _roles(members: Iterable[Object]) -> tuple:
@@ -150,7 +146,7 @@ def read(
             obj, depsgraph, options if obj.body_moments_tank.role == "BODY" else of_space
         )
         for obj in members
-        if measurable(obj)
+        if visibility.measurable(obj)
     }
 
     def having(role: str) -> list[Object]:
@@ -185,8 +181,8 @@ def remember(afloat: Afloat, members: Iterable[Object], depsgraph: Depsgraph) ->
     """Keep a body for the panel and the overlay."""
     for obj in members:
         memory.afloat[obj] = afloat
-        settings = settings_hash(obj, depsgraph.scene)
-        stamp = stamps.carry(obj, Kind.FLOATING, memory.state.updates, settings=settings)
+        settings = fingerprint.settings_hash(obj, depsgraph.scene)
+        stamp = stamps.carry(obj, stamps.Kind.FLOATING, memory.state.updates, settings=settings)
         staleness.mark_stamp(obj, stamp, depsgraph)
         handlers.count_change(obj)
 
@@ -196,7 +192,7 @@ def _measure(context: Context, members: Iterable[Object]) -> None:
     wanted = [
         obj
         for obj in members
-        if measurable(obj)
+        if visibility.measurable(obj)
         and obj.body_moments_tank.role == "BODY"
         and (not properties.is_stored(obj) or staleness.stale_reason(obj, context.scene))
     ]
@@ -217,7 +213,11 @@ def float_body(
     """Move the objects of a body to where it rests, from where it is (0) or in another position;
     return whether they had to move.
     """
-    roots = [obj for obj in members if not any(other in members for other in ancestors(obj.parent))]
+    roots = [
+        obj
+        for obj in members
+        if not any(other in members for other in changes.ancestors(obj.parent))
+    ]
     for root in roots:
         reframe.check_movable(root)
     afloat = _read_again(context, members)
@@ -247,7 +247,7 @@ def float_body(
                 reframe.move(context, reframe.Plan(root, target, size, move_only=False))
         for member, target in zip(members, targets):
             if not _is_close(world(member), target, size):
-                raise EditRefusedError(CHILD_NOT_HELD, object=member.name)
+                raise EditRefusedError(findings.CHILD_NOT_HELD, object=member.name)
     except BaseException:
         for channels in saved:
             channels.restore()
@@ -339,9 +339,9 @@ def add_curve(context: Context, afloat: Afloat) -> Object:
     return empty
 
 
-def stamp_of(obj: Object) -> Stamp | None:
+def stamp_of(obj: Object) -> stamps.Stamp | None:
     """Return the stamp of an object's floating body."""
-    return stamps.carried(obj, Kind.FLOATING)
+    return stamps.carried(obj, stamps.Kind.FLOATING)
 
 
 def known_body(obj: Object) -> Afloat | None:
@@ -380,7 +380,7 @@ def follow(depsgraph: Depsgraph, budget: float) -> bool:
     waiting = False
     for afloat in {id(afloat): afloat for afloat in memory.afloat}.values():
         members = _members(afloat, depsgraph.scene)
-        if not any(map(following.is_live, members)) or (
+        if not any(map(live.following.is_live, members)) or (
             _turn_since(afloat, members, depsgraph.scene) is not None
         ):
             continue
@@ -401,13 +401,12 @@ def _read_held(obj: Object, afloat: Afloat, scene: Scene) -> Held | Finding | No
         return None
     turn = _turn_since(afloat, members, scene)
     if turn is None:
-        is_live = any(map(following.is_live, members))
+        is_live = any(map(live.following.is_live, members))
         return afloat.shown[1] if is_live and afloat.shown is not None else None
     unit = meters_per_unit(scene)
     turn[:3, 3] *= unit
     up = _up(scene)
-    rest = afloat.rest
-    body = rest.body
+    body = afloat.rest.body
     if body.density != liquid_density(scene):
         body = replace(body, density=liquid_density(scene))
     state = body.at(turn[:3, :3].T @ up)

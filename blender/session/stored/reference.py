@@ -18,9 +18,8 @@ from mathutils import Matrix
 
 from .... import core
 from ....core import inertia, numerics, verdict
+from ... import scale, write
 from ...read.findings import REFERENCE_OBJECT_MISSING
-from ...scale import meters_per_unit
-from ...write import findings, properties
 from ..tracking import staleness
 
 Point = tuple[float, ...]
@@ -49,8 +48,8 @@ def store(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | No
     choice = choice or ReferenceChoice.from_settings(scene.body_moments_reference)
     body = _stored_body(owner, scene)
     if body is None:
-        raise verdict.QueryError(findings.NO_STORED_RESULTS, subject=owner.name)
-    properties.require_storable(owner)
+        raise verdict.QueryError(write.findings.NO_STORED_RESULTS, subject=owner.name)
+    write.properties.require_storable(owner)
     result = choice.resolve(owner, scene, body.center).refer(body)
     bounds = result.rounding_error, result.input_error
     values = {
@@ -67,7 +66,7 @@ def store(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | No
     }
     if choice.about == "AXIS":
         values["body_axis_inertia"] = result.about_z
-    properties.store_reference(owner, values)
+    write.properties.store_reference(owner, values)
     if isinstance(owner, bpy.types.Object):
         staleness.pin(owner)
 
@@ -88,11 +87,11 @@ def follow(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | N
 
 def _stored_body(owner: Object | Collection, scene: Scene) -> inertia.PlainBody | None:
     """Return the stored results in world axes, or None if there are none."""
-    stored = properties.stored(owner)
+    stored = write.properties.stored(owner)
     if stored is None:
         return None
     if isinstance(owner, bpy.types.Object):
-        stored = stored.in_world(owner.matrix_world, meters_per_unit(scene))
+        stored = stored.in_world(owner.matrix_world, scale.meters_per_unit(scene))
     return stored
 
 
@@ -149,7 +148,7 @@ class ReferenceChoice:
         """Return the reference frame (SI, world axes) for an owner with this center of mass, or
         raise QueryError.
         """
-        unit = meters_per_unit(scene)
+        unit = scale.meters_per_unit(scene)
         if self.about == "CENTER":
             return inertia.Reference(center)
         if self.about == "ORIGIN" and isinstance(owner, Object):

@@ -14,11 +14,8 @@ import numpy as np
 from bpy.types import Context, Object, Scene
 
 from .... import core
-from ....core.measurement import fingerprint
-from ....core.verdict import Finding, internal_error
-from ... import bodies, read, settings
+from ... import bodies, read, scale, settings
 from ...bodies.stack import Measured, MeasuredStack
-from ...scale import meters_per_unit
 from ...write import properties, section
 from .. import stored  # the sliders are imported when an object has them
 from ..tracking import armatures, staleness, stamps
@@ -132,11 +129,11 @@ def store_sections(
     context: Context, sections: Sequence[tuple[Object, bodies.MeasuredSection]]
 ) -> None:
     """Store sections on their objects."""
-    unit = meters_per_unit(context.scene)
+    unit = scale.meters_per_unit(context.scene)
     for obj, (found, description, findings) in sections:
         parts = (found.plane.origin, found.plane.axes.ravel(), found.second, found.centroid)
         numbers = np.concatenate([*parts, [found.area, found.perimeter]])
-        mark = fingerprint(
+        mark = core.measurement.fingerprint(
             numbers.tobytes(),
             read.fingerprint.matrix_hash(obj),
             read.fingerprint.settings_hash(obj, context.scene),
@@ -147,14 +144,14 @@ def store_sections(
     )
 
 
-def store_rig(rig: bodies.rig.Rig) -> list[tuple[str, Finding]]:
+def store_rig(rig: bodies.rig.Rig) -> list[tuple[str, core.verdict.Finding]]:
     """Store the results of all bones and the whole, or raise EditRefusedError; return bones
     without, and reasons.
     """
     armature = rig.armature
     properties.store(armature, rig.measurement)
     parts = {part.name: part for part in rig.parts}
-    failures: list[tuple[str, Finding]] = []
+    failures: list[tuple[str, core.verdict.Finding]] = []
     for bone in armature.pose.bones:
         part = parts.get(bone.name)
         if part is None or part.measurement is None:
@@ -165,7 +162,7 @@ def store_rig(rig: bodies.rig.Rig) -> list[tuple[str, Finding]]:
         try:
             properties.store(bone, part.measurement)
         except Exception as error:
-            failures.append((bone.name, internal_error.finding_of(error)))
+            failures.append((bone.name, core.verdict.internal_error.finding_of(error)))
     armatures.watch(armature, rig.objects)
     staleness.mark_object(armature)
     return failures
@@ -176,5 +173,4 @@ def clear_rig(armature: Object) -> bool:
     there were any.
     """
     properties.require_storable(armature)
-    cleared = [properties.clear(owner) for owner in (armature, *armature.pose.bones)]
-    return any(cleared)
+    return any([properties.clear(owner) for owner in (armature, *armature.pose.bones)])

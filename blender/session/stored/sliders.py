@@ -20,12 +20,11 @@ from bpy.types import Context, Object, PropertyGroup, Scene
 from ....core import bodies, numerics, verdict
 from ....core.density import GridOptions
 from ....core.measurement import Body
+from ... import scale, write
 from ...bodies.request import Request, measurement_of
 from ...bodies.stack import Measured
-from ...scale import meters_per_unit
 from ...settings import hooks
 from ...settings.density import grid_key
-from ...write import properties
 from .. import memory
 from ..tracking import staleness, stamps
 from . import density
@@ -61,7 +60,7 @@ def remember(obj: Object, measured: Measured, scene: Scene) -> None:
     stamp = stamps.Stamp.parse(measured.measurement.fingerprint)
     reading = measured.reading
     body = measured.body
-    of_stamp = {stamp.geometry}, stamp.transform, meters_per_unit(scene)
+    of_stamp = {stamp.geometry}, stamp.transform, scale.meters_per_unit(scene)
     if isinstance(body, bodies.WallBody) and body.walls is not None:
         memory.walls[obj] = _Kept(replace(reading, parts=[]), body.walls.drop_arrays(), *of_stamp)
         if on_wall_setting not in hooks.on_wall_change:
@@ -143,7 +142,7 @@ def _current(
         or stamp.transform != kept.transform
     ):
         return None
-    if scene is not None and meters_per_unit(scene) != kept.unit:
+    if scene is not None and scale.meters_per_unit(scene) != kept.unit:
         return None
     return None if scene is not None and staleness.is_edited(obj) else kept
 
@@ -166,7 +165,7 @@ def _store(obj: Object, scene: Scene, kept: _Kept, body: Callable[[Request], Bod
         measurement = measurement_of(kept.reading, body(request), request)
     except verdict.MeasureError:
         return False
-    properties.store(obj, density.noted(obj, measurement, scene))
+    write.properties.store(obj, density.noted(obj, measurement, scene))
     kept.geometries.add(stamps.Stamp.parse(measurement.fingerprint).geometry)
     return True
 

@@ -27,9 +27,8 @@ import bpy
 from bpy.types import Collection, Context, Depsgraph, Object, Scene
 
 from ....core import measurement
-from ... import read, settings, write
+from ... import read, scale, settings, write
 from ...read import fingerprint, tracking
-from ...scale import meters_per_unit
 from .. import memory
 from . import handlers, stamps, updates
 from .stamps import EDITED, Kind, Stale, Stamp
@@ -151,7 +150,7 @@ CHECKS = {
         (
             (
                 Stale.UNIT_SCALE,
-                lambda _obj, stamp, scene: stamp.extra == meters_per_unit(scene),
+                lambda _obj, stamp, scene: stamp.extra == scale.meters_per_unit(scene),
             ),
             (Stale.GEOMETRY, _has_geometry),
             (Stale.TRANSFORM, _has_matrix),

@@ -122,6 +122,7 @@ class Roots:
         A package's name may be that of a root, of a folder in it, or of neither.
         """
         if scheme in ("package", "model"):
+            rest = rest.lstrip("/")  # as other readers join it with their folders
             package, _, inside = rest.partition("/")
             for folder in self.folders:
                 if folder.name == package or _package_name(folder) == package:
@@ -188,8 +189,17 @@ def read_description(path: Path, roots: Roots | None = None) -> Description:
         )
     if len(description.links) > MAX_LINKS:
         raise FileError(FILE_TOO_LARGE, limit=MAX_LINKS, content="links")
+    form = description.format
+    for several in (description.links, description.joints) if form in ("urdf", "mjcf") else ():
+        names: set[str] = set()
+        for one in several:
+            if one.name in names:
+                error = "“{}” is the name of two elements. Give each its own".format(one.name)
+                place = {"line": one.place.line, "column": one.place.column}
+                raise FileError(DESCRIPTION_INVALID, format=form.upper(), error=error, **place)
+            names |= {one.name} - {""}
     # MuJoCo and Gazebo load models without bodies; a URDF needs a link
-    if not description.links and description.format not in ("mjcf", "sdf"):
+    if not description.links and form not in ("mjcf", "sdf"):
         raise FileError(FILE_WITHOUT_OBJECTS, content="links")
     return description
 

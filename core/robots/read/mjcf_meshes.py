@@ -22,8 +22,8 @@ from ...moments.moments import SECOND_MOMENT_INDEX, Moments
 from ...numerics import Array
 from ...polyhedron import integrate
 from ...verdict import MeasureError
-from ..model import Pose, Shape
-from ..primitives import primitive_moments, second_moments
+from ..model import Pose, Shape, second_moments
+from ..primitives import primitive_moments
 from .xml import check_size
 
 LEGACY = "legacy"

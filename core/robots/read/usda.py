@@ -55,7 +55,6 @@ JOINTS = {
     "PhysicsJoint": "several axes",
 }
 BALL_RADIUS = 0.1  # m, of the ball that stands for a body of known mass without colliders
-MASS_VALUES = ("physics:mass", "physics:density", "physics:diagonalInertia", "physics:centerOfMass")
 JOINT_AXES = ("X", "Y", "Z")
 TRUE = ("true", "1")
 SINGLE_RTOL = 1e-5  # rounding of places and turns in single precision
@@ -259,9 +258,6 @@ def _resolve(roots: list[Prim]) -> dict[str, Prim]:
         other = by_path.get(match[1]) if match else None
         if other is not None:
             prim.kind, prim.values = prim.kind or other.kind, other.values | prim.values
-        if not re.search("Mass|Material", prim.metadata):  # Other prims have no mass of their own.
-            for name in MASS_VALUES:
-                prim.values.pop(name, None)
     return by_path
 
 
@@ -453,9 +449,10 @@ def _inertials(
     center = np.zeros(3) if rules.center is None else rules.center
     own = None
     if mass and rules.moments is not None:
-        order = prim.vector("physics:principalAxes", (1.0, 0.0, 0.0, 0.0))
-        turn = np.eye(3) if rules.axes is None else rules.axes
-        own = StatedInertial(mass, center, np.diag(rules.moments), turn, None, tuple(order))
+        own = StatedInertial(mass, center, np.diag(rules.moments), quaternion=(1.0, 0.0, 0.0, 0.0))
+        if rules.axes is not None:
+            order = prim.vector("physics:principalAxes", (1.0, 0.0, 0.0, 0.0)).tolist()
+            own = replace(own, rotation=rules.axes, quaternion=tuple(order))
     entries = prim.values.get("newton:inertia", "None") if "NewtonMassAPI" in prim.metadata else ""
     if not mass or not _FIELD.search(entries) or entries == "None":
         return own, None

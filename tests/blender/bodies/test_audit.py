@@ -480,6 +480,9 @@ def test_up_axis_of_mesh_counts_if_it_fits_the_inertial(tmp_path, turned):
     path = tmp_path / "r.urdf"
     path.write_text(text_of([link]), encoding="utf-8")
     assert faults(audit(path)) == [["audit_up_axis"] if turned else []]
+    far = Pose(np.array([9.0, 9.0, 9.0]))  # Neither axis makes this inertial right.
+    path.write_text(text_of([replace(link, inertial=link.inertial.place(far))]), encoding="utf-8")
+    assert "audit_up_axis" not in faults(audit(path))[0]
 
 
 def collada(points, triangles):
@@ -662,13 +665,14 @@ def test_names_that_no_system_has_are_missing_meshes(tmp_path):
         "",
     ]
     link = (
-        '<link name="a"><inertial><mass value="1"/><inertia ixx="1" iyy="1" '
+        '<link name="{}"><inertial><mass value="1"/><inertia ixx="1" iyy="1" '
         'izz="1"/></inertial><visual><geometry>'
     )
     link += '<mesh filename="{}"/></geometry></visual></link>'
     path = tmp_path / "r.urdf"
     path.write_text(
-        '<robot name="r">{}</robot>'.format("".join(map(link.format, names))), encoding="utf-8"
+        '<robot name="r">{}</robot>'.format("".join(map(link.format, range(7), names))),
+        encoding="utf-8",
     )
     for anywhere in (False, True):
         links = Auditor(Roots.for_file(path, (), anywhere)).audit(read_description(path)).links

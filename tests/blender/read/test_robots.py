@@ -138,6 +138,11 @@ def test_invalid_descriptions_are_refused(tmp_path):
     for code, content in (
         ("file_too_large", deep),
         ("description_invalid", "<robot><link></robot>"),
+        ("description_invalid", "<robot><link name='a'/><link name='a'/></robot>"),
+        (
+            "description_invalid",
+            "<mujoco><worldbody><body name='a'/><body name='a'/></worldbody></mujoco>",
+        ),
         ("description_invalid", b"\xff\xfe\0"),
         ("description_unknown", "<html/>"),
         ("file_without_objects", '<robot name="r"/>'),
@@ -204,6 +209,7 @@ def test_meshes_are_found_within_the_folders_that_are_allowed(tmp_path, monkeypa
     for name in (
         "../meshes/a.stl",
         "package://arm_description/meshes/a.stl",
+        "package:///arm_description/meshes/a.stl",
         "meshes/a.stl",
         r"..\meshes\a.stl",
     ):

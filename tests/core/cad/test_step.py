@@ -142,6 +142,20 @@ def number_of(text, entity):
     return re.search(r"#(\d+) = " + entity, text)[1]
 
 
+def test_representation_of_a_shape_aspect_is_no_second_body(tmp_path):
+    text = TEXTS["assembly_mm"]
+    solid, context = re.search(
+        r"ADVANCED_BREP_SHAPE_REPRESENTATION\('[^']*',\(#\d+,(#\d+)\),(#\d+)\)", text
+    ).groups()
+    more = (
+        "#99990 = SHAPE_ASPECT('','',#{},.F.);\n#99991 = PROPERTY_DEFINITION('','',#99990);\n"
+        "#99992 = SHAPE_REPRESENTATION('',({}),{});\n"
+        "#99993 = SHAPE_DEFINITION_REPRESENTATION(#99991,#99992);\nENDSEC;"
+    ).format(number_of(text, "PRODUCT_DEFINITION_SHAPE"), solid, context)
+    file = read(tmp_path, more.join(text.rsplit("ENDSEC;", 1)))
+    assert [one.name for one in file.bodies] == ["Plätte", *["Bolt"] * 4] and file.refused == ()
+
+
 def test_hidden_step_solid_is_left_out_with_a_note(tmp_path):
     text = TEXTS["assembly_mm"]
     hide = "#99999 = INVISIBILITY((#{}));\nENDSEC;".format(number_of(text, "STYLED_ITEM"))

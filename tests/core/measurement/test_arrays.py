@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The one call from arrays to all results."""
 
+import pickle
+
 import numpy as np
 import pytest
 from body_moments.core import MeasureError, mass_properties
@@ -28,6 +30,9 @@ def test_turned_brick_has_its_closed_forms(size):
     np.testing.assert_allclose(found.inertia, inertia, atol=1e-10 * inertia.max())
     assert close(body.area, 22.0 * size**2, rel=1e-12)
     assert abs(found.mass - mass) <= body.error_bound["volume"] * 2.0 + 4e-16 * mass
+    principal = pickle.loads(pickle.dumps(body)).mass_properties.principal
+    assert np.allclose(np.abs(turn.T @ principal.axes), np.eye(3)[::-1], atol=1e-12)
+    assert np.array_equal(principal.axes, found.principal.axes)
 
 
 def test_open_box_is_capped_and_says_so():

@@ -35,7 +35,7 @@ def stacked(size, offset):
 @pytest.mark.parametrize(("size", "offset"), PLACES)
 def test_stacked_moments_match_single_bodies(size, offset):
     parts, points, triangles, counts, center, reach = stacked(size, offset)
-    volume, area, cones = small_moments(
+    volume, area = small_moments(
         points, triangles, counts, center, reach, np.zeros((5, 3)), area=True, area_moments=True
     )
     for i, (own, faces) in enumerate(parts):
@@ -45,13 +45,12 @@ def test_stacked_moments_match_single_bodies(size, offset):
             assert (np.abs(stack.raw[i] - one.raw) <= one.rounding_error).all()
             assert close(stack.rounding_error[i], one.rounding_error, 1e-9)
             assert close(stack.input_error[i], one.input_error, 1e-9)
-        assert abs(cones[i, 1] - 6.0 * volume.raw[i, 0]) <= 1e-12 * cones[i, 0]
 
 
 @pytest.mark.parametrize(("size", "offset"), PLACES)
 def test_higher_orders_are_exact_within_their_bounds(size, offset):
     parts, points, triangles, counts, center, reach = stacked(size, offset)
-    volume, _, _ = small_moments(
+    volume, _ = small_moments(
         points, triangles, counts, center, reach, np.zeros((5, 3)), area=True, area_moments=False
     )
     sixth = extend_small_moments(volume, 6, points, triangles, counts, reach)

@@ -120,7 +120,7 @@ def test_one_reversed_triangle_leaves_a_body_unproved(tip, height, agree, first,
     for body in (cut, Surface(points, np.roll(triangles, -leaning - (not first), axis=0))):
         for size in (1.0, 2.0**-15, 2.0**15):
             scaled = replace(body, points=size * body.points)
-            assert self_intersection.all_cones_agree(scaled, np.zeros(3)) is agree
+            assert self_intersection.is_star(scaled, np.zeros(3)) is agree
     state = measure_solid(cut).health.self_intersection
     assert state is (Intersection.EXCLUDED if agree else Intersection.NOT_FOUND)
 

@@ -214,14 +214,20 @@ def test_text_and_too_light_body_stay_with_a_reason(reported):
     assert {"rigid_body_unfit", "rigid_body_mass_too_small"} <= set(reported.codes)
 
 
+TURN = 0.2, 0.1, 0.3
+
+
 @pytest.mark.parametrize("frame", ["AXES", "ORIGIN", "KEEP"])
-@pytest.mark.parametrize("shape", ["HULL", "BOX", None])
+@pytest.mark.parametrize("shape", ["HULL", "BOX", "PIECES", None])
 def test_six_props_fall_and_rest_on_a_flat_floor(frame, shape, reported):
     scales = ((1, 1, 1), (3, 3, 3), (3, 2, 1), (-2, 2, 2), (1, 2, -1.5), (0.5, 0.5, 0.5))
     bodies = [
-        add(mesh_body(), "Body {:d}".format(i), (20 * i, 0, 5), (0.2, 0.1, 0.3), scale)
+        add(mesh_body(), "Body {:d}".format(i), (20 * i, 0, 5), TURN, scale)
         for i, scale in enumerate(scales)
     ]
+    if shape == "PIECES":  # acute corners
+        bpy.ops.mesh.primitive_monkey_add(size=1.5, location=(0, 20, 5), rotation=TURN)
+        bodies = [bpy.context.object]
     only(*bodies)
     if frame == "KEEP":
         bpy.ops.object.body_moments_origin_to_center()
@@ -231,6 +237,8 @@ def test_six_props_fall_and_rest_on_a_flat_floor(frame, shape, reported):
     scene = bpy.context.scene
     assert "rigid_body_center_elsewhere" not in reported.codes
     assert all(stale_reason(obj, scene, of_colliders) is None for obj in bodies)
+    if frame == "ORIGIN":  # also of mirrored objects
+        assert np.abs(np.subtract([obj.rotation_euler for obj in bodies], TURN)).max() < 1e-5
     bpy.ops.mesh.primitive_plane_add(size=400)
     floor = bpy.context.object
     only(floor)
