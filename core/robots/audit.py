@@ -296,7 +296,8 @@ class Auditor:
                 for role, several in pieces.items()
             }
             other = _judge(link, inertial, turned, incomplete)
-            if (other.is_impossible, 2.0 * other.apart) < (found.is_impossible, found.apart):
+            agrees = other.apart <= min(DIFFERS, found.apart / 2.0)
+            if not other.is_impossible and (found.is_impossible or agrees):
                 found = other
                 entries.append(Entry(finding(AUDIT_UP_AXIS), place))
                 pieces = turned

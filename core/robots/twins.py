@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from .audit import LinkAudit
 
 TOLERANCE = 0.05  # of masses, relative to the larger one, and of tensors
-EQUAL = 0.01  # of geometry that stands for a pair without sides in the names
-ALIKE = 1e-3  # Relative difference of maps that fit the geometry equally well.
+EQUAL = 0.01  # of equal geometry, such as under two maps
+ALIKE = 1e-3  # of the volumes of a pair without sides in the names
 _WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|\d+|[^A-Za-z\d]+")
 # The second side of each word; some programs put left and right first.
 _SIDES = {"left": ["right"], "l": ["r"]}
@@ -173,7 +173,7 @@ def images(
     apart = [reference.compare(mapped(first.geometry, pose)) for pose in maps]
     if high > (1.0 + TOLERANCE) * low or min(apart) > TOLERANCE:
         return None
-    return [pose for pose, value in zip(maps, apart) if value <= min(apart) + ALIKE]
+    return [pose for pose, value in zip(maps, apart) if value <= min(apart) + EQUAL]
 
 
 def disagreement(

@@ -91,6 +91,13 @@ def test_impossible_inertial_gets_that_of_its_twin(moments, tmp_path):
     assert np.abs(np.array(link["repaired"]["center_of_mass"]) - (0.1, -0.02, 0.05)).max() < 1e-15
 
 
+def test_almost_symmetric_copies_may_have_mirrored_inertials(tmp_path):
+    a, b, c, xy, xz, yz = TENSOR
+    left = LINK.format("l_arm", "0.1 0 0.05", 2, a, b, c, xy, xz, yz, box(0.0002))
+    right = LINK.format("r_arm", "0.1 0 0.05", 2, a, b, c, -xy, xz, -yz, box(0.0002))
+    assert "audit_twins" not in codes(record(tmp_path, left, right))
+
+
 def test_copies_of_a_finger_agree(tmp_path):
     values = ("0.1 0 0.05", 2, 0.005, 0.007, 0.009, 0, 0, 0, box(0))
     first, same = (LINK.format("finger_{}".format(index), *values) for index in (1, 2))

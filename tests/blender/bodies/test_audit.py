@@ -480,6 +480,9 @@ def test_up_axis_of_mesh_counts_if_it_fits_the_inertial(tmp_path, turned):
     path = tmp_path / "r.urdf"
     path.write_text(text_of([link]), encoding="utf-8")
     assert faults(audit(path)) == [["audit_up_axis"] if turned else []]
+    far = Pose(np.array([9.0, 9.0, 9.0]))  # Neither axis makes this inertial right.
+    path.write_text(text_of([replace(link, inertial=link.inertial.place(far))]), encoding="utf-8")
+    assert "audit_up_axis" not in faults(audit(path))[0]
 
 
 def collada(points, triangles):

@@ -209,6 +209,7 @@ def test_meshes_are_found_within_the_folders_that_are_allowed(tmp_path, monkeypa
     for name in (
         "../meshes/a.stl",
         "package://arm_description/meshes/a.stl",
+        "package:///arm_description/meshes/a.stl",
         "meshes/a.stl",
         r"..\meshes\a.stl",
     ):
