@@ -89,10 +89,10 @@ HEAD = """# Robots in the Programs That Read Them
 
 {count} random robots of 12 links are exported, with joints of all kinds and a mesh for each link.
 The options are the defaults, with and without *Merge Fixed Links*. The newest release of each
-program loads the files. The table shows how much total mass, center and inertia differ from the exact
-numbers: the largest relative difference over all files of a format. The difference of centers is
-divided by the radius of gyration, or by the distance from the origin if that is larger. The
-command `python3 tests/project.py consumers` made this page.
+program loads the files. The table shows how much total mass, center and inertia differ from the
+exact numbers: the largest relative difference over all files of a format. The difference of
+centers is divided by the radius of gyration, or by the distance from the origin if that is
+larger. The command `python3 tests/project.py consumers` made this page.
 
 The remaining differences come from the programs, not from the files. Newton computes in single
 precision. The numbers of each body agree to 1e-6. But Newton's kinematics multiply quaternions and
