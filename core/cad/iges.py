@@ -419,7 +419,8 @@ class IgesReader:
         self._curves.rounding = 0.0
         if base.type in (PLANE, PLANE_SURFACE):
             loops = [boundary.curves for boundary in boundaries] if has_outer else []
-            faces: list[Face] = [first_region([loops], self._plane_normal(base, matrix))]
+            normal = self._plane_normal(base, matrix)
+            faces: list[Face] = [first_region([loops], normal, of_edges)]
         elif base.type in ANALYTIC:
             quadric, moved, tilt, has_seam = self._quadric(base, matrix)
             degrees = np.diag([TURN / 360.0, TURN / 360.0 if quadric.minor else 1.0, 1.0, 1.0])

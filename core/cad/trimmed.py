@@ -206,16 +206,18 @@ def flat_region(loops: Sequence[list[Curve]], normal: NDArray, is_directed: bool
         return face
 
 
-def first_region(choices: Sequence[Sequence[list[Curve] | None]], normal: NDArray) -> FlatFace:
+def first_region(
+    choices: Sequence[Sequence[list[Curve] | None]], normal: NDArray, rounding: float = 0.0
+) -> FlatFace:
     """Return the first of several choices of loops that bound a region.
 
-    SurfaceRefusedError if none does.
+    rounding: largest effect of the file's decimals on a point. SurfaceRefusedError if none does.
     """
     for loops in choices:
         known = [loop for loop in loops if loop]
         if known and len(known) == len(loops):
             try:
-                return FlatFace.within(known, normal)
+                return FlatFace.within(known, normal, rounding)
             except MeasureError:
                 continue
     raise SurfaceRefusedError(SURFACE_TRIMMED)
@@ -258,7 +260,7 @@ def _flat_face(
     choices = [in_space, by_parameters][
         :: -1 if any(one.prefers_parameters for one in boundaries) else 1
     ]
-    return first_region(choices, vector_area([surface]))
+    return first_region(choices, vector_area([surface]), tolerance / 4.0)
 
 
 def _follow_sides(

@@ -91,14 +91,13 @@ def _best_plane(piece: Piece, outward: float, volume: float) -> tuple[float, Arr
     No single plane reduces the hulls of a ring or a cup: then planes through the middle are
     followed by another one.
     """
+    excess = float(_volumes([piece.points])[0]) - piece.volume()
     coarse = _coarse(piece)
-    if outward > 0.0 and _is_near_hull(coarse, outward):
+    # No cut gains more than the excess.
+    if excess <= LEAST_GAIN * volume or outward > 0.0 and _is_near_hull(coarse, outward):
         return 0.0, np.zeros(4)
     gain, best = _best_of(coarse, piece)
-    if gain > LEAST_GAIN * volume:
-        return gain, best
-    excess = float(_volumes([piece.points])[0]) - piece.volume()
-    if excess < LEAST_EXCESS * piece.volume():
+    if gain > LEAST_GAIN * volume or excess < LEAST_EXCESS * piece.volume():
         return gain, best
     middle = _even_planes(coarse.points, np.array([0.5]))
     halves = [[*cut(coarse, plane)] for plane in middle]

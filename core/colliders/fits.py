@@ -23,7 +23,7 @@ from .convex_pieces import cut_into_pieces, distances_from_triangles
 
 AXES_CORNERS = 96  # of the hull whose faces and edges give the directions of boxes
 MOST_CONVEX_FACES = 400  # of surfaces that are tested for being their own hull
-HULL_RTOL = 1e-8  # relative to the size: heights over faces that count as none in that test
+HULL_RTOL = 1e-8  # relative to the size: distances that count as none
 BALL_RTOL = 1e-12  # points outside a ball by less are on it
 SIMPLE = ("sphere", "box", "capsule", "cylinder", "hull")  # tried in this order, before pieces
 EQUAL = "equal_"
@@ -39,6 +39,8 @@ BALL_SAG = 0.012  # relative to the radius: the greatest depth of their faces in
 CONVEX_RTOL = 1e-9  # share of the volume that a convex body lacks in its hull
 PAIRS_PER_BLOCK = 1 << 20
 INSIDE_RTOL = 1e-9  # relative to the size
+SLIVER_RTOL = 1e-9  # relative to the size: width of faces that count as none
+TINY = float(np.finfo(np.float64).tiny)
 # relative to the size: reach of the first searches for the body around a place
 ON_BODY_RTOL = 1e-10
 NEAR_BODY = 0.02
@@ -329,7 +331,7 @@ def distances(
     triangles = surface.all_triangles()[0].astype(np.intp)
     points = np.asarray(surface.points, np.float64)
     size = float(np.ptp(hull.points, axis=0).max())
-    solids, sags = zip(*(_polyhedron(shape, hull) for shape in shapes))
+    solids, sags = zip(*(_polyhedron(shape) for shape in shapes))
     samples, step = (
         (hull.points, 0.0) if len(solids) == 1 else _samples(points, triangles, size / STEPS)
     )
@@ -411,11 +413,9 @@ def _unit(kind: str) -> ConvexHull:
     return convex_hull(points, 1e-9)
 
 
-def _polyhedron(shape: Shape, body: ConvexHull) -> tuple[ConvexHull, float]:
+def _polyhedron(shape: Shape) -> tuple[ConvexHull, float]:
     """Return a shape as a convex polyhedron in the link's frame, and the depth by which that lies
     in a round shape.
-
-    body: the hull of the body, which may be the shape.
     """
     if shape.surface is not None:
         points = shape.pose.apply(shape.surface.points * shape.size)
@@ -433,9 +433,15 @@ def _polyhedron(shape: Shape, body: ConvexHull) -> tuple[ConvexHull, float]:
 
 
 def _face_normals(hull: ConvexHull) -> Array:
-    """Return the (m, 3) unit normals of a hull's faces; those of faces without area are zero."""
+    """Return the (m, 3) unit normals of a hull's faces; those of faces without area are zero, and
+    of slivers, whose normals are rounding.
+    """
     normal = normals(hull.points, hull.triangles)
-    return normal / np.maximum(np.linalg.norm(normal, axis=1), np.finfo(float).tiny)[:, None]
+    double = np.linalg.norm(normal, axis=1)
+    corners = hull.points[hull.triangles]
+    longest = np.linalg.norm(corners - corners[:, [1, 2, 0]], axis=2).max(axis=1)
+    least = SLIVER_RTOL * np.ptp(hull.points, axis=0).max() * longest
+    return np.where((double > least)[:, None], normal / np.maximum(double, TINY)[:, None], 0.0)
 
 
 def _heights(points: Array, hull: ConvexHull) -> Array:

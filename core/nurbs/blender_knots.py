@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..numerics import Array, SplineSpace
-from .splines import Curve, Patch, homogeneous
+from .splines import Curve, Patch, homogeneous, projected
 
 SAME_KNOT_RTOL = (
     1e-12  # Relative to the domain: ends of a part that are nearer to a knot are moved to it.
@@ -120,7 +120,7 @@ def bezier_patches(
     combination of old ones, whether the knots are inserted one at a time or at once.
     """
     pieces = [list(_pieces(space, part)) for space, part in zip(patch.spaces, domain)]
-    old_net = patch.points if patch.weights is None else homogeneous(patch.points, patch.weights)
+    old_net = homogeneous(patch.points, patch.weights)
     found = []
     (s_space, t_space) = patch.spaces
     for s_matrix, t_matrix in product(*pieces):
@@ -129,10 +129,7 @@ def bezier_patches(
             bezier_space(len(t_matrix), t_space.order),
         )
         net = np.einsum("bj,ajd->abd", t_matrix, np.einsum("ai,ijd->ajd", s_matrix, old_net))
-        weights = None if patch.weights is None else net[..., 3]
-        found.append(
-            Patch(spaces, net if weights is None else net[..., :3] / weights[..., None], weights)
-        )
+        found.append(Patch(spaces, *projected(net)))
     return found
 
 
@@ -140,16 +137,11 @@ def bezier_curves(curve: Curve, part: tuple[float, float] | None = None) -> list
     """Convert a part (low, high) of a curve, None for all of it, in the same way, into curves
     without jumps.
     """
-    net = curve.points
-    if curve.weights is not None:
-        net = homogeneous(curve.points, curve.weights)
-    found = []
-    for matrix in _pieces(curve.space, part):
-        row = matrix @ net
-        weights = None if curve.weights is None else row[:, 3]
-        points = row if weights is None else row[:, :3] / weights[:, None]
-        found.append(Curve(bezier_space(len(matrix), curve.space.order), points, weights))
-    return found
+    net = homogeneous(curve.points, curve.weights)
+    return [
+        Curve(bezier_space(len(matrix), curve.space.order), *projected(matrix @ net))
+        for matrix in _pieces(curve.space, part)
+    ]
 
 
 def bezier_space(count: int, order: int) -> SplineSpace:

@@ -18,7 +18,6 @@ may miss them alike. The tangents of a Bézier curve lie in the cone of its cont
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
@@ -101,23 +100,7 @@ def plane_moments(
     def flux(place: NDArray, velocity: NDArray) -> NDArray:
         return dot(normal, cross(place, velocity))
 
-    values = np.zeros(len(degree))
-    estimate = 0.0
-    size = 0.0
-    exact = [curve for curve in curves if curve.weights is None]
-    for curve in exact:
-        points = ceil((order + 2) * (curve.space.order - 1) / 2)
-        contributions, length = _piece_integrals(
-            *_bezier_pieces(curve, center), max(points, 1), flux, order
-        )
-        values = values + contributions.sum(axis=0)
-        size = size + length.sum()
-    rational = [curve for curve in curves if curve.weights is not None]
-    if rational:
-        more, estimate, length = _integrate(
-            rational, flux, reach, order, center, reach, VOLUME_RTOL
-        )
-        values, size = values + more, size + length
+    values, estimate, size = _integrate(curves, flux, reach, order, center, reach, VOLUME_RTOL)
     powers = reach ** (degree + 1.0)
     error = (estimate / max(reach, 1e-300) * powers + ROUNDING * U * 8 * size * powers) / (
         degree + 2.0
@@ -201,9 +184,7 @@ def _bezier_pieces(curve: Curve, about: NDArray) -> tuple[Array, Array]:
     """
     space = curve.space
     origin = curve.points[0]
-    net = curve.points - origin
-    if curve.weights is not None:
-        net = homogeneous(net, curve.weights)
+    net = homogeneous(curve.points - origin, curve.weights)
     net = np.einsum("sij,sjd->sid", space.bezier_extraction, net[space.active_controls])
     return _about_first_control(net, np.tile(origin - about, (len(net), 1)))
 

@@ -23,7 +23,7 @@ from ..numerics import Array, SplineSpace
 from ..verdict import WELDING_RTOL, MeasureError
 from .curve_moments import curves_center, plane_moments
 from .findings import CURVES_BOUND_NOTHING
-from .splines import Curve, Face, Patch
+from .splines import Curve, Face, Patch, control_length
 
 if TYPE_CHECKING:
     from .trimmed_face import TrimmedFace
@@ -49,11 +49,13 @@ class FlatFace:
     normal: Array
 
     @classmethod
-    def within(cls, loops: Sequence[Sequence[Curve]], toward: ArrayLike) -> FlatFace:
+    def within(
+        cls, loops: Sequence[Sequence[Curve]], toward: ArrayLike, stored: float = 0.0
+    ) -> FlatFace:
         """Return the region between loops of any direction, its normal towards `toward`, or raise
-        MeasureError.
+        MeasureError. stored: as for `planar_region`.
         """
-        oriented, normal = planar_loops(loops)
+        oriented, normal = planar_loops(loops, stored)
         face = cls(tuple(map(tuple, oriented)), normal)
         return face.reverse_orientation() if float(normal @ np.asarray(toward)) < 0.0 else face
 
@@ -98,10 +100,7 @@ class FlatFace:
         """An upper bound of the change of the area per unit of displacement: the boundary's
         length.
         """
-        return sum(
-            float(np.linalg.norm(np.diff(curve.points, axis=0), axis=1).sum())
-            for curve in self.curves
-        )
+        return control_length(self.curves)
 
     def reverse_orientation(self) -> FlatFace:
         """Return the same region facing the other way."""

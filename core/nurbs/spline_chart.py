@@ -154,9 +154,7 @@ class SplineChart:
     @cached_property
     def _net(self) -> Array:
         """(3 or 4, count_s, count_t) control points about the first."""
-        net = self.patch.points - self.patch.points[0, 0]
-        if self.patch.weights is not None:
-            net = homogeneous(net, self.patch.weights)
+        net = homogeneous(self.patch.points - self.patch.points[0, 0], self.patch.weights)
         return np.ascontiguousarray(np.moveaxis(net, -1, 0))
 
 

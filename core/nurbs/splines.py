@@ -51,12 +51,28 @@ def _frozen_copy(values: Array) -> Array:
     return copy
 
 
-def homogeneous(points: NDArray, weights: NDArray) -> Array:
-    """Return (..., 4) homogeneous coordinates: points times their weights, and the weights."""
+def homogeneous(points: NDArray, weights: NDArray | None) -> Array:
+    """Return (..., 4) homogeneous coordinates: points times their weights, and the weights; for
+    None the points.
+    """
+    if weights is None:
+        return points
     net = np.empty((*weights.shape, 4))
     net[..., 3] = weights
     np.multiply(points, weights[..., None], out=net[..., :3])
     return net
+
+
+def projected(net: NDArray) -> tuple[Array, Array | None]:
+    """Return the points and the weights of a net of `homogeneous` coordinates."""
+    return (net, None) if net.shape[-1] == 3 else (net[..., :3] / net[..., 3:], net[..., 3])
+
+
+def control_length(curves: Sequence[Curve]) -> float:
+    """Return an upper bound of the length of curves."""
+    return sum(
+        float(np.linalg.norm(np.diff(curve.points, axis=0), axis=1).sum()) for curve in curves
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,11 +119,8 @@ class Curve:
 
     def apply_weights(self, table: NDArray) -> Array:
         """Return the (n, 3) points given by a table (n, count) of weights of its control points."""
-        if self.weights is not None:
-            table = table * self.weights
-            table /= table.sum(axis=1, keepdims=True)
-        origin = self.points[0]
-        return np.einsum("ni,id->nd", table, self.points - origin) + origin
+        net = homogeneous(self.points - self.points[0], self.weights)
+        return projected(np.einsum("ni,id->nd", table, net))[0] + self.points[0]
 
     def derivatives(self, parameters: NDArray) -> tuple[Array, Array]:
         """Return the (n, 3) points and derivatives at n parameters."""
@@ -232,15 +245,9 @@ class Patch:
         """Return the (m, n, 3) points given by tables (m, count_s) and (n, count_t) of basis
         function values.
         """
-        points = self.points
-        bottom = None
-        if self.weights is not None:
-            points = points * self.weights[..., None]
-            bottom = np.einsum(
-                "ai,bi->ab", np.einsum("ai,ij->aj", tables[0], self.weights), tables[1]
-            )
-        top = np.einsum("ajd,bj->abd", np.einsum("ai,ijd->ajd", tables[0], points), tables[1])
-        return top if bottom is None else top / bottom[..., None]
+        net = homogeneous(self.points, self.weights)
+        half = np.einsum("ai,ijd->ajd", tables[0], net)
+        return projected(np.einsum("ajd,bj->abd", half, tables[1]))[0]
 
     def side(self, axis: int, end: int) -> Curve:
         """Return the boundary curve at the first (end 0) or last (end 1) s (axis 0) or t (axis
@@ -251,16 +258,14 @@ class Patch:
     @cached_property
     def _side_curves(self) -> dict[tuple[int, int], Curve]:
         """The boundary curves by axis and end."""
-        net = self.points
-        if self.weights is not None:
-            net = homogeneous(self.points, self.weights)
-        found = {}
-        for axis, end, _ in SIDES:
-            row = np.tensordot(self.spaces[axis].end_weights[end], net, (0, axis))
-            weights = None if self.weights is None else row[:, 3]
-            points = row if weights is None else row[:, :3] / weights[:, None]
-            found[axis, end] = Curve(self.spaces[1 - axis], points, weights)
-        return found
+        net = homogeneous(self.points, self.weights)
+        return {
+            (axis, end): Curve(
+                self.spaces[1 - axis],
+                *projected(np.tensordot(self.spaces[axis].end_weights[end], net, (0, axis))),
+            )
+            for axis, end, _ in SIDES
+        }
 
     @property
     def sides(self) -> tuple[tuple[Curve, bool], ...]:

@@ -191,9 +191,8 @@ class IncrementalPatchMoments:
         self._points = points.copy()
         if moved.all():
             self._anchor = self._points[0, 0]
-        net = self._points - self._anchor
+        net = homogeneous(self._points - self._anchor, self.weights)
         anchor = (self._anchor - self.about)[None]
-        net = net if self.weights is None else homogeneous(net, self.weights)
         s_spans, t_spans = (
             np.flatnonzero(moved.any(axis=1 - axis)[space.active_controls].any(axis=1))
             for axis, space in enumerate(self.spaces)

@@ -34,7 +34,7 @@ from .bezier import ROUNDING, VOLUME_RTOL
 from .patch_moments import AREA_RTOL, area_slope, area_terms, flux_terms, sheet_terms
 from .quadric import Quadric
 from .spline_chart import SplineChart
-from .splines import Curve, homogeneous
+from .splines import Curve, control_length, homogeneous
 
 SAMPLES = 17  # of a Bézier piece of a loop
 # Gauss points along a loop and across its strips, of two rules that are compared
@@ -100,13 +100,10 @@ class TrimmedFace:
         grid = self.chart.evaluate(*np.meshgrid(u, v))[0].reshape(3, -1).T
         return np.concatenate([*(curve.points for curve in self.curves), grid])[:, None]
 
-    @property
+    @cached_property
     def perimeter(self) -> float:
         """An upper bound of the length of the boundary."""
-        return sum(
-            float(np.linalg.norm(np.diff(curve.points, axis=0), axis=1).sum())
-            for curve in self.curves
-        )
+        return control_length(self.curves)
 
     def reverse_orientation(self) -> TrimmedFace:
         """Return the same region facing the other way."""

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from body_moments.core.cad import step
 from body_moments.core.cad.part21 import Part21
 from body_moments.core.cad.surface_file import read_surfaces
 from body_moments.core.moments import sum_moments
@@ -89,6 +90,33 @@ def test_step_part_of_a_kernel_is_within_its_bound(tmp_path, name):
         assert np.abs(scale * volume.center - center).max() <= 1e-5  # GProp is so far off the axis
 
 
+@pytest.mark.parametrize("name", ["cross", "torus", "fillets"])
+def test_step_placement_without_direction_measures_the_same(tmp_path, name):
+    placement = r"(AXIS2_PLACEMENT_3D\('',#\d+,#\d+),#\d+"
+    text, count = re.subn(placement, r"\1,$", TEXTS[name])
+    (body,) = read(tmp_path, text).bodies
+    measure = measure_patches(body.patches, stored=body.rounding)
+    assert count and str(measure.method) == "exact"
+    assert measure.volume.total == pytest.approx(EXACT[name], rel=1e-9)
+
+
+def test_assemblies_without_bodies_are_limited(tmp_path, monkeypatch):
+    monkeypatch.setattr(step, "MAX_PLACED", 200)
+    text = TEXTS["cylinder"]
+    context = re.search(r"SHAPE_REPRESENTATION\('',\(#11,#15\),(#\d+)", text)[1]
+    relation = (
+        "#{}=(REPRESENTATION_RELATIONSHIP('','',#{},#{})SHAPE_REPRESENTATION_RELATIONSHIP()"
+        "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(#90001));"
+    )
+    more = "#90001=ITEM_DEFINED_TRANSFORMATION('','',#11,#11);"
+    for k in range(91000, 91080, 10):
+        more += "#{}=SHAPE_REPRESENTATION('',(#11),{});".format(k, context)
+        more += "".join(relation.format(k + use, k, k + 10) for use in (1, 2))
+    more += "#91080=SHAPE_REPRESENTATION('',(#11),{});ENDSEC;".format(context)
+    with pytest.raises(FileError, match="200"):
+        read(tmp_path, more.join(text.rsplit("ENDSEC;", 1)))
+
+
 def test_hundreds_of_rims_are_joined(tmp_path):
     (plate,) = read(tmp_path, TEXTS["plate"]).bodies
     faces = []
@@ -147,13 +175,19 @@ SWAPS = {
     "numbers": (r"(CYLINDRICAL_SURFACE\('',#\d+,)4\.", r"\g<1>-4.", "ADVANCED_FACE"),
     "possible": (r"CYLINDRICAL_SURFACE\(", "CYLINDRICAL_SURFACE" + "(" * 90, "ADVANCED_FACE"),
     "BOUNDED_SURFACE": (r"CYLINDRICAL_SURFACE", "BOUNDED_SURFACE", "ADVANCED_FACE"),
+    "crosses the axis": (
+        r"(SURFACE_OF_REVOLUTION.*?AXIS1_PLACEMENT.*?POINT\('',\()0\.",
+        r"\g<1>12.",
+        "ADVANCED_FACE",
+    ),
 }
 
 
 @pytest.mark.parametrize("fault", SWAPS)
 def test_damaged_step_solid_is_refused_in_one_sentence(tmp_path, fault):
     pattern, better, entity = SWAPS[fault]
-    text, count = re.subn(pattern, better, TEXTS["drilled"], count=1, flags=re.DOTALL)
+    whole = TEXTS["vase" if "axis" in fault else "drilled"]
+    text, count = re.subn(pattern, better, whole, count=1, flags=re.DOTALL)
     assert count == 1
     with pytest.raises(FileError) as error:
         read(tmp_path, text)

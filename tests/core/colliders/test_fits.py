@@ -193,6 +193,20 @@ def test_distances_of_a_larger_box_are_its_corners():
     assert inward == pytest.approx(1.0, abs=bound + 1e-9)
 
 
+def test_slivers_along_an_edge_are_no_walls():
+    """A triangle between the corners of an edge and a point on it closes the surface."""
+    box = convex_hull(bodies.box((0, 0, 0), (1, 1, 1))[0])
+    for seed in range(60):
+        rng = np.random.default_rng(seed)
+        points = box.points * rng.uniform(0.5, 2.0, 3)
+        points = points + np.cross(3e-8 * rng.normal(size=3), points)
+        first, second, third = np.roll(box.triangles[0], seed)
+        points = np.concatenate([points, [0.4 * points[first] + 0.6 * points[second]]])
+        split = [[first, 8, third], [8, second, third], [first, second, 8]]
+        shape = Shape("mesh", surface=Surface(points, np.concatenate([box.triangles[1:], split])))
+        assert max(distances(Surface(points[:8], box.triangles), [shape])[:2]) < 1e-10
+
+
 def test_points_on_a_line_are_refused():
     line = np.linspace(0.0, 1.0, 4)[:, None] * np.ones(3), np.array([[0, 1, 2], [1, 2, 3]])
     body = MassProperties.from_moments(

@@ -8,6 +8,7 @@ from body_moments.core.moments.moments import monomials
 from body_moments.core.numerics.bspline import clamped_space
 from body_moments.core.nurbs import Curve, FlatFace, Patch, measure_patches, planar_region
 from body_moments.core.nurbs.patch_moments import area_moments, sheet_moments, volume_moments
+from body_moments.core.verdict import MeasureError
 
 from tests.close import close
 from tests.core.polygons import arcs, polygon
@@ -54,6 +55,18 @@ def test_moments_of_a_ring(about):
     assert volume_moments([face], 0, np.array([0.0, 0.0, -6.0]))[0].total == pytest.approx(
         6.0 * np.pi, rel=1e-14
     )
+
+
+def test_loop_off_its_plane_by_rounding_bounds_a_face():
+    shift = np.eye(4)
+    shift[2, 3] = 1e-3
+    first, *rest = arcs(2.0)
+    loop = [first.transform(shift), *rest]
+    with pytest.raises(MeasureError):
+        FlatFace.within([loop], Z)
+    face = FlatFace.within([loop], Z, 1e-3)
+    area = face.area_moments(0, face.center).total
+    assert area == pytest.approx(4.0 * np.pi, abs=4.0 * np.pi * 1e-3)
 
 
 def test_a_pipe_turned_and_far_away():
