@@ -5,10 +5,9 @@
     python3 tests/project.py alarms
 
 The robots are those of `project.py robots`, whose folder and packages it uses; it takes half an
-hour. Each fault is planted in all right links of a robot, by the numbers in its URDF. Each alarm
-about a published link is checked by trimesh (meshes, hulls), SciPy (a linear program: no masses at
-points of the hull have this center and inertia), MuJoCo (MJCF) and NumPy, which share only the search of files with
-the audit.
+hour. Faults are planted in right links, by the numbers in their URDF. Each alarm about a published
+link is checked by trimesh (meshes, hulls), SciPy (a linear program: no masses at points of the hull
+have this center and inertia), MuJoCo (MJCF) and NumPy.
 """
 
 import argparse
