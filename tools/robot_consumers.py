@@ -87,26 +87,27 @@ PROBES = {
 }
 HEAD = """# Robots in the Programs That Read Them
 
-{count} random robots of 12 links, with joints of all kinds and a mesh for each link, are exported
-by default, with and without *Merge Fixed Links*, and loaded by each program at its newest release.
-The differences of total mass, center (per radius of gyration, or distance from the origin if that
-is larger) and inertia from the exact ones are the largest over all files of a format. The page was
-made by `python3 tests/project.py consumers`.
+{count} random robots of 12 links are exported, with joints of all kinds and a mesh for each link.
+The options are the defaults, with and without *Merge Fixed Links*. The newest release of each
+program loads the files. The table shows how much total mass, center and inertia differ from the
+exact numbers: the largest relative difference over all files of a format. The difference of
+centers is divided by the radius of gyration, or by the distance from the origin if that is
+larger. The command `python3 tests/project.py consumers` made this page.
 
-What is left comes from the programs, not from the files. Newton computes in single precision: each
-body's numbers agree to 1e-6, but its kinematics multiply quaternions and never normalize them, so
-that their lengths are off by up to 1e-6 after some joints, most with those of its MJCF importer.
-The same joint frames multiplied in double precision give places to 1e-6 of their distance. PyBullet
-stops to turn a tensor to its axes at products of 1e-6 of the trace: its moments agree to 3e-12, its
-axes to 6e-7.
+The remaining differences come from the programs, not from the files. Newton computes in single
+precision. The numbers of each body agree to 1e-6. But Newton's kinematics multiply quaternions and
+never normalize them, so after some joints their lengths are off by up to 1e-6. The effect is
+largest with its MJCF importer. If the same joint frames are multiplied in double precision, the
+places agree to 1e-6 of their distance. PyBullet does not turn a tensor to its axes any further if
+the products are below 1e-6 of the trace. Its moments agree to 3e-12, and its axes to 6e-7.
 
 | program | format | files read | mass | center | inertia | remark |
 |---|---|---|---|---|---|---|
 {rows}
-What the readers of URDF make of a link with a collider, a unit cube, and
+The next table shows how readers of URDF load a link whose collider is a unit cube, with
 
-- no inertial at all,
-- the moments 1, 2 and 3 kg·m², the largest too large by 1e-12 of itself, so that A + B < C,
+- no inertial,
+- the moments 1, 2 and 3 kg·m²; the largest is too large by 1e-12 of itself, so that A + B < C,
 - the moments 1, 1 and 9 kg·m², which no body has:
 
 | program | no inertial | A + B < C by 1e-12 | 1, 1, 9 |
