@@ -5,10 +5,9 @@
     python3 tests/project.py alarms
 
 The robots are those of `project.py robots`, whose folder and packages it uses; it takes half an
-hour. Each fault is planted in all right links of a robot, by the numbers in its URDF. Each alarm
-about a published link is checked by trimesh (meshes, hulls), SciPy (a linear program: no masses at
-points of the hull have this center and inertia), MuJoCo (MJCF) and NumPy, which share nothing with
-the audit.
+hour. Faults are planted in right links, by the numbers in their URDF. Each alarm about a published
+link is checked by trimesh (meshes, hulls), SciPy (a linear program: no masses at points of the hull
+have this center and inertia), MuJoCo (MJCF) and NumPy.
 """
 
 import argparse
@@ -605,18 +604,19 @@ HEAD = """# Faults Found, and Alarms
 The robots of [Published Robots, Audited](robots-audited.md) in URDF and MJCF. Each fault is planted
 in up to three links of a URDF that have no alarm and whose inertial is that of their evenly filled
 geometry, if it changes the inertial by more than 2 %. It is found if the audit then gives an error
-or a warning, and undone if the repair leads back to the right inertial within 2 %. The page was
-made by `python3 tests/project.py alarms`.
+or a warning, and undone if the repair leads back to the right inertial within 2 %. A mass that is
+not stated cannot be known, and if two units explain the same numbers, such as kg·in² and lb·in²,
+the likelier one is proposed. The page was made by `python3 tests/project.py alarms`.
 
 | fault | planted | found | undone |
 |---|---|---|---|
 """
 ALARMS_HEAD = """
 The published files themselves have {links} links, {alarmed} of them with an alarm. Each alarm was
-checked by programs that share nothing with the audit: trimesh reads and measures the meshes, a
+checked by programs that share only the search of files with it: trimesh measures the meshes, a
 linear program of SciPy shows that no masses within the hull have this center and inertia, MuJoCo
-reads MJCF, NumPy takes the numbers from the XML. {doubtful} links ({share:.2%}) have an alarm that
-these do not confirm.
+reads MJCF, NumPy takes the numbers from the XML. They do not confirm an alarm of {share:.2%} of the
+links ({doubtful}).
 
 | alarm | links | confirmed |
 |---|---|---|

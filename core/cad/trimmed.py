@@ -22,8 +22,10 @@ from ..nurbs import (
     Patch,
     Quadric,
     SplineChart,
+    chords_cross,
     nearest_parameters,
     patches_size,
+    self_intersects,
     vector_area,
 )
 from ..verdict import WELDING_RTOL, MeasureError
@@ -37,6 +39,7 @@ END_TOLERANCE = (
     1e-5  # A curve that ends so near to the end of a side, as a share of it, ends there.
 )
 SEAM_SAMPLES = 8  # points on a span of a seam
+CROSSING_SAMPLES = 7, 17  # on a span: ends of shorter chords may lie too near to a crossing
 LIFTED_ORDER = 10  # of curves through points of a surface
 LIFTED_RTOL = 1e-12  # relative to the size of a piece, which is halved until it is so near
 LIFTED_DEPTH = 8
@@ -189,19 +192,30 @@ def faces_away(quadric: Quadric, patch: Patch) -> bool:
 def flat_region(loops: Sequence[list[Curve]], normal: NDArray, is_directed: bool) -> FlatFace:
     """Return the region of a plane within loops; MeasureError if they bound none.
 
-    is_directed: whether the loops run with the region on their left. Then they may touch, and leave
-    the plane a little.
+    is_directed: whether the loops run with the region on their left. Then they may touch, but not
+    cross, and leave the plane a little.
     """
     try:
         return FlatFace.within(loops, normal)
     except MeasureError:
         face = FlatFace(tuple(map(tuple, loops)), normal / np.linalg.norm(normal))
-        away = np.abs((face.points - face.center) @ face.normal).max()
-        if not (
-            is_directed
-            and away <= MISS_RTOL * float(np.ptp(face.points, axis=0).max())
-            and face.area_moments(0, face.center).total > 0.0
-        ):
+        size = float(np.ptp(face.points, axis=0).max())
+        steepest = np.argmax(np.abs(face.normal))
+        tolerance = MISS_RTOL * size
+        is_wrong = (
+            not is_directed
+            or np.abs((face.points - face.center) @ face.normal).max() > tolerance
+            or not face.area_moments(0, face.center).total > 0.0
+        )
+        for each in CROSSING_SAMPLES:
+            rings = [np.concatenate([curve.samples(each)[:-1] for curve in loop]) for loop in loops]
+            flat = [np.delete(ring, steepest, axis=1) for ring in rings]
+            is_wrong = (
+                is_wrong
+                or any(self_intersects(ring, tolerance) for ring in flat)
+                or chords_cross(flat, tolerance, touch=False)
+            )
+        if is_wrong:
             raise
         return face
 

@@ -16,7 +16,9 @@ from .findings import ERROR_ESTIMATE_LARGE as ERROR_ESTIMATE_LARGE
 from .findings import NON_FINITE as NON_FINITE
 from .findings import NON_POSITIVE_WEIGHTS as NON_POSITIVE_WEIGHTS
 from .flat_face import FlatFace as FlatFace
+from .flat_face import chords_cross as chords_cross
 from .flat_face import planar_region as planar_region
+from .flat_face import self_intersects as self_intersects
 from .patch_moments import area_moments as area_moments
 from .patch_moments import stored_area_moments as stored_area_moments
 from .patch_moments import vector_area as vector_area

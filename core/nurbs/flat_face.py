@@ -32,8 +32,9 @@ SAME_HEIGHT_RTOL = (
     1e-9  # Relative to the extent: corners whose heights differ by less share a row of trapezoids.
 )
 PAIRS_PER_BLOCK = 1 << 22  # rows and edges compared at a time
-SAMPLES_PER_SPAN = 16  # For the first comparison.
-FINER_SAMPLES = 64, 256  # Used if the chords of fewer samples cross.
+# Primes: a crossing at a simple fraction of a curve is no corner of its chords.
+SAMPLES_PER_SPAN = 17  # for the first comparison
+FINER_SAMPLES = 67, 257  # used if the chords of fewer samples cross
 MAX_CHORDS = 8192  # Limit with finer samples.
 
 

@@ -4,7 +4,10 @@
 
 import numpy as np
 import pytest
-from body_moments.core.cad.trimmed import Piece, trims_nothing
+from body_moments.core.cad.trimmed import Piece, flat_region, trims_nothing
+from body_moments.core.verdict import MeasureError
+
+from tests.core.polygons import polygon
 
 DOMAIN = (1.0, 3.0), (-2.0, 6.0)
 SIZE = np.array([2.0, 8.0])
@@ -77,3 +80,17 @@ def test_edge_across_the_domain_trims_despite_ends_on_sides():
     middle = (A + B) / 2.0
     assert trims_nothing(lines(A, middle, (C + D) / 2.0, D, A), DOMAIN) is False
     assert trims_nothing(lines(A, C, D, A), DOMAIN) is False
+
+
+def test_directed_loops_may_touch_but_not_cross():
+    up = np.array([0.0, 0.0, 1.0])
+    square = polygon((0, 0), (2, 0), (2, 2), (0, 2))
+    corner = polygon((2, 2), (3, 2), (3, 3), (2, 3))
+    assert flat_region([square, corner], up, True).area_moments(0, np.zeros(3)).total == 5.0
+    twisted = polygon((0, 0), (3, 3), (3, 0), (1, 4))  # lobes of different signs
+    overlapping = polygon((1, 1), (3, 1), (3, 3), (1, 3))
+    for loops in ([twisted], [[curve.reverse() for curve in reversed(twisted)]]):
+        with pytest.raises(MeasureError):
+            flat_region(loops, up, True)
+    with pytest.raises(MeasureError):
+        flat_region([square, overlapping], up, True)
