@@ -13,10 +13,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core import files, measurement, polyhedron, scans
-from ..core.numerics import Array
+from ..core.numerics import Array, Integers, NDArray
 from ..core.verdict.finding import MeasureError, finding, system_reason
 from .findings import SIMPLEX_OPEN
 from .options import arguments
@@ -128,7 +127,7 @@ def _as_record(moments: polyhedron.SimplexMoments) -> dict[str, dict[str, float]
     }
 
 
-def _read(path: Path) -> tuple[Array, NDArray[np.integer], NDArray | None]:
+def _read(path: Path) -> tuple[Array, Integers, NDArray | None]:
     arrays = scans.read_arrays(path, ("points", "simplices", "signs"), files.file_limits())
     if not {"points", "simplices"} <= arrays.keys():
         raise UsageError("The file is no .npz archive with the arrays “points” and “simplices”")

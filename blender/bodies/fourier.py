@@ -11,7 +11,6 @@ from dataclasses import dataclass
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.bodies import WIRE_UNSUPPORTED, name_subject, to_si
 from ...core.flat import foot
@@ -27,7 +26,7 @@ from ...core.fourier import (
 from ...core.measurement import WALL_UNSUPPORTED, ZERO_QUANTITY
 from ...core.mesh import Surface
 from ...core.moments import Measure, affine_matrices, placed_boxes
-from ...core.numerics import Array
+from ...core.numerics import Array, NDArray
 from ...core.verdict import Procedure
 from ...core.verdict.finding import Finding, ReadError, finding
 from ..read.findings import DISPLAY_MESH_MEASURED

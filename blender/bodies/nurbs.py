@@ -15,7 +15,6 @@ from dataclasses import dataclass, field, replace
 from typing import ClassVar, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.bodies import (
     MeshBody,
@@ -42,7 +41,7 @@ from ...core.moments import (
     sum_moments,
     sum_of_images,
 )
-from ...core.numerics import Array
+from ...core.numerics import Array, NDArray
 from ...core.nurbs import (
     ERROR_ESTIMATE_LARGE,
     Face,

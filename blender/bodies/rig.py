@@ -9,7 +9,6 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 from bpy.types import Context, Depsgraph, Object
-from numpy.typing import NDArray
 
 from ...core.bodies import Part, to_si
 from ...core.measurement import (
@@ -28,7 +27,7 @@ from ...core.measurement import (
 )
 from ...core.mesh import Surface
 from ...core.moments import KNOWN_ORDER, Measure, Moments, are_similarities, sum_moments
-from ...core.numerics import Array, shortest_decimal
+from ...core.numerics import Array, Integers, NDArray, shortest_decimal
 from ...core.polyhedron import polyhedron_moments
 from ...core.rig import bone_pieces, bones_of_caps, dominant_bones
 from ...core.solid import measure_solid
@@ -289,7 +288,7 @@ class _Measuring:
         self,
         surface: Surface,
         triangles: NDArray,
-        bones: NDArray[np.integer],
+        bones: Integers,
         metric: Array,
     ) -> Iterator[tuple]:
         for bone in np.unique(bones).tolist():

@@ -15,7 +15,6 @@ from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.bodies import Reading
 from ...core.inertia import MassProperties, has_certain_total
@@ -32,7 +31,7 @@ from ...core.measurement import (
 )
 from ...core.mesh import Surface
 from ...core.moments import Moments, are_similarities, are_singular, image
-from ...core.numerics import Array, Index, Mask, rotation_matrix
+from ...core.numerics import Array, Index, Mask, NDArray, rotation_matrix
 from ...core.polyhedron import area_of_images
 from ...core.solid import SmallSolid, SolidIntegrals, SolidStack, measure_again
 from ...core.verdict import Finding, Method, Procedure

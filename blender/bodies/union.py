@@ -14,11 +14,10 @@ from dataclasses import replace
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.bodies import MeshBody
 from ...core.mesh import Surface, join_surfaces, overlapping_box_pairs
-from ...core.numerics import Array, Index
+from ...core.numerics import Array, Index, Integers
 from ...core.polyhedron import volume_and_center
 from ...core.solid import CAVITIES_BREAK_THROUGH, NON_MANIFOLD_COMPONENTS, measure_solid
 from ...core.verdict import Intersection, Procedure
@@ -29,7 +28,7 @@ TOUCHING_RTOL = 1e-6  # of the size: boxes nearer than this meet
 VOLUME_RTOL = 1e-5  # of the union, beyond its bounds
 MARKER = np.array([(0.0, 0.0, 0.0), (0.1, 0.0, 0.0), (0.0, 0.1, 0.0), (0.0, 0.0, 0.1)]) + 1.2
 MARKER_FACES = np.array([(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])
-Part = tuple[Array, NDArray[np.integer]]  # points and triangles
+Part = tuple[Array, Integers]  # points and triangles
 
 
 def unite(body: MeshBody) -> Surface:
@@ -94,7 +93,7 @@ def _layers(count: int, left: Index, right: Index) -> Index:
     return layers
 
 
-def _with_triangles(surface: Surface, triangles: NDArray[np.integer]) -> Surface:
+def _with_triangles(surface: Surface, triangles: Integers) -> Surface:
     """Return a surface of some triangles, without the points of others."""
     used = np.zeros(len(surface.points), bool)
     used[triangles.ravel()] = True

@@ -10,10 +10,10 @@ from typing import Any
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core import fourier, measurement
 from ...core.files.whole_file import whole_file
+from ...core.numerics import Complex
 
 IMAGE_MARK = (
     "body_fourier"  # property of the images that may be overwritten; its value is their name
@@ -48,9 +48,7 @@ def save(
         np.savez(file, **dict(zip(measurement.SPECTRUM_ARRAYS, arrays)), **(plane or {}))
 
 
-def picture(
-    name: str, values: NDArray[np.complex128], count: int, dimension: int = 3
-) -> bpy.types.Image:
+def picture(name: str, values: Complex, count: int, dimension: int = 3) -> bpy.types.Image:
     """Return an image of the slices z = 0, y = 0 and x = 0, from left to right, of a transform on a
     grid of count³.
 

@@ -9,9 +9,8 @@ import struct
 import zlib
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...core.numerics import Array
+from ...core.numerics import Array, Floats, Integers, NDArray
 
 SIZE = 128  # pixels
 _SAMPLES = 5_000  # points of the surface, so that parts thinner than a pixel are drawn, too
@@ -26,8 +25,8 @@ _BODY = np.array([205.0, 208.0, 214.0])
 
 
 def thumbnail(
-    points: NDArray[np.floating],
-    triangles: NDArray[np.integer],
+    points: Floats,
+    triangles: Integers,
     center: Array,
     axes: Array,
 ) -> str:

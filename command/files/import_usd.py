@@ -15,11 +15,10 @@ from typing import Any, NamedTuple
 import bpy
 import numpy as np
 from bpy.types import Object
-from numpy.typing import NDArray
 
 from ...blender import read, scene
 from ...core import cad, files
-from ...core.numerics import Array
+from ...core.numerics import Array, NDArray
 from ...core.verdict.finding import FileError, Finding, finding
 from ..findings import FILE_HIDES, FRAME_MEASURED, USD_CAGE, USD_UNREAD
 from . import placing, references

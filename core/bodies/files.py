@@ -12,13 +12,12 @@ from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..density import POSITIONS_ONLY_AS_DENSITY, GridOptions, sum_labels
 from ..files import DEFAULT_LIMITS, Limits
 from ..measurement import DENSITY_FROM, NO_VOLUME, Body, Measurement, Settings
 from ..moments import KNOWN_ORDER, Moments, affine_matrices
-from ..numerics import Array
+from ..numerics import Array, NDArray
 from ..nurbs import Face, measure_patches
 from ..scans import (
     LABEL_ABSENT,

@@ -10,7 +10,6 @@ from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..density import (
     LABELS_UNFIT,
@@ -26,7 +25,7 @@ from ..density import (
 )
 from ..measurement import Body
 from ..moments import KNOWN_ORDER, Measure, Moments
-from ..numerics import Array
+from ..numerics import Array, NDArray
 from ..scans import EVEN, SCAN_LABELS, Positions, count_labels
 from ..verdict import MeshHealth, Method, Procedure, Source
 from ..verdict.finding import Finding, ReadError, finding

@@ -12,7 +12,6 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, fields
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh import Surface, boxes_overlap, sort_components
 from ..moments import (
@@ -23,7 +22,7 @@ from ..moments import (
     similarity_groups,
     sum_of_images,
 )
-from ..numerics import Array, Index
+from ..numerics import Array, Index, NDArray
 from ..polyhedron import area_of_images
 from ..solid import (
     COMPONENTS_NESTED,

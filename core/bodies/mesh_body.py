@@ -12,12 +12,11 @@ from functools import partial
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..measurement import Body
 from ..mesh import Surface, normals
 from ..moments import Moments, monomials, sum_moments, sum_of_images
-from ..numerics import Array
+from ..numerics import Array, Integers
 from ..polyhedron import polyhedron_moments
 from ..solid import (
     DUPLICATE_FACES_COUNTED,
@@ -226,7 +225,7 @@ def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -
     )
 
 
-def _copies_of_shell(surface: Surface, copies: NDArray[np.integer]) -> Finding:
+def _copies_of_shell(surface: Surface, copies: Integers) -> Finding:
     triangles, faces = surface.all_triangles()
     area = np.linalg.norm(normals(surface.points.astype(np.float64), triangles), axis=1)
     slight = bool(area[np.isin(faces, copies)].sum() < NEGLIGIBLE * area.sum())

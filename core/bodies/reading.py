@@ -11,13 +11,12 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..files import FILE_UNREADABLE
 from ..measurement import Body, Measurement, Settings, fingerprint, measure_body
 from ..mesh import Surface, join_surfaces
 from ..moments import are_singular
-from ..numerics import Array
+from ..numerics import Array, ArrayLike, Integers
 from ..nurbs import Curve, Face
 from ..verdict import Finding, MeasureError, ReadError, system_reason
 
@@ -35,7 +34,7 @@ class FaceAttributes:
     """
 
     materials: tuple = ()
-    face_slots: NDArray[np.integer] = field(default_factory=NO_SLOTS.view)
+    face_slots: Integers = field(default_factory=NO_SLOTS.view)
     vertex_values: Array = field(default_factory=NO_VALUES.view)
 
 

@@ -19,10 +19,9 @@ from pathlib import Path
 from typing import TypeAlias, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..files import FILE_TOO_LARGE
-from ..numerics import Array, lengths
+from ..numerics import Array, NDArray, lengths
 from ..nurbs import TURN, Curve, Face, FlatFace, Patch, Quadric, closed_parts, patches_size
 from ..verdict.finding import FileError, finding
 from .findings import (

@@ -18,10 +18,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..files import FILE_UNREADABLE, FILE_UNRECOGNIZED, HEADER_FIELD
-from ..numerics import Array, SplineSpace, clamped_space, lengths
+from ..numerics import Array, NDArray, SplineSpace, clamped_space, lengths
 from ..nurbs import Curve, bezier_curves
 from ..verdict import FileError
 from .findings import IGES_DAMAGED

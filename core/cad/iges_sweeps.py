@@ -10,9 +10,8 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics import Array, SplineSpace, clamped_space, lengths
+from ..numerics import Array, NDArray, SplineSpace, clamped_space, lengths
 from ..nurbs import TURN, Curve, Patch, Quadric
 from .iges_entities import MAX_ARC
 

@@ -18,7 +18,6 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..files import (
     FILE_TOO_LARGE,
@@ -28,7 +27,7 @@ from ..files import (
     parse_number,
     parse_whole,
 )
-from ..numerics import Array, Index
+from ..numerics import Array, Index, Int64, NDArray
 from ..nurbs import Face
 from ..streams import FileMesh, name_of_file, without_repeats
 from ..verdict import FileError
@@ -230,7 +229,7 @@ def _faces(element: _Element, points: NDArray, weights: NDArray, for_blender: bo
     return [*bezier_surface(surface, ((part[0], part[1]), (part[2], part[3])), for_blender)]
 
 
-def _indices(words: list[str], count: int) -> NDArray[np.int64]:
+def _indices(words: list[str], count: int) -> Int64:
     """Convert vertex references to indices from 0, or raise ValueError. count: vertices so far, for
     negative ones.
     """
@@ -243,7 +242,7 @@ def _indices(words: list[str], count: int) -> NDArray[np.int64]:
 
 def read_obj_faces(
     path: Path,
-) -> tuple[Array, NDArray[np.int64], NDArray[np.int64], list]:
+) -> tuple[Array, Int64, Int64, list]:
     """Return (n, 3) points, (k,) corners and (m,) sides of faces; of objects the first face, first
     vertex and name.
     """
@@ -281,7 +280,7 @@ def _read_points(lines: Lines) -> Array:
     return values[first[:, None] + np.arange(3)]
 
 
-def _read_faces(lines: Lines) -> tuple[NDArray[np.int64], NDArray[np.int64], Index]:
+def _read_faces(lines: Lines) -> tuple[Int64, Int64, Index]:
     """Return the (k,) vertices of the faces of a block, the (m,) counts of their corners, and their
     lines' offsets.
     """

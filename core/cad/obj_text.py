@@ -14,7 +14,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..files import (
     BLOCK,
@@ -32,7 +31,7 @@ from ..files import (
     refuse_line,
     shorten,
 )
-from ..numerics import Mask
+from ..numerics import Int64, Mask, NDArray
 
 VERTICES = {b"v": 3, b"vt": 1, b"vn": 3, b"vp": 1}  # the least count of numbers
 INDICES = {b"f": 3, b"l": 2, b"p": 1}  # the least count of indices
@@ -95,7 +94,7 @@ class Lines:
     counts before a line. after: (3,) the counts after the block.
     """
 
-    def __init__(self, text: bytes, counts: NDArray[np.int64]) -> None:
+    def __init__(self, text: bytes, counts: Int64) -> None:
         self.text = text
         # so that three letters can be read from any word on
         self.letters = np.frombuffer(text + b"\n\n\n", np.uint8)

@@ -14,9 +14,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics import Array, spread_directions
+from ..numerics import Array, NDArray, spread_directions
 from ..nurbs import Curve, Quadric, SplineChart, TrimmedFace, sample_pieces
 from .findings import SURFACE_DAMAGED, SURFACE_TRIMMED
 from .surfaces import SurfaceRefusedError

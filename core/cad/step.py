@@ -18,10 +18,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..files import FILE_TOO_LARGE
-from ..numerics import Array, clamped_space
+from ..numerics import Array, NDArray, clamped_space
 from ..nurbs import Curve, Face, close_pairs, patches_size
 from ..verdict import WELDING_RTOL
 from ..verdict.finding import FileError, finding

@@ -9,10 +9,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ..files import DEFAULT_LIMITS, FILE_TYPE, Limits, check_regular
-from ..numerics import Array
+from ..numerics import Array, ArrayLike
 from ..nurbs import Face
 from ..streams import KINDS, FileMesh, box_of_blocks
 from ..verdict import FileError

@@ -11,10 +11,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..files import FILE_TOO_LARGE, FILE_WITHOUT_OBJECTS
-from ..numerics import Array, SplineSpace
+from ..numerics import Array, ArrayLike, NDArray, SplineSpace
 from ..nurbs import (
     CONTROL_POINTS_INVALID,
     NON_FINITE,

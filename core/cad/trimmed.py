@@ -12,9 +12,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics import Array, Mask, clamped_space, cross, dot
+from ..numerics import Array, Mask, NDArray, clamped_space, cross, dot
 from ..nurbs import (
     Curve,
     Face,

@@ -16,7 +16,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..inertia import frame_about
 from ..mesh import first_at_equal_position, uncancelled_sides
@@ -24,7 +23,9 @@ from ..moments import Moments, U
 from ..moments.moments import TINY
 from ..numerics import (
     Array,
+    ArrayLike,
     Index,
+    Integers,
     connected_components,
     first_occurrence,
     float_array,
@@ -64,7 +65,7 @@ class Hollow:
     """
 
     points: Array
-    triangles: NDArray[np.integer]
+    triangles: Integers
     up: Array
     bottom: float
     spill: float

@@ -18,7 +18,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..inertia import frame_about
 from ..mesh import (
@@ -32,8 +31,11 @@ from ..mesh import (
 from ..moments import Moments, sum_moments
 from ..numerics import (
     Array,
+    ArrayLike,
     Index,
+    Integers,
     Mask,
+    NDArray,
     batches,
     connected_components,
     float_array,
@@ -293,7 +295,7 @@ def cut_fill_between(
 
 def _open_surface(
     points: ArrayLike, triangles: ArrayLike, normal: ArrayLike
-) -> tuple[Array, NDArray[np.integer], Array]:
+) -> tuple[Array, Integers, Array]:
     """Return the surface with its faces consistent and each part facing up, and the unit normal.
 
     MeasureError if it is closed or has no faces.

@@ -26,7 +26,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..inertia import frame_about
 from ..mesh import Surface
@@ -39,7 +38,17 @@ from ..moments import (
     monomials,
     unchecked_moments,
 )
-from ..numerics import Array, Index, PerBody, batches, float_array, index_array, segment_ranges
+from ..numerics import (
+    Array,
+    ArrayLike,
+    Index,
+    Integers,
+    PerBody,
+    batches,
+    float_array,
+    index_array,
+    segment_ranges,
+)
 from ..polyhedron import BOUNDARY_OPEN
 from ..solid import measure_solid
 from ..verdict import MeasureError, Procedure, check_size
@@ -254,9 +263,7 @@ def measure_below(
     )
 
 
-def cut_outline(
-    points: Array, triangles: NDArray[np.integer], normal: ArrayLike, offset: float
-) -> Array:
+def cut_outline(points: Array, triangles: Integers, normal: ArrayLike, offset: float) -> Array:
     """Return (k, 2, 3) segments along which triangles cross the plane normal · x = offset."""
     heights = points @ np.asarray(normal) - offset
     start, stop = triangles, np.roll(triangles, -1, axis=1)
@@ -268,7 +275,7 @@ def cut_outline(
 
 def _below(
     points: Array,
-    triangles: NDArray[np.integer],
+    triangles: Integers,
     heights: Array,
     noise: Array,
     step: float,
@@ -318,7 +325,7 @@ def _below(
 
 
 def _sums_below(
-    points: Array, triangles: NDArray[np.integer], levels: Array, shifts: Array
+    points: Array, triangles: Integers, levels: Array, shifts: Array
 ) -> tuple[Array, Array]:
     """Return (16, k) sums over the surface below k ascending levels, and (6, k) sizes for bounds.
 

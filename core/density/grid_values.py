@@ -9,9 +9,8 @@ import re
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics import Array
+from ..numerics import Array, NDArray
 from ..scans import AXES, EVEN, Positions
 from ..verdict.finding import Finding, MeasureError, ReadError, finding
 from .findings import (

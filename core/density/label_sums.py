@@ -12,11 +12,10 @@ from collections.abc import Iterator
 from math import comb
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..moments import KNOWN_ORDER, Measure, Moments
 from ..moments.moments import U, monomial_index, monomials
-from ..numerics import Index
+from ..numerics import Index, NDArray
 from ..verdict import ReadError
 from .findings import LABELS_UNFIT
 from .spline_grid import Blocks

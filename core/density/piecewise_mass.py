@@ -23,7 +23,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..moments import factorial_ratios
 from ..moments.moments import (
@@ -36,7 +35,7 @@ from ..moments.moments import (
     monomial_index,
     monomials,
 )
-from ..numerics import Array, Mask
+from ..numerics import Array, Integers, Mask, NDArray
 from ..solid import ClosedParts
 
 TRIANGLES_PER_BLOCK = 4096  # triangles whose table of 20 monomials stays in the cache
@@ -212,7 +211,7 @@ class PartDensities:
     density: Array
     has_several_materials: Mask
     has_foreign_cavity_material: Mask
-    first_face: NDArray[np.integer]
+    first_face: Integers
     range_by_area: Array
     most_by_area: Array
 

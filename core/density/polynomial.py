@@ -22,11 +22,10 @@ from fractions import Fraction
 from itertools import product
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..moments import U
 from ..moments.exponents import monomial_count, monomial_index, monomials, order_from_count
-from ..numerics import Array, power_table
+from ..numerics import Array, ArrayLike, NDArray, power_table
 from ..verdict import MeasureError
 from .findings import (
     POLYNOMIAL_BEYOND_NUMBERS,

@@ -7,7 +7,6 @@ from __future__ import annotations
 from itertools import product
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..mesh import winding_number
 from ..moments import (
@@ -22,7 +21,7 @@ from ..moments import (
     transform_by_horner,
 )
 from ..moments.exponents import monomial_count, monomials, order_from_count, product_indices
-from ..numerics import Array, polar_rotation
+from ..numerics import Array, ArrayLike, NDArray, polar_rotation
 from .polynomial import Polynomial
 
 Terms = dict[tuple[int, int, int], float]

@@ -13,10 +13,9 @@ import math
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..moments import Moments
-from ..numerics import Array
+from ..numerics import Array, ArrayLike, NDArray
 from .threshold import ThresholdBody, threshold_body
 
 MAX_SAMPLES = 1 << 24  # Limit for the finest grid.

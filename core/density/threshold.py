@@ -28,10 +28,18 @@ from dataclasses import dataclass, replace
 from itertools import product
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
-from ..numerics import Array, Mask, float_array, gauss_legendre, number_array, power_table
+from ..numerics import (
+    Array,
+    ArrayLike,
+    Mask,
+    NDArray,
+    float_array,
+    gauss_legendre,
+    number_array,
+    power_table,
+)
 from ..verdict import MeasureError
 from .findings import DENSITY_NON_FINITE, GRID_TRANSFORM_SINGULAR
 from .spline_grid import contract

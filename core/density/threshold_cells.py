@@ -10,9 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics import Array, Index, Mask, gauss_legendre
+from ..numerics import Array, Index, Mask, NDArray, gauss_legendre
 
 # By the axis of a cell's columns: the axes along which x, y and the columns run.
 TURNS = ((1, 2, 0), (2, 0, 1), (0, 1, 2))

@@ -17,10 +17,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
-from ..numerics import Array, batches, float_array, power_table, triangle_rule
+from ..numerics import Array, ArrayLike, NDArray, batches, float_array, power_table, triangle_rule
 from ..verdict import MeasureError
 from ..verdict.findings import NO_FACES
 from .findings import DENSITY_NON_FINITE

@@ -19,12 +19,15 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..moments import Measure, Moments, monomial_count, monomial_index
 from ..numerics import (
     Array,
+    ArrayLike,
     Index,
+    Int64,
+    Integers,
+    NDArray,
     connected_components,
     float_array,
     index_array,
@@ -83,9 +86,7 @@ def area_moments(
     return enclosed_moments(points, edges, order, about, allow_open=True)
 
 
-def edge_arrays(
-    points: ArrayLike, edges: ArrayLike, dimension: int = 2
-) -> tuple[Array, NDArray[np.integer]]:
+def edge_arrays(points: ArrayLike, edges: ArrayLike, dimension: int = 2) -> tuple[Array, Integers]:
     """Return (n, 2) points, or in space (n, 3), and (m, 2) edges between them as arrays."""
     points = float_array("points", points, "n", dimension)
     return points, index_array("edges", edges, "m", 2, count=len(points))
@@ -195,9 +196,7 @@ def winding_numbers(points: NDArray, edges: NDArray, query_points: NDArray) -> A
     return np.concatenate(turns)
 
 
-def _side_windings(
-    points: NDArray, edges: NDArray, touch: float
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _side_windings(points: NDArray, edges: NDArray, touch: float) -> tuple[Int64, Int64]:
     """Return the (k,) winding numbers left and right of edges, by rays across them; of a sample of
     many edges.
     """
@@ -320,7 +319,7 @@ def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int,
 
 
 @lru_cache
-def plane_positions(order: int) -> NDArray[np.int64]:
+def plane_positions(order: int) -> Int64:
     """Return the (k,) positions of x^p y^q among `monomials`, in the order of `multi_indices`;
     read-only.
     """

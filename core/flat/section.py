@@ -7,11 +7,10 @@ region on it.
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..mesh import first_at_equal_position, normals, uncancelled_sides
 from ..moments import U
-from ..numerics import Array, Index, check_type, float_array, index_array
+from ..numerics import Array, ArrayLike, Index, NDArray, check_type, float_array, index_array
 from ..polyhedron import facet_moments
 from ..verdict import MeasureError
 from .findings import NO_SECTION_AREA, OUTLINES_ENCLOSE_NONE, SECTION_NOT_FLAT

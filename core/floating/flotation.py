@@ -22,12 +22,19 @@ from functools import cached_property
 from itertools import product
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..cuts import measure_below
 from ..inertia import frame_about
 from ..moments import U
-from ..numerics import Array, float_array, index_array, rotation_matrix, unit_vector
+from ..numerics import (
+    Array,
+    ArrayLike,
+    Integers,
+    float_array,
+    index_array,
+    rotation_matrix,
+    unit_vector,
+)
 from ..verdict import Finding, MeasureError
 from ..verdict.finding import finding
 from .findings import (
@@ -89,7 +96,7 @@ class Vessel:
     """
 
     points: Array
-    triangles: NDArray[np.integer]
+    triangles: Integers
     volume: float
     displacement: Array = field(default_factory=lambda: np.zeros(3))
 
@@ -230,7 +237,7 @@ class FloatingBody:
     """
 
     points: Array
-    triangles: NDArray[np.integer]
+    triangles: Integers
     mass: float
     center: Array
     density: float

@@ -12,7 +12,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..bodies import MeshBody
 from ..cuts import Hollow, find_hollow
@@ -24,7 +23,7 @@ from ..mesh import (
     sort_components,
     uncancelled_sides,
 )
-from ..numerics import Array, Index, Mask, first_occurrence
+from ..numerics import Array, Index, Integers, Mask, first_occurrence
 from ..solid import (
     COMPONENTS_OVERLAP,
     SELF_INTERSECTING,
@@ -48,7 +47,7 @@ class Hull:
     """
 
     points: Array
-    triangles: NDArray[np.integer]
+    triangles: Integers
     openings: Array
     part: Index
     displacement: Array
@@ -100,7 +99,7 @@ def find_hull(bodies: Iterable[Body]) -> Hull:
 
 
 def _outer_parts(
-    points: Array, triangles: NDArray[np.integer], part: Index, is_cap: Mask, number: int
+    points: Array, triangles: Integers, part: Index, is_cap: Mask, number: int
 ) -> Mask:
     """Return a (number,) mask of the parts that no other one contains; MeasureError if parts
     overlap.
@@ -202,7 +201,7 @@ def fill_hollows(hull: Hull, up: Array) -> Hull:
     return Hull(points, triangles, openings, part, hull.displacement)
 
 
-def _same_triangles(points: Array, triangles: NDArray[np.integer], hollow: Hollow) -> Mask:
+def _same_triangles(points: Array, triangles: Integers, hollow: Hollow) -> Mask:
     """Return an (m,) mask of the triangles at the places of a hollow's walls."""
     place = first_at_equal_position(np.concatenate([hollow.points, points]))
     every = np.concatenate([hollow.triangles, triangles + len(hollow.points)])

@@ -9,10 +9,9 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ..measurement import Body, Measurement
-from ..numerics import Array
+from ..numerics import Array, ArrayLike
 from ..verdict import MeasureError
 from .findings import FLOAT_UNAVAILABLE, FLOODED_OUTSIDE
 from .flotation import STARTS, FloatingBody, Flotation, Tank, Vessel

@@ -18,9 +18,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from ..numerics import Array, Index, check_filled, float_array, unit_vector
+from ..numerics import Array, ArrayLike, Index, check_filled, float_array, unit_vector
 from .flotation import Flotation
 
 MAX_STEPS = 30

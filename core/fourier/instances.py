@@ -11,11 +11,10 @@ from collections.abc import Iterator, Sequence
 from typing import cast
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..mesh import Surface
 from ..moments import Measure, distinct_linear_parts
-from ..numerics import Array, check_type, float_array, phase_factors
+from ..numerics import Array, ArrayLike, NDArray, check_type, float_array, phase_factors
 from ..verdict import MeasureError
 from ..verdict.findings import NO_FACES
 from .grid import GridTransform

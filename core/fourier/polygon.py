@@ -12,10 +12,9 @@ from collections.abc import Iterator, Sequence
 from math import factorial
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..moments import U
-from ..numerics import Array, check_filled, float_array, phase_factors
+from ..numerics import Array, ArrayLike, Complex, NDArray, check_filled, float_array, phase_factors
 from .transform import ROUNDING_FACTOR, ZERO_WAVE_NUMBER
 from .triangle_kernel import PAIRS_PER_BLOCK
 from .wave_vectors import FrequencyGrid, Spectrum, wave_vectors
@@ -142,9 +141,7 @@ def half_of_grid(grid: FrequencyGrid) -> Array:
     return np.stack(np.meshgrid(steps, steps[grid.half :], indexing="ij"), axis=-1).reshape(-1, 2)
 
 
-def _edge_sum(
-    middle: NDArray, half: NDArray, normal: NDArray, q: NDArray
-) -> NDArray[np.complex128]:
+def _edge_sum(middle: NDArray, half: NDArray, normal: NDArray, q: NDArray) -> Complex:
     """Return (M,) the sum over k edges at (M, 2) wave vectors; middles, half edges and normals are
     (2, k).
     """

@@ -23,11 +23,10 @@ from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..mesh import Surface
 from ..moments import Measure, U
-from ..numerics import phase_factors, two_sum
+from ..numerics import ArrayLike, Complex, phase_factors, two_sum
 from ..polyhedron import polyhedron_moments
 from ..verdict import MeasureError
 from .findings import FOURIER_OF_OPEN_SURFACE
@@ -158,7 +157,7 @@ class Transform:
         )
         self.sums, self.rest = np.zeros((2, self.waves.rows * self.waves.columns), np.complex128)
 
-    def _vector_sum(self) -> NDArray[np.complex128]:
+    def _vector_sum(self) -> Complex:
         """Return (3,) ∫ n exp(-i q·x) dA at GENERIC_WAVE_VECTOR, parallel to it for a closed
         surface.
         """
@@ -200,14 +199,14 @@ class Transform:
                 for future in waiting:
                     future.cancel()
 
-    def _add(self, part: slice, values: NDArray[np.complex128]) -> None:
+    def _add(self, part: slice, values: Complex) -> None:
         """Add a task's results by compensated summation: the rounding of thousands of sums would
         pile up.
         """
         self.sums[part], rest = two_sum(self.sums[part], values)
         self.rest[part] += rest
 
-    def _run_task(self, share: tuple[slice, slice]) -> tuple[slice, NDArray[np.complex128]]:
+    def _run_task(self, share: tuple[slice, slice]) -> tuple[slice, Complex]:
         """Return the slice of a task's results, and Σ (q·N) (D - 1/2) or Σ |N| (D - 1/2) there."""
         run, part = share
         block = TriangleBlock(self.direct, run)
@@ -257,7 +256,7 @@ class Transform:
             q, values * turn, error + 8.0 * U * np.abs(values), float(moments.input_error[0])
         )
 
-    def _to_transform(self, sums: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    def _to_transform(self, sums: Complex) -> Complex:
         """Return F in units of the scale: i/q² times the sums, or by the moments if q is zero."""
         q = self.waves.vectors(slice(0, self.waves.rows))
         square = (q * q).sum(axis=0)

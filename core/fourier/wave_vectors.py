@@ -13,10 +13,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..moments import U
-from ..numerics import Array
+from ..numerics import Array, ArrayLike, Complex, NDArray
 from ..verdict import MeasureError
 from .findings import FREQUENCIES_INVALID, WAVE_VECTORS_RANGE, WAVE_VECTORS_SHAPE
 
@@ -87,7 +86,7 @@ class FrequencyGrid:
         axes = np.meshgrid(*[self.axis()] * self.dimension, indexing="ij")
         return np.stack(axes, axis=-1).reshape(-1, self.dimension)
 
-    def expand(self, values: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    def expand(self, values: Complex) -> Complex:
         """Return all (count³,) or (count²,) values from those with last coordinate ≥ 0, both ends
         included.
         """
@@ -240,7 +239,7 @@ class Spectrum:
     """
 
     q: Array
-    values: NDArray[np.complex128]
+    values: Complex
     error: Array
     input_error: float = 0.0
     method: str = EXACT
@@ -265,7 +264,7 @@ class Spectrum:
             input_error=self.input_error * factor,
         )
 
-    def multiply_by_phases(self, waves: NDArray[np.complex128], count: int) -> Spectrum:
+    def multiply_by_phases(self, waves: Complex, count: int) -> Spectrum:
         """Return the spectrum of `count` copies together, from the (M,) sums of exp(-i q·t) over
         their places.
         """

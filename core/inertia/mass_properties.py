@@ -14,13 +14,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..moments import SECOND_MOMENT_INDEX, Measure, Moments, U, sum_moments
 from ..numerics import (
     IDENTITY_3,
     Array,
+    ArrayLike,
     Mask,
+    NDArray,
     PerBody,
     check_type,
     float_array,

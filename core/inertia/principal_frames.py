@@ -20,10 +20,18 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..moments import Moments, affine_matrices
-from ..numerics import Array, PerBody, check_type, float_array, quaternion, rotation_array
+from ..numerics import (
+    Array,
+    ArrayLike,
+    NDArray,
+    PerBody,
+    check_type,
+    float_array,
+    quaternion,
+    rotation_array,
+)
 from ..verdict import OBJECT_SIZE, TOO_SMALL
 from ..verdict.finding import MeasureError, finding
 from .findings import (

@@ -15,10 +15,9 @@ from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..moments import SECOND_MOMENT_INDEX, THIRD_MOMENT_INDEX, Moments
-from ..numerics import Array, Index, Mask, cross_rows, lengths
+from ..numerics import Array, ArrayLike, Index, Mask, NDArray, cross_rows, lengths
 from .plain_body import EQUAL_AXES, EQUAL_MOMENTS_RTOL, EQUAL_TRACE_ATOL, SYMMETRIES
 
 # a normalized third moment below this is noise: ten times the noise of float32 coordinates

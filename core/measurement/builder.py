@@ -10,7 +10,6 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..inertia import (
     CHOICES,
@@ -28,7 +27,7 @@ from ..moments import (
     U,
     monomial_count,
 )
-from ..numerics import IDENTITY_3, Array
+from ..numerics import IDENTITY_3, Array, ArrayLike, NDArray
 from ..polyhedron import MAX_TRIANGLES_EXACT_THIRD
 from ..solid.measure import SolidIntegrals, measure_solid
 from ..verdict import MeshHealth, Method, Procedure

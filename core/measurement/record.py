@@ -19,7 +19,6 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..flat import Plane, foot, plane_positions
 from ..inertia import MassProperties, combine
@@ -30,7 +29,7 @@ from ..moments import (
     monomial_index,
     monomials,
 )
-from ..numerics import Array
+from ..numerics import Array, NDArray
 from ..polyhedron import multi_indices
 from ..verdict import Finding, MeasureError, Severity, find_verdict, sentence, severity
 from .documents import TOTAL, plain

@@ -12,8 +12,8 @@ keys. (A sum of normals is zero for many surfaces that are open.)
 import os
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..numerics import Floats, NDArray
 from .surface import Surface
 
 FACES_PER_BLOCK = 1 << 14  # faces whose hashes stay in the cache
@@ -33,7 +33,7 @@ class BoundarySum:
         """True if all sides that were added cancel: the faces close, however they were split."""
         return not self._total
 
-    def add(self, piece: Surface | NDArray[np.floating]) -> None:
+    def add(self, piece: Surface | Floats) -> None:
         """Add the faces of a piece, or (m, 3, 3) corners of triangles.
 
         Points at the same place are one.
@@ -61,7 +61,7 @@ class BoundarySum:
             self._total += np.add.reduce(sides)
 
 
-def _hash_places(points: NDArray[np.floating]) -> NDArray[np.uint64]:
+def _hash_places(points: Floats) -> NDArray[np.uint64]:
     """Return (n,) hashes of (n, 3) coordinates, by their values as float64."""
     values = np.add(points.T, 0.0, dtype=np.float64)  # -0.0 + 0.0 = 0.0
     words = np.ascontiguousarray(values).view(np.uint64)

@@ -17,13 +17,15 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..numerics import (
     NEXT_AXIS,
     Array,
+    ArrayLike,
     Index,
+    Int64,
     Mask,
+    NDArray,
     batches,
     cross,
     float_array,
@@ -206,7 +208,7 @@ class _GrowingHull:
     distances of all points from the middle.
     """
 
-    def __init__(self, grid: NDArray[np.int64], first: Index, owner: Index, step: float) -> None:
+    def __init__(self, grid: Int64, first: Index, owner: Index, step: float) -> None:
         self.grid, self.step = grid, step
         self.reach = ((grid.astype(np.float64) - 2.0 ** (GRID_BITS - 1)) ** 2).sum(axis=1)
         self.corners = first[:, [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]]].reshape(-1, 3)
@@ -218,7 +220,7 @@ class _GrowingHull:
             every, np.full(len(every), 4), 4 * owner[every]
         )
 
-    def _set_normals(self, kept: NDArray[np.int64], added: Index) -> None:
+    def _set_normals(self, kept: Int64, added: Index) -> None:
         """Set the normals of the faces: `kept`, then the normals of new ones, below 2^60, so
         exact.
         """

@@ -13,9 +13,8 @@ Winding numbers are sums of solid angles, which open surfaces have, too, unlike 
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
-from ..numerics import Array, cross, dot, subtract
+from ..numerics import Array, ArrayLike, Floats, Integers, NDArray, cross, dot, subtract
 
 TRIANGLES_PER_BLOCK = 1 << 15  # triangles at a time
 
@@ -46,9 +45,7 @@ def triangle_distances(points: ArrayLike, corners: NDArray) -> Array:
     return np.where(inside, np.minimum(height, nearest), nearest)
 
 
-def winding_number(
-    points: NDArray[np.floating], triangles: NDArray[np.integer], point: NDArray
-) -> float:
+def winding_number(points: Floats, triangles: Integers, point: NDArray) -> float:
     """Return the number of times that triangles (m, 3), closed or open, surround a point."""
     blocks = range(0, len(triangles), TRIANGLES_PER_BLOCK)
     return sum(
@@ -57,7 +54,7 @@ def winding_number(
     ) / (4.0 * math.pi)
 
 
-def solid_angles(points: NDArray, triangles: NDArray[np.integer], point: ArrayLike = 0.0) -> Array:
+def solid_angles(points: NDArray, triangles: Integers, point: ArrayLike = 0.0) -> Array:
     """Return (m,) signed solid angles of triangles seen from a point, by van Oosterom and Strackee
     (1983), eq. 8.
     """

@@ -15,11 +15,14 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..numerics import (
     Array,
+    ArrayLike,
+    Floats,
+    Integers,
     Mask,
+    NDArray,
     cross,
     cross_rows,
     dot,
@@ -79,13 +82,13 @@ class Surface:
     ([1.0, 1.0, 1.0], 12)
     """
 
-    points: NDArray[np.floating]
-    triangles: NDArray[np.integer] = field(default_factory=NO_TRIANGLES.view)
-    quads: NDArray[np.integer] = field(default_factory=NO_QUADS.view)
-    triangle_faces: NDArray[np.integer] | None = None
-    quad_faces: NDArray[np.integer] | None = None
-    corner_vertices: NDArray[np.integer] | None = None
-    corner_edges: NDArray[np.integer] | None = None
+    points: Floats
+    triangles: Integers = field(default_factory=NO_TRIANGLES.view)
+    quads: Integers = field(default_factory=NO_QUADS.view)
+    triangle_faces: Integers | None = None
+    quad_faces: Integers | None = None
+    corner_vertices: Integers | None = None
+    corner_edges: Integers | None = None
     displacement: Array | None = None
 
     def __post_init__(self) -> None:
@@ -156,7 +159,7 @@ class Surface:
         """The number of triangles, two for each quad."""
         return len(self.triangles) + 2 * len(self.quads)
 
-    def used_points(self) -> NDArray[np.floating]:
+    def used_points(self) -> Floats:
         """Return the (k, 3) points that are corners of faces."""
         return self.points[
             np.bincount(self.all_triangles()[0].ravel(), minlength=len(self.points)) > 0
@@ -198,7 +201,7 @@ class Surface:
         points = number_array("points", points, "n", 3)
         return cls(points, index_array("triangles", triangles, "m", 3, count=len(points)))
 
-    def all_triangles(self) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+    def all_triangles(self) -> tuple[Integers, Integers]:
         """Return (m + 2q, 3) triangles with the quads cut as drawn, and the (m + 2q,) face of
         each.
         """
@@ -211,7 +214,7 @@ class Surface:
         )
 
 
-def face_of_each(surface: Surface) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+def face_of_each(surface: Surface) -> tuple[Integers, Integers]:
     """Return the mesh face of each quad and of each triangle."""
     return (
         np.arange(len(surface.quads)) if surface.quad_faces is None else surface.quad_faces,
@@ -221,13 +224,13 @@ def face_of_each(surface: Surface) -> tuple[NDArray[np.integer], NDArray[np.inte
     )
 
 
-def normals(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> Array:
+def normals(points: Floats, triangles: Integers) -> Array:
     """Return (m, 3) normals of triangles, each twice as long as its triangle's area."""
     a, b, c = (points[triangles[:, k]].astype(np.float64, copy=False) for k in range(3))
     return cross_rows(b - a, c - a)
 
 
-def triangle_areas(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> Array:
+def triangle_areas(points: Floats, triangles: Integers) -> Array:
     """Return (m,) areas of triangles."""
     return 0.5 * lengths(normals(points, triangles))[:, 0]
 

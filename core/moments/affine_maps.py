@@ -14,9 +14,8 @@ from collections.abc import Iterator
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
-from ..numerics import Array, Index, Mask, segment_ranges, segment_starts
+from ..numerics import Array, ArrayLike, Index, Mask, NDArray, segment_ranges, segment_starts
 from .exponents import (
     count_of_degree,
     monomial_count,

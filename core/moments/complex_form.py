@@ -16,9 +16,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics import Array
+from ..numerics import Array, Complex, Int64, NDArray
 from ..verdict import MeasureError
 from .affine_maps import apply_translation
 from .exponents import monomial_index, monomials
@@ -93,7 +92,7 @@ def complex_moments(
 @lru_cache
 def _expansions(
     order: int,
-) -> list[tuple[tuple[int, int], NDArray[np.int64], NDArray[np.complex128]]]:
+) -> list[tuple[tuple[int, int], Int64, Complex]]:
     """Return, by degree, each (p, q), p ≥ q, with the indices and factors of the real moments that
     make up c_pq.
     """

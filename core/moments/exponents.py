@@ -9,13 +9,12 @@ from math import factorial, prod
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics import Array
+from ..numerics import Array, Index, Int64, Integers
 
 KNOWN_ORDER = 3  # every body has its moments to this order
 
-AnyIndex = TypeVar("AnyIndex", int, NDArray[np.int64])  # an index, or an array of indices
+AnyIndex = TypeVar("AnyIndex", int, Int64)  # an index, or an array of indices
 
 
 @lru_cache
@@ -61,7 +60,7 @@ def monomial_index(p: AnyIndex, q: AnyIndex, r: AnyIndex) -> AnyIndex:
 
 
 @lru_cache
-def monomials(order: int) -> NDArray[np.int64]:
+def monomials(order: int) -> Int64:
     """Return the exponents (p, q, r) of all monomials to an order, in storage order.
 
     Parameters
@@ -96,7 +95,7 @@ def monomial_values(points: Array, order: int) -> Array:
     return (powers[p, 0] * powers[q, 1] * powers[r, 2]).T
 
 
-def factorial_ratios(exponents: NDArray[np.integer], more: int) -> Array:
+def factorial_ratios(exponents: Integers, more: int) -> Array:
     """Return (K,) α! / (|α| + `more`)! of (K, n) exponents, correctly rounded."""
     return np.array(
         [prod(map(factorial, row)) / factorial(sum(row) + more) for row in exponents.tolist()]
@@ -110,7 +109,7 @@ def count_of_degree(degree: int) -> int:
 
 
 @lru_cache
-def quotient_indices(degree: int, missing: int) -> NDArray[np.intp]:
+def quotient_indices(degree: int, missing: int) -> Index:
     """Return (3, rows) indices, within the degree below, of x^α / x, x^α / y, x^α / z; `missing`
     without the factor.
     """
@@ -124,7 +123,7 @@ def quotient_indices(degree: int, missing: int) -> NDArray[np.intp]:
 
 
 @lru_cache
-def product_indices(order: int) -> tuple[NDArray[np.int64], ...]:
+def product_indices(order: int) -> tuple[Int64, ...]:
     """Return three arrays: the indices of the products with x, y and z of each monomial of a degree
     below `order`.
     """
@@ -135,7 +134,7 @@ def product_indices(order: int) -> tuple[NDArray[np.int64], ...]:
 
 
 @lru_cache
-def tensor_index(degree: int) -> NDArray[np.int64]:
+def tensor_index(degree: int) -> Int64:
     """Return the (3, ..., 3) indices in `Moments.raw` of the entries of the symmetric tensor of a
     degree; read-only.
     """

@@ -8,9 +8,8 @@ import math
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
-from ..numerics import check_filled, float_array
+from ..numerics import ArrayLike, NDArray, check_filled, float_array
 from .affine_maps import absolute_moments, to_trailing_axis, transform_by_horner
 from .exponents import monomial_count, monomials
 from .moments import Moments, U, image, measure_scale_factors

@@ -17,10 +17,11 @@ from enum import StrEnum
 from typing import cast
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..numerics import (
     Array,
+    ArrayLike,
+    NDArray,
     PerBody,
     as_rows,
     check_filled,

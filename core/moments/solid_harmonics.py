@@ -18,12 +18,11 @@ from functools import lru_cache
 from math import comb, factorial, pi, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics import Array, Index
+from ..numerics import Array, Complex, Index, NDArray
 from .exponents import monomial_count, monomial_index, product_indices
 
-Multiplets = dict[tuple[int, int], NDArray[np.complex128]]
+Multiplets = dict[tuple[int, int], Complex]
 
 
 def harmonic_moments(raw: NDArray, order: int) -> Multiplets:
@@ -50,7 +49,7 @@ def along_first(table: NDArray, values: NDArray) -> NDArray:
     return table.reshape(*table.shape, *[1] * (values.ndim - 1))
 
 
-def with_negative_orders(half: NDArray[np.complex128]) -> NDArray[np.complex128]:
+def with_negative_orders(half: Complex) -> Complex:
     """Return (2l+1, …) for m = -l..l from (l+1, …) for m = 0..l: c[-m] = (-1)^m conj(c[m])."""
     sign = ((-1.0) ** np.arange(len(half) - 1, 0, -1)).reshape(-1, *[1] * (half.ndim - 1))
     return np.concatenate([half[:0:-1].conj() * sign, half])
@@ -67,7 +66,7 @@ def couple(a: NDArray, b: NDArray, c: NDArray) -> Array:
 
 
 @lru_cache
-def _solid(l: int) -> NDArray[np.complex128]:
+def _solid(l: int) -> Complex:
     """Return the (l+1, (l+1)(l+2)/2) coefficients of r^l Y_lm for m = 0..l in the ordered monomials
     of degree l.
     """

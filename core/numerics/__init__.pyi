@@ -13,7 +13,13 @@ from .arguments import number_array as number_array
 from .arguments import shape_error as shape_error
 from .arguments import unit_vector as unit_vector
 from .array_types import Array as Array
+from .array_types import ArrayLike as ArrayLike
+from .array_types import Complex as Complex
+from .array_types import DTypeLike as DTypeLike
+from .array_types import Floats as Floats
 from .array_types import Index as Index
+from .array_types import Int64 as Int64
+from .array_types import Integers as Integers
 from .array_types import Mask as Mask
 from .array_types import NDArray as NDArray
 from .arrays import IDENTITY_3 as IDENTITY_3

@@ -14,9 +14,8 @@ from types import EllipsisType
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
-from .array_types import Array
+from .array_types import Array, ArrayLike, Integers, NDArray
 from .arrays import indices_in_range
 
 Length = int | str | EllipsisType
@@ -54,9 +53,7 @@ def unit_vector(name: str, values: ArrayLike) -> Array:
     return vector / float(np.linalg.norm(vector))
 
 
-def index_array(
-    name: str, values: ArrayLike, *shape: Length, count: int | None = None
-) -> NDArray[np.integer]:
+def index_array(name: str, values: ArrayLike, *shape: Length, count: int | None = None) -> Integers:
     """Return a parameter as an array of integers, from 0 to `count` - 1 if there is a count."""
     array = _array(name, values, shape, "iu", "integers")
     if array.dtype.kind not in "iu":  # an empty list has no integers

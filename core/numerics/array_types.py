@@ -5,8 +5,25 @@
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 Array: TypeAlias = NDArray[np.float64]
 Mask: TypeAlias = NDArray[np.bool_]
 Index: TypeAlias = NDArray[np.intp]
+Int64: TypeAlias = NDArray[np.int64]
+Integers: TypeAlias = NDArray[np.integer]
+Floats: TypeAlias = NDArray[np.floating]
+Complex: TypeAlias = NDArray[np.complex128]
+
+__all__ = [
+    "Array",
+    "ArrayLike",
+    "Complex",
+    "DTypeLike",
+    "Floats",
+    "Index",
+    "Int64",
+    "Integers",
+    "Mask",
+    "NDArray",
+]

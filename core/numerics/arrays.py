@@ -10,9 +10,8 @@ from collections.abc import Iterator
 from typing import Any, TypeAlias, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
-from .array_types import Array, Index
+from .array_types import Array, Index, Int64, Integers, NDArray
 
 # A number, text or the like for one body; for a stack of bodies, an array with one entry for each.
 PerBody: TypeAlias = Any
@@ -44,17 +43,17 @@ def as_rows(vectors: list[NDArray]) -> NDArray:
     return np.concatenate([vector[..., None, :] for vector in vectors], axis=-2)
 
 
-def indices_in_range(indices: NDArray[np.integer], count: int) -> bool:
+def indices_in_range(indices: Integers, count: int) -> bool:
     """Return whether all indices are from 0 to count - 1."""
     return not indices.size or bool(as_unsigned(indices).max() < count)
 
 
-def as_unsigned(indices: NDArray[np.integer]) -> NDArray[np.unsignedinteger]:
+def as_unsigned(indices: Integers) -> NDArray[np.unsignedinteger]:
     """Return an unsigned view, in which a negative index is a large number."""
     return indices.view(indices.dtype.str.replace("i", "u"))
 
 
-def spread_bits(value: NDArray[np.int64]) -> NDArray[np.int64]:
+def spread_bits(value: Int64) -> Int64:
     """Return 10-bit numbers with two zero bits inserted after each bit: a third of a Morton
     code.
     """
@@ -74,7 +73,7 @@ def segment_starts(counts: NDArray) -> Index:
     return counts.cumsum() - counts
 
 
-def sums_by_index(indices: NDArray[np.integer], weights: NDArray, count: int = 0) -> Array:
+def sums_by_index(indices: Integers, weights: NDArray, count: int = 0) -> Array:
     """Return (count or more,) sums of the weights of each index: `bincount`, typed."""
     return cast("Array", np.bincount(indices, weights, count))
 
@@ -110,7 +109,7 @@ def following_pairs(order: Index, counts: Index, size: int) -> Iterator[tuple[In
             yield order[row], order[row + 1 + segment_ranges(counts[part])]
 
 
-def first_occurrence(*columns: NDArray, slots: NDArray[np.integer] | None = None) -> Index:
+def first_occurrence(*columns: NDArray, slots: Integers | None = None) -> Index:
     """Return (n,) indices of the first row with the bits of each row. slots: (n,) hash slots of the
     first round.
     """
@@ -155,13 +154,13 @@ def hash_uint64(values: NDArray[np.uint64]) -> NDArray[np.uint64]:
     return z ^ (z >> np.uint64(31))
 
 
-def sorted_distinct(values: NDArray[np.integer]) -> NDArray[np.integer]:
+def sorted_distinct(values: Integers) -> Integers:
     """Return (k,) ascending integers, each once: as `np.unique`, whose hash table is slower."""
     values = np.sort(values)
     return values[np.diff(values, prepend=values[:1] - 1) != 0]
 
 
-def unique_pairs(pairs: NDArray[np.integer]) -> Index:
+def unique_pairs(pairs: Integers) -> Index:
     """Return (k, 2) rows of two numbers from 0 to 2³¹, sorted, each once: as `np.unique` along an
     axis, but faster.
     """

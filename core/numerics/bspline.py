@@ -14,10 +14,9 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from .arguments import float_array
-from .array_types import Array
+from .array_types import Array, ArrayLike, Int64, Integers, NDArray
 
 
 @dataclass(frozen=True)
@@ -85,7 +84,7 @@ class SplineSpace:
         return bool(((first == knots[self.order - 1 :]) & (first > low) & (first < high)).any())
 
     @cached_property
-    def spans(self) -> NDArray[np.int64]:
+    def spans(self) -> Int64:
         """(s,) the j of every interval knots[j] < knots[j + 1] in the domain."""
         knots = np.asarray(self.knots)
         j = np.arange(self.order - 1, self.function_count)
@@ -111,7 +110,7 @@ class SplineSpace:
         return self.collocation_matrix(np.array(self.domain))
 
     @cached_property
-    def active_controls(self) -> NDArray[np.int64]:
+    def active_controls(self) -> Int64:
         """The (s, order) control points that act in each span."""
         return self.controls_of_spans(self.spans)
 
@@ -122,7 +121,7 @@ class SplineSpace:
         """
         return self.bezier_weights(self.spans, self.intervals)
 
-    def bezier_weights(self, spans: NDArray[np.integer], intervals: ArrayLike) -> Array:
+    def bezier_weights(self, spans: Integers, intervals: ArrayLike) -> Array:
         """Return (s, order, order) weights of the acting control points in the Bézier control
         points of intervals.
 
@@ -144,19 +143,17 @@ class SplineSpace:
             values[..., :-1] += rest
         return values
 
-    def controls_of_spans(self, spans: NDArray[np.integer]) -> NDArray[np.int64]:
+    def controls_of_spans(self, spans: Integers) -> Int64:
         """Return the (..., order) control points that act in each span."""
         return (np.asarray(spans)[..., None] + np.arange(1 - self.order, 1)) % self.count
 
-    def find_spans(self, parameters: NDArray) -> NDArray[np.int64]:
+    def find_spans(self, parameters: NDArray) -> Int64:
         """Return the span of each parameter, or the nearest span if a parameter is outside the
         domain.
         """
         return self.spans[np.searchsorted(self.intervals[1:, 0], parameters, side="right")]
 
-    def derivatives(
-        self, spans: NDArray[np.integer], parameters: NDArray, highest: int
-    ) -> list[Array]:
+    def derivatives(self, spans: Integers, parameters: NDArray, highest: int) -> list[Array]:
         """Return `highest` + 1 arrays (..., order): values and derivatives of the basis functions
         that act in spans.
 
@@ -197,7 +194,7 @@ class SplineSpace:
         ]
 
     def collocation_matrix(
-        self, parameters: ArrayLike, derivative: int = 0, spans: NDArray[np.integer] | None = None
+        self, parameters: ArrayLike, derivative: int = 0, spans: Integers | None = None
     ) -> Array:
         """Return (n, count) weights of the control points in the value, or a derivative, at n
         parameters.

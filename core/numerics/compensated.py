@@ -7,9 +7,8 @@ would be too much.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from .array_types import Array
+from .array_types import Array, Complex, NDArray
 
 SPLITTER = 2.0**27 + 1.0
 
@@ -53,7 +52,7 @@ def compensated_normals(a: NDArray, b: NDArray, c: NDArray) -> Array:
     return np.stack(coordinates)
 
 
-def phase_factors(q: NDArray, x: NDArray) -> NDArray[np.complex128]:
+def phase_factors(q: NDArray, x: NDArray) -> Complex:
     """Return (m,) exp(-i q·x) for q (m, n) and x (n,), accurate to a few u, however large the
     phase.
     """

@@ -12,18 +12,15 @@ of the lowest, a star could take as many rounds as it has links.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import DTypeLike, NDArray
 
-from .array_types import Index
+from .array_types import DTypeLike, Index, Integers, NDArray
 
 # Links at a time: enough for threads to help.
 EDGES_PER_BLOCK = 3 << 16
 NODES_PER_BLOCK = 1 << 14  # in the cache with the paths that lead from them
 
 
-def connected_components(
-    count: int, a: NDArray[np.integer], b: NDArray[np.integer]
-) -> tuple[Index, int]:
+def connected_components(count: int, a: Integers, b: Integers) -> tuple[Index, int]:
     """Return (count,) components of nodes joined by links a-b, (k,), numbered by first nodes, and
     their number.
     """
@@ -62,7 +59,7 @@ def _zeros(count: int, dtype: DTypeLike) -> NDArray:
     return np.ndarray((count,), dtype, bytes(8), strides=(0,))
 
 
-def _trees(parent: NDArray[np.integer]) -> tuple[NDArray[np.integer], int]:
+def _trees(parent: Integers) -> tuple[Integers, int]:
     """Return the root of each node's tree, and the number of trees. parent: no higher than the
     node; overwritten.
     """

@@ -7,10 +7,9 @@ single.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from .arguments import float_array
-from .array_types import Array, Mask
+from .array_types import Array, ArrayLike, Mask, NDArray
 from .arrays import IDENTITY_3
 
 ROTATION_ATOL = 1e-5  # a rotation matrix of float32 numbers is orthonormal to about 1e-7

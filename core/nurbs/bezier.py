@@ -17,12 +17,12 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..moments.exponents import monomial_count
 from ..numerics import (
     Array,
     Index,
+    NDArray,
     SplineSpace,
     clamped_space,
     gauss_legendre,

@@ -21,9 +21,8 @@ from itertools import product
 from typing import cast
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics import Array, SplineSpace
+from ..numerics import Array, NDArray, SplineSpace
 from .splines import Curve, Patch, homogeneous, projected
 
 SAME_KNOT_RTOL = (

@@ -20,10 +20,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
-from ..numerics import Array, check_type, cross, dot
+from ..numerics import Array, NDArray, check_type, cross, dot
 from ..verdict import check_size
 from .bezier import ROUNDING, VOLUME_RTOL, bernstein, halves
 from .splines import Curve, homogeneous

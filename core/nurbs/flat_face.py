@@ -14,12 +14,11 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..flat import orient_loops
 from ..mesh import overlapping_box_pairs
 from ..moments.moments import Measure, Moments, U, monomials
-from ..numerics import Array, SplineSpace
+from ..numerics import Array, ArrayLike, NDArray, SplineSpace
 from ..verdict import WELDING_RTOL, MeasureError
 from .curve_moments import curves_center, plane_moments
 from .findings import CURVES_BOUND_NOTHING

@@ -24,10 +24,17 @@ from functools import lru_cache, partial
 from math import ceil
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials, sum_moments
-from ..numerics import Array, SplineSpace, cross, dot, gauss_legendre, gauss_legendre_with_ends
+from ..numerics import (
+    Array,
+    NDArray,
+    SplineSpace,
+    cross,
+    dot,
+    gauss_legendre,
+    gauss_legendre_with_ends,
+)
 from ..verdict import MeasureError
 from .bezier import (
     ROUNDING,

@@ -18,9 +18,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics import Index, Mask, clamped_space, connected_components
+from ..numerics import Index, Mask, NDArray, clamped_space, connected_components
 from ..verdict import MeasureError, welding_tolerance
 from .findings import DISCONTINUOUS_PATCH
 from .flat_face import self_intersects

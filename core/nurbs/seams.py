@@ -15,10 +15,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh import overlapping_box_pairs
-from ..numerics import Array, Index, Mask, connected_components, cross, following_pairs
+from ..numerics import Array, Index, Mask, NDArray, connected_components, cross, following_pairs
 from .blender_knots import bezier_curves
 from .flat_face import FlatFace, split_faces
 from .splines import SIDES, Curve, Face, Patch

@@ -18,11 +18,10 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh import SortedComponents, sort_components
 from ..moments import Moments, sum_moments
-from ..numerics import Array, Index, Mask, check_filled
+from ..numerics import Array, Index, Mask, NDArray, check_filled
 from ..solid import (
     CAVITIES_BREAK_THROUGH,
     CAVITIES_SUBTRACTED,

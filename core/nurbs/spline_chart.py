@@ -8,9 +8,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics import Array, dot
+from ..numerics import Array, NDArray, dot
 from ..verdict import WELDING_RTOL
 from .bezier import DERIVATIVES, quotient_derivatives
 from .splines import Patch, homogeneous, patches_size

@@ -14,9 +14,8 @@ from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
-from ..numerics import Array, SplineSpace, check_type, float_array
+from ..numerics import Array, ArrayLike, NDArray, SplineSpace, check_type, float_array
 from ..verdict import MeasureError, check_size
 from .findings import CONTROL_POINTS_INVALID, NON_FINITE, NON_POSITIVE_WEIGHTS
 

@@ -17,10 +17,9 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, monomials, sum_moments
-from ..numerics import Array, SplineSpace
+from ..numerics import Array, NDArray, SplineSpace
 from ..verdict import Procedure, welding_tolerance
 from .bezier import MAX_CELLS, cells_of_nets
 from .patch_moments import area_slope, exact_points, flux_sums, integrand_in_blocks, volume_moments

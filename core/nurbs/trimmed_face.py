@@ -26,10 +26,9 @@ from functools import cached_property, lru_cache, partial
 from typing import TypeAlias, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
-from ..numerics import Array, Index, SplineSpace, cross, gauss_legendre
+from ..numerics import Array, Index, NDArray, SplineSpace, cross, gauss_legendre
 from .bezier import ROUNDING, VOLUME_RTOL
 from .patch_moments import AREA_RTOL, area_slope, area_terms, flux_terms, sheet_terms
 from .quadric import Quadric

@@ -12,13 +12,15 @@ from math import isfinite
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..inertia import MOMENTS_OVERFLOW
 from ..mesh import BoundarySum, PlanarityAccumulator, Surface
 from ..moments import Measure, Moments, U, monomial_count
 from ..numerics import (
     Array,
+    ArrayLike,
+    Integers,
+    NDArray,
     check_order,
     check_type,
     cross,
@@ -231,13 +233,13 @@ def volume_and_center(surface: Surface) -> tuple[float, Array]:
         return float(sums[0] / 6.0), middle + sums[1:] / (4.0 * sums[0])
 
 
-def _triangles(points: Array, triangles: NDArray[np.integer]) -> Array:
+def _triangles(points: Array, triangles: Integers) -> Array:
     """Return (4,): 6 times the volume and 24 times the three first moments. points: (3, n)."""
     a, b, c = (points.take(corner, axis=1) for corner in triangles.T)
     return _sums((dot(cross(b, c), a), a + b + c))
 
 
-def _quads(points: Array, quads: NDArray[np.integer]) -> Array:
+def _quads(points: Array, quads: Integers) -> Array:
     a, b, c, d = (points.take(corner, axis=1) for corner in quads.T)
     u = b - a
     v = d - a

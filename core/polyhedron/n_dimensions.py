@@ -21,11 +21,21 @@ from itertools import combinations
 from math import comb, isfinite
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..inertia import MOMENTS_OVERFLOW
 from ..moments import PAIRWISE_SUM_ROUNDINGS, U, check_exponents, factorial_ratios
-from ..numerics import Array, Index, check_filled, check_order, float_array, index_array
+from ..numerics import (
+    Array,
+    ArrayLike,
+    Index,
+    Int64,
+    Integers,
+    NDArray,
+    check_filled,
+    check_order,
+    float_array,
+    index_array,
+)
 from ..verdict import OBJECT_SIZE, TOO_SMALL, MeasureError
 from .findings import BOUNDARY_OPEN
 
@@ -64,7 +74,7 @@ class SimplexMoments:
 
 
 @lru_cache
-def multi_indices(dimension: int, order: int) -> NDArray[np.int64]:
+def multi_indices(dimension: int, order: int) -> Int64:
     """Return all (K, n) exponents to an order, by degree, then by descending first exponents;
     read-only.
     """
@@ -315,7 +325,7 @@ def _degree_steps(dimension: int, order: int) -> tuple[list[int], list[list[NDAr
     return starts, raised
 
 
-def facets_of(points: ArrayLike, simplices: ArrayLike) -> tuple[NDArray[np.integer], Array]:
+def facets_of(points: ArrayLike, simplices: ArrayLike) -> tuple[Integers, Array]:
     """Return the facets around full simplices, with signs that make the enclosed volume positive.
 
     Parameters
@@ -348,7 +358,7 @@ def facets_of(points: ArrayLike, simplices: ArrayLike) -> tuple[NDArray[np.integ
 
 def simplex_arrays(
     points: ArrayLike, simplices: ArrayLike, more: int = 0
-) -> tuple[Array, NDArray[np.integer]]:
+) -> tuple[Array, Integers]:
     """Return (m, n) points and (k, n + `more`) simplices as arrays."""
     points = float_array("points", points, "m", "n")
     check_filled("points", points.T)

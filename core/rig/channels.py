@@ -7,9 +7,8 @@ angles; Bézier handles.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics import Array, quaternion, rotation_matrix
+from ..numerics import Array, NDArray, quaternion, rotation_matrix
 from .motion import continuous
 from .spin import LAST, NODES, node_weights
 

@@ -17,11 +17,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh import Surface, find_edges, uncancelled_sides
 from ..moments import Moments
-from ..numerics import Array, Index, Mask, connected_components, sums_by_index
+from ..numerics import (
+    Array,
+    Floats,
+    Index,
+    Integers,
+    Mask,
+    NDArray,
+    connected_components,
+    sums_by_index,
+)
 from ..polyhedron import polyhedron_moments
 
 NO_BONE = -1
@@ -50,9 +58,9 @@ class BonePiece:
 
 
 def bone_pieces(
-    points: NDArray[np.floating],
-    triangles: NDArray[np.integer],
-    bone: NDArray[np.integer],
+    points: Floats,
+    triangles: Integers,
+    bone: Integers,
     displacement: NDArray | None = None,
 ) -> list[BonePiece]:
     """Cut (t, 3) outward triangles with (t,) bones into closed pieces; displacement: (3,) by
@@ -75,7 +83,7 @@ def bone_pieces(
     return pieces
 
 
-def bones_of_caps(triangles: NDArray[np.integer], is_cap: Mask, bone: NDArray[np.integer]) -> Index:
+def bones_of_caps(triangles: Integers, is_cap: Mask, bone: Integers) -> Index:
     """Return (t,) bones of triangles: caps, which close holes, get the bones of the faces beside
     them.
     """
@@ -118,9 +126,9 @@ class VertexWeights:
     together once.
     """
 
-    vertex: NDArray[np.integer]
-    bone: NDArray[np.integer]
-    weight: NDArray[np.floating]
+    vertex: Integers
+    bone: Integers
+    weight: Floats
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "weight", np.asarray(self.weight, np.float64))
@@ -138,11 +146,11 @@ class VertexWeights:
 
 
 def dominant_bones(
-    faces: NDArray[np.integer],
-    corners: NDArray[np.integer],
-    points: NDArray[np.floating],
+    faces: Integers,
+    corners: Integers,
+    points: Floats,
     weights: VertexWeights,
-    bones: NDArray[np.floating],
+    bones: Floats,
 ) -> tuple[Index, Index]:
     """Return the (f,) bones of faces, -1 without corners, and the (k,) unweighted faces, which get
     the nearest bone.
@@ -176,7 +184,7 @@ def dominant_bones(
 
 
 def _scores(
-    faces: NDArray[np.integer], corners: NDArray[np.integer], weights: VertexWeights, number: int
+    faces: Integers, corners: Integers, weights: VertexWeights, number: int
 ) -> tuple[Index, Index, Array]:
     """Return (k,) faces and (k,) bones with weight on their corners, by face, then bone, and (k,)
     summed weights.
@@ -198,9 +206,7 @@ def _scores(
     return face, bone, score[positive]
 
 
-def _nearest(
-    face: NDArray[np.integer], bone: NDArray[np.integer], away: Array
-) -> NDArray[np.integer]:
+def _nearest(face: Integers, bone: Integers, away: Array) -> Integers:
     """Return for each of k rows the nearest bone of its face, the first of equally near ones.
 
     Rows are by face.

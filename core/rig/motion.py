@@ -15,9 +15,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
-from ..numerics import Array, Mask, inertia_of_second, polar_rotation, quaternion, rotation_matrix
+from ..numerics import (
+    Array,
+    ArrayLike,
+    Mask,
+    NDArray,
+    inertia_of_second,
+    polar_rotation,
+    quaternion,
+    rotation_matrix,
+)
 
 # indices of the last frame on the ground, or of frame 0, and of the next frame on the ground
 Flight = tuple[int, int]

@@ -8,9 +8,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics import Array, inertia_of_second
+from ..numerics import Array, NDArray, inertia_of_second
 
 
 @dataclass(frozen=True, eq=False)

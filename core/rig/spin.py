@@ -16,9 +16,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics import Array, inertia_of_second, quaternion, rotation_matrix
+from ..numerics import Array, NDArray, inertia_of_second, quaternion, rotation_matrix
 from .motion import Course, continuous
 
 # Of a frame, in -1 to 1. A cubic through the first, second, fourth and fifth has the least error of

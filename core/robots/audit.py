@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 # Robots without meshes start without the modules of these packages.
 from .. import solid
@@ -21,7 +20,7 @@ from ..inertia import combine
 from ..mesh import Surface, hull_volumes
 from ..moments import Moments
 from ..moments.moments import SECOND_MOMENT_INDEX
-from ..numerics import Array, first_occurrence, inertia_of_second, second_of_inertia
+from ..numerics import Array, NDArray, first_occurrence, inertia_of_second, second_of_inertia
 from ..verdict import Procedure, internal_error, sentence, severity
 from ..verdict.finding import Finding, MeasureError, Severity, finding
 from . import read
@@ -512,7 +511,7 @@ def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete:
     ]
     hull = Hull(np.concatenate(points)) if points and not incomplete else None
     made = {} if incomplete else {role: _reference(several) for role, several in pieces.items()}
-    references = [made[role] for role in ("visual", "collision") if made.get(role)]
+    references = [one for role in ("visual", "collision") if (one := made.get(role))]
     reasons = impossible(stated, hull)
     if not stated.mass > LEAST_MASS or any(one.code == INERTIAL_NOT_FINITE for one in reasons):
         entries = [Entry(one, place, compares=True) for one in reasons]

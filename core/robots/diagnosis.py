@@ -17,10 +17,9 @@ from math import degrees, hypot, radians
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..density import POUND
-from ..numerics import Array, rotation_matrix, second_of_inertia
+from ..numerics import Array, ArrayLike, NDArray, rotation_matrix, second_of_inertia
 from ..verdict.finding import Finding, finding
 from .findings import (
     AUDIT_ANGLES,

@@ -24,9 +24,8 @@ from dataclasses import dataclass
 from math import pi, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics import Array, second_of_inertia, spread_directions
+from ..numerics import Array, NDArray, second_of_inertia, spread_directions
 from ..verdict.finding import Finding, finding
 from .findings import (
     INERTIAL_CENTER_OUTSIDE,

@@ -13,10 +13,9 @@ from __future__ import annotations
 from math import pi, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..moments.moments import Moments
-from ..numerics import Array
+from ..numerics import Array, NDArray
 from ..polyhedron import integrate
 from .model import Inertial, Pose, Shape, second_moments
 

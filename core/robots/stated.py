@@ -10,9 +10,8 @@ from math import atan2, inf
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics import Array, rotation_about
+from ..numerics import Array, NDArray, rotation_about
 from ..verdict import Finding
 from .model import Inertial, Pose, Shape
 

@@ -10,7 +10,6 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..files import (
     DEFAULT_LIMITS,
@@ -21,7 +20,7 @@ from ..files import (
     check_regular,
     wrong_field,
 )
-from ..numerics import Array, check_type, float_array
+from ..numerics import Array, NDArray, check_type, float_array
 from ..verdict.finding import FileError, Finding, finding
 from .findings import (
     POSITIONS_COUNT,

@@ -17,10 +17,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..files import DAMAGE_CUT_SHORT, DAMAGE_INCOMPLETE, DAMAGE_SIZE, Limits, check_length, damaged
-from ..numerics import Array
+from ..numerics import Array, NDArray
 from ..verdict import FileError, Finding
 from .findings import SCAN_SAMPLE_TYPE, SCAN_SIZE
 from .labels import Label

@@ -9,7 +9,6 @@ freedom is the body's own; there the frame nearest to the preferred axes is take
 """
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..inertia import (
     AXES_FREE,
@@ -24,7 +23,7 @@ from ..inertia import (
     nearest_frames,
 )
 from ..moments import Moments
-from ..numerics import Array, check_type, rotation_array
+from ..numerics import Array, ArrayLike, NDArray, check_type, rotation_array
 from ..verdict.finding import finding
 from .canonical_frame import EquivalentFrames, canonical_frames
 

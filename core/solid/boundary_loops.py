@@ -14,12 +14,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..numerics import (
     Array,
+    Floats,
     Index,
+    Integers,
     Mask,
+    NDArray,
     connected_components,
     cross_rows,
     lengths,
@@ -33,9 +35,7 @@ MAX_END_PAIRS = (
 )
 
 
-def side_ends(
-    triangles: NDArray[np.integer], sides: NDArray[np.integer]
-) -> tuple[NDArray, NDArray]:
+def side_ends(triangles: Integers, sides: Integers) -> tuple[NDArray, NDArray]:
     """Return the start and end vertices of sides; side 3t + i runs from corner i of triangle t to
     the next corner.
     """
@@ -44,12 +44,12 @@ def side_ends(
     return triangles[triangle, corner], triangles[triangle, (corner + 1) % 3]
 
 
-def vertex_pairs(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> Index:
+def vertex_pairs(triangles: Integers, sides: Integers) -> Index:
     """Return (k, 2) sides as pairs of vertices, the lower first."""
     return np.sort(np.stack(side_ends(triangles, sides), axis=1))
 
 
-def distinct_vertex_pairs(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> Index:
+def distinct_vertex_pairs(triangles: Integers, sides: Integers) -> Index:
     """Return (k, 2) sides as pairs of vertices, the lower first, sorted, each once."""
     return unique_pairs(vertex_pairs(triangles, sides))
 
@@ -57,8 +57,8 @@ def distinct_vertex_pairs(triangles: NDArray[np.integer], sides: NDArray[np.inte
 def join_sides(
     begin: Array,
     end: Array,
-    start: NDArray[np.integer],
-    stop: NDArray[np.integer],
+    start: Integers,
+    stop: Integers,
     directed: bool,
 ) -> tuple[Index, Index, Mask]:
     """Return (k,) and (k,) sides joined in pairs at equal vertices, sharpest turns first, and True
@@ -178,9 +178,9 @@ class OwnedLoops:
     `owner` of each loop.
     """
 
-    points: NDArray[np.floating]
-    start: NDArray[np.integer]
-    stop: NDArray[np.integer]
+    points: Floats
+    start: Integers
+    stop: Integers
     loops: BoundaryLoops
     owner: Index
 
@@ -196,7 +196,7 @@ class OwnedLoops:
         loops = find_loops(begin, end, join_sides(begin, end, first, second, directed=True))
         return cls(points, start, stop, loops, loops.of_each(owner))
 
-    def cones(self) -> tuple[NDArray[np.floating], NDArray[np.integer], Index]:
+    def cones(self) -> tuple[Floats, Integers, Index]:
         """Return the loops' centroids, and the caps: (k, 3) triangles to them from (k,) sides."""
         loops = self.loops
         centroids = len(self.points) + np.arange(len(self.owner))
@@ -218,7 +218,7 @@ class OwnedLoops:
         return np.stack(counts, axis=1, dtype=np.float64)
 
 
-def has_distinct_vertices(triangles: NDArray[np.integer]) -> Mask:
+def has_distinct_vertices(triangles: Integers) -> Mask:
     """Return an (m,) mask of triangles with three different vertices; the others have no boundary
     and no area.
     """

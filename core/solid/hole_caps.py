@@ -12,7 +12,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh import (
     Edges,
@@ -22,7 +21,16 @@ from ..mesh import (
     normals,
     same_vertices_groups,
 )
-from ..numerics import Array, Index, Mask, connected_components, hash_uint64, sums_by_index
+from ..numerics import (
+    Array,
+    Floats,
+    Index,
+    Integers,
+    Mask,
+    connected_components,
+    hash_uint64,
+    sums_by_index,
+)
 from ..verdict.finding import Finding, finding
 from .boundary_loops import (
     OwnedLoops,
@@ -115,7 +123,7 @@ def orient_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     )
 
 
-def _without_walls(mesh: RepairedMesh, sides: NDArray[np.integer]) -> tuple[Finding, ...]:
+def _without_walls(mesh: RepairedMesh, sides: Integers) -> tuple[Finding, ...]:
     """Return the findings without counting copies of faces that are walls of two bodies. sides: the
     sides at walls.
     """
@@ -275,10 +283,10 @@ def _find_folded_loops(
 
 
 def wall_links(
-    points: NDArray[np.floating],
+    points: Floats,
     edges: Edges,
-    triangles: NDArray[np.integer],
-    face: NDArray[np.integer],
+    triangles: Integers,
+    face: Integers,
 ) -> tuple[Index, Index]:
     """Return (k,) and (k,) the sides that belong together at walls between bodies. face: (t,) of
     each triangle.
@@ -353,10 +361,10 @@ def _layer_links(edges: Edges, within: Index, wall: Index) -> Index:
 
 
 def _layers(
-    points: NDArray[np.floating],
+    points: Floats,
     edges: Edges,
-    triangles: NDArray[np.integer],
-    face: NDArray[np.integer],
+    triangles: Integers,
+    face: Integers,
     piece: Index,
 ) -> tuple[Index, Index]:
     """Return (t,) layers, 1 and 2 for triangles of walls, else 0; and (t,) numbers of the walls.

@@ -12,10 +12,19 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh import Bvh, SortedComponents, intersecting_pairs, overlapping_box_pairs, sort_components
-from ..numerics import Array, Index, Mask, cross_rows, lengths, segment_ranges
+from ..numerics import (
+    Array,
+    Floats,
+    Index,
+    Integers,
+    Mask,
+    NDArray,
+    cross_rows,
+    lengths,
+    segment_ranges,
+)
 
 NO_PAIRS = np.empty((0, 2), np.intp)
 NO_LENGTHS = np.empty(0)
@@ -65,7 +74,7 @@ class ComponentRelations:
 
 
 def classify_pairs(
-    points: NDArray[np.floating],
+    points: Floats,
     components: SortedComponents,
     candidates: Mask,
     tolerance: float,
@@ -147,11 +156,11 @@ def _breakthrough(components: SortedComponents, tree: Bvh, pairs: Index, toleran
 
 
 def surfaces_intersect(
-    points: NDArray[np.floating],
-    triangles: NDArray[np.integer],
+    points: Floats,
+    triangles: Integers,
     component: Index,
-    pairs: NDArray[np.integer],
-    vertex: NDArray[np.integer],
+    pairs: Integers,
+    vertex: Integers,
     tolerance: float,
 ) -> bool:
     """Return whether surfaces are found to go through each other or themselves by over
@@ -163,7 +172,7 @@ def surfaces_intersect(
 
 
 def self_overlaps(
-    points: NDArray[np.floating],
+    points: Floats,
     components: SortedComponents,
     candidates: Mask,
     tolerance: float,
@@ -299,7 +308,7 @@ def _interior_samples(
     tree: Bvh,
     component: NDArray,
     k: NDArray,
-    number: int | NDArray[np.integer],
+    number: int | Integers,
     tolerance: float,
 ) -> Array:
     """Return the `k`-th of `number` points under the skin of each `component`, (n, 3) about the

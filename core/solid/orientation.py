@@ -10,11 +10,10 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh import SortedComponents, Surface, sort_components, triangle_areas
 from ..moments import Moments, sum_moments
-from ..numerics import Array, Index, Mask, PerBody, lengths
+from ..numerics import Array, Floats, Index, Integers, Mask, NDArray, PerBody, lengths
 from ..polyhedron import polyhedron_moments
 from ..verdict import CLOSED_SHEET_VOLUME_RTOL, FLAT_CAP_VOLUME_RTOL, MeshHealth
 from .closedness import CheckedSurface, GivenIntegrals
@@ -90,12 +89,12 @@ class ClosedParts:
     (number,) the part to whose volume a part belongs: itself, or for a cavity the part around it.
     """
 
-    points: NDArray[np.floating]
-    triangles: NDArray[np.integer]
-    face: NDArray[np.integer]
-    part: NDArray[np.integer]
+    points: Floats
+    triangles: Integers
+    face: Integers
+    part: Integers
     number: int
-    host_part: NDArray[np.integer]
+    host_part: Integers
 
     def areas(self, linear: NDArray | None = None) -> Array:
         """Return (t,) areas of the triangles under a (3, 3) map, by default as they are."""

@@ -11,10 +11,9 @@ from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh import Edges
-from ..numerics import Array, Index, Mask
+from ..numerics import Array, Floats, Index, Integers, Mask, NDArray
 from ..verdict import Finding, MeshHealth
 from .boundary_loops import side_ends
 
@@ -115,9 +114,9 @@ class RepairedMesh:
     components. `findings`: decisions, except for welding and caps, which depend on the volume.
     """
 
-    points: NDArray[np.floating]
-    triangles: NDArray[np.integer]
-    face: NDArray[np.integer]
+    points: Floats
+    triangles: Integers
+    face: Integers
     flipped: Mask
     component: Index
     number: int
@@ -126,7 +125,7 @@ class RepairedMesh:
     report: MeshHealth
     topology_changed: bool = False
     max_displacement: float = 0.0
-    left_out: NDArray[np.integer] = field(default_factory=NO_INDICES.view)
+    left_out: Integers = field(default_factory=NO_INDICES.view)
     capped_edges: Index = field(default_factory=NO_EDGES.view)
     capped_component: Index = field(default_factory=NO_INDICES.view)
     findings: tuple[Finding, ...] = ()
@@ -137,7 +136,7 @@ class RepairedMesh:
         return copy_with(self, state=copy_with(self.state, **changes))
 
     def with_report(
-        self, *, elements: dict[str, NDArray[np.integer]] | None = None, **counts: Any
+        self, *, elements: dict[str, Integers] | None = None, **counts: Any
     ) -> RepairedMesh:
         """Return the mesh with entries of its report replaced. elements: entries of its
         `DefectiveElements`.
@@ -150,7 +149,7 @@ class RepairedMesh:
         """Return the mesh with more findings."""
         return copy_with(self, findings=(*self.findings, *findings))
 
-    def with_rows(self, rows: NDArray[np.integer]) -> RepairedMesh:
+    def with_rows(self, rows: Integers) -> RepairedMesh:
         """Return the mesh of some of the triangles alone. Their edges are not known."""
         return copy_with(
             self,
@@ -161,7 +160,7 @@ class RepairedMesh:
             state=copy_with(self.state, given=self.state.given[rows], edges=UNKNOWN),
         )
 
-    def with_caps(self, caps: NDArray[np.integer], owner: NDArray[np.integer]) -> RepairedMesh:
+    def with_caps(self, caps: Integers, owner: Integers) -> RepairedMesh:
         """Return the mesh with caps added. owner: (k,) a triangle of each cap's component."""
         return copy_with(
             self,
@@ -171,12 +170,12 @@ class RepairedMesh:
             component=np.concatenate([self.component, self.component[owner]]),
         )
 
-    def oriented_ends(self, sides: NDArray[np.integer]) -> tuple[NDArray, NDArray]:
+    def oriented_ends(self, sides: Integers) -> tuple[NDArray, NDArray]:
         """Return the start vertices and the end vertices of sides once the faces are turned."""
         start, stop = side_ends(self.triangles, sides)
         flipped = self.flipped[sides // 3]
         return np.where(flipped, stop, start), np.where(flipped, start, stop)
 
-    def faces_of(self, components: Mask) -> NDArray[np.integer]:
+    def faces_of(self, components: Mask) -> Integers:
         """Return the mesh faces of some components, sorted."""
         return np.unique(self.face[components[self.component] & (self.face >= 0)])

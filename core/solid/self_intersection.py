@@ -17,7 +17,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh import (
     HALVES,
@@ -30,7 +29,7 @@ from ..mesh import (
     turned_quads,
 )
 from ..moments import SECOND_MOMENT_INDEX
-from ..numerics import Array, Mask, sums_by_index
+from ..numerics import Array, Integers, Mask, NDArray, sums_by_index
 from ..verdict import Intersection
 from .closedness import CheckedSurface
 from .orientation import OrientedSolid
@@ -150,7 +149,7 @@ def measure_excess(
     crossings: Crossings,
     grids: LineGrids,
     tolerance: Array,
-    part: NDArray[np.integer] | None = None,
+    part: Integers | None = None,
 ) -> Excess:
     """Measure along lines the volume that a closed part counts more than once, or as negative."""
     bodies = len(grids.cell)

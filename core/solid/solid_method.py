@@ -7,12 +7,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..inertia import are_physical
 from ..mesh import Planarity, Surface, half_ulp, triangle_areas
 from ..moments import Moments
-from ..numerics import Array, Index, Mask, unique_pairs
+from ..numerics import Array, ArrayLike, Index, Integers, Mask, unique_pairs
 from ..polyhedron import polyhedron_moments
 from ..verdict import FLIPPED_FACES, NEGLIGIBLE, SELF_INTERSECTION, Procedure
 from ..verdict.finding import Finding, finding
@@ -217,7 +216,7 @@ def judge(
     )
 
 
-def _flipped_faces(mesh: RepairedMesh, turned: Mask) -> tuple[NDArray[np.integer], Index]:
+def _flipped_faces(mesh: RepairedMesh, turned: Mask) -> tuple[Integers, Index]:
     """Return the mesh faces that were turned within their components, and the components turned as
     a whole.
     """
@@ -232,7 +231,7 @@ def _health(
     checked: CheckedSurface,
     planarity: Planarity,
     oriented: OrientedSolid,
-    flipped: NDArray[np.integer],
+    flipped: Integers,
     inverted_count: int,
     cap_share: float,
     intersection: Intersection,

@@ -16,7 +16,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..inertia import are_physical
 from ..mesh import (
@@ -33,7 +32,7 @@ from ..mesh import (
     stack_planarity,
 )
 from ..moments import Moments, U, sum_moments
-from ..numerics import Array, Index, Mask
+from ..numerics import Array, Index, Mask, NDArray
 from ..polyhedron import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH, box_center, small_moments
 from ..verdict import (
     WELDING_RTOL,

@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh import (
     Edges,
@@ -23,7 +22,7 @@ from ..mesh import (
     same_vertices_groups,
     vertex_tolerance,
 )
-from ..numerics import Array, Index, Mask, connected_components, first_occurrence
+from ..numerics import Array, Index, Integers, Mask, connected_components, first_occurrence
 from ..verdict import NEGLIGIBLE, MeshHealth
 from ..verdict.finding import finding
 from .boundary_loops import distinct_vertex_pairs, has_distinct_vertices, side_ends
@@ -192,7 +191,7 @@ def _weld(
     return copy_with(mesh, triangles=triangles).with_report(welded=True), onto
 
 
-def _unique_sorted(values: NDArray[np.integer], width: int) -> Index:
+def _unique_sorted(values: Integers, width: int) -> Index:
     """Return the distinct values, sorted."""
     present = np.zeros(width, bool)
     present[values] = True
@@ -250,7 +249,7 @@ def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     return mesh.with_state(edges=find_edges(mesh.triangles))
 
 
-def copied_faces(surface: Surface) -> NDArray[np.integer]:
+def copied_faces(surface: Surface) -> Integers:
     """Return the sorted (k,) mesh faces on the same vertices as an earlier one, which bound
     nothing.
     """
@@ -258,7 +257,7 @@ def copied_faces(surface: Surface) -> NDArray[np.integer]:
     return np.unique(face[same_vertices_groups(triangles, face) != face])
 
 
-def without_faces(surface: Surface, faces: NDArray[np.integer]) -> Surface:
+def without_faces(surface: Surface, faces: Integers) -> Surface:
     """Return the surface without some mesh faces. The others keep their numbers."""
     quad_faces, triangle_faces = face_of_each(surface)
     quads = ~np.isin(quad_faces, faces)
@@ -280,7 +279,7 @@ def without_faces(surface: Surface, faces: NDArray[np.integer]) -> Surface:
     )
 
 
-def is_duplicated(group: NDArray[np.integer], face: NDArray[np.integer]) -> Mask:
+def is_duplicated(group: Integers, face: Integers) -> Mask:
     """Return an (m,) mask of triangles of faces on another face's vertices. group: from
     `same_vertices_groups`.
     """

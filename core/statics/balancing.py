@@ -21,12 +21,19 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..inertia import NO_CERTAIN_VOLUME
 from ..mesh import Surface, normals, uncancelled_sides
 from ..moments import Moments, U
-from ..numerics import Array, check_type, float_array, index_array, sums_by_index
+from ..numerics import (
+    Array,
+    ArrayLike,
+    NDArray,
+    check_type,
+    float_array,
+    index_array,
+    sums_by_index,
+)
 from ..polyhedron import polyhedron_moments
 from ..verdict import MeasureError
 from ..wall import first_positive_root

@@ -24,11 +24,10 @@ from collections.abc import Callable, Iterator
 from functools import partial
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..mesh import Surface
 from ..moments import monomial_count
-from ..numerics import Array, check_type, cross, float_array
+from ..numerics import Array, ArrayLike, NDArray, check_type, cross, float_array
 
 TRIANGLES_PER_BLOCK = 65536  # triangles at a time
 

@@ -13,10 +13,9 @@ from itertools import product
 from math import comb
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..mesh import Surface
-from ..numerics import Array
+from ..numerics import Array, ArrayLike, Integers, NDArray
 from ..polyhedron import polyhedron_moments
 
 DEGREE = 4  # The degree of the first moments.
@@ -32,7 +31,7 @@ class Mixes:
     """
 
     coefficients: Array
-    exponents: NDArray[np.integer]
+    exponents: Integers
     about: Array
 
     def at(self, values: ArrayLike) -> tuple[Array, Array]:

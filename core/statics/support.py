@@ -22,14 +22,15 @@ from dataclasses import dataclass
 from math import atan2
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ..inertia import frame_about
 from ..mesh import ConvexHull, convex_polygon, normals, solid_angles
 from ..numerics import (
     Array,
+    ArrayLike,
     Index,
     Mask,
+    NDArray,
     check_filled,
     check_type,
     connected_components,

@@ -24,11 +24,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh import Surface, find_edges, first_at_equal_position
 from ..moments import U
-from ..numerics import Array, Mask
+from ..numerics import Array, Integers, Mask, NDArray
 from ..solid import vertex_pairs
 from ..verdict import MeasureError
 from .findings import NO_FACE_AREA, WALL_WITHOUT_SIDES
@@ -77,7 +76,7 @@ def blocks(triangles: NDArray) -> Iterator[NDArray]:
     )
 
 
-def weld_equal(surface: Surface) -> tuple[Array, NDArray[np.integer]]:
+def weld_equal(surface: Surface) -> tuple[Array, Integers]:
     """Return points and triangles with one vertex for each place, and refuse edges that a wall
     cannot have.
     """
@@ -103,9 +102,7 @@ def weld_equal(surface: Surface) -> tuple[Array, NDArray[np.integer]]:
     return surface.points[used].astype(np.float64), triangles
 
 
-def offset_directions(
-    points: Array, triangles: NDArray[np.integer], stored: float = 0.0
-) -> OffsetDirections:
+def offset_directions(points: Array, triangles: Integers, stored: float = 0.0) -> OffsetDirections:
     """Return the direction of every vertex of float64 points, which storing has moved by at most
     `stored`.
     """

@@ -13,7 +13,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh import (
     Surface,
@@ -23,7 +22,7 @@ from ..mesh import (
     tree_of_all,
     triangle_areas,
 )
-from ..numerics import Array, Index, Mask, connected_components
+from ..numerics import Array, Floats, Index, Integers, Mask, connected_components
 
 ROUNDING = 1e-9  # relative to the size: nearer points are on a plane
 STEP = 1e-7  # relative to the size: places before and behind a piece
@@ -35,8 +34,8 @@ RAYS = 12  # directions, and those against them
 
 def part_behind(
     points: Array,
-    moved: NDArray[np.floating],
-    triangles: NDArray[np.integer],
+    moved: Floats,
+    triangles: Integers,
     depths: tuple[float, float, float],
 ) -> Surface | None:
     """Return the boundary of the part, triangles with points of their own; None if too many
@@ -161,7 +160,7 @@ def _halves(cell: Array, height: Array, size: float) -> Iterator[Array]:
 
 
 def _belong(
-    points: Array, triangles: NDArray[np.integer], places: Array, depths: tuple[float, float, float]
+    points: Array, triangles: Integers, places: Array, depths: tuple[float, float, float]
 ) -> Mask:
     """Return whether places are in the body, and nowhere nearer to its surface than depths."""
     corners = points[triangles]

@@ -14,10 +14,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh import Surface, tree_of_all, triangle_areas
-from ..numerics import Array
+from ..numerics import Array, Integers, NDArray
 from ..verdict import ReadError
 from .directions import (
     LEAST_SQUARES_RTOL,
@@ -81,9 +80,7 @@ def find_core(surface: Surface, wall: float, top: float, bottom: float) -> Print
     )
 
 
-def _steps(
-    count: int, triangles: NDArray[np.integer], normals: Array, weights: Array, moves: Array
-) -> Array:
+def _steps(count: int, triangles: Integers, normals: Array, weights: Array, moves: Array) -> Array:
     """Return the (count, 3) inward steps of points whose triangles' planes move."""
     corner = triangles.ravel()
     weight = weights.ravel()

@@ -21,7 +21,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh import Surface, find_edges, sort_components
 from ..moments.moments import (
@@ -33,7 +32,7 @@ from ..moments.moments import (
     monomial_index,
     monomials,
 )
-from ..numerics import Array, check_type, connected_components, cross
+from ..numerics import Array, Integers, NDArray, check_type, connected_components, cross
 from ..solid import classify_pairs, self_overlaps, surfaces_intersect
 from ..verdict import MeasureError, check_size
 from .directions import UNEVEN_RTOL, blocks, offset_directions, weld_equal
@@ -78,7 +77,7 @@ class OffsetSolid:
 
     points: Array
     vectors: Array
-    triangles: NDArray[np.integer]
+    triangles: Integers
     about: Array
     coefficients: Array
     rounding_error: Array

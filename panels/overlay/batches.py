@@ -23,12 +23,11 @@ from bpy.types import Context
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from gpu_extras.batch import batch_for_shader
 from mathutils import Vector
-from numpy.typing import NDArray
 
 from ...blender.scale import meters_per_unit
 from ...blender.session import memory
 from ...blender.settings.scene import BodyMomentsOverlaySettings
-from ...core.numerics import Array
+from ...core.numerics import Array, NDArray
 from . import appearance as look
 from . import discs, draw, lines
 from .bodies import Bodies, Entry, collect

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from bpy.types import Context, Object, Scene
-from numpy.typing import NDArray
 
 from ... import blender, core
 from ...blender.scale import meters_per_unit
@@ -18,7 +17,7 @@ from ...blender.scene import fcurves
 from ...blender.session.character.weight import Weight
 from ...blender.session.stored import balance_groups, cuts, faults, floating, stability
 from ...core.cuts import cut_outline
-from ...core.numerics import Array
+from ...core.numerics import Array, NDArray
 from ..rig import standing
 from . import appearance as look
 from . import draw

@@ -7,9 +7,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...core.numerics import Array
+from ...core.numerics import Array, NDArray
 from . import glyphs
 from .bodies import Bodies
 

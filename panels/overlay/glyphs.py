@@ -14,9 +14,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...core.numerics import Array
+from ...core.numerics import Array, NDArray
 from . import appearance as look
 
 SEGMENTS = 24  # segments of a circle

@@ -5,10 +5,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...blender.settings.scene import BodyMomentsOverlaySettings
-from ...core.numerics import Array, Mask
+from ...core.numerics import Array, Mask, NDArray
 from .bodies import Bodies
 
 CIRCLE = 2.0 * np.pi / 48.0 * np.arange(49)

@@ -12,7 +12,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ....core.bodies import Reading, to_si
 from ....core.measurement import (
@@ -26,7 +25,7 @@ from ....core.measurement import (
 )
 from ....core.moments import KNOWN_ORDER, placed_boxes
 from ....core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count
-from ....core.numerics import Array, shortest_decimal
+from ....core.numerics import Array, NDArray, shortest_decimal
 from ....core.verdict import Method, Procedure
 from ....core.verdict.finding import Finding, ReadError, finding
 from ...read.fingerprint import matrix_hash

@@ -14,7 +14,6 @@ from dataclasses import dataclass, replace
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ....core.bodies import (
     DENSITY_FROM_GRID,
@@ -42,7 +41,7 @@ from ....core.density import (
 from ....core.measurement import Settings
 from ....core.mesh import Surface
 from ....core.moments import Measure, Moments, affine_matrices
-from ....core.numerics import Array, polar_rotation
+from ....core.numerics import Array, NDArray, polar_rotation
 from ....core.polyhedron import polyhedron_moments
 from ....core.solid.measure import SolidIntegrals
 from ....core.verdict import NEGLIGIBLE, Method, Procedure, Source

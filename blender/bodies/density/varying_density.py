@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ....core.bodies import (
     GRID_AS_SHELL,
@@ -36,7 +35,7 @@ from ....core.density import (
 from ....core.measurement import find_extent
 from ....core.mesh import Surface
 from ....core.moments import KNOWN_ORDER, Moments, similarity_groups, sum_moments, sum_of_images
-from ....core.numerics import Array
+from ....core.numerics import Array, NDArray
 from ....core.polyhedron import polyhedron_moments
 from ....core.solid import ClosedParts, SolidIntegrals
 from ....core.verdict import NEGLIGIBLE, Procedure

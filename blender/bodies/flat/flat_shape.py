@@ -14,14 +14,13 @@ from typing import TypeVar
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from ....core.bodies import FAR_FROM_ORIGIN, SHAPE_UNAVAILABLE, name_subject
 from ....core.inertia import NOISE_LEVEL
 from ....core.measurement import fingerprint
 from ....core.mesh import Surface
 from ....core.moments import Moments, monomials
-from ....core.numerics import Array
+from ....core.numerics import Array, Complex, NDArray
 from ....core.shape import (
     MAX_ORDER_BY_MOMENTS,
     Residual,
@@ -89,7 +88,7 @@ class FlatShape:
         """Radius of the smallest disc about the centroid that holds the shape."""
         return float(np.hypot(*self.corners.T).max())
 
-    def zernike(self, radius: float) -> NDArray[np.complex128]:
+    def zernike(self, radius: float) -> Complex:
         """Return the Zernike moments to POSE_ORDER in a disc of this radius about the centroid, by
         `disc_zernike`.
         """

@@ -16,7 +16,6 @@ from typing import Any
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from ....core.bodies import (
     FAR_FROM_ORIGIN,
@@ -31,7 +30,7 @@ from ....core.inertia import EQUAL_AXES, NOISE_LEVEL, PrincipalFrame, pose_matri
 from ....core.measurement import WALL_UNSUPPORTED, Body, Measurement
 from ....core.mesh import Surface, join_surfaces
 from ....core.moments import Moments, are_similarities
-from ....core.numerics import Array, segment_starts
+from ....core.numerics import Array, NDArray, segment_starts
 from ....core.polyhedron import extend_small_moments, polyhedron_moments, small_moments
 from ....core.shape import (
     MAX_AXIS_ORDER,

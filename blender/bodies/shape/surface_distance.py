@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from mathutils.bvhtree import BVHTree
-from numpy.typing import NDArray
 
 from ....core.mesh import join_surfaces, triangle_distances
-from ....core.numerics import Array
+from ....core.numerics import Array, NDArray
 from ....core.shape import RigidMatch
 
 if TYPE_CHECKING:

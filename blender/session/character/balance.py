@@ -15,9 +15,8 @@ from typing import NamedTuple
 import numpy as np
 from bpy.types import Context, Object, PoseBone
 from mathutils import Quaternion, Vector
-from numpy.typing import NDArray
 
-from ....core.numerics import Array
+from ....core.numerics import Array, NDArray
 from ....core.statics import ground_axes
 from ....core.verdict import EditRefusedError
 from ...read.tracking import tracking_paused

@@ -9,10 +9,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from bpy.types import Context, Depsgraph, Object, PoseBone
-from numpy.typing import NDArray
 
 from ....core.bodies import float64_matrix
-from ....core.numerics import Array, polar_rotation, quaternion, rotation_matrix
+from ....core.numerics import Array, NDArray, polar_rotation, quaternion, rotation_matrix
 from ....core.rig import continuous, divide_frames, in_pieces, rotation_values
 from ...read.tracking import tracking_paused
 from ...scene import fcurves, strips

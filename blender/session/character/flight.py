@@ -14,9 +14,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from bpy.types import Context, Depsgraph, Object, Scene
 from mathutils import Quaternion
-from numpy.typing import NDArray
 
-from ....core.numerics import Array, Mask, quaternion, rotation_matrix
+from ....core.numerics import Array, Mask, NDArray, quaternion, rotation_matrix
 from ....core.rig import Parts, motion, spin
 from ....core.verdict import EditRefusedError
 from ...read.rig import require_armature

@@ -16,11 +16,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from bpy.types import Context, Depsgraph, Object, Scene
-from numpy.typing import NDArray
 
 from ....core.bodies import float64_matrix
 from ....core.inertia import COLUMNS, ROWS, PlainBody, principal_axes, tensor_rows
-from ....core.numerics import Array, Index, second_of_inertia, shortest_decimal
+from ....core.numerics import Array, Index, NDArray, second_of_inertia, shortest_decimal
 from ....core.rig import Parts
 from ....core.statics import Support, find_contacts, support_of_contacts
 from ....core.verdict import EditRefusedError, MeasureError, ReadError

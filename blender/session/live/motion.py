@@ -14,10 +14,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 from bpy.types import Depsgraph, Object
-from numpy.typing import NDArray
 
 from ....core import bodies, mesh, numerics, statics, verdict
 from ....core.moments import Measure, Moments, are_similarities, are_singular
+from ....core.numerics import Integers, NDArray
 from ... import read, scale, scene
 from ...bodies.measure_object import measure_object
 from ...bodies.mesh import object_hull
@@ -43,7 +43,7 @@ class _Followed:
     mixes: statics.Mixes | None = None
     density: float = 0.0
     keys: tuple[str, ...] = ()
-    triangles: NDArray[np.integer] | None = None
+    triangles: Integers | None = None
     hull: tuple[int, mesh.ConvexHull] | None = (
         None  # the number of the geometry's last update, and the hull then
     )

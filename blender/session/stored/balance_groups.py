@@ -13,9 +13,8 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 from bpy.types import Object
-from numpy.typing import NDArray
 
-from ....core.numerics import Array, Mask
+from ....core.numerics import Array, Mask, NDArray
 from ....core.statics import Support
 from ...scene import fcurves
 from ...write.properties import BALANCE_GROUP, BALANCE_SPANS

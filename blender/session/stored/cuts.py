@@ -14,7 +14,6 @@ import bpy
 import numpy as np
 from bpy.types import Context, Mesh, Object, Scene
 from mathutils import Vector
-from numpy.typing import NDArray
 
 from ....core import bodies, numerics, verdict
 from ....core.cuts import (
@@ -27,6 +26,7 @@ from ....core.cuts import (
     spill_tilt,
     surface_cut_fill,
 )
+from ....core.numerics import Integers
 from ... import read, scale
 from ...bodies.cuts import cut_fill_against, world_surface
 from ...bodies.measure_body import THREADS, measure_body
@@ -117,9 +117,7 @@ class KnownCutFill:
     findings: tuple[verdict.Finding, ...]
 
 
-def _vessel(
-    obj: Object, context: Context
-) -> tuple[numerics.Array, NDArray[np.integer], numerics.Array]:
+def _vessel(obj: Object, context: Context) -> tuple[numerics.Array, Integers, numerics.Array]:
     """Return points (m, world) and triangles of a vessel, and the direction against gravity."""
     depsgraph = context.evaluated_depsgraph_get()
     settings = object_settings(obj, context.scene)

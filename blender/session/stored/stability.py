@@ -14,10 +14,9 @@ from dataclasses import dataclass, replace
 import bpy
 import numpy as np
 from bpy.types import Context, Depsgraph, Object, Scene
-from numpy.typing import NDArray
 
 from ....core import inertia, mesh, statics, verdict
-from ....core.numerics import Array, rotation_matrix
+from ....core.numerics import Array, NDArray, rotation_matrix
 from ... import bodies, read, write
 from ...scene import findings, reframe, rigid_world, transforms
 from .. import displayed, memory

@@ -195,7 +195,7 @@ def read_description(path: Path, roots: Roots | None = None) -> Description:
         for one in several:
             if one.name in names:
                 error = "“{}” is the name of two elements. Give each its own".format(one.name)
-                place = {"line": one.place.line, "column": one.place.column}
+                place: dict[str, Any] = {"line": one.place.line, "column": one.place.column}
                 raise FileError(DESCRIPTION_INVALID, format=form.upper(), error=error, **place)
             names |= {one.name} - {""}
     # MuJoCo and Gazebo load models without bodies; a URDF needs a link

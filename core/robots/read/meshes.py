@@ -15,7 +15,6 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...cad import read_obj_faces
 from ...files import (
@@ -33,14 +32,14 @@ from ...files import (
     parse_wholes,
 )
 from ...mesh import Surface
-from ...numerics import Array, rotation_about
+from ...numerics import Array, Floats, Int64, Integers, NDArray, rotation_about
 from ...streams import StlFile
 from ...verdict.finding import FileError, finding, system_reason
 from ..findings import MESH_UNREADABLE
 from ..stated import MOST
 from .xml import MAX_DEPTH, Node, parse
 
-Arrays = tuple[NDArray[np.floating], NDArray[np.integer]]
+Arrays = tuple[Floats, Integers]
 MAX_MESH = 1 << 30  # bytes
 MAX_TRIANGLES = 50_000_000
 TURNS = {
@@ -263,7 +262,7 @@ class Gathered:
         )
 
 
-def fan(sizes: NDArray[np.int64], corners: NDArray[np.int64]) -> NDArray[np.int64]:
+def fan(sizes: Int64, corners: Int64) -> Int64:
     """Return (m, 3) triangles: faces of given sizes, cut into fans about their first corners."""
     starts = np.cumsum(sizes) - sizes
     cut = np.maximum(sizes - 2, 0)

@@ -15,12 +15,12 @@ from math import radians
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...files import parse_numbers
 from ...mesh import Surface, convex_hull
 from ...numerics import (
     Array,
+    NDArray,
     inertia_of_second,
     rotation_about,
     rotation_matrix,

@@ -14,12 +14,11 @@ from math import pi
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...files import parse_numbers
 from ...mesh import Surface, convex_hull, first_at_equal_position
 from ...moments.moments import SECOND_MOMENT_INDEX, Moments
-from ...numerics import Array
+from ...numerics import Array, NDArray
 from ...polyhedron import integrate
 from ...verdict import MeasureError
 from ..model import Pose, Shape, second_moments

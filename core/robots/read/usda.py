@@ -15,11 +15,10 @@ from math import inf
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...files import parse_number
 from ...mesh import Surface
-from ...numerics import Array, polar_rotation, rotation_about, rotation_matrix
+from ...numerics import Array, NDArray, polar_rotation, rotation_about, rotation_matrix
 from ...verdict.finding import FileError, Finding, finding
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER
 from ..model import Pose, Shape

@@ -15,10 +15,9 @@ from typing import Any, TypeVar, cast
 from xml.parsers import expat
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...files import FILE_TOO_LARGE, parse_numbers, parse_xml, xml_parser
-from ...numerics import Array
+from ...numerics import Array, NDArray
 from ...verdict.finding import FileError, Finding, finding
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER
 from ..model import Shape

@@ -14,9 +14,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from ...numerics import quaternion
+from ...numerics import ArrayLike, quaternion
 from ...verdict.finding import Finding, finding
 from ..findings import GLTF_NODE_MISSING, GLTF_UNIT_SCALE, ROBOT_SCALED
 from ..model import Inertial, Robot

@@ -18,10 +18,9 @@ from math import inf
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...mesh import Surface
-from ...numerics import Array, along_x, quaternion
+from ...numerics import Array, NDArray, along_x, quaternion
 from ...verdict import Finding
 from ..model import FreeAxis, Joint, Link, Pose, Robot, Shape
 from .gltf import KHR, OMI, Y_UP, body_extensions

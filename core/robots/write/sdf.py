@@ -12,9 +12,8 @@ from collections.abc import Sequence
 from xml.etree.ElementTree import Element, SubElement
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...numerics import quaternion
+from ...numerics import NDArray, quaternion
 from ...verdict.finding import Finding, finding
 from ..findings import SDF_FRAMES_ADDED
 from ..model import Inertial, Joint, Link, Pose, Robot, Shape

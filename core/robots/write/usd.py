@@ -15,10 +15,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from math import degrees, inf, radians
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ...mesh import Surface
-from ...numerics import along_x, quaternion
+from ...numerics import ArrayLike, NDArray, along_x, quaternion
 from ...verdict.finding import Finding, finding
 from ..findings import USD_INERTIA_TOO_SMALL
 from ..model import FreeAxis, Inertial, Joint, Pose, Robot, Shape
