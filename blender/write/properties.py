@@ -76,7 +76,7 @@ DESCRIPTIONS = {
     "storing coordinates as float32 may have",
     "body_axis_inertia": "Moment of inertia about the axis of the reference, in kg·m²",
 }
-REFERENCE_KEYS = ("body_reference", "body_axis")  # beginnings, of results about a reference
+REFERENCE_KEYS = ("body_reference", "body_axis")  # beginnings: results about a reference
 FRAMES = {  # by the type of the owner of results
     bpy.types.Object: "the object's frame (location and rotation, unit scale)",
     bpy.types.Collection: "the world",

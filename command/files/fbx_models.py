@@ -196,7 +196,7 @@ def fbx_models(root: FbxNode, seconds: float) -> list[FbxModel]:
         for kind in root.child("Definitions").children
         if kind.name == "ObjectType" and kind.values[:1] == ["Model"]
     ]
-    rest = kinds[0] if kinds else {}  # of models that state none
+    rest = kinds[0] if kinds else {}  # Models may state none.
     nodes = {node.values[0]: node for node in objects.children}
     if any(not isinstance(number, int) for number in nodes):
         raise ValueError("version")

@@ -33,7 +33,7 @@ MAX_PLANES = 24  # through concave edges
 # directions that choose planes, and planes that are compared exactly
 DIRECTIONS = 120
 LIKELY_PLANES = 6
-LIKELY_CUTS = 2  # that are followed by another one exactly
+LIKELY_CUTS = 2  # each is followed by another one exactly
 SAMPLES_PER_BLOCK = 32  # after the first few, which most often decide
 SHARES = np.array([1, 2, 3]) / 4.0  # shares of the extent, where planes divide a piece evenly
 SAME_AXIS = 1.0 - 1e-9  # cosine: nearer axes are one

@@ -21,8 +21,8 @@ from ..polyhedron import volume_and_center
 from ..robots import Inertial, Pose, Shape, equal_inertia_shape, primitive_moments
 from .convex_pieces import cut_into_pieces, distances_from_triangles
 
-AXES_CORNERS = 96  # of the hull whose faces and edges give the directions of boxes
-MOST_CONVEX_FACES = 400  # of surfaces that are tested for being their own hull
+AXES_CORNERS = 96  # The faces and edges of such a hull give the directions of boxes.
+MOST_CONVEX_FACES = 400  # Larger surfaces are not tested for being their own hull.
 HULL_RTOL = 1e-8  # relative to the size: distances that count as none
 BALL_RTOL = 1e-12  # points outside a ball by less are on it
 SIMPLE = ("sphere", "box", "capsule", "cylinder", "hull")  # tried in this order, before pieces

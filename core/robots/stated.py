@@ -175,7 +175,7 @@ def _least_turn(tensor: NDArray) -> Array:
     coordinate axes.
     """
     axes = np.eye(3)
-    for _ in range(24):  # as many as in USD
+    for _ in range(24):  # USD's own limit
         own = axes.T @ tensor @ axes
         i, j = max(((1, 2), (2, 0), (0, 1)), key=lambda pair: abs(own[pair]))
         if abs(own[i, j]) <= SINGLE * own.trace():  # Equal moments keep their axes.

@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from .audit import LinkAudit
 
 TOLERANCE = 0.05  # of masses, relative to the larger one, and of tensors
-EQUAL = 0.01  # of equal geometry, such as under two maps
-ALIKE = 1e-3  # of the volumes of a pair without sides in the names
+EQUAL = 0.01  # Equal geometry under two maps differs less.
+ALIKE = 1e-3  # Volumes of a pair without sides in the names differ less.
 _WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|\d+|[^A-Za-z\d]+")
 # The second side of each word; some programs put left and right first.
 _SIDES = {"left": ["right"], "l": ["r"]}

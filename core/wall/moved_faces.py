@@ -29,7 +29,7 @@ STEP = 1e-7  # relative to the size: places before and behind a piece
 NEARER = 1e-6  # relative to the moves, and a difference of directions
 MAX_PAIRS = 3_000_000  # pairs of triangles whose boxes overlap
 PAIRS_PER_BLOCK = 1 << 16
-RAYS = 12  # directions, and those against them
+RAYS = 12  # directions, and their opposites
 
 
 def part_behind(

@@ -122,7 +122,7 @@ class Roots:
         A package's name may be that of a root, of a folder in it, or of neither.
         """
         if scheme in ("package", "model"):
-            rest = rest.lstrip("/")  # as other readers join it with their folders
+            rest = rest.lstrip("/")  # Other readers join it so with their folders.
             package, _, inside = rest.partition("/")
             for folder in self.folders:
                 if folder.name == package or _package_name(folder) == package:
