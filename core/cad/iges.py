@@ -22,7 +22,17 @@ import numpy as np
 
 from ..files import FILE_TOO_LARGE
 from ..numerics import Array, NDArray, lengths
-from ..nurbs import TURN, Curve, Face, FlatFace, Patch, Quadric, closed_parts, patches_size
+from ..nurbs import (
+    TURN,
+    Curve,
+    Face,
+    FlatFace,
+    Patch,
+    Quadric,
+    closed_parts,
+    patches_size,
+    reverse_curves,
+)
 from ..verdict.finding import FileError, finding
 from .findings import (
     CURVES_LEFT_OUT,
@@ -50,7 +60,7 @@ from .surfaces import (
     is_storable,
     placed_surface,
 )
-from .trimmed import Boundary, backward, first_region, trimmed_faces, within
+from .trimmed import Boundary, first_region, trimmed_faces, within
 
 TURNING = 3.0  # the norm of a matrix (3, 3) of ones
 MATRIX = 124
@@ -357,7 +367,7 @@ class IgesReader:
             for _ in range(curves):
                 curve, sense, uses = integers(fields[at:], 3)
                 pieces = self._curves.read(curve, matrix)
-                in_space.append(backward(pieces) if pieces and sense == 2 else pieces)
+                in_space.append(reverse_curves(pieces) if pieces and sense == 2 else pieces)
                 ways = integers(fields[at + 3 :], uses)
                 by_parameters += [self._curves.read(way, None) for way in ways] or [None]
                 at += 3 + uses
@@ -400,7 +410,7 @@ class IgesReader:
             integers(self._text.fields(entry)[1 + 5 * (index - 1) :], 1) if index > 0 else (0,)
         )
         curves = self._curves.read(curve, matrix @ self._matrix(entry))
-        return backward(curves) if curves and not forward else curves
+        return reverse_curves(curves) if curves and not forward else curves
 
     def _within(
         self, base: Entry, matrix: NDArray, boundaries: Sequence[Boundary], has_outer: bool

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..numerics import Array, NDArray, spread_directions
-from ..nurbs import Curve, Quadric, SplineChart, TrimmedFace, sample_pieces
+from ..nurbs import Curve, Quadric, SplineChart, TrimmedFace, reverse_curves, sample_pieces
 from .findings import SURFACE_DAMAGED, SURFACE_TRIMMED
 from .surfaces import SurfaceRefusedError
 
@@ -45,7 +45,7 @@ class Track:
 
     def reverse(self) -> Track:
         """Return the loop, run backward."""
-        curves = tuple(curve.reverse() for curve in reversed(self.curves))
+        curves = tuple(reverse_curves(self.curves))
         return Track(curves, self.pieces[::-1, ::-1], self.lines[::-1, ::-1], -self.turns)
 
     @property

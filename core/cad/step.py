@@ -21,7 +21,7 @@ import numpy as np
 
 from ..files import FILE_TOO_LARGE
 from ..numerics import Array, NDArray, clamped_space
-from ..nurbs import Curve, Face, close_pairs, patches_size
+from ..nurbs import Curve, Face, close_pairs, patches_size, reverse_curves
 from ..verdict import WELDING_RTOL
 from ..verdict.finding import FileError, finding
 from .findings import SURFACE_DAMAGED, SURFACES_HIDDEN
@@ -29,7 +29,6 @@ from .iges_entities import MAX_DEPTH
 from .part21 import Part21, Reference
 from .step_shapes import MISSING, EntityError, Shapes, blame, refuse
 from .surfaces import Refusals, SurfaceBody, SurfaceFile
-from .trimmed import backward
 
 SOLIDS = (
     "MANIFOLD_SOLID_BREP",
@@ -411,7 +410,7 @@ class StepReader:
             for use in values[1]:
                 _, (_, _, _, edge, ahead) = self._shapes.pick(use, ("ORIENTED_EDGE",))
                 made = self._edge(edge)
-                curves += made if ahead else backward(made)
+                curves += made if ahead else reverse_curves(made)
                 self._uses[edge] += 1
         ends = np.array([curve.points[[0, -1]] for curve in curves])
         gaps = np.abs(ends[:, 0] - np.roll(ends[:, 1], 1, axis=0)).max()
@@ -420,7 +419,7 @@ class StepReader:
             > WELDING_RTOL * np.ptp(np.concatenate([one.points for one in curves]), axis=0).max()
         ):
             raise refuse("a loop that does not close")
-        return curves if is_ahead else backward(curves)
+        return curves if is_ahead else reverse_curves(curves)
 
     def _edge(self, number: int) -> list[Curve]:
         """Return the curves of an edge from its first to its last vertex."""
@@ -433,5 +432,5 @@ class StepReader:
                     for one in vertices
                 ]
                 made = self._shapes.curve(curve, ends if same else ends[::-1])
-                self._edges[number] = made if same else backward(made)
+                self._edges[number] = made if same else reverse_curves(made)
         return self._edges[number]

@@ -24,6 +24,7 @@ from ..nurbs import (
     bezier_curves,
     nearest_parameters,
     plane_moments,
+    reverse_curves,
 )
 from ..verdict import FileError, MeasureError
 from .findings import SURFACE_DAMAGED, SURFACE_POINTS, SURFACE_UNSUPPORTED
@@ -32,7 +33,7 @@ from .iges_sweeps import TURN, join_pieces, revolve, revolved_quadric, rule
 from .part21 import Part21, Reference
 from .regions import MISS_RTOL
 from .surfaces import SurfaceRefusedError, bezier_surface, placed_surface
-from .trimmed import Boundary, backward, faces_away, flat_region, within
+from .trimmed import Boundary, faces_away, flat_region, within
 
 UNCERTAINTIES = 20.0  # A vertex may be so many uncertainties of the file from its curve.
 SAMPLES = 257  # points of a spline where the search for the parameters of vertices begins
@@ -151,7 +152,7 @@ class Shapes:
             _, base, *trims, same, _ = values
             if ends is None:
                 ends = [self._trim(base, trim) for trim in trims]
-            return self.curve(base, ends) if same else backward(self.curve(base, ends[::-1]))
+            return self.curve(base, ends) if same else reverse_curves(self.curve(base, ends[::-1]))
 
     def _trim(self, base: int, trims: Sequence[Any]) -> Array:
         """Return the point where a curve is trimmed."""
@@ -187,11 +188,11 @@ class Shapes:
         """Return the faces of a surface within loops, with its normal."""
         surface = self.surface(number, loops)
         if isinstance(surface, np.ndarray):
-            return [flat_region(loops, surface, True)]
+            return [flat_region(loops, surface)]
         is_turned = False
         if isinstance(surface, tuple):
             surface, is_turned = surface
-            loops = [backward(loop) for loop in loops] if is_turned else loops
+            loops = [reverse_curves(loop) for loop in loops] if is_turned else loops
         faces = within(surface, [Boundary(loop, None) for loop in loops], rounding=self.gap)
         return [face.reverse_orientation() for face in faces] if is_turned else faces
 
@@ -306,7 +307,7 @@ def _composite(
     for segment in values[1]:
         _, same, curve = shapes.pick(segment, ("COMPOSITE_CURVE_SEGMENT",))[1]
         made = shapes.curve(curve, None)
-        curves += made if same else backward(made)
+        curves += made if same else reverse_curves(made)
     gaps = [np.abs(one.points[-1] - two.points[0]).max() for one, two in zip(curves, curves[1:])]
     size = np.ptp(np.concatenate([curve.points for curve in curves]), axis=0).max()
     if max(gaps, default=0.0) > MISS_RTOL * size:
@@ -314,7 +315,7 @@ def _composite(
     is_back = ends is not None and np.linalg.norm(curves[0].points[0] - ends[0]) > np.linalg.norm(
         curves[-1].points[-1] - ends[0]
     )
-    return backward(curves) if is_back else curves
+    return reverse_curves(curves) if is_back else curves
 
 
 def _part(curve: Curve, ends: Sequence[Array] | None) -> list[Curve]:

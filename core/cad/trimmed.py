@@ -3,7 +3,7 @@
 """Faces: surfaces with the curves that bound them.
 
 A boundary that follows that of the surface trims nothing. A plane is a flat face, whatever bounds
-it. Other surfaces cannot be trimmed.
+it. Any other surface is cut along its boundary (`regions`).
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ from ..nurbs import (
     chords_cross,
     nearest_parameters,
     patches_size,
+    reverse_curves,
     self_intersects,
     vector_area,
 )
@@ -58,11 +59,6 @@ class Boundary:
     prefers_parameters: bool = False
 
 
-def backward(curves: Sequence[Curve]) -> list[Curve]:
-    """Return curves end to end, run backward."""
-    return [curve.reverse() for curve in reversed(curves)]
-
-
 def within(
     surface: Patch | Quadric,
     boundaries: Sequence[Boundary],
@@ -73,9 +69,9 @@ def within(
     """Return the faces of a surface within boundaries, facing as the surface does;
     SurfaceRefusedError if they bound none.
 
-    rounding: largest effect of the file's decimals on a point. beyond: (n, 3)
-    points that no face reaches; None if boundaries run with the face on their left, seen from the
-    side of the surface's normal.
+    rounding: largest effect of the file's decimals on a point. beyond: (n, 3) points that no face
+    reaches; None if boundaries run with the face on their left, seen from the side of the surface's
+    normal.
     """
     loops = [one.curves or _lifted(surface, one.parameters or ()) for one in boundaries]
     if not all(loops):
@@ -91,14 +87,14 @@ def within(
         face = curved_region(surface, loops, rounding, beyond)
         return [face if face.loops else spanned_quadric(surface, [])]
     if _is_flat(surface, FLAT_RTOL * patches_size([surface]) + 4.0 * rounding):
-        return [flat_region(loops, vector_area([surface]), beyond is None)]
+        return [flat_region(loops, vector_area([surface]))]
     if _follow_sides(surface, _UNIT, in_space):
         return [surface]
     chart = SplineChart(surface)
     if chart.periods[1] and not chart.periods[0]:
         # Strips end at the sides of the direction that does not close.
         turned = SplineChart(surface.reverse_orientation())
-        loops = [backward(loop) for loop in loops]
+        loops = [reverse_curves(loop) for loop in loops]
         return [curved_region(turned, loops, rounding, beyond).reverse_orientation()]
     face = curved_region(chart, loops, rounding, beyond)
     return [face if face.loops else surface]
@@ -150,9 +146,8 @@ def trimmed_faces(
 
     domain: the used part of the surface. patches: that part, in one piece unless the surface may be
     torn. has_outer: False if the outer boundary is that of the surface. rounding: largest effect of
-    the file's decimals on a point. quadric: the whole surface, if it is one.
-    lifts: whether parameters of curved surfaces are those
-    of `surface`.
+    the file's decimals on a point. quadric: the whole surface, if it is one. lifts: whether
+    parameters of curved surfaces are those of `surface`.
     """
     if not boundaries:
         return [*patches]
@@ -188,35 +183,34 @@ def faces_away(quadric: Quadric, patch: Patch) -> bool:
     return float(dot(cross(along, across), cross(own_along, own_across))[0]) < 0.0
 
 
-def flat_region(loops: Sequence[list[Curve]], normal: NDArray, is_directed: bool) -> FlatFace:
-    """Return the region of a plane within loops; MeasureError if they bound none.
+def flat_region(loops: Sequence[list[Curve]], normal: NDArray) -> FlatFace:
+    """Return the region of a plane within loops that run with it on their left, seen from the side
+    of `normal`; MeasureError if they bound none.
 
-    is_directed: whether the loops run with the region on their left. Then they may touch, but not
-    cross, and leave the plane a little.
+    Such loops may touch, but not cross, and leave the plane by a thousandth of their size.
     """
     try:
         return FlatFace.within(loops, normal)
     except MeasureError:
         face = FlatFace(tuple(map(tuple, loops)), normal / np.linalg.norm(normal))
-        size = float(np.ptp(face.points, axis=0).max())
-        steepest = np.argmax(np.abs(face.normal))
-        tolerance = MISS_RTOL * size
-        is_wrong = (
-            not is_directed
-            or np.abs((face.points - face.center) @ face.normal).max() > tolerance
-            or not face.area_moments(0, face.center).total > 0.0
-        )
-        for each in CROSSING_SAMPLES:
-            rings = [np.concatenate([curve.samples(each)[:-1] for curve in loop]) for loop in loops]
-            flat = [np.delete(ring, steepest, axis=1) for ring in rings]
-            is_wrong = (
-                is_wrong
-                or any(self_intersects(ring, tolerance) for ring in flat)
-                or chords_cross(flat, tolerance, touch=False)
-            )
-        if is_wrong:
+        if not _is_sound(face):
             raise
         return face
+
+
+def _is_sound(face: FlatFace) -> bool:
+    """Return whether the loops of a flat face run around it, near its plane, and do not cross."""
+    tolerance = MISS_RTOL * float(np.ptp(face.points, axis=0).max())
+    off_plane = np.abs((face.points - face.center) @ face.normal).max()
+    if off_plane > tolerance or not face.area_moments(0, face.center).total > 0.0:
+        return False
+    for each in CROSSING_SAMPLES:
+        outlines = face.outlines(each)
+        if any(self_intersects(outline, tolerance) for outline in outlines):
+            return False
+        if chords_cross(outlines, tolerance, touch=False):
+            return False
+    return True
 
 
 def first_region(

@@ -37,6 +37,7 @@ from .splines import Curve as Curve
 from .splines import Face as Face
 from .splines import Patch as Patch
 from .splines import patches_size as patches_size
+from .splines import reverse_curves as reverse_curves
 from .tracked_solid import TrackedSolid as TrackedSolid
 from .trimmed_face import TrimmedFace as TrimmedFace
 from .trimmed_face import sample_pieces as sample_pieces

@@ -22,7 +22,7 @@ from ..numerics import Array, ArrayLike, NDArray, SplineSpace
 from ..verdict import WELDING_RTOL, MeasureError
 from .curve_moments import curves_center, plane_moments
 from .findings import CURVES_BOUND_NOTHING
-from .splines import Curve, Face, Patch, control_length
+from .splines import Curve, Face, Patch, control_length, reverse_curves
 
 if TYPE_CHECKING:
     from .trimmed_face import TrimmedFace
@@ -104,7 +104,7 @@ class FlatFace:
 
     def reverse_orientation(self) -> FlatFace:
         """Return the same region facing the other way."""
-        loops = tuple(tuple(curve.reverse() for curve in reversed(loop)) for loop in self.loops)
+        loops = tuple(tuple(reverse_curves(loop)) for loop in self.loops)
         return FlatFace(loops, -self.normal)
 
     def transform(self, matrix: ArrayLike) -> FlatFace:
@@ -144,14 +144,20 @@ class FlatFace:
         )
         return Moments(np.asarray(raw), about, Measure.VOLUME, np.asarray(error))
 
+    def outlines(self, each: int) -> list[Array]:
+        """Return the loops as polygons (n, 2) along the plane, through `each` samples per span."""
+        loops = [
+            np.concatenate([curve.samples(each)[:-1] for curve in loop]) for loop in self.loops
+        ]
+        flat = (np.concatenate(loops) - self.center) @ self._frame
+        return np.split(flat, np.cumsum([len(loop) for loop in loops])[:-1])
+
     def quads(self, each: int) -> Array:
         """Return (n, 4, 3) corners of trapezoids that fill the polygon through `each` samples per
         span.
         """
-        loops = [
-            np.concatenate([curve.samples(each)[:-1] for curve in loop]) for loop in self.loops
-        ]
-        begin = (np.concatenate(loops) - self.center) @ self._frame
+        loops = self.outlines(each)
+        begin = np.concatenate(loops)
         grain = SAME_HEIGHT_RTOL * float(np.ptp(begin, axis=0).max())
         begin[:, 1] = np.round(begin[:, 1] / grain) * grain
         starts = np.cumsum([0, *map(len, loops)])
@@ -273,8 +279,7 @@ def planar_loops(
     edges = orient_loops(np.concatenate(flat), np.split(np.arange(starts[-1]), starts[1:-1]))
     ahead = edges[starts[:-1], 0] < edges[starts[:-1], 1]
     oriented = [
-        list(loop) if is_right else [curve.reverse() for curve in reversed(loop)]
-        for loop, is_right in zip(loops, ahead)
+        list(loop) if is_right else reverse_curves(loop) for loop, is_right in zip(loops, ahead)
     ]
     return oriented, normal
 
@@ -296,27 +301,29 @@ def _without_repeats(loop: NDArray, tolerance: float) -> Array:
 
 
 def chords_cross(loops: Sequence[NDArray], tolerance: float, touch: bool = True) -> bool:
-    """Return whether edges of polygons (n, 2) cross by more than a tolerance or, if `touch`,
-    corners coincide.
+    """Return whether edges of polygons (n, 2) cross by more than a tolerance, also at a corner of
+    one of them, or, if `touch`, corners coincide.
     """
     begin = np.concatenate(loops)
-    end = np.concatenate([np.roll(loop, -1, axis=0) for loop in loops])
+    end, after = (np.concatenate([np.roll(loop, -k, axis=0) for loop in loops]) for k in (1, 2))
     low, high = (
         np.pad(corner, ((0, 0), (0, 1)))
         for corner in (np.minimum(begin, end), np.maximum(begin, end))
     )
     i, j, _ = overlapping_box_pairs(low, high, -2.0 * tolerance, len(begin) ** 2)
-    p = begin[i]
-    q = end[i]
-    a = begin[j]
-    b = end[j]
-    if touch and (np.abs(p - a).max(axis=1) <= tolerance).any():
+    if touch and (np.abs(begin[i] - begin[j]).max(axis=1) <= tolerance).any():
         return True
-    sides = [_side(p, q, a), _side(p, q, b), _side(a, b, p), _side(a, b, q)]
-    length = [np.linalg.norm(q - p, axis=1), np.linalg.norm(b - a, axis=1)]
-    far = [np.abs(side) > tolerance * length[k // 2] for k, side in enumerate(sides)]
-    apart = ((sides[0] > 0.0) != (sides[1] > 0.0)) & ((sides[2] > 0.0) != (sides[3] > 0.0))
-    return bool((apart & far[0] & far[1] & far[2] & far[3]).any())
+    one, other = np.concatenate([i, j]), np.concatenate([j, i])
+    p, q = begin[one], end[one]
+    length = np.linalg.norm(q - p, axis=1)
+    sides = np.array([_side(p, q, corners[other]) for corners in (begin, end, after)])
+    is_far = np.abs(sides) > tolerance * length
+    is_left = sides > 0.0
+    is_cut = is_far[0] & is_far[1] & (is_left[0] != is_left[1])
+    along = ((end[other] - p) * (q - p)).sum(axis=1)
+    is_inside = (along > tolerance * length) & (along < (length - tolerance) * length)
+    is_passed = is_inside & is_far[0] & ~is_far[1] & is_far[2] & (is_left[0] != is_left[2])
+    return bool((is_cut[: len(i)] & is_cut[len(i) :]).any() or is_passed.any())
 
 
 def _side(a: NDArray, b: NDArray, point: NDArray) -> Array:

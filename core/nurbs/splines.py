@@ -167,6 +167,11 @@ class Curve:
         return self.apply_weights(_sample_table(self.space, each))
 
 
+def reverse_curves(curves: Sequence[Curve]) -> list[Curve]:
+    """Return curves end to end, run backward."""
+    return [curve.reverse() for curve in reversed(curves)]
+
+
 if TYPE_CHECKING:
     from .flat_face import FlatFace
     from .trimmed_face import TrimmedFace

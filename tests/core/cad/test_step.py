@@ -13,9 +13,11 @@ import numpy as np
 import pytest
 from body_moments.core.cad import step
 from body_moments.core.cad.part21 import Part21
+from body_moments.core.cad.step_shapes import Shapes
 from body_moments.core.cad.surface_file import read_surfaces
 from body_moments.core.moments import sum_moments
-from body_moments.core.nurbs import measure_patches
+from body_moments.core.numerics import SplineSpace
+from body_moments.core.nurbs import Curve, measure_patches
 from body_moments.core.nurbs.patch_topology import find_topology
 from body_moments.core.verdict import FileError
 
@@ -115,6 +117,106 @@ def test_assemblies_without_bodies_are_limited(tmp_path, monkeypatch):
     more += "#91080=SHAPE_REPRESENTATION('',(#11),{});ENDSEC;".format(context)
     with pytest.raises(FileError, match="200"):
         read(tmp_path, more.join(text.rsplit("ENDSEC;", 1)))
+
+
+def with_edges(text, kind, entity):
+    """Return a text whose edges of a kind of curve are on another entity, from vertex a to b."""
+    curves = set(re.findall(r"#(\d+) = {}\(".format(kind), text))
+    bases = dict(re.findall(r"#(\d+) = (?:SURFACE|SEAM)_CURVE\('',#(\d+)", text))
+    points = dict(re.findall(r"#(\d+) = VERTEX_POINT\('',#(\d+)\)", text))
+    more = []
+
+    def replaced(match):
+        first, last, curve = match.groups()
+        if bases[curve] not in curves:
+            return match[0]
+        number = "9{:03}".format(len(more))
+        ends = {"a": points[first], "b": points[last], "curve": bases[curve]}
+        more.append("#{}={};\n".format(number, entity.format(n=number, **ends)))
+        return "EDGE_CURVE('',#{},#{},#{}".format(first, last, number)
+
+    text = re.sub(r"EDGE_CURVE\('',#(\d+),#(\d+),#(\d+)", replaced, text)
+    assert more
+    return "".join([*more, "ENDSEC;"]).join(text.rsplit("ENDSEC;", 1))
+
+
+OPEN = ".UNSPECIFIED.,.F.,.F."
+TRIMMED = (
+    "COMPOSITE_CURVE('',(#{n}1),.F.);#{n}1=COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.,.F.,#{n}2);"
+    "#{n}2=TRIMMED_CURVE('',#{curve},"
+)
+EDGES = {
+    "polyline": ("LINE", "POLYLINE('',(#{a},#{b}))"),
+    "uniform curve": ("LINE", "UNIFORM_CURVE('',1,(#{a},#{b})," + OPEN + ")"),
+    "part by points": ("LINE", TRIMMED + "(#{b}),(#{a}),.F.,.CARTESIAN.)"),
+    "part by angles": (
+        "CIRCLE",
+        TRIMMED + "(PARAMETER_VALUE(1.3)),(PARAMETER_VALUE(0.)),.F.,.PARAMETER.)",
+    ),
+}
+CURVE = r"B_SPLINE_CURVE_WITH_KNOTS(\('',8,[^;]*?),\(9,\s*9\)[^;]*;"
+SURFACE = r"B_SPLINE_SURFACE_WITH_KNOTS(\('',1,1,[^;]*?),\(2,\s*2\)[^;]*;"
+NET = r"B_SPLINE_SURFACE_WITH_KNOTS\([^;]*?_KNOTS\.\)"
+OFFSET = r"#\1 = OFFSET_SURFACE('',#99\1,{},.F.);#99\1 = \g<2>{}"
+ENTITIES = {
+    "far side of a cone": (
+        "cone",
+        r"CONICAL_SURFACE\('',#\d+,6\.,(.*?;)",
+        r"CONICAL_SURFACE('',#9001,0.8,\1#9001=AXIS2_PLACEMENT_3D('',#9002,$,$);"
+        r"#9002=CARTESIAN_POINT('',(0.,0.,17.));",
+    ),
+    "offset cylinder": ("drilled", r"#(\d+) = (CYL.*_SURFACE\('',#\d+,)4\.", ("1.", "3.")),
+    "offset cone": ("cone", r"#(\d+) = (CON.*_SURFACE\('',#\d+,)6\.", ("1.", "4.9229670385731")),
+    "offset sphere": ("sphere", r"#(\d+) = (SPH.*_SURFACE\('',#\d+,)5\.", ("-2.", "7.")),
+    "offset torus": ("torus", r"#(\d+) = (TOR.*_SURFACE\('',#\d+,10\.,)3\.", ("1.", "2.")),
+    "offset plane": ("wedge", r"#(\d+) = (PLANE\('',#\d+)", ("0.", "")),
+    "Bézier curve": ("steinmetz", CURVE, r"BEZIER_CURVE\1);"),
+    "quasi-uniform curve": ("steinmetz", CURVE, r"QUASI_UNIFORM_CURVE\1);"),
+    "uniform surface": ("twisted", SURFACE, r"UNIFORM_SURFACE\1);"),
+    "Bézier surface": ("twisted", SURFACE, r"BEZIER_SURFACE\1);"),
+    "quasi-uniform surface": ("twisted", SURFACE, r"QUASI_UNIFORM_SURFACE\1);"),
+    "rational Bézier surface": ("loft", NET, "BEZIER_SURFACE()"),
+    "ends off their curve": ("wedge", r"(CIRCLE\('',#\d+,)5\.", r"\g<1>5.003"),
+}
+
+
+@pytest.mark.parametrize("kind", [*EDGES, *ENTITIES])
+def test_step_part_with_another_entity_measures_the_same(tmp_path, kind):
+    if kind in EDGES:
+        name, text = "wedge", with_edges(TEXTS["wedge"], *EDGES[kind])
+    else:
+        name, pattern, better = ENTITIES[kind]
+        better = OFFSET.format(*better) if kind.startswith("offset") else better
+        text, count = re.subn(pattern, better, TEXTS[name])
+        assert count
+    file = read(tmp_path, text)
+    (body,) = file.bodies
+    measure = measure_patches(body.patches, stored=body.rounding)
+    assert file.refused == () and str(measure.method) == "exact"
+    truth = EXACT.get(name, GPROP[name][0])
+    error = (measure.volume.rounding_error + measure.volume.input_error)[0]
+    assert abs(measure.volume.total - truth) <= error + 1e-9 * truth
+    assert error <= 1e-9 * truth or kind == "ends off their curve"
+
+
+@pytest.mark.parametrize(
+    "kind, knots",
+    [
+        ("UNIFORM", range(-3, 8)),
+        ("QUASI_UNIFORM", [0, 0, 0, *range(5), 4, 4, 4]),
+        ("BEZIER", [0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 2]),
+    ],
+)
+def test_step_spline_without_knots_has_those_of_its_kind(kind, knots):
+    points = np.random.default_rng(1).uniform(size=(7, 3))
+    lines = [
+        "#{}=CARTESIAN_POINT('',{});".format(k + 1, tuple(p)) for k, p in enumerate(points.tolist())
+    ]
+    lines.append("#9={}_CURVE('',3,(#1,#2,#3,#4,#5,#6,#7),{});".format(kind, OPEN))
+    text = "ISO-10303-21;DATA;{}ENDSEC;END-ISO-10303-21;".format("".join(lines))
+    (curve,) = Shapes(Part21(text.encode())).curve(9, None)
+    known = Curve(SplineSpace(tuple(map(float, knots)), 4, 7), points)
+    assert np.abs(curve.uniform(20) - known.uniform(20)).max() <= 1e-15
 
 
 def test_hundreds_of_rims_are_joined(tmp_path):

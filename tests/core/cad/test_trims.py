@@ -5,6 +5,7 @@
 import numpy as np
 import pytest
 from body_moments.core.cad.trimmed import Piece, flat_region, trims_nothing
+from body_moments.core.nurbs import reverse_curves
 from body_moments.core.verdict import MeasureError
 
 from tests.core.polygons import polygon
@@ -86,11 +87,15 @@ def test_directed_loops_may_touch_but_not_cross():
     up = np.array([0.0, 0.0, 1.0])
     square = polygon((0, 0), (2, 0), (2, 2), (0, 2))
     corner = polygon((2, 2), (3, 2), (3, 3), (2, 3))
-    assert flat_region([square, corner], up, True).area_moments(0, np.zeros(3)).total == 5.0
+    assert flat_region([square, corner], up).area_moments(0, np.zeros(3)).total == 5.0
     twisted = polygon((0, 0), (3, 3), (3, 0), (1, 4))  # lobes of different signs
     overlapping = polygon((1, 1), (3, 1), (3, 3), (1, 3))
-    for loops in ([twisted], [[curve.reverse() for curve in reversed(twisted)]]):
+    cornered = polygon((0, 0), (2, 2), (3, 3), (3, 0), (1, 4))  # the same, a corner on an edge
+    sides = np.linspace([(0, 0), (3, 3), (3, 0), (1, 4)], [(3, 3), (3, 0), (1, 4), (0, 0)], 31)
+    fine = polygon(*np.moveaxis(sides[:-1], 1, 0).reshape(-1, 2))  # the same, in short curves
+    crossing = [[loop] for loop in (twisted, cornered, fine)]
+    for loops in (*crossing, *([reverse_curves(one)] for (one,) in crossing)):
         with pytest.raises(MeasureError):
-            flat_region(loops, up, True)
+            flat_region(loops, up)
     with pytest.raises(MeasureError):
-        flat_region([square, overlapping], up, True)
+        flat_region([square, overlapping], up)

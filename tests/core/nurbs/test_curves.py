@@ -141,6 +141,14 @@ def test_a_reversed_curve_is_the_same_run_backwards():
             [polyline([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0), (0, 0, 0)])],
             "curves_bound_nothing",
         ),
+        (  # crossing at half of one edge and two thirds of another
+            [polyline([(0, 0, 0), (3, 3, 0), (3, 0, 0), (1, 4, 0), (0, 0, 0)])],
+            "curves_bound_nothing",
+        ),
+        (  # crossing at a corner on an edge
+            [polyline([(0, 0, 0), (2, 2, 0), (3, 3, 0), (3, 0, 0), (1, 4, 0), (0, 0, 0)])],
+            "curves_bound_nothing",
+        ),
         ([polyline([(1, 0, 0), (1, 0, 0)])], "curves_bound_nothing"),  # a closed curve of one point
         ([ring(), ring(1.0, (0.5, 0.0, 0.0))], "curves_bound_nothing"),
     ],
