@@ -389,7 +389,9 @@ def _torus(shapes: Shapes, parts: Any, values: list[Any], loops: list[list[Curve
     torus = _quadric_of(3)(shapes, parts, values, loops)
     inner = replace(torus, radius=-torus.radius)
     is_inner = len(values) > 4 and not values[4]
-    if torus.minor > torus.radius and loops and len(values) == 4:
+    if torus.minor > torus.radius and len(values) == 4:
+        if not loops:
+            raise refuse("a torus that crosses its axis, without edges to tell which part is meant")
         points = np.concatenate([one.samples(8) for loop in loops for one in loop])
         apart = [
             np.linalg.norm(one.evaluate(*one.project(points).T)[0].T - points, axis=1).max()

@@ -199,6 +199,24 @@ def test_step_part_with_another_entity_measures_the_same(tmp_path, kind):
     assert error <= 1e-9 * truth or kind == "ends off their curve"
 
 
+def test_torus_across_its_axis_is_the_part_that_the_file_names(tmp_path):
+    sphere = r"SPHERICAL_SURFACE\('',(#\d+),5\.\)"
+    for way, radius in (("T", 2.0), ("F", -2.0)):  # the outer part, and the inner one
+        torus = r"DEGENERATE_TOROIDAL_SURFACE('',\1,2.,3.,.{}.)".format(way)
+        text = re.sub(sphere, torus, TEXTS["sphere"])
+        text = re.sub(r"(ADVANCED_FACE.*)\.T\.", r"\1.{}.".format(way), text)
+        (body,) = read(tmp_path, text).bodies
+        measure = measure_patches(body.patches, stored=body.rounding)
+        angle = np.arccos(-radius / 3.0)
+        sine = np.sin(angle)
+        arms = radius**2 * sine + 3.0 * radius * (angle + sine * np.cos(angle))
+        truth = 6.0 * PI * (arms + 9.0 * (sine - sine**3 / 3.0))
+        assert str(measure.method) == "exact"
+        assert measure.volume.total == pytest.approx(truth, rel=1e-9)
+    with pytest.raises(FileError, match="crosses its axis"):
+        read(tmp_path, re.sub(sphere, r"TOROIDAL_SURFACE('',\1,2.,3.)", TEXTS["sphere"]))
+
+
 @pytest.mark.parametrize(
     "kind, knots",
     [
