@@ -190,11 +190,10 @@ def frame_of_body(
         return principal_frames(fixed, preferred_axes[None]).at(0)
     stack = moments.at(None)
     second = _second_moments_of_body(stack)
+    preferred = preferred_axes[None].copy()  # the caller may change its array before the search
     return PrincipalFrame.on_demand(
         second.inertia[0],
-        lambda: principal_frames(
-            third_moment_frames(stack, second=second), preferred_axes[None]
-        ).at(0),
+        lambda: principal_frames(third_moment_frames(stack, second=second), preferred).at(0),
     )
 
 

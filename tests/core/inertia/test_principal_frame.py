@@ -211,3 +211,11 @@ def test_failure_to_find_axes_is_raised_each_time():
     for _ in range(2):
         with pytest.raises(MemoryError):
             _ = frame.axes
+
+
+def test_later_change_of_preferred_axes_has_no_effect():
+    turn = np.array([[0.6, -0.8, 0.0], [0.8, 0.6, 0.0], [0.0, 0.0, 1.0]])
+    preferred = turn.copy()
+    frame = principal_frame(box((-1, -1, -1), (1, 1, 1)), preferred)
+    preferred[:] = np.eye(3)
+    assert close(frame.axes, turn, 1e-12)
