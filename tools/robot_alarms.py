@@ -5,7 +5,8 @@
     python3 tests/project.py alarms
 
 The robots are those of `project.py robots`, whose folder and packages it uses; it takes half an
-hour. Faults are planted in right links, by the numbers in their URDF. Each alarm about a published
+hour. Counts in that folder are used again: remove `*_alarms.json` after a change of the audit.
+Faults are planted in right links, by the numbers in their URDF. Each alarm about a published
 link is checked by trimesh (meshes, hulls), SciPy (a linear program: no masses at points of the hull
 have this center and inertia), MuJoCo (MJCF) and NumPy.
 """
@@ -182,7 +183,7 @@ def write_numbers(link: ElementTree.Element, numbers: Numbers | None) -> None:
         "xyz": " ".join(map(repr, center.tolist())),
         "rpy": " ".join(map(repr, angles.tolist())),
     }
-    ElementTree.SubElement(inertial, "origin", {key: text for key, text in place.items()})
+    ElementTree.SubElement(inertial, "origin", place)
     ElementTree.SubElement(inertial, "mass", value=repr(float(mass)))
     entries = {
         "i" + p + q: repr(float(tensor["xyz".index(p), "xyz".index(q)]))
@@ -288,7 +289,7 @@ class Robot:
         for name in [one for one in self.right if numbers[one][0] > 0.002 * self.mass][:1]:
             heavy = self.plant({name: inertia_times(10.0, 10.0)}, self.mass)
             codes = [entry.finding.code for entry in heavy.entries]
-            found = Counter(planted=1, found="audit_total" in codes)
+            found = Counter(planted=1, found=int("audit_total" in codes))
             yield "mass and inertia times 10, by the expected total", found
         for left, right in [*self.twins()][:1]:
             for kind, fault in (
@@ -307,7 +308,7 @@ class Robot:
                 undone = audit[left].repaired
                 back = undone and (undone.mass, undone.center, undone.inertia)
                 is_back = back and apart(along_link(numbers[left]), back) < 0.1
-                yield kind, Counter(planted=1, found=found, undone=bool(is_back))
+                yield kind, Counter(planted=1, found=int(found), undone=int(bool(is_back)))
         first, *others = sorted(self.right, key=lambda name: self.original[name].volume)[::-1] or [
             ""
         ]
@@ -315,16 +316,15 @@ class Robot:
             if self.original[other].volume < 0.9 * self.original[first].volume:
                 audit = self.plant({other: lambda *_: numbers[first]})
                 found = sum(has_alarm(one) for one in audit.links if one.link.name in self.right)
-                yield "another link's inertial", Counter(planted=1, found=bool(found))
+                yield "another link's inertial", Counter(planted=1, found=int(found > 0))
 
     def twins(self) -> Iterator[tuple[str, str]]:
         """Yield pairs of left and right links without alarms and of equal volume."""
-        swap = {"l": "r", "left": "right", "f": "f", "h": "h", "r": "r"}
         for name, one in self.original.items():
             sides = LEFT.findall(name)
             if not sides or has_alarm(one) or one.link.inertial is None:
                 continue
-            other = LEFT.sub(lambda m: self.opposite(m[0], swap), name)
+            other = LEFT.sub(lambda m: self.opposite(m[0]), name)
             twin = self.original.get(other)
             if twin is None or has_alarm(twin) or not twin.volume or twin.link.inertial is None:
                 continue
@@ -332,10 +332,10 @@ class Robot:
                 yield name, other
 
     @staticmethod
-    def opposite(word: str, swap: dict[str, str]) -> str:
+    def opposite(word: str) -> str:
         """Return the right side's word for a left side's, in its case."""
         lower = word.lower()
-        changed = swap.get(lower) or lower.replace("l", "r")
+        changed = "right" if lower == "left" else lower.replace("l", "r")
         return changed.upper() if word.isupper() else changed
 
 
@@ -601,22 +601,25 @@ def count_alarms(audit: Audit, path: Path, roots: Roots, content: Path, codes: d
 
 HEAD = """# Faults Found, and Alarms
 
-The robots of [Published Robots, Audited](robots-audited.md) in URDF and MJCF. Each fault is planted
-in up to three links of a URDF that have no alarm and whose inertial is that of their evenly filled
-geometry, if it changes the inertial by more than 2 %. It is found if the audit then gives an error
-or a warning, and undone if the repair leads back to the right inertial within 2 %. A mass that is
-not stated cannot be known, and if two units explain the same numbers, such as kg·in² and lb·in²,
-the likelier one is proposed. The page was made by `python3 tests/project.py alarms`.
+The robots are those of [Published Robots, Audited](robots-audited.md) in URDF and MJCF. Each kind
+of fault is planted in up to three links of each URDF. These links have no alarm, and their
+inertial differs from that of their evenly filled geometry by less than 0.5 %. A fault is planted
+only if it changes the inertial by more than 2 %. It is found if the audit then gives an error or a
+warning. It is undone if the repair leads back to the right inertial within 2 %. The last five kinds
+concern several links, and are planted at most once in each URDF. Twins need no evenly filled
+geometry, and their faults are undone within 10 %. If the mass is not stated, it cannot be known. If
+two units explain the same numbers, such as kg·in² and lb·in², the likelier one is proposed. The
+command `python3 tests/project.py alarms` made this page.
 
 | fault | planted | found | undone |
 |---|---|---|---|
 """
 ALARMS_HEAD = """
-The published files themselves have {links} links, {alarmed} of them with an alarm. Each alarm was
-checked by programs that share only the search of files with it: trimesh measures the meshes, a
-linear program of SciPy shows that no masses within the hull have this center and inertia, MuJoCo
-reads MJCF, NumPy takes the numbers from the XML. They do not confirm an alarm of {share:.2%} of the
-links ({doubtful}).
+The published files have {links} links, and {alarmed} of these links have an alarm. Other programs
+checked each alarm: trimesh measures the meshes, a linear program of SciPy shows that no masses
+within the hull have this center and inertia, MuJoCo reads MJCF, and NumPy takes the numbers from
+the XML. They share only the search of files with the audit. In {doubtful} links they do not confirm
+an alarm ({share:.2f} % of the links).
 
 | alarm | links | confirmed |
 |---|---|---|
@@ -669,7 +672,7 @@ def main() -> None:
         text += "| {} | {} | {} | {} |\n".format(
             kind, count["planted"], count["found"], count["undone"]
         )
-    text += ALARMS_HEAD.format(share=links["doubtful"] / links["links"], **links)
+    text += ALARMS_HEAD.format(share=100.0 * links["doubtful"] / links["links"], **links)
     for code, count in sorted(codes.items()):
         text += "| {} | {} | {} |\n".format(
             WORDS.get(code, code), count["alarms"], count["confirmed"]

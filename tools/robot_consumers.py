@@ -98,8 +98,9 @@ The remaining differences come from the programs, not from the files. Newton com
 precision. The numbers of each body agree to 1e-6. But Newton's kinematics multiply quaternions and
 never normalize them, so after some joints their lengths are off by up to 1e-6. The effect is
 largest with its MJCF importer. If the same joint frames are multiplied in double precision, the
-places agree to 1e-6 of their distance. PyBullet does not turn a tensor to its axes any further if
-the products are below 1e-6 of the trace. Its moments agree to 3e-12, and its axes to 6e-7.
+places agree to 1e-6 of their distance. PyBullet turns a tensor to its axes step by step. If all
+products are below 1e-6 of the trace, one more step is the last one. Its moments agree to 3e-12, and
+its axes to 6e-7.
 
 | program | format | files read | mass | center | inertia | remark |
 |---|---|---|---|---|---|---|

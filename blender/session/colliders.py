@@ -199,11 +199,9 @@ def colliders_kept_current(context: Context, objects: Iterable[Object]) -> Itera
     fresh = []
     for obj, before in kept.items():
         group = obj[COLLIDERS]
-        turn = numerics.polar_rotation(bodies.float64_matrix(obj.matrix_world)[None, :3, :3])[0][
-            0
-        ].T
-        turn = turn @ numerics.polar_rotation(before[None, :3, :3])[0][0]
-        group["center_shift"] = (turn @ group["center_shift"]).tolist()
+        places = np.array([bodies.float64_matrix(obj.matrix_world), before])
+        now, then = numerics.polar_rotation(places)[0]
+        group["center_shift"] = (now.T @ then @ group["center_shift"]).tolist()
         group["fingerprint"] = write.properties.fingerprint(obj) or group["fingerprint"]
         group["digest"] = colliders_digest(obj)
         group["scale"] = scale_products(obj)

@@ -73,6 +73,8 @@ class FbxAnimation:
             for number, line in enumerate(layers.values())
             for rank, layer in enumerate(line)
         }
+        # Programs leave out all other layers, also those of other properties.
+        self._has_solo = any(nodes[layer].properties().get("Solo", (0,))[0] for layer in ranks)
         # the number of its animation, its place among the layers of this, its layer
         self._ranks = {part: ranks[layer] for part, layer in layer_of.items() if layer in ranks}
 
@@ -106,7 +108,7 @@ class FbxAnimation:
         for rank, number, part in parts:
             values = self._values(part)
             layer = self._nodes[number].properties()
-            if any(layer.get(switch, (0,))[0] for switch in ("Mute", "Solo")):
+            if self._has_solo or layer.get("Mute", (0,))[0]:
                 raise RareError
             if rank == 0:
                 total = values
@@ -217,12 +219,12 @@ class _Curve:
             [1.0 + 3.0 * (start - end), 3.0 * (end - 2.0 * start), 3.0 * start, -share]
         )
         place = found[np.argmin(np.abs(found - np.clip(found.real, 0.0, 1.0)))].real
-        rest = 1.0 - place
+        left = 1.0 - place
         low = values[index] + leaving * length * self._slope(index, True)
         high = values[index + 1] - arriving * length * self._slope(index + 1, False)
         return float(
-            rest**3 * values[index]
-            + 3.0 * rest * place * (rest * low + place * high)
+            left**3 * values[index]
+            + 3.0 * left * place * (left * low + place * high)
             + place**3 * values[index + 1]
         )
 

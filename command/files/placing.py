@@ -31,7 +31,7 @@ def set_frame(frame: float) -> None:
 def shown_seconds(first: float = 0.0) -> float:
     """Return the time of the evaluated frame, in seconds from the first one."""
     scene = bpy.context.scene
-    return (scene.frame_current_final - first) / (scene.render.fps * scene.render.fps_base)
+    return (scene.frame_current_final - first) * scene.render.fps_base / scene.render.fps
 
 
 def measure_at(frame: float | None) -> tuple[Finding, ...]:

@@ -24,11 +24,7 @@ from ...core.inertia import NO_CERTAIN_VOLUME
 from ...core.measurement import NO_VOLUME, Body, Measurement
 from ...core.mesh import Surface, join_surfaces
 from ...core.polyhedron import BOUNDARY_OPEN
-from ...core.verdict import (
-    Finding,
-    MeasureError,
-    Procedure,
-)
+from ...core.verdict import Finding, MeasureError, Procedure
 from ..options.arguments import RIM
 from .entries import Contents
 

@@ -73,7 +73,7 @@ class Cells:
         steps = np.stack(
             [np.diff(self.corners, axis=axis).reshape(-1, 4) for axis in (1, 2, 3)], axis=1
         )
-        steps *= np.sign(steps.sum(axis=2, keepdims=True))
+        steps *= np.copysign(1.0, steps.sum(axis=2, keepdims=True))
         least = steps.min(axis=2)
         axes = (least + 1e-3 * steps.max(axis=2)).argmax(axis=1)
         return axes, least[np.arange(len(axes)), axes] >= 0.0

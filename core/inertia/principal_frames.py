@@ -94,11 +94,12 @@ class PrincipalFrame:
         return frame
 
     def __getattr__(self, name: str) -> Any:
-        find = self.__dict__.pop("find", None)
-        if find is None:
+        find = self.__dict__.get("find")
+        if find is not None:  # several threads may find the same values
+            self.__dict__.update({**vars(find()), "moments": self.moments, "find": None})
+        if name not in self.__dict__:
             raise AttributeError(name)
-        self.__dict__.update({**vars(find()), "moments": self.moments})
-        return getattr(self, name)
+        return self.__dict__[name]
 
     def __getstate__(self) -> dict[str, Any]:
         _ = self.axes  # they are found now: what finds them cannot be pickled
@@ -189,11 +190,10 @@ def frame_of_body(
         return principal_frames(fixed, preferred_axes[None]).at(0)
     stack = moments.at(None)
     second = _second_moments_of_body(stack)
+    preferred = preferred_axes[None].copy()  # the caller may change its array before the search
     return PrincipalFrame.on_demand(
         second.inertia[0],
-        lambda: principal_frames(
-            third_moment_frames(stack, second=second), preferred_axes[None]
-        ).at(0),
+        lambda: principal_frames(third_moment_frames(stack, second=second), preferred).at(0),
     )
 
 

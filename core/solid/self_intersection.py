@@ -115,7 +115,8 @@ def is_star(surface: Surface, center: Array) -> bool:
 def along_ray(points: NDArray, origin: NDArray) -> Array:
     """Return coordinates of (3, n) points from an origin, sheared so that a ray is the z axis."""
     rows = np.subtract(points, origin, dtype=np.float64, order="C")
-    rows[:2] -= np.multiply.outer(LINE_SLOPES, rows[2])
+    for row, slope in zip(rows, LINE_SLOPES):
+        row -= slope * rows[2]
     return rows
 
 

@@ -95,7 +95,8 @@ def part_behind(
     winding = around.winding_numbers(sides - around.origin, one, 0.0)[0]
     inside = np.flatnonzero(winding > 0)
     belongs = np.zeros(len(sides), bool)
-    belongs[inside] = _belong(points, triangles, sides[inside], depths)
+    across = np.tile(units[owner], (2, 1))[inside]
+    belongs[inside] = _belong(points, triangles, sides[inside], across, depths)
     jump = winding[len(cells) :] - winding[: len(cells)]
     bounds = belongs[len(cells) :] != belongs[: len(cells)]
     lying = np.flatnonzero(bounds & (np.abs(jump) != 1))
@@ -160,9 +161,15 @@ def _halves(cell: Array, height: Array, size: float) -> Iterator[Array]:
 
 
 def _belong(
-    points: Array, triangles: Integers, places: Array, depths: tuple[float, float, float]
+    points: Array,
+    triangles: Integers,
+    places: Array,
+    across: Array,
+    depths: tuple[float, float, float],
 ) -> Mask:
-    """Return whether places are in the body, and nowhere nearer to its surface than depths."""
+    """Return whether places are in the body, and nowhere nearer to its surface than depths, along
+    unit vectors `across` their pieces and along the normals of the largest areas.
+    """
     corners = points[triangles]
     tree = tree_of_all(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
     places = places - tree.origin
@@ -173,10 +180,13 @@ def _belong(
     ways = ways[np.argsort(-area)[:RAYS]] * NEARER
     ways = ways[ways.any(axis=1)]
     wall, *heights = np.maximum(depths, np.finfo(float).tiny) * (1.0 - NEARER)
-    for ray in [*ways, *-ways]:
-        ray = ray / np.linalg.norm(ray)
-        nearest = 1.0 / (np.hypot(ray[0], ray[1]) / wall + abs(ray[2]) / heights[int(ray[2] < 0)])
-        belong &= tree.first_hits(places, np.broadcast_to(ray, places.shape), nearest)[0] > nearest
+    ways /= np.linalg.norm(ways, axis=1)[:, None]
+    for ray in [*ways, *-ways, across, -across]:
+        rays = np.broadcast_to(ray, places.shape)
+        height = np.where(rays[:, 2] < 0.0, heights[1], heights[0])
+        nearest = 1.0 / (np.hypot(rays[:, 0], rays[:, 1]) / wall + np.abs(rays[:, 2]) / height)
+        reach = float(nearest.max(initial=0.0))
+        belong &= tree.first_hits(places, rays, reach)[0] > nearest
     return belong
 
 

@@ -105,11 +105,11 @@ def property_line(name, value):
     return 'P: "{}", "", "", "A",{}\n'.format(name, numbers)
 
 
-def write(path, models, axes=AXES, unit=1.0, more="", more_links="", ahead=""):
+def write(path, models, axes=AXES, unit=1.0, more="", more_links="", ahead="", rate=0):
     """Write a text file. models: (name, kind, properties, number of the parent or 0), from number
-    2; a mesh shows the box. ahead: text before the objects.
+    2; a mesh shows the box. ahead: text before the objects. rate: the number of a frame rate.
     """
-    settings = {"UnitScaleFactor": unit}
+    settings = {"UnitScaleFactor": unit, "TimeMode": rate}
     for name, (axis, sign) in axes.items():
         settings |= {name + "Axis": axis, name + "AxisSign": sign}
     text = "; FBX 7.4.0 project file\nFBXHeaderExtension: {\nFBXVersion: 7400\n}\n"
@@ -330,6 +330,14 @@ def test_fbx_curves_between_keys_are_the_files(tmp_path, flags, data, slopes, le
         assert close(body["center_of_mass"][0], 0.5 + share / (1 if is_moved else 2), 1e-5)
 
 
+def test_fbx_frames_follow_a_rate_that_is_not_whole(tmp_path):
+    more, links = animation(2, "Lcl Translation", [100.0, 0, 0], 4)
+    models = [("part", "Mesh", {}, 0)]
+    path = write(tmp_path / "t.fbx", models, more=more, more_links=links, rate=9)  # 29.97 Hz
+    body = measured(path, "--at-frame", "26")
+    assert close(body["center_of_mass"][0], 1.5 - 25 / 29.97, 1e-6)
+
+
 @pytest.mark.parametrize(("flags", "share"), [(2, 1.0), (0x102, 0.0)])
 def test_fbx_curve_of_steps_is_the_files(tmp_path, flags, share):
     more, links = animation(2, "Lcl Translation", [100.0, 0, 0], flags)
@@ -344,25 +352,23 @@ LOW, HIGH = (
 NAMES = "Lcl Translation", "Lcl Rotation", "Lcl Scaling"
 
 
-@pytest.mark.parametrize("mode", [0, 1, 2, 3])  # additive, override, passed through, unknown
-@pytest.mark.parametrize("by_channel", [0, 1])
-@pytest.mark.parametrize("weight", [100.0, 40.0])
-def test_fbx_layers_blend_as_the_file_states(tmp_path, mode, by_channel, weight):
-    upper = {"BlendMode": mode, "Weight": weight, "RotationAccumulationMode": by_channel}
-    upper["ScaleAccumulationMode"] = by_channel
+def write_layers(path, upper, count=3):
+    """Write a text file whose active animation has two layers. upper: the properties of the second
+    one, which moves `count` properties of the part.
+    """
     document = 'Document: 1, "", "Scene" {\nProperties70: {\n'
     document += 'P: "ActiveAnimStackName", "", "", "", "b"\n}\n}\n'
     more = links = ""
     for stack, layer, properties, values in (
         (200, 210, {}, HIGH),  # of another animation, the first one
         (300, 310, {}, LOW),
-        (300, 320, upper, HIGH),
+        (300, 320, upper, HIGH[:count]),
     ):
         lines = "".join(property_line(*pair) for pair in properties.items())
         more += 'AnimationLayer: {}, "AnimLayer::l", "" {{\n'.format(layer)
         more += "Properties70: {\n" + lines + "}\n}\n"
         links += 'C: "OO",{},{}\n'.format(layer, stack)
-        for number, (name, three) in enumerate(zip(NAMES, values, strict=True), layer + 1):
+        for number, (name, three) in enumerate(zip(NAMES, values), layer + 1):
             lines = "".join(property_line("d|" + a, v) for a, v in zip("XYZ", three, strict=True))
             more += 'AnimationCurveNode: {}, "AnimCurveNode::n", "" {{\n'.format(number)
             more += "Properties70: {\n" + lines + "}\n}\n"
@@ -371,7 +377,16 @@ def test_fbx_layers_blend_as_the_file_states(tmp_path, mode, by_channel, weight)
         more += 'AnimationStack: {}, "AnimStack::{}", "" {{\n}}\n'.format(number, name)
     models = [("part", "Mesh", ACTIVE, 0)]
     ahead = "Documents: {\n" + document + "}\n"
-    body = measured(write(tmp_path / "t.fbx", models, AXES, 1.0, more, links, ahead))
+    return write(path, models, AXES, 1.0, more, links, ahead)
+
+
+@pytest.mark.parametrize("mode", [0, 1, 2, 3])  # additive, override, passed through, unknown
+@pytest.mark.parametrize("by_channel", [0, 1])
+@pytest.mark.parametrize("weight", [100.0, 40.0])
+def test_fbx_layers_blend_as_the_file_states(tmp_path, mode, by_channel, weight):
+    upper = {"BlendMode": mode, "Weight": weight, "RotationAccumulationMode": by_channel}
+    upper["ScaleAccumulationMode"] = by_channel
+    body = measured(write_layers(tmp_path / "t.fbx", upper))
     # The root of a mirroring scale is no number.
     is_rare = mode == 3 or weight < 100 and (mode == 1 or mode == 2 and not by_channel)
     assert is_rare == ("places_unchecked" in codes(body))
@@ -388,6 +403,13 @@ def test_fbx_layers_blend_as_the_file_states(tmp_path, mode, by_channel, weight)
         turn = low @ np.array(Quaternion().slerp(between, share).to_matrix())
     assert close(body["volume"], 6 * abs(np.prod(scale)), 1e-5)
     assert np.allclose(body["center_of_mass"], (turn @ (CENTER * scale) + move) / 100, atol=1e-5)
+
+
+@pytest.mark.parametrize("count", [0, 3])
+@pytest.mark.parametrize("switch", ["Mute", "Solo"])
+def test_fbx_switched_layers_are_doubtful(tmp_path, switch, count):
+    body = measured(write_layers(tmp_path / "t.fbx", {switch: 1}, count))
+    assert ("places_unchecked" in codes(body)) == (count > 0 or switch == "Solo")
 
 
 @pytest.mark.parametrize("moves", [False, True])

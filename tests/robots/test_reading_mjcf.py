@@ -120,6 +120,22 @@ def write_child(folder):
     return folder / "model.xml"
 
 
+def test_bodies_and_joints_may_have_no_names(tmp_path):
+    model = '<mujoco model="m">{}<worldbody>{}</worldbody></mujoco>'
+    part = '<body><joint/><geom size="1"/></body>'
+    body = '<body name="{}"><joint/><geom size="1"/>{}</body>'
+    (tmp_path / "m.xml").write_text(model.format("", body.format("b", part)))
+    asset = '<asset><model name="m" file="m.xml"/></asset>'
+    twice = '<attach model="m" prefix="p_"/><attach model="m" prefix="q_"/>'
+    path = tmp_path / "model.xml"
+    path.write_text(model.format(asset, body.format("body 2", part) + twice))
+    mujoco.MjModel.from_xml_path(str(path))
+    description = read_description(path)
+    names = ["body 2", "body 2 without name", "p_b", "body 4", "q_b", "body 6"]
+    assert [link.name for link in description.links] == names
+    assert {motion.name for joint in description.joints for motion in joint.motions} == {""}
+
+
 @pytest.mark.parametrize("chosen", ['body="b"', 'body="deep"', 'frame="fr"', ""])
 def test_attached_models_are_those_of_mujoco(tmp_path, chosen):
     """Names have all prefixes; a body leaves its own frames behind, and models have their own

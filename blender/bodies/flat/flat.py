@@ -40,13 +40,7 @@ from ....core.flat import (
 )
 from ....core.inertia import MOMENTS_OVERFLOW, NO_CERTAIN_VOLUME
 from ....core.measurement import NO_VOLUME, Body
-from ....core.moments import (
-    Measure,
-    Moments,
-    affine_matrices,
-    monomial_count,
-    monomials,
-)
+from ....core.moments import Measure, Moments, affine_matrices, monomial_count, monomials
 from ....core.numerics import Array, Index
 from ....core.nurbs import Curve, length_moments, planar_region, plane_moments
 from ....core.solid import UNCHECKED

@@ -189,19 +189,28 @@ def read_description(path: Path, roots: Roots | None = None) -> Description:
         )
     if len(description.links) > MAX_LINKS:
         raise FileError(FILE_TOO_LARGE, limit=MAX_LINKS, content="links")
-    form = description.format
-    for several in (description.links, description.joints) if form in ("urdf", "mjcf") else ():
-        names: set[str] = set()
-        for one in several:
-            if one.name in names:
-                error = "“{}” is the name of two elements. Give each its own".format(one.name)
-                place: dict[str, Any] = {"line": one.place.line, "column": one.place.column}
-                raise FileError(DESCRIPTION_INVALID, format=form.upper(), error=error, **place)
-            names |= {one.name} - {""}
+    if description.format in ("urdf", "mjcf"):
+        links = [(link.name, link.place) for link in description.links]
+        joints = [(one.name, joint.place) for joint in description.joints for one in joint.motions]
+        _check_names(description, links)
+        _check_names(description, joints)
     # MuJoCo and Gazebo load models without bodies; a URDF needs a link
-    if not description.links and form not in ("mjcf", "sdf"):
+    if not description.links and description.format not in ("mjcf", "sdf"):
         raise FileError(FILE_WITHOUT_OBJECTS, content="links")
     return description
+
+
+def _check_names(description: Description, named: Sequence[tuple[str, Place]]) -> None:
+    """Raise FileError if two links, or two joints, have one name. "" is none."""
+    names: set[str] = set()
+    for name, place in named:
+        if name in names:
+            error = "“{}” is the name of two elements. Give each its own".format(name)
+            values = {"line": place.line, "column": place.column, "source": place.file}
+            form = description.format.upper()
+            raise FileError(DESCRIPTION_INVALID, format=form, error=error, **values)
+        if name:
+            names.add(name)
 
 
 def _bytes(path: Path) -> bytes:

@@ -165,6 +165,11 @@ class _Frame(NamedTuple):
         is_in_place = not pose.position.any() and bool((pose.rotation == np.eye(3)).all())
         return is_in_place and self.mass == 1.0 and bool((self.scale == 1.0).all())
 
+    def full_name(self, node: Node) -> str:
+        """Return the name of an element with prefix and suffix; "" if it states none."""
+        name = node.get("name")
+        return self.prefix + name + self.suffix if name else ""
+
     def enter(self, node: Node) -> _Frame:
         """Return the frame of an element `frame` in this one, or that of a `body`, scaled as this
         one.
@@ -252,6 +257,7 @@ def read(root: Node, data: bytes) -> Description:
     outside = _Frame(_Model(root, itertools.count(1)))
     links: list[StatedLink] = []
     joints: list[StatedJoint] = []
+    names = {node.get("name") for node in root.walk() if node.tag == "body"}
     for world in root.all("worldbody"):
         refused: list[Finding] = []  # of frames of the world, which the bodies in them report
         waiting = [("", part) for part in reversed([*_parts(world.children, outside, refused)])]
@@ -269,7 +275,9 @@ def read(root: Node, data: bytes) -> Description:
                 if node.tag in ("joint", "freejoint")
                 and (motion := attempt(findings, node, _motion, frame)) is not None
             )
-            link = _link(body, outer, parts, len(links), findings)
+            unnamed = "body {}".format(len(links) + 1)
+            unnamed += " without name" * (unnamed in names)
+            link = _link(body, outer, parts, unnamed, findings)
             links.append(link)
             joints.append(StatedJoint("", parent, link.name, pose or Pose(), motions, body.place))
             refused = []
@@ -292,7 +300,7 @@ def _motion(joint: Node, frame: _Frame) -> Motion:
     unit = 1.0
     if kind == "hinge" and frame.model.compiler.get("angle") != "radian":
         unit = radians(1.0)
-    name = frame.prefix + joint.get("name") + frame.suffix
+    name = frame.full_name(joint)
     leader, powers = "", (0.0, 1.0)
     scope: _Frame | None = frame
     while scope and not leader:
@@ -340,9 +348,10 @@ def _link(
     body: Node,
     outer: _Frame,
     parts: Sequence[tuple[Node, _Frame]],
-    count: int,
+    unnamed: str,
     refused: Sequence[Finding],
 ) -> StatedLink:
+    """Return the link of a body. unnamed: its name if it states none."""
     findings = [*refused]
     node, frame = next((part for part in parts if part[0].tag == "inertial"), (None, outer))
     inertial = attempt(findings, node, _inertial, frame)
@@ -354,8 +363,7 @@ def _link(
         if geom.tag == "geom"
     )
     shapes = tuple(shape for shape in read if shape is not None)
-    name = outer.prefix + body.get("name") + outer.suffix
-    name = name if body.get("name") else "body {}".format(count + 1)
+    name = outer.full_name(body) or unnamed
     values = {"inertial": inertial, "shapes": shapes, "moves": False, "rules": rules}
     link = stated_link(body, node, findings, name=name, **values)
     # Numbers in a frame are not those of the body; no repair fits them.

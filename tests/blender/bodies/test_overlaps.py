@@ -6,7 +6,9 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.bodies.assembly.assembly import measure_assembly
+from body_moments.blender.bodies.measure_object import measure_many
 from body_moments.blender.bodies.overlaps import overlap_caveats, shared_space_caveats
+from body_moments.blender.bodies.stack import Measured
 from body_moments.blender.session.robots import collection_links, object_links
 
 from tests.blender.batch_files import codes, document
@@ -21,7 +23,12 @@ def here():
 
 def notes(*objects):
     bpy.context.view_layer.update()
-    return overlap_caveats(objects, bpy.context.evaluated_depsgraph_get())
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    found = overlap_caveats(objects, depsgraph)
+    outcomes = dict(pair for batch in measure_many(objects, depsgraph) for pair in batch)
+    measured = {obj: one for obj, one in outcomes.items() if isinstance(one, Measured)}
+    assert overlap_caveats(objects, depsgraph, measured) == found
+    return found
 
 
 def copy_of(obj, name):

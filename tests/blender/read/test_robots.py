@@ -143,6 +143,12 @@ def test_invalid_descriptions_are_refused(tmp_path):
             "description_invalid",
             "<mujoco><worldbody><body name='a'/><body name='a'/></worldbody></mujoco>",
         ),
+        (
+            "description_invalid",
+            "<mujoco><worldbody><body>{0}{0}</body></worldbody></mujoco>".format(
+                "<joint name='j'/>"
+            ),
+        ),
         ("description_invalid", b"\xff\xfe\0"),
         ("description_unknown", "<html/>"),
         ("file_without_objects", '<robot name="r"/>'),

@@ -127,6 +127,12 @@ def test_noise_has_moments_of_its_interpolant_at_any_threshold():
         assert found.clipped
 
 
+def test_cell_with_opposed_steps_is_not_monotone():
+    corners = (-1.0) ** np.indices((2, 2, 2)).sum(axis=0)
+    cells = threshold.Cells(corners[None], np.zeros((1, 3)), np.ones(1))
+    assert not cells.column_axes()[1].any()
+
+
 def test_noise_of_many_cells_is_within_its_bounds():
     """The whole has less work for a cell than its halves, which are nearly exact."""
     samples = RNG.normal(size=(25, 24, 24))

@@ -4,9 +4,12 @@
 leaves free is taken nearest to the preferred axes and said.
 """
 
+import time
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 import pytest
-from body_moments.core.inertia.principal_frames import principal_frame
+from body_moments.core.inertia.principal_frames import PrincipalFrame, principal_frame
 from body_moments.core.moments.moments import Moments, monomials, sum_moments
 
 from tests.close import close
@@ -186,3 +189,33 @@ def test_a_lamina_keeps_the_triangle_inequality():
     frame = principal_frame(box((0, 0, 0), (1, 2, 1e-12)))
     a, b, c = frame.moments
     assert a + b >= c > 0
+
+
+def test_threads_may_ask_for_axes_at_once():
+    known = PrincipalFrame(np.ones(3), np.eye(3), "isotropic", False, None)
+
+    def find():
+        time.sleep(0.05)
+        return known
+
+    frame = PrincipalFrame.on_demand(known.moments, find)
+    with ThreadPoolExecutor(4) as pool:
+        assert all(axes is known.axes for axes in pool.map(lambda _: frame.axes, range(4)))
+
+
+def test_failure_to_find_axes_is_raised_each_time():
+    def find():
+        raise MemoryError
+
+    frame = PrincipalFrame.on_demand(np.ones(3), find)
+    for _ in range(2):
+        with pytest.raises(MemoryError):
+            _ = frame.axes
+
+
+def test_later_change_of_preferred_axes_has_no_effect():
+    turn = np.array([[0.6, -0.8, 0.0], [0.8, 0.6, 0.0], [0.0, 0.0, 1.0]])
+    preferred = turn.copy()
+    frame = principal_frame(box((-1, -1, -1), (1, 1, 1)), preferred)
+    preferred[:] = np.eye(3)
+    assert close(frame.axes, turn, 1e-12)

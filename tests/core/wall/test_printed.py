@@ -265,6 +265,20 @@ def test_core_agrees_with_count_of_voxels(name):
     assert abs(volume.total - voxel_core(inside, low, high)) < 0.5 * STEP * area.total
 
 
+def test_thin_pin_on_flat_cone_has_no_core():
+    """The pin's moved faces are turned over twice, and larger faces have other directions."""
+    rings = [(20.0, 0.0), (20.0, 1.0), (0.6, 6.0), (0.6, 30.0)]
+    points = [np.column_stack([r * ROUND, np.full(64, z)]) for r, z in rings]
+    faces = [(256, (i + 1) % 64, i) for i in range(64)]
+    faces += [(257, 192 + i, 192 + (i + 1) % 64) for i in range(64)]
+    for i in range(192):
+        j = i - i % 64 + (i + 1) % 64
+        faces += [(i, j, j + 64), (i, j + 64, i + 64)]
+    points = np.vstack([*points, [0.0, 0.0, 0.0], [0.0, 0.0, 30.0]])
+    core = find_core(Surface.from_triangles(points, faces), WALL, LAYERS, LAYERS).surface
+    assert 5.0 < core.used_points()[:, 2].max() < 6.0
+
+
 def test_ball_has_moments_of_its_quadrature():
     nodes, weights = np.polynomial.legendre.leggauss(12)
     radius, around = (nodes + 1.0) * 1.5, np.pi * np.arange(24) / 12.0

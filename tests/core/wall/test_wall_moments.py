@@ -11,6 +11,7 @@ from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments.exponents import monomials
 from body_moments.core.numerics.quadrature import gauss_legendre, triangle_rule
 from body_moments.core.wall import offset_solid, wall_moments
+from body_moments.core.wall.moments import _strip_moments
 
 from tests.core.bodies import box, grid, sphere, without
 
@@ -86,3 +87,49 @@ def test_storing_points_as_float32_is_in_the_bounds():
     assert (found.input_error[20:] < 1e-4 * np.abs(found.raw[20:]).max()).all() and apart[
         20:
     ].max() > 0.0
+
+
+def product(*polynomials):
+    """Multiply polynomials in u and w: {(i, j): coefficient}."""
+    result = {(0, 0): Fraction(1)}
+    for one in polynomials:
+        before, result = result, {}
+        for (i, j), left in before.items():
+            for (k, m), right in one.items():
+                result[i + k, j + m] = result.get((i + k, j + m), 0) + left * right
+    return result
+
+
+def strip_truth(corners, powers):
+    """∫ x^α over the cones from the origin on bilinear patches, (4, k, 3), in fractions."""
+    total = Fraction(0)
+    for a, b, c, d in np.moveaxis(corners, 1, 0):
+        a, b, c, d = ([Fraction(float(x)) for x in corner] for corner in (a, b, c, d))
+        place = [{(0, 0): a[i], (1, 0): b[i] - a[i], (0, 1): d[i] - a[i]} for i in range(3)]
+        for i in range(3):
+            place[i][1, 1] = a[i] - b[i] + c[i] - d[i]
+        along = [{(0, 0): p[1, 0], (0, 1): p[1, 1]} for p in place]
+        across = [{(0, 0): p[0, 1], (1, 0): p[1, 1]} for p in place]
+        for i, j, k, sign in (
+            (0, 1, 2, 1),
+            (1, 2, 0, 1),
+            (2, 0, 1, 1),
+            (0, 2, 1, -1),
+            (1, 0, 2, -1),
+            (2, 1, 0, -1),
+        ):
+            factors = [place[n] for n in range(3) for _ in range(powers[n])]
+            flux = product(place[i], along[j], across[k], *factors)
+            total += sign * sum(value / ((m + 1) * (n + 1)) for (m, n), value in flux.items())
+    return total / (sum(powers) + 3)
+
+
+@pytest.mark.parametrize("size", [1.0, 1e-3, 1e-9])
+def test_strips_far_beyond_their_size_are_within_bounds(size):
+    rng = np.random.default_rng(7)
+    corners = rng.uniform(-1, 1, (1, 4, 3)) + size * rng.uniform(-1, 1, (4, 4, 3))
+    corners[:, 0, 0] -= corners[0, 0, 0]  # one through the plane x = 0, where its place cancels
+    found = _strip_moments(corners, np.zeros(3), 3)
+    for powers, value, bound in zip(monomials(3).tolist(), found.raw, found.rounding_error):
+        assert abs(Fraction(value) - strip_truth(corners, powers)) <= Fraction(bound)
+        assert bound <= 1e-12 * size**2
