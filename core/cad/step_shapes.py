@@ -406,9 +406,13 @@ def _offset(shapes: Shapes, _: Any, values: list[Any], loops: list[list[Curve]])
     surface = shapes.surface(values[1], loops)
     if isinstance(surface, Quadric):
         away = float(values[2]) * math.hypot(1.0, surface.slope)
-        if surface.minor:
-            return replace(surface, minor=surface.minor + away)
-        return replace(surface, radius=surface.radius + away)
+        name = "minor" if surface.minor else "radius"
+        size = getattr(surface, name) + away
+        if size <= 0.0 and not surface.slope:
+            raise refuse("an offset surface that turns its base inside out")
+        if surface.minor and size > surface.radius > 0.0:
+            raise refuse("an offset torus that crosses its axis")
+        return replace(surface, **{name: size})
     if not isinstance(surface, np.ndarray):
         raise SurfaceRefusedError(SURFACE_UNSUPPORTED, base="OFFSET_SURFACE")
     return surface

@@ -300,6 +300,7 @@ SWAPS = {
         r"\g<1>12.",
         "ADVANCED_FACE",
     ),
+    "inside out": (ENTITIES["offset cylinder"][1], OFFSET.format("-7.", "3."), "ADVANCED_FACE"),
 }
 
 
