@@ -104,7 +104,8 @@ def _fill(spline, patch: Patch, values: NDArray[np.float32]) -> None:
     spline.use_cyclic_u = spline.use_cyclic_v = False
     spline.use_bezier_u = spline.use_bezier_v = True
     spline.use_endpoint_u = spline.use_endpoint_v = True
-    spline.use_smooth = True
+    # Across strips of flat faces, smooth shading shows bands.
+    spline.use_smooth = max(space.order for space in patch.spaces) > 2
 
 
 def _grids(name: str, shapes: Sequence[tuple[int, int]]) -> Curve:

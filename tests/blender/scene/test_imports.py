@@ -58,7 +58,8 @@ def test_splines_are_the_patches(offset, factor, rational):
             else patch.weights / patch.weights.max()
         )
         assert np.array_equal(own[..., 3], weights.astype(np.float32))
-        assert (spline.order_v, spline.order_u) == patch.points.shape[:2] and spline.use_smooth
+        assert (spline.order_v, spline.order_u) == patch.points.shape[:2]
+        assert spline.use_smooth == (max(patch.points.shape[:2]) > 2)
         assert (
             spline.use_bezier_u
             and spline.use_bezier_v
