@@ -40,9 +40,7 @@ class OBJECT_OT_body_moments_stability(selection.OnSelection, Operator):
             obj for obj, support in supports.items() if support is not None and support.stands
         ]
         falling = [
-            obj.name
-            for obj in objects
-            if session.stored.stability.is_known(obj) and obj not in standing
+            obj.name for obj in objects if obj in session.memory.hulls and obj not in standing
         ]
         if falling:
             notes.insert(0, finding(findings.OBJECTS_TIP, count=len(falling), names=falling))
@@ -86,7 +84,7 @@ class OBJECT_OT_body_moments_rest_on_ground(selection.OnSelectionInObjectMode, O
         layout.use_property_split = True
         layout.prop(self, "pose")
         obj = session.selected.subject(context)
-        poses = None if obj is None else session.stored.stability.poses(obj)
+        poses = None if obj is None else session.stored.stability.poses(obj, context.scene)
         if self.pose and poses is not None and not isinstance(poses, Finding):
             count = len(poses.shares)
             place = (self.pose - 1) % count

@@ -12,7 +12,7 @@ from bpy.types import Context, Object, UILayout
 from ..blender import session, write
 from ..blender.session.displayed import displayed
 from ..blender.settings.preferences import shows_advanced
-from ..core import inertia, lazy
+from ..core import inertia
 from . import places, rows
 
 
@@ -86,13 +86,13 @@ class MomentsPanel:
         row = layout.row(align=True)
         rows.button(row, "object.body_moments_compute_moments", "PHYSICS", short="Compute")
         row.operator("object.body_moments_copy", text="", icon="COPYDOWN").what = "MOMENTS"
-        table = lazy.loaded_module(session.stored, "moments")
-        computed = None if table is None else table.computed_moments(obj)
+        computed = session.memory.moments.get(obj)
         if computed is None:
             return
-        rows.stale_state(
-            layout, session.tracking.staleness.stale_reason(obj, context.scene, table.stamp_of)
-        )
+        table = session.stored.moments
+        kind = session.tracking.stamps.Kind.MOMENTS
+        reason = session.tracking.staleness.stale_reason(obj, context.scene, kind)
+        rows.stale_state(layout, reason)
         degrees, missing = table.current_numbers(obj, context.scene)
         if missing is not None:
             rows.message(layout, missing)

@@ -87,7 +87,7 @@ class CollidersPanel:
             None
             if stored is None
             else session.tracking.staleness.stale_reason(
-                body, context.scene, session.tracking.stamps.of_colliders
+                body, context.scene, session.tracking.stamps.Kind.COLLIDERS
             )
         )
         rows.stale_state(layout, reason)

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING
 from bpy.types import Context, UILayout
 
 from ..blender.read.visibility import measurable
-from ..blender.session import memory, selected, stored
-from ..core.lazy import loaded_module
+from ..blender.session import memory, selected
+from ..blender.session.tracking.staleness import stale_reason
+from ..blender.session.tracking.stamps import Kind
 from . import places, rows
 
 if TYPE_CHECKING:
@@ -31,20 +32,15 @@ class CutsPanel:
         column = layout.column(align=True)
         rows.button(column, "object.body_moments_level", "MATFLUID")
         rows.button(column, "object.body_moments_cut_fill", "MOD_BOOLEAN", short="Cut, Fill")
-        cuts = loaded_module(stored, "cuts")
-        if cuts is None:
-            return
-        for values, read, draw in (
-            (memory.levels, cuts.level_of, _level),
-            (memory.cut_fills, cuts.cut_fill_of, _cut_fill),
+        for values, kind, draw in (
+            (memory.levels, Kind.LEVEL, _level),
+            (memory.cut_fills, Kind.CUT_FILL, _cut_fill),
         ):
-            if obj in values:
-                found = read(obj, context.scene)
-                if found is None:
-                    text = "The object has changed. Press the button again."
-                    rows.remark(layout, text, icon="FILE_REFRESH")
-                else:
-                    draw(layout, found)
+            if obj in values and stale_reason(obj, context.scene, kind):
+                text = "The object has changed. Press the button again."
+                rows.remark(layout, text, icon="FILE_REFRESH")
+            elif obj in values:
+                draw(layout, values[obj])
 
 
 def _level(layout: UILayout, level: Level) -> None:

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 from bpy.types import Context, UILayout
 
 from ..blender.read.visibility import measurable
-from ..blender.session import displayed, selected, stored
-from ..core import lazy, verdict
+from ..blender.session import displayed, memory, selected, stored
+from ..core import verdict
 from . import places, rows
 
 if TYPE_CHECKING:
@@ -47,12 +47,10 @@ class FloatingPanel:
             column.prop(tank, "role")
             if tank.role == "TANK":
                 column.prop(tank, "fill")
-        floating = lazy.loaded_module(stored, "floating")
-        afloat = None if floating is None or obj is None else floating.known_body(obj)
-        if afloat is None:
+        if obj is None or obj not in memory.afloat:
             rows.remark(layout, "Press Float to see where it rests.")
             return
-        held = floating.held_body(obj, context.scene)
+        held = stored.floating.held_body(obj, context.scene)
         if isinstance(held, verdict.Finding):
             rows.message(layout, held)
         elif held is None:

@@ -35,7 +35,7 @@ class SectionPanel:
         if stored is None:
             layout.label(text="Not Measured", icon="RADIOBUT_OFF")
             return
-        _verdict(layout, stored, staleness.stale_reason(obj, context.scene, stamps.of_section))
+        _verdict(layout, stored, staleness.stale_reason(obj, context.scene, stamps.Kind.SECTION))
         groups = [Group(found) for found in stored.findings]
         remedies.lines(layout, context, groups, can_accept=False)
         _numbers(layout, stored.section)

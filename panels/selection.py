@@ -43,7 +43,8 @@ class BODY_MOMENTS_UL_measured(UIList):
         row.active = obj.select_get()
         row.label(text=obj.name, icon=rows.VERDICTS[body.verdict][0], translate=False)
         if not rows.is_narrow():
-            rows.right(row, listed_masses(context.scene, context.view_layer)[obj.session_uid])
+            masses = listed_masses(context.scene, context.view_layer, rows.scene_units())
+            rows.right(row, masses[obj.session_uid])
 
     def draw_filter(self, _context, layout) -> None:
         row = layout.row(align=True)

@@ -53,7 +53,7 @@ def _symmetry(layout: UILayout, context: Context, obj: Object | None) -> None:
     stored = obj.body_moments_symmetry
     column = layout.column(align=True)
     rows.filled(column, "Symmetry {:s}", stored.group, icon="CHECKMARK")
-    rows.stale_state(column, staleness.stale_reason(obj, context.scene, stamps.of_symmetry))
+    rows.stale_state(column, staleness.stale_reason(obj, context.scene, stamps.Kind.SYMMETRY))
     if stored.compatible != stored.group:
         text = "Moments to order 6 alone allow {group}"
         rows.remark(column, text, icon="BLANK1", group=stored.compatible)

@@ -14,7 +14,7 @@ from bpy.types import Context, UILayout
 from ..blender import scale, session
 from ..blender.read.visibility import measurable
 from ..blender.write.translations import localized
-from ..core import lazy, verdict
+from ..core import verdict
 from . import places, rows
 
 if TYPE_CHECKING:
@@ -32,9 +32,8 @@ class StabilityPanel:
         layout = self.layout
         objects = session.displayed.shown_objects(context)
         obj = objects[0] if len(objects) == 1 else session.selected.subject(context)
-        stability = lazy.loaded_module(session.stored, "stability")
-        is_known = stability is not None and obj is not None and stability.is_known(obj)
-        support = stability.support(obj, context.scene) if is_known else None
+        is_known = obj is not None and obj in session.memory.hulls
+        support = session.stored.stability.support(obj, context.scene) if is_known else None
         tips_over_edge = support is not None and not support.stands and len(support.polygon) > 2
         column = layout.column(align=True)
         rows.button(column, "object.body_moments_stability", "CON_FLOOR", short="Check")

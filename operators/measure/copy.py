@@ -15,7 +15,7 @@ from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 from bpy.types import Context, Event, Menu, Operator, OperatorProperties, Scene
 
 from ...blender import bodies, read, session, write
-from ...blender.session import selected, stored, tracking
+from ...blender.session import memory, selected, stored, tracking
 from ...blender.write import properties, reports, translations
 from ...core import measurement, robots, verdict
 from ...core.robots import write as robot_formats
@@ -133,14 +133,14 @@ def _section(context: Context) -> Copied | str:
     text = write.section.text(
         obj.name,
         section,
-        tracking.staleness.stale_reason(obj, context.scene, tracking.stamps.of_section),
+        tracking.staleness.stale_reason(obj, context.scene, tracking.stamps.Kind.SECTION),
     )
     return text, reports.phrase("Copied the section of {object}", object=obj.name)
 
 
 def _moments(context: Context) -> Copied | str:
     obj, scene = selected.subject(context), context.scene
-    computed = None if obj is None else stored.moments.computed_moments(obj)
+    computed = None if obj is None else memory.moments.get(obj)
     if obj is None or computed is None:
         return "Compute the moments first"
     settings = scene.body_moments

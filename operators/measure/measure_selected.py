@@ -16,7 +16,7 @@ from bpy.types import Context, Object, Operator
 from ...blender import bodies, scene, session, write
 from ...blender.read.visibility import has_shape, measurable
 from ...blender.session import character, displayed, live, memory
-from ...blender.session.tracking import armatures, staleness, stamps
+from ...blender.session.tracking import armatures, staleness
 from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
 from ...blender.write import properties, reports
 from ...core import density, verdict
@@ -233,7 +233,7 @@ class OBJECT_OT_body_moments_clear(selection.OnSelection, Operator):
             obj
             for obj in dict.fromkeys((*selected, *armatures.subjects(selected)))
             if any(key in obj for key in (*properties.DESCRIPTIONS, write.section.KEY))
-            or stamps.of_symmetry(obj)
+            or obj.is_property_set("body_moments_symmetry")
         ]
 
         def remove(obj: Object) -> bool:
@@ -242,7 +242,7 @@ class OBJECT_OT_body_moments_clear(selection.OnSelection, Operator):
             clear = session.stored.results.clear_rig if obj.type == "ARMATURE" else properties.clear
             removed = "MASS" in self.kinds and clear(obj)
             removed |= "SECTION" in self.kinds and write.section.clear(obj)
-            if "SYMMETRY" in self.kinds and stamps.of_symmetry(obj):
+            if "SYMMETRY" in self.kinds and obj.is_property_set("body_moments_symmetry"):
                 obj.property_unset("body_moments_symmetry")
                 removed = True
             return removed

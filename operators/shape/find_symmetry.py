@@ -116,10 +116,7 @@ class OBJECT_OT_body_moments_find_symmetry(modal.ModalSteps, selection.OnSelecti
                 obj, shape, found_symmetry, allowed, self.tolerance
             )
         # Blender reports the stored symmetry as a change of the object.
-        staleness.mark_stamps(
-            context,
-            [(obj, stamp) for obj, *_ in self._results if (stamp := stamps.of_symmetry(obj))],
-        )
+        staleness.mark_stored(context, [obj for obj, *_ in self._results], stamps.Kind.SYMMETRY)
         texts = (
             "{object}: {group}, {description}",
             "{object}: {group}, {description}, of the display mesh",

@@ -104,7 +104,7 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
         except MeasureError as error:
             return selection.refuse(self, reports.failure(obj.name_full, error))
         session.remeasure(context, [obj])
-        if session.stored.stability.is_known(obj):
+        if obj in session.memory.hulls:
             session.check_stability(context, obj, [])
         texts = [
             reports.phrase(

@@ -334,8 +334,7 @@ CLICKED = {
     "object.body_moments_compute_moments": (
         {},
         "",
-        f"__import__('sys').modules['{PACKAGE}.blender.session.stored.moments']"
-        f".computed_moments({PART}) is not None",
+        f"{PART} in __import__('sys').modules['{PACKAGE}.blender.session.memory'].moments",
     ),
     "object.body_moments_find_symmetry": ({}, "", f"{PART}.body_moments_symmetry.group == 'D2h'"),
     "object.body_moments_find_similar": (

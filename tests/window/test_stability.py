@@ -14,7 +14,8 @@ CUBE = "bpy.data.objects['Cube']"
 SESSION = f"import sys\nstability = sys.modules['{PACKAGE}.blender.session.stored.stability']\n"
 SUPPORT = (
     SESSION
-    + f"found = stability.support({CUBE})\nresult = [found.stands, found.margin, found.height]"
+    + f"found = stability.support({CUBE}, bpy.context.scene)\n"
+    + "result = [found.stands, found.margin, found.height]"
 )
 # pixels right of and below the pointer where F9 was pressed: the arrow at the end of the Step
 STEP_ARROW = (

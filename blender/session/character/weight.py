@@ -248,47 +248,41 @@ def measure(context: Context, armature: Object) -> Rig:
 
 def character(armature: Object, unit: float) -> Character | None:
     """Return a measured character, None if its bones have not been measured."""
+    fingerprint = properties.fingerprint(armature)
+    known = memory.characters.get(armature)
+    if known is None or known[0] != fingerprint:
+        bodies = {bone.name: properties.stored(bone) for bone in armature.pose.bones}
+        known = fingerprint, Character.from_bodies(armature, bodies, unit)
+        memory.characters[armature] = known
+    return known[1]
 
-    def read() -> Character | None:
-        return Character.from_bodies(
-            armature, {bone.name: properties.stored(bone) for bone in bones}, unit
-        )
 
-    bones = armature.pose.bones
-    return memory.current_value(memory.characters, armature, properties.fingerprint(armature), read)
-
-
+@memory.until_change
 def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
     """Return a character as the dependency graph shows it, None if its bones have not been
     measured.
     """
-
-    def stand() -> Weight | None:
-        unit = meters_per_unit(depsgraph.scene)
-        known = character(armature, unit)
-        # removed in Edit Mode
-        if known is None or any(name not in armature.pose.bones for name in known.names):
-            return None
-        gravity = down(depsgraph.scene)
-        ground = armature.body_moments_weight.ground
-        parts, contacts, support = known.stand(armature, depsgraph, ground)
-        foot = (
-            parts.center - (parts.center @ gravity + ground) * gravity
-            if support is None
-            else support.foot
-        )
-        inertia = tuple((parts.inertia * unit**2)[ROWS, COLUMNS].tolist())
-        moments, axes, _ = principal_axes(inertia)
-        rest = properties.stored(armature) or PlainBody(0.0, 0.0, 0.0, 0.0, (), (), (), (), {})
-        center = tuple((parts.center * unit).tolist())
-        body = rest._replace(
-            mass=parts.mass, center=center, inertia=inertia, moments=moments, axes=axes
-        )
-        return Weight(parts, contacts, support, foot, body)
-
-    return memory.current_value(
-        memory.weights, armature, (memory.state.generation, depsgraph.scene.session_uid), stand
+    unit = meters_per_unit(depsgraph.scene)
+    known = character(armature, unit)
+    # removed in Edit Mode
+    if known is None or any(name not in armature.pose.bones for name in known.names):
+        return None
+    gravity = down(depsgraph.scene)
+    ground = armature.body_moments_weight.ground
+    parts, contacts, support = known.stand(armature, depsgraph, ground)
+    foot = (
+        parts.center - (parts.center @ gravity + ground) * gravity
+        if support is None
+        else support.foot
     )
+    inertia = tuple((parts.inertia * unit**2)[ROWS, COLUMNS].tolist())
+    moments, axes, _ = principal_axes(inertia)
+    rest = properties.stored(armature) or PlainBody(0.0, 0.0, 0.0, 0.0, (), (), (), (), {})
+    center = tuple((parts.center * unit).tolist())
+    body = rest._replace(
+        mass=parts.mass, center=center, inertia=inertia, moments=moments, axes=axes
+    )
+    return Weight(parts, contacts, support, foot, body)
 
 
 def require_gravity(scene: Scene) -> None:

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from bpy.types import Object
 
-from ....core import measurement as measuring
-from .. import memory, tracking
+from .. import memory
 
 if TYPE_CHECKING:
     from ....core.measurement import Measurement
@@ -77,17 +76,3 @@ def current_numbers(obj: Object) -> LiveResult | None:
     """
     current = memory.followed.get(obj)
     return None if current is None else current.result
-
-
-def stamp_of(obj: Object) -> tracking.stamps.Stamp | None:
-    """Return a stamp of the settings of live numbers, as Blender does not report every change of a
-    setting.
-    """
-    now = current_numbers(obj)
-    return (
-        None
-        if now is None
-        else tracking.stamps.Stamp(
-            tracking.stamps.Kind.SETTINGS, measuring.settings.VERSION, settings=now.settings
-        )
-    )

@@ -129,7 +129,7 @@ def kept_up_to_date(context: Context, member: Object | None = None) -> Iterator[
     for root, bodies in before.items():
         handlers.count_change(root)
         tree = members_of(root, depsgraph)
-        stamp = stamps.of_results(root)
+        stamp = stamps.stamp_of(root)
         now = _member_bodies(tree)
         if (
             stamp is None

@@ -33,8 +33,9 @@ from ...bodies.measure_body import THREADS, measure_body
 from ...bodies.mesh import mesh_body
 from ...scene.rigid_world import down
 from ...settings.options import object_settings
-from .. import memory, tracking
+from .. import memory
 from ..findings import NO_SUCH_NAME
+from ..tracking import staleness
 from ..tracking.stamps import Kind
 
 MAX_TILTED_TRIANGLES = 20_000  # of vessels whose spill tilt is computed
@@ -153,7 +154,7 @@ def fill_vessel(context: Context, obj: Object, by: str, amount: float, density: 
         tilt = spill_tilt(points, triangles, float(liquid.volume[0]), up)[0]
     level = Level(hollow, min(height, hollow.spill), liquid, density, tilt)
     memory.levels[obj] = level
-    _remember(obj, Kind.LEVEL, context)
+    staleness.carry(obj, Kind.LEVEL, context.evaluated_depsgraph_get())
     return level
 
 
@@ -173,39 +174,18 @@ def measure_cut_fill(
         found = surface_cut_fill(surface, None if against == "RIM" else height)
     known = KnownCutFill(found, partly_compared(found))
     memory.cut_fills[obj] = known
-    _remember(obj, Kind.CUT_FILL, context)
+    staleness.carry(obj, Kind.CUT_FILL, context.evaluated_depsgraph_get())
     return known
-
-
-def _remember(obj: Object, kind: Kind, context: Context) -> None:
-    scene = context.scene
-    stamp = tracking.stamps.carry(
-        obj,
-        kind,
-        memory.state.updates,
-        read.fingerprint.matrix_hash(obj),
-        read.fingerprint.settings_hash(obj, scene),
-        scale.meters_per_unit(scene),
-    )
-    tracking.staleness.mark_stamp(obj, stamp, context.evaluated_depsgraph_get())
-    tracking.handlers.count_change(obj)
 
 
 def level_of(obj: Object, scene: Scene) -> Level | None:
     """Return the remembered level; None if there is none or it is out of date."""
-    return memory.levels.get(obj) if not is_stale(obj, scene, Kind.LEVEL) else None
+    return None if staleness.stale_reason(obj, scene, Kind.LEVEL) else memory.levels.get(obj)
 
 
 def cut_fill_of(obj: Object, scene: Scene) -> KnownCutFill | None:
     """Return the remembered cut and fill; None if there are none or they are out of date."""
-    return memory.cut_fills.get(obj) if not is_stale(obj, scene, Kind.CUT_FILL) else None
-
-
-def is_stale(obj: Object, scene: Scene, kind: Kind) -> bool:
-    """Return whether a remembered result no longer holds."""
-    return bool(
-        tracking.staleness.stale_reason(obj, scene, partial(tracking.stamps.carried, kind=kind))
-    )
+    return None if staleness.stale_reason(obj, scene, Kind.CUT_FILL) else memory.cut_fills.get(obj)
 
 
 def add_surface(context: Context, obj: Object, level: Level) -> Object:

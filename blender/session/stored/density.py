@@ -52,7 +52,7 @@ def follow_density(obj: Object, scene: Scene) -> None:
     """Update stored results if the settings change them by a factor alone; else leave them out of
     date.
     """
-    stamp = tracking.stamps.of_results(obj)
+    stamp = tracking.stamps.stamp_of(obj)
     if stamp is None or stamp.version != VERSION or "body_density_from" in obj:
         return
     try:

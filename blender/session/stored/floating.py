@@ -33,7 +33,7 @@ from ....core.numerics import Array
 from ....core.verdict import EditRefusedError, Finding, MeasureError
 from ...bodies.measure_body import measure_body
 from ...bodies.measure_object import measure_many
-from ...read import fingerprint, visibility
+from ...read import visibility
 from ...scale import meters_per_unit
 from ...scene import changes, fcurves, findings, reframe, rigid_world
 from ...scene.transforms import TransformChannels, world
@@ -41,7 +41,8 @@ from ...settings.floating import liquid_density
 from ...settings.options import AS_SET, MeasureOptions
 from ...write import properties
 from .. import live, memory
-from ..tracking import handlers, staleness, stamps
+from ..tracking import handlers, staleness
+from ..tracking.stamps import Kind
 from . import results
 
 PLACE_RTOL = 1e-5  # of float32 matrices
@@ -181,10 +182,7 @@ def remember(afloat: Afloat, members: Iterable[Object], depsgraph: Depsgraph) ->
     """Keep a body for the panel and the overlay."""
     for obj in members:
         memory.afloat[obj] = afloat
-        settings = fingerprint.settings_hash(obj, depsgraph.scene)
-        stamp = stamps.carry(obj, stamps.Kind.FLOATING, memory.state.updates, settings=settings)
-        staleness.mark_stamp(obj, stamp, depsgraph)
-        handlers.count_change(obj)
+        staleness.carry(obj, Kind.FLOATING, depsgraph)
 
 
 def _measure(context: Context, members: Iterable[Object]) -> None:
@@ -261,7 +259,7 @@ def float_body(
 def _turn_since(afloat: Afloat, members: Sequence[Object], scene: Scene) -> Array | None:
     """Return the (4, 4) rigid motion of a body since it was read; None if more has changed."""
     if _roles(members) != afloat.roles or any(
-        staleness.stale_reason(member, scene, stamp_of) for member in members
+        staleness.stale_reason(member, scene, Kind.FLOATING) for member in members
     ):
         return None
     present = np.array([world(member) for member in members])
@@ -337,16 +335,6 @@ def add_curve(context: Context, afloat: Afloat) -> Object:
         afloat.curve.arms,
     )
     return empty
-
-
-def stamp_of(obj: Object) -> stamps.Stamp | None:
-    """Return the stamp of an object's floating body."""
-    return stamps.carried(obj, stamps.Kind.FLOATING)
-
-
-def known_body(obj: Object) -> Afloat | None:
-    """Return the floating body of an object, if it was read."""
-    return memory.afloat.get(obj)
 
 
 def held_body(obj: Object, scene: Scene) -> Held | Finding | None:

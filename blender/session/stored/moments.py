@@ -17,12 +17,13 @@ from bpy.types import Context, Depsgraph, Object, Scene
 from ....core import inertia, verdict
 from ....core.moments import Invariant
 from ....core.moments.moments import Measure, Moments, monomial_count, monomials
-from ... import bodies, read, write
+from ... import bodies, write
 from ...bodies.flat.flat import area_findings, clearer_refusal, flat_region
 from ...bodies.measure_object import measure_object
 from ...settings.options import MeasureOptions
 from .. import memory
-from ..tracking import staleness, stamps
+from ..tracking import staleness
+from ..tracking.stamps import Kind
 from .computed_moments import ComputedMoments, FlatMoments, in_frame, invariants
 from .reference import ReferenceChoice
 
@@ -88,27 +89,13 @@ def compute_moments(
 def cache_moments(obj: Object, computed: ComputedMoments, depsgraph: Depsgraph) -> None:
     """Cache an object's freshly computed moments."""
     memory.moments[obj] = computed
-    settings = read.fingerprint.settings_hash(obj, depsgraph.scene)
-    stamp = stamps.carry(
-        obj, stamps.Kind.MOMENTS, memory.state.updates, read.fingerprint.matrix_hash(obj), settings
-    )
-    staleness.mark_stamp(obj, stamp, depsgraph)
-
-
-def computed_moments(obj: Object) -> ComputedMoments | None:
-    """Return an object's computed moments; None if there are none."""
-    return memory.moments.get(obj)
-
-
-def stamp_of(obj: Object) -> stamps.Stamp | None:
-    """Return the stamp of an object's computed moments."""
-    return stamps.carried(obj, stamps.Kind.MOMENTS)
+    staleness.carry(obj, Kind.MOMENTS, depsgraph)
 
 
 def current_numbers(obj: Object, scene: Scene) -> Display:
     """Return the moments displayed by the scene's settings, and the reason if there are none."""
     settings = scene.body_moments
-    computed = computed_moments(obj)
+    computed = memory.moments.get(obj)
     if computed is None:
         return (), None
     of = settings.moments_of

@@ -139,9 +139,7 @@ def store_sections(
             read.fingerprint.settings_hash(obj, context.scene),
         )
         section.store(obj, found, description, findings, mark, unit)
-    staleness.mark_stamps(
-        context, [(obj, stamp) for obj, _ in sections if (stamp := stamps.of_section(obj))]
-    )
+    staleness.mark_stored(context, [obj for obj, _ in sections], stamps.Kind.SECTION)
 
 
 def store_rig(rig: bodies.rig.Rig) -> list[tuple[str, core.verdict.Finding]]:

@@ -10,8 +10,8 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.read.section import read_section
-from body_moments.blender.session.tracking import staleness, stamps
-from body_moments.blender.session.tracking.stamps import Stale
+from body_moments.blender.session.tracking import staleness
+from body_moments.blender.session.tracking.stamps import Kind, Stale
 
 from tests.blender.findings import refused as refusal
 from tests.blender.findings import said
@@ -69,7 +69,7 @@ def stored(obj):
 
 def outdated(obj):
 
-    return staleness.stale_reason(obj, bpy.context.scene, stamps.of_section)
+    return staleness.stale_reason(obj, bpy.context.scene, Kind.SECTION)
 
 
 @pytest.mark.parametrize(
