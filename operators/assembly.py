@@ -9,7 +9,8 @@ from pathlib import Path
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
-from bpy.types import Context, Event, Operator
+from bpy.types import Context, Operator
+from bpy_extras.io_utils import ExportHelper
 from mathutils import Matrix
 
 from ..blender import bodies, read, scale, scene, session
@@ -73,20 +74,21 @@ class OBJECT_OT_body_moments_measure_assembly(modal.ModalSteps, Operator):
     def _finish(self, context: Context) -> set[str]:
         assembly = bodies.assemble(self._member, self._results, context.evaluated_depsgraph_get())
         failures = session.stored.assembly.store(context, assembly)
-        findings = [*of_severity(assembly.measurement.findings, Severity.WARNING, Severity.ERROR)]
+        measurement = assembly.measurement
         done = [
             reports.phrase(
                 "{assembly}: {mass:.7g} kg from {count} object",
                 "{assembly}: {mass:.7g} kg from {count} objects",
-                assembly=assembly.measurement.name,
+                assembly=measurement.name,
                 count=sum(part.measurement is not None for part in assembly.root.walk()),
-                mass=assembly.measurement.mass_properties.mass,
+                mass=measurement.mass_properties.mass,
             )
         ]
         if failures:
             names = [name for name, _ in failures]
             done.append(reports.phrase("Results not stored on {names}.", names=names))
-        return selection.report(self, *done, *reports.first(findings))
+        findings = of_severity(measurement.findings, Severity.WARNING, Severity.ERROR)
+        return selection.report(self, *done, *findings)
 
 
 class OBJECT_OT_body_moments_clear_assembly(Operator):
@@ -100,21 +102,13 @@ class OBJECT_OT_body_moments_clear_assembly(Operator):
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
-        return report_cleared(
-            self, context, session.stored.assembly.clear(target_of(context, self.target))
-        )
+        return report_cleared(self, session.stored.assembly.clear(target_of(context, self.target)))
 
 
-def report_cleared(operator: Operator, context: Context, is_cleared: bool) -> set[str]:
+def report_cleared(operator: Operator, is_cleared: bool) -> set[str]:
     """Report that results were removed, or that there were none; return the result of `execute`."""
-    texts = ("Removed the results of {count} object", "Removed the results of {count} objects")
-    done = (
-        reports.phrase(*texts, count=1)
-        if is_cleared
-        else reports.phrase("The selected objects have no results")
-    )
-    selection.report(operator, done)
-    return {"FINISHED"} if is_cleared else {"CANCELLED"}
+    text = "Removed the results of {count} object" if is_cleared else selection.NO_RESULTS
+    return selection.finish(operator, [reports.phrase(text, count=1)], is_changed=is_cleared)
 
 
 # ID property of an empty: the collection or empty whose frame it shows
@@ -216,23 +210,16 @@ class OBJECT_OT_body_moments_assembly_origin(_SnapToAssembly, Operator):
         )
 
 
-class OBJECT_OT_body_moments_export_bill(Operator):
+class OBJECT_OT_body_moments_export_bill(Operator, ExportHelper):
     """Write masses, centers and inertia of an assembly's members as a table (.csv), in SI units"""
 
     bl_idname = "object.body_moments_export_bill"
     bl_label = "Export Bill of Masses"
     bl_options = {"REGISTER"}
+    filename_ext = ".csv"
 
     target: TARGET
-    filepath: StringProperty(name="File Path", description="File to write", subtype="FILE_PATH")
-    check_existing: BoolProperty(name="Check Existing", default=True, options={"HIDDEN"})
     filter_glob: StringProperty(default="*.csv", options={"HIDDEN"})
-
-    def invoke(self, context: Context, event: Event) -> set[str]:
-        return selection.ask_for_table(self, context)
-
-    def check(self, _context: Context) -> bool:
-        return selection.ensure_suffix(self, ".csv")
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:

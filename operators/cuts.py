@@ -2,30 +2,27 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Levels of liquids in vessels, and cut and fill of surfaces."""
 
-from collections.abc import Callable
-
 from bpy.props import EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Event, Object, Operator
 
-from ..blender.read.visibility import measurable
 from ..blender.scale import meters_per_unit
-from ..blender.session import memory, selected, stored
+from ..blender.session import memory, stored
 from ..blender.write import reports
-from ..core.verdict import MeasureError
 from . import selection
 
 
-class OnSubject(selection.OnSelectionInObjectMode):
-    """Base of operators on the object that the panel is about, after a dialog."""
-
-    execute: Callable[[Context], set[str]]
+class InObjectMode(selection.OnSubject):
+    """Base of operators on the object that the panel is about, in Object Mode."""
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        obj = selected.subject(context)
-        return super().poll(context) and (
-            (obj is not None and measurable(obj)) or reports.unavailable(cls, "Select a mesh")
-        )
+        return selection.poll_object_mode(cls, context) and super().poll(context)
+
+
+class WithDialog(InObjectMode):
+    """Base of operators on the object that the panel is about, after a dialog."""
+
+    NEEDED = "Select a mesh"
 
     def invoke(self, context: Context, _event: Event) -> set[str]:
         if context.window is None:
@@ -33,7 +30,7 @@ class OnSubject(selection.OnSelectionInObjectMode):
         return context.window_manager.invoke_props_dialog(self)
 
 
-class OBJECT_OT_body_moments_level(OnSubject, Operator):
+class OBJECT_OT_body_moments_level(WithDialog, Operator):
     """Compute the level of a liquid in the active object, or its contents up to a level."""
 
     bl_idname = "object.body_moments_level"
@@ -85,22 +82,18 @@ class OBJECT_OT_body_moments_level(OnSubject, Operator):
         layout.prop(self, self.by.lower())
         layout.prop(self, "density")
 
-    def execute(self, context: Context) -> set[str]:
-        obj = selected.require_subject(context)
+    def _change(self, context: Context, obj: Object) -> set[str]:
         unit = meters_per_unit(context.scene)
         amounts = {
             "VOLUME": self.volume * unit**3,
             "MASS": self.mass,
             "LEVEL": self.level * unit,
         }
-        try:
-            stored.cuts.fill_vessel(context, obj, self.by, amounts[self.by], self.density)
-        except MeasureError as error:
-            return selection.refuse(self, reports.failure(obj.name, error))
+        stored.cuts.fill_vessel(context, obj, self.by, amounts[self.by], self.density)
         return selection.report(self, reports.phrase("Filled “{object}”", object=obj.name))
 
 
-class OBJECT_OT_body_moments_show_level(selection.OnSelectionInObjectMode, Operator):
+class OBJECT_OT_body_moments_show_level(InObjectMode, Operator):
     """Add the surface of the liquid, or the table of its levels, as a mesh."""
 
     bl_idname = "object.body_moments_show_level"
@@ -116,16 +109,13 @@ class OBJECT_OT_body_moments_show_level(selection.OnSelectionInObjectMode, Opera
         ),
     )
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        obj = selected.subject(context)
-        return super().poll(context) and (
-            (obj is not None and obj in memory.levels)
-            or reports.unavailable(cls, "Compute a level first")
-        )
+    NEEDED = "Compute a level first"
 
-    def execute(self, context: Context) -> set[str]:
-        obj = selected.require_subject(context)
+    @classmethod
+    def suits(cls, obj: Object) -> bool:
+        return obj in memory.levels
+
+    def _change(self, context: Context, obj: Object) -> set[str]:
         level = stored.cuts.level_of(obj, context.scene)
         if level is None:
             return selection.refuse(self, "“{object}” has changed. Press Level", object=obj.name)
@@ -137,7 +127,7 @@ class OBJECT_OT_body_moments_show_level(selection.OnSelectionInObjectMode, Opera
         return selection.report(self, reports.phrase("Added “{object}”", object=added.name))
 
 
-class OBJECT_OT_body_moments_cut_fill(OnSubject, Operator):
+class OBJECT_OT_body_moments_cut_fill(WithDialog, Operator):
     """Measure the volumes of the active surface above and below a plane or another surface."""
 
     bl_idname = "object.body_moments_cut_fill"
@@ -170,13 +160,9 @@ class OBJECT_OT_body_moments_cut_fill(OnSubject, Operator):
         elif self.against == "OBJECT":
             layout.prop_search(self, "other", context.scene, "objects")
 
-    def execute(self, context: Context) -> set[str]:
-        obj = selected.require_subject(context)
+    def _change(self, context: Context, obj: Object) -> set[str]:
         height = self.height * meters_per_unit(context.scene)
-        try:
-            known = stored.cuts.measure_cut_fill(context, obj, self.against, height, self.other)
-        except MeasureError as error:
-            return selection.refuse(self, reports.failure(obj.name, error))
+        known = stored.cuts.measure_cut_fill(context, obj, self.against, height, self.other)
         text = reports.phrase("Compared “{object}”", object=obj.name)
         return selection.report(self, text, *known.findings)
 

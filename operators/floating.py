@@ -5,7 +5,7 @@
 from bpy.props import BoolProperty, FloatProperty, IntProperty
 from bpy.types import Context, Object, Operator
 
-from ..blender import session, write
+from ..blender import session
 from ..core.verdict import Finding
 from . import selection
 
@@ -28,15 +28,14 @@ class OnFloating(selection.OnSelectionInObjectMode):
             )
         }
         notes: list[Finding] = []
-
-        def run(root: Object) -> bool:
-            return act(bodies[root], notes)
-
-        changed, failures = selection.apply_to_all([*bodies], run)
-        text = write.reports.phrase(*done, count=len(changed))
-        idle = write.reports.phrase("already at rest")
-        return selection.summarize(
-            self, len(changed), len(bodies), text, failures, notes, idle, "Nothing selected floats"
+        return selection.change_all(
+            self,
+            [*bodies],
+            lambda root: act(bodies[root], notes),
+            done,
+            "already at rest",
+            notes,
+            "Nothing selected floats",
         )
 
 

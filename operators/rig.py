@@ -62,7 +62,7 @@ class OBJECT_OT_body_moments_measure_bones(OnArmature, Operator):
         )
         findings = of_severity(rig.measurement.findings, *NOTABLE)
         findings += [reports.failure(name, reason) for name, reason in failures]
-        return selection.report(self, done, *reports.first(findings))
+        return selection.report(self, done, *findings)
 
 
 class OBJECT_OT_body_moments_clear_bones(OnArmature, Operator):
@@ -73,9 +73,7 @@ class OBJECT_OT_body_moments_clear_bones(OnArmature, Operator):
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
-        return assembly.report_cleared(
-            self, context, session.stored.results.clear_rig(armature_of(context))
-        )
+        return assembly.report_cleared(self, session.stored.results.clear_rig(armature_of(context)))
 
 
 class OBJECT_OT_body_moments_physics_rig(OnArmature, Operator):
@@ -95,13 +93,12 @@ class OBJECT_OT_body_moments_physics_rig(OnArmature, Operator):
         rig = bodies.measure_rig(context, read.rig.require_armature(armature_of(context)))
         with tracking_paused():
             count, joints = scene.create_physics_rig(context, rig)
-        missing = [
-            found for found in rig.measurement.findings if found.code == BONE_PARTS_IMPOSSIBLE
-        ]
-        done = reports.phrase(
-            "Rigid bodies created: {count}, joints: {joints}", count=count, joints=joints
+        text = "Rigid bodies created: {count}, joints: {joints}"
+        return selection.report(
+            self,
+            reports.phrase(text, count=count, joints=joints),
+            *[found for found in rig.measurement.findings if found.code == BONE_PARTS_IMPOSSIBLE],
         )
-        return selection.report(self, done, *missing)
 
 
 class OBJECT_OT_body_moments_rig_center(OnArmature, Operator):
@@ -136,21 +133,16 @@ class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
             context.object
         ]
         shown = not context.object.body_moments_weight.show
-        rigs = list(
-            filter(
-                None,
-                [session.character.weight.prepare(context, armature) for armature in armatures],
-            )
-        )
+        prepare = session.character.weight.prepare
+        rigs = [rig for armature in armatures if (rig := prepare(context, armature)) is not None]
         shown = shown or bool(rigs)  # numbers that were out of date are shown anew
         for armature in armatures:
             armature.body_moments_weight.show = shown
-        findings = of_severity(
-            [found for rig in rigs for found in rig.measurement.findings], *NOTABLE
-        )
+        found = [found for rig in rigs for found in rig.measurement.findings]
         names = ", ".join(armature.name for armature in armatures)
         text = "Showing the weight of {names}" if shown else "Hid the weight of {names}"
-        return selection.report(self, reports.phrase(text, names=names), *reports.first(findings))
+        done = reports.phrase(text, names=names)
+        return selection.report(self, done, *of_severity(found, *NOTABLE))
 
 
 class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
@@ -194,8 +186,8 @@ class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
         margin = self.margin if self.target == "INSIDE" else None
         values = session.balance_pose(context, context.object, self.bone, margin)
         text = "Moved “{bone}”: the center is {gap} from its target, {margin} inside the support"
-        selection.report(self, reports.phrase(text if values else BALANCED, **values))
-        return {"FINISHED" if values else "CANCELLED"}
+        done = reports.phrase(text if values else BALANCED, **values)
+        return selection.finish(self, [done], is_changed=bool(values))
 
 
 CLASSES = (

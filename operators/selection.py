@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Generator, Iterable, Iterator, Sequence
 from functools import wraps
-from os.path import basename, splitext
 from pathlib import Path
 from typing import Any
 
@@ -17,11 +16,12 @@ from bpy.types import Context, Object, Operator
 
 from .. import core
 from ..blender import read, scene, settings, write
-from ..blender.session import stored, tracking
+from ..blender.session import selected, stored, tracking
 from ..blender.write import reports
 from ..core.verdict import FileError, Finding, MeasureError, Severity, system_reason
 
 NO_FILE = "No file is named. Choose one."
+NO_RESULTS = "The selected objects have no results"
 MAX_OBJECTS_WITHOUT_REDRAW = (
     4  # limit of objects that are measured before the window is drawn again
 )
@@ -79,6 +79,35 @@ class OnSelectionInObjectMode(OnSelection):
         return poll_object_mode(cls, context) and super().poll(context)
 
 
+class OnSubject:
+    """Base of operators on the object that the panel is about.
+
+    `_change` does the work; its refusals are reported with the object's name. NEEDED: the reason of
+    a disabled button.
+    """
+
+    bl_options = {"REGISTER", "UNDO"}
+    NEEDED = "Make a measurable object active"
+    _change: Callable[[Context, Object], set[str]]
+
+    @classmethod
+    def suits(cls, obj: Object) -> bool:
+        """Return whether the operator works on an object."""
+        return read.visibility.measurable(obj)
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        obj = selected.subject(context)
+        return obj is not None and cls.suits(obj) or reports.unavailable(cls, cls.NEEDED)
+
+    def execute(self, context: Context) -> set[str]:
+        obj = selected.subject(context)
+        try:
+            return self._change(context, obj)
+        except MeasureError as refusal:
+            return refuse(self, reports.failure(obj.name_full, refusal))
+
+
 def select_only(context: Context, objects: Collection[Object], active: Object) -> None:
     """Select these objects and no others, and make one active."""
     for obj in context.view_layer.objects:
@@ -97,11 +126,9 @@ def report(operator: Operator, *parts: Finding | str, level: Severity = Severity
 
     Refusals and warnings stay in the panel until the next action.
     """
-    stored.outcome.remember(
-        operator.bl_label, [part for part in parts if isinstance(part, Finding)]
-    )
-    redraw(bpy.context)
-    return reports.report(operator, *parts, level=level)
+    texts = [part for part in parts if isinstance(part, str)]
+    findings = [part for part in parts if not isinstance(part, str)]
+    return finish(operator, texts, findings=findings, level=level)
 
 
 def refuse(operator: Operator, reason: MeasureError | Finding | str, **values: Any) -> set[str]:
@@ -172,7 +199,7 @@ def summarize(
 def finish(
     operator: Operator,
     texts: Sequence[str],
-    failures: Sequence[Finding],
+    failures: Sequence[Finding] = (),
     findings: Sequence[Finding | str] = (),
     level: Severity = Severity.NOTE,
     is_changed: bool = True,
@@ -211,6 +238,36 @@ def iterate_objects(
         yield done
 
 
+def name_warned(names: Sequence[str]) -> list[str]:
+    """Return a text that names the objects with warnings, none without any."""
+    text = "{count} with warnings: {objects}"
+    return [reports.phrase(text, count=len(names), objects=names)] if names else []
+
+
+def change_all(
+    operator: Operator,
+    objects: Sequence[Object],
+    action: Callable[[Object], bool | None],
+    done: tuple[str, str],
+    idle: str | None = None,
+    findings: Sequence[Finding | str] = (),
+    nothing: str = "Nothing selected can be measured",
+    **values: Any,
+) -> set[str]:
+    """Run `action` on each object, report the run once, and return the result of `execute`.
+
+    done: the English report, for one object and for `count` objects. idle: the English reason if
+    nothing had to be done. findings: other observations, to which `action` may add. values: of the
+    texts.
+    """
+    changed, failures = apply_to_all(objects, action)
+    text = reports.phrase(*done, count=len(changed), **values)
+    reason = idle and reports.phrase(idle, **values)
+    return summarize(
+        operator, len(changed), len(objects), text, failures, findings, reason, nothing
+    )
+
+
 def apply_to_all(
     objects: Sequence[Object], action: Callable[[Object], bool | None]
 ) -> tuple[list[Object], list[Finding]]:
@@ -244,27 +301,3 @@ def write_file(path: Path, pieces: Iterable[str | bytes]) -> None:
         raise FileError(
             write.findings.FILE_NOT_WRITTEN, file=path.name, error=system_reason(error)
         ) from error
-
-
-def ask_for_table(operator: Operator, context: Context) -> set[str]:
-    """Open the file browser, by default for a .csv file beside the .blend file and with its
-    name.
-    """
-    if not operator.filepath:
-        operator.filepath = bpy.path.ensure_ext(
-            bpy.data.filepath.removesuffix(".blend") or "masses", ".csv"
-        )
-    context.window_manager.fileselect_add(operator)
-    return {"RUNNING_MODAL"}
-
-
-def ensure_suffix(operator: Operator, suffix: str, others: Collection[str] = ()) -> bool:
-    """Give the path the suffix, unless it has one of the others or no name at all.
-
-    Return whether the path was changed, as `check` does.
-    """
-    path = operator.filepath
-    name = basename(operator.filepath)
-    if name and splitext(name)[1].lower() not in others:
-        operator.filepath = bpy.path.ensure_ext(path, suffix)
-    return operator.filepath != path

@@ -79,10 +79,8 @@ class MomentsPanel:
         obj = session.selected.subject(context)
         settings = context.scene.body_moments
         column = layout.column()
-        rows.setting(column, settings, "moments_order")
-        rows.setting(column, settings, "moments_of")
-        rows.setting(column, settings, "moments_about")
-        rows.setting(column, settings, "frame", expand=True)
+        rows.settings(column, settings, "moments_order", "moments_of", "moments_about")
+        rows.settings(column, settings, "frame", expand=True)
         row = layout.row(align=True)
         rows.button(row, "object.body_moments_compute_moments", "PHYSICS", short="Compute")
         row.operator("object.body_moments_copy", text="", icon="COPYDOWN").what = "MOMENTS"

@@ -59,16 +59,14 @@ class BODY_MOMENTS_UL_assembly(UIList):
         copies = _count_equal(tree, index)
         text = row.name if copies == 1 else "{:d} × {:s}".format(copies, _base_name(row.name))
         name.label(text=text, icon=MEMBER_ICONS[row.member], translate=False)
-        numbers = line.row(align=True)
-        numbers.active = row.is_counted
-        numbers.alignment = "RIGHT"
         findings = properties.findings_in(row.findings)
+        texts = []
         if row.mass > 0.0:
-            mass = rows.scene_units().text("mass", copies * row.mass)
-            numbers.label(text=mass, translate=False)
+            texts.append(rows.scene_units().text("mass", copies * row.mass))
             if row.is_counted and row.depth:
-                share = "{:.0f}%".format(100.0 * copies * row.share)
-                numbers.label(text=share, translate=False)
+                texts.append("{:.0f}%".format(100.0 * copies * row.share))
+        numbers = rows.right(line, *texts)
+        numbers.active = row.is_counted
         if findings:
             worst = max(
                 findings, key=lambda found: tuple(rows.ICONS).index(verdict.severity(found))
@@ -122,13 +120,11 @@ def draw_assembly(layout: UILayout, context: Context, root: assembly.Root, targe
     layout.use_property_decorate = False
     settings = assembly.settings_of(root)
     column = layout.column()
-    rows.setting(column, settings, "mass_from", expand=True)
+    rows.settings(column, settings, "mass_from", expand=True)
     if settings.mass_from == "MASS":
-        rows.setting(column, settings, "mass", text="Mass (kg)")
+        rows.settings(column, settings, "mass")
         density.given_rows(layout, settings)
-    button = layout.row()
-    button.scale_y = 1.4
-    button.operator("object.body_moments_measure_assembly", icon="PHYSICS").target = target
+    rows.main_button(layout, "object.body_moments_measure_assembly", "PHYSICS").target = target
     stored = properties.stored(root) if properties.method_text(root) == "assembly" else None
     actions = layout.column(align=True)
     actions.enabled = stored is not None
@@ -181,9 +177,8 @@ def _tree(layout: UILayout, settings: PropertyGroup) -> None:
 
 
 def _numbers(layout: UILayout, stored: inertia.PlainBody, in_world: bool) -> None:
-    column = layout.column(align=True)
     entries = [("Volume", "volume", stored.volume), ("Area", "area", stored.area)]
-    rows.quantities(column, [entry for entry in entries if entry[-1]])
+    rows.quantities(layout, [entry for entry in entries if entry[-1]])
     heading = "Center of Mass (World)" if in_world else "Center of Mass (Object)"
     rows.center(layout, heading, stored)
     rows.group(layout, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", stored.moments)

@@ -85,10 +85,8 @@ class BodyPanel:
         answer = _answer(context)
         row = layout.row(align=True)
         row.label(text=answer.name, icon=answer.icon, translate=False)
-        end = row.row(align=True)
-        end.alignment = "RIGHT"
         icon, word = rows.VERDICTS[answer.verdict]
-        end.label(text=word, icon=icon)
+        rows.right(row).label(text=word, icon=icon)
         _quantities(layout, answer)
         material_row(layout, context)
         _buttons(layout, context)
@@ -309,14 +307,18 @@ class ApplyPanel:
 
     def draw(self, context: Context) -> None:
         layout = self.layout
-        column = layout.column(align=True)
-        rows.button(column, "object.body_moments_origin_to_center", "OBJECT_ORIGIN")
-        rows.button(column, "object.body_moments_axes_to_principal", "EMPTY_AXIS")
-        rows.button(column, "object.body_moments_align_to_world", "ORIENTATION_GLOBAL")
-        column = layout.column(align=True)
-        rows.button(column, "object.body_moments_add_empty", "OUTLINER_OB_EMPTY")
-        rows.button(column, "view3d.body_moments_cursor_to_center", "PIVOT_CURSOR")
-        rows.button(column, "object.body_moments_create_orientation", "ORIENTATION_LOCAL")
+        rows.buttons(
+            layout,
+            ("object.body_moments_origin_to_center", "OBJECT_ORIGIN"),
+            ("object.body_moments_axes_to_principal", "EMPTY_AXIS"),
+            ("object.body_moments_align_to_world", "ORIENTATION_GLOBAL"),
+        )
+        column = rows.buttons(
+            layout,
+            ("object.body_moments_add_empty", "OUTLINER_OB_EMPTY"),
+            ("view3d.body_moments_cursor_to_center", "PIVOT_CURSOR"),
+            ("object.body_moments_create_orientation", "ORIENTATION_LOCAL"),
+        )
         row = column.split(factor=0.7, align=True)
         rows.button(row, "object.body_moments_rigid_bodies", "RIGID_BODY").type = "ACTIVE"
         passive = row.operator("object.body_moments_rigid_bodies", text="Passive")

@@ -121,7 +121,7 @@ class CollidersPanel:
         moments = stored.get("moment_ratios", (None,) * 3)
         ratios = zip(labels, (stored.get("volume_ratio"), stored.get("mass_ratio"), *moments))
         rows.table(
-            layout.column(align=True),
+            layout,
             [
                 (label, "{:.5g} %".format(100.0 * one), repr(one), "")
                 for label, one in ratios

@@ -29,8 +29,7 @@ class CutsPanel:
     def draw(self, context: Context) -> None:
         layout = self.layout
         obj = selected.subject(context)
-        column = layout.column(align=True)
-        rows.button(column, "object.body_moments_level", "MATFLUID")
+        column = rows.buttons(layout, ("object.body_moments_level", "MATFLUID"))
         rows.button(column, "object.body_moments_cut_fill", "MOD_BOOLEAN", short="Cut, Fill")
         for values, kind, draw in (
             (memory.levels, Kind.LEVEL, _level),
@@ -66,9 +65,8 @@ def _level(layout: UILayout, level: Level) -> None:
     body = rows.fold(layout, "body_moments_level_surface", "Free Surface")
     if body is not None:
         area, least, largest = level.surface_moments
-        column = body.column(align=True)
         rows.quantities(
-            column,
+            body,
             [
                 ("Area", "area", area),
                 ("I1", "area_moment", least),
@@ -91,15 +89,14 @@ def _level(layout: UILayout, level: Level) -> None:
             (units.text("length", height), units.text("volume", volume), repr(volume), "m³")
             for height, volume in level.table[TABLE_STEP::TABLE_STEP].tolist()
         ]
-        rows.table(body.column(align=True), cells)
+        rows.table(body, cells)
 
 
 def _cut_fill(layout: UILayout, known: KnownCutFill) -> None:
     found = known.found
     layout.label(text="Cut and Fill", icon="MOD_BOOLEAN")
-    column = layout.column(align=True)
     rows.quantities(
-        column,
+        layout,
         [
             ("Cut", "volume", found.cut.total),
             ("Fill", "volume", found.fill.total),

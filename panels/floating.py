@@ -88,10 +88,9 @@ def _numbers(layout: UILayout, held: Held) -> None:
     rows.quantities(column, [("GM", "length", smaller), ("GM, Lengthwise", "length", larger)])
     body = rows.fold(layout, "body_moments_floating_more", "Hydrostatics")
     if body is not None:
-        column = body.column(align=True)
         keel = state.keel
         rows.quantities(
-            column,
+            body,
             [
                 ("KB", "length", float(state.up @ state.center_of_buoyancy) - keel),
                 ("KG", "length", float(state.up @ state.center_of_gravity) - keel),

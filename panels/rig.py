@@ -36,15 +36,15 @@ class BonesPanel:
         layout, armature = self.layout, session.selected.armature_of(context)
         if len(session.displayed.shown_objects(context)) > 1:
             layout.label(text=armature.name, icon="ARMATURE_DATA", translate=False)
-        button = layout.row()
-        button.scale_y = 1.4
-        button.operator("object.body_moments_measure_bones", icon="BONE_DATA")
+        rows.main_button(layout, "object.body_moments_measure_bones", "BONE_DATA")
         is_measured = write.properties.stored(armature) is not None
-        column = layout.column(align=True)
+        column = rows.buttons(
+            layout,
+            ("object.body_moments_physics_rig", "RIGID_BODY"),
+            ("object.body_moments_rig_center", "EMPTY_AXIS"),
+            ("object.body_moments_clear_bones", "TRASH"),
+        )
         column.enabled = is_measured
-        rows.button(column, "object.body_moments_physics_rig", "RIGID_BODY")
-        rows.button(column, "object.body_moments_rig_center", "EMPTY_AXIS")
-        rows.button(column, "object.body_moments_clear_bones", "TRASH")
         if not is_measured:
             return
         rows.stale_state(layout, staleness.stale_reason(armature, context.scene))
@@ -59,10 +59,7 @@ class BonesPanel:
         for bone, mass in measured[:LISTED]:
             row = column.row(align=True)
             row.label(text=bone.name, icon="BONE_DATA", translate=False)
-            cell = row.row(align=True)
-            cell.alignment = "RIGHT"
-            cell.label(text=units.text("mass", mass), translate=False)
-            cell.label(text="{:.1f}%".format(100.0 * mass / total), translate=False)
+            rows.right(row, units.text("mass", mass), "{:.1f}%".format(100.0 * mass / total))
         if len(measured) > LISTED:
             rows.filled(layout, "And {:d} more", len(measured) - LISTED)
 
@@ -83,11 +80,13 @@ class WeightPanel:
             return
         # Buttons and settings first: they stay in place however the character stands.
         column.operator("pose.body_moments_balance_pose", icon="PIVOT_CURSOR")
-        column = layout.column(align=True)
-        rows.button(column, "pose.body_moments_parabola", "FORCE_FORCE")
-        rows.button(column, "pose.body_moments_keep_spin", "FORCE_VORTEX")
-        rows.button(column, "pose.body_moments_bake_curves", "FCURVE")
-        rows.button(column, "pose.body_moments_trace", "CON_FOLLOWPATH")
+        column = rows.buttons(
+            layout,
+            ("pose.body_moments_parabola", "FORCE_FORCE"),
+            ("pose.body_moments_keep_spin", "FORCE_VORTEX"),
+            ("pose.body_moments_bake_curves", "FCURVE"),
+            ("pose.body_moments_trace", "CON_FOLLOWPATH"),
+        )
         spans = _spans(context)
         row = column.row()
         row.enabled = bool(spans)
@@ -97,8 +96,8 @@ class WeightPanel:
         column = layout.column()
         mass = column.column()
         mass.active = settings.mass > 0.0
-        rows.setting(mass, settings, "shown_mass", text="Total Mass (kg)")
-        rows.setting(column, settings, "ground")
+        rows.settings(mass, settings, "shown_mass")
+        rows.settings(column, settings, "ground")
         column.prop(settings, "show_axes")
         bone = context.active_pose_bone
         if bone is not None:
@@ -209,12 +208,8 @@ class BONE_PT_body_moments(places.AmongProperties, Panel):
         layout = self.layout
         layout.use_property_decorate = False
         settings = bone.body_moments
-        column = layout.column()
-        rows.setting(column, settings, "mass_from")
-        if settings.mass_from == "DENSITY":
-            rows.setting(column, settings, "density", text="Density (kg/m³)")
-        elif settings.mass_from == "MASS":
-            rows.setting(column, settings, "mass", text="Mass (kg)")
+        own = {"DENSITY": ("density",), "MASS": ("mass",)}
+        rows.settings(layout.column(), settings, "mass_from", *own.get(settings.mass_from, ()))
         rows.button(layout, "object.body_moments_measure_bones", "BONE_DATA")
         rows.stale_state(layout, staleness.stale_reason(bone.id_data, context.scene))
         _numbers(layout, bone)
@@ -231,8 +226,7 @@ def _numbers(layout: UILayout, bone: PoseBone) -> None:
     stored = write.properties.stored(bone)
     if stored is None:
         return
-    column = layout.column(align=True)
-    rows.quantities(column, [("Mass", "mass", stored.mass), ("Volume", "volume", stored.volume)])
+    rows.quantities(layout, [("Mass", "mass", stored.mass), ("Volume", "volume", stored.volume)])
     rows.center(layout, "Center of Mass (Rest Frame)", stored)
     rows.group(layout, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", stored.moments)
     rows.group(layout, "Inertia, Ixy = −∫xy dm", rows.TENSOR_LABELS, "inertia", stored.inertia)

@@ -61,18 +61,35 @@ VALUE_SHARE = 0.6  # share of a row that a setting takes beside its label
 WIDEST_COSINE = "−0.0000"  # rows of directions have one form, whatever their signs
 BUTTON_MARGIN = "m"  # a letter as wide as the space around a button's text
 Cell = tuple[str, str, str, str]  # label, text, copied value, its unit
+LABELS = {  # of settings, in place of their names
+    "mass": "Mass (kg)",
+    "shown_mass": "Total Mass (kg)",
+    "density": "Density (kg/m³)",
+    "linear_density": "Density (kg/m)",
+    "value_density": "Value 1 (kg/m³)",
+    "transfer_table": "Table",
+    "given_center": "Center",
+    "print_line_width": "Line Width (mm)",
+    "print_layer_height": "Layer (mm)",
+    "pocket_radius": "Pocket (mm)",
+    "pocket_density": "Ballast (kg/m³)",
+    "spool_mass": "Spool (kg)",
+}
 
 
-def setting(
-    layout: UILayout, data: PropertyGroup, name: str, text: str = "", expand: bool = False
-) -> None:
-    """Draw a setting in a column, its label (by default its name) beside it, or above it in a
-    narrow region.
+def settings(layout: UILayout, data: PropertyGroup, *names: str, expand: bool = False) -> None:
+    """Draw settings in a column, each with its label beside it, or above it in a narrow region.
 
     `expand` puts choices side by side if there is room for their names. A setting that differs
     among the selected objects is a button "Mixed", which opens its choices or its field.
     """
+    for name in names:
+        _setting(layout, data, name, expand)
+
+
+def _setting(layout: UILayout, data: PropertyGroup, name: str, expand: bool) -> None:
     definition = data.bl_rna.properties[name]
+    text = LABELS.get(name, "")
     if is_mixed(data, name):
         row = labeled_row(layout, text or definition.name, definition.translation_context)
         if definition.type == "ENUM":
@@ -118,12 +135,11 @@ def group(
     column.
     """
     column = layout.column(align=True)
-    if si is None:
-        title(column.row(align=True), label)
-        table(column, [(name, "–", "", "") for name in labels])
-        return column
     heading(column, label, quantity, si)
-    values(column, labels, quantity, si, size)
+    if si is None:
+        table(column, [(name, "–", "", "") for name in labels])
+    else:
+        values(column, labels, quantity, si, size)
     return column
 
 
@@ -170,17 +186,6 @@ def center(layout: UILayout, label: str, numbers: inertia.PlainBody | None) -> N
     group(layout, label, AXIS_LABELS, "length", place, size)
 
 
-def bounds(layout: UILayout, entries: Sequence[tuple[str, str, float, float]]) -> None:
-    """Draw a row for each (label, quantity, SI error bound, value beside it)."""
-    table(
-        layout,
-        [
-            (label, scene_units().bound(quantity, bound, beside), repr(bound), SI_UNITS[quantity])
-            for label, quantity, bound, beside in entries
-        ],
-    )
-
-
 def error_bounds(
     layout: UILayout,
     sources: Sequence[tuple[str, Any]],
@@ -189,20 +194,25 @@ def error_bounds(
     """Draw each source, a heading and bounds by name, with a row for each (label, quantity, name,
     value beside it).
     """
+    bound = scene_units().bound
     for source, errors in sources:
         column = layout.column(align=True)
         column.label(text=source)
-        bounds(
+        table(
             column,
-            [(label, quantity, errors[name], size) for label, quantity, name, size in entries],
+            [
+                (label, bound(quantity, errors[name], size), repr(errors[name]), SI_UNITS[quantity])
+                for label, quantity, name, size in entries
+            ],
         )
 
 
-def heading(layout: UILayout, label: str, quantity: str, si: Sequence[float]) -> None:
-    """Draw a heading with a button that copies all values below it."""
+def heading(layout: UILayout, label: str, quantity: str, si: Sequence[float] | None) -> None:
+    """Draw a heading with a button that copies all values below it, if they are known."""
     row = layout.row(align=True)
-    _title(row, localized(label))
-    _copy(row, repr(measurement.plain(si)), SI_UNITS.get(quantity, ""))
+    title(row, label)
+    if si is not None:
+        _copy(row, repr(measurement.plain(si)), SI_UNITS.get(quantity, ""))
 
 
 def title(layout: UILayout, label: str) -> None:
@@ -241,13 +251,14 @@ def direction(layout: UILayout, label: str, vector: Sequence[float] | None) -> N
 
 
 def table(layout: UILayout, cells: Sequence[Cell]) -> None:
-    """Draw rows of label, text to the right, copy button, all in one form.
+    """Draw rows of label, text to the right, copy button, all in one form, in a column.
 
     Labels are above their texts if rows are too narrow for both, and units beside the labels if
     rows are too narrow for the texts.
     """
     if not cells:
         return
+    layout = layout.column(align=True)
     labels = [localized(label) for label, *_ in cells]
     share, rests = _form(labels, [shown for _, shown, *_ in cells])
     for label, (_, shown, exact, unit) in zip(labels, cells):
@@ -296,11 +307,13 @@ def _title(layout: UILayout, text: str) -> None:
         sentence(layout, text)
 
 
-def right(layout: UILayout, text: str) -> None:
-    """Draw a text at the right end of a row."""
+def right(layout: UILayout, *texts: str) -> UILayout:
+    """Draw texts at the right end of a row, and return their layout."""
     cell = layout.row(align=True)
     cell.alignment = "RIGHT"
-    cell.label(text=text, translate=False)
+    for text in texts:
+        cell.label(text=text, translate=False)
+    return cell
 
 
 def _copy(row: UILayout, exact: str, unit: str) -> None:
@@ -343,6 +356,21 @@ def button(layout: UILayout, idname: str, icon: str, short: str = "", **options:
     if not is_narrow():
         return layout.operator(idname, icon=icon, **options)
     return layout.operator(idname, **(options | {"text": short} if short else options))
+
+
+def buttons(layout: UILayout, *entries: tuple[str, str]) -> UILayout:
+    """Draw the buttons of operators with their icons, one below the other; return their column."""
+    column = layout.column(align=True)
+    for idname, icon in entries:
+        button(column, idname, icon)
+    return column
+
+
+def main_button(layout: UILayout, idname: str, icon: str, **options: object):
+    """Draw the higher button of the operator that a panel is for."""
+    row = layout.row()
+    row.scale_y = 1.4
+    return row.operator(idname, icon=icon, **options)
 
 
 def sentence(layout: UILayout, text: str, icon: str = "NONE", boxed: bool = False) -> None:

@@ -69,9 +69,8 @@ def _verdict(layout: UILayout, stored: write.section.StoredSection, outdated: st
 
 
 def _numbers(layout: UILayout, section) -> None:
-    column = layout.column(align=True)
     rows.quantities(
-        column, [("Area", "area", section.area), ("Perimeter", "length", section.perimeter)]
+        layout, [("Area", "area", section.area), ("Perimeter", "length", section.perimeter)]
     )
     size = section.area**0.5
     rows.group(layout, "Centroid (World)", rows.AXIS_LABELS, "length", section.center, size)

@@ -90,9 +90,7 @@ def _similar(layout: UILayout, context: Context) -> None:
     if not search.found:
         rows.remark(column, "Nothing to compare with")
     else:
-        row = column.row()
-        row.alignment = "RIGHT"
-        row.label(text="Similarity, Distance")
+        rows.right(column).label(text="Similarity, Distance")
     for shape in search.found[:MAX_SHOWN]:
         row = column.row(align=True)
         icon = ICONS.get(shape.verdict, "QUESTION")

@@ -91,8 +91,7 @@ def _poses(layout: UILayout, poses: RestingPoses | verdict.Finding | None) -> No
     column.label(text="Resting Poses")
     heading = column.row()
     heading.label(text="Share" if narrow else "Probability")
-    cell = heading.row()
-    cell.alignment = "RIGHT"
+    cell = rows.right(heading)
     cell.label(text="Tips at")
     if not narrow:
         cell.label(icon="BLANK1")

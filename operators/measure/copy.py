@@ -11,8 +11,9 @@ from pathlib import Path
 from typing import Any
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
-from bpy.types import Context, Event, Menu, Operator, OperatorProperties, Scene
+from bpy.props import EnumProperty, IntProperty, StringProperty
+from bpy.types import Context, Menu, Operator, OperatorProperties, Scene
+from bpy_extras.io_utils import ExportHelper
 
 from ...blender import bodies, read, session, write
 from ...blender.session import memory, selected, stored, tracking
@@ -231,26 +232,23 @@ class VIEW3D_MT_body_moments_copy(Menu):
 SUFFIXES = {".csv": "csv", ".json": "json", ".jsonl": "jsonl"}
 
 
-class OBJECT_OT_body_moments_save_numbers(Operator):
+class OBJECT_OT_body_moments_save_numbers(Operator, ExportHelper):
     """Save the selected objects' results and their total, in SI units, as .csv, .json or .jsonl"""
 
     bl_idname = "object.body_moments_save_numbers"
     bl_label = "Save CSV or JSON"
     bl_options = {"REGISTER"}
 
-    filepath: StringProperty(name="File Path", description="File to write", subtype="FILE_PATH")
-    check_existing: BoolProperty(name="Check Existing", default=True, options={"HIDDEN"})
     filter_glob: StringProperty(default="*.csv;*.json;*.jsonl", options={"HIDDEN"})
 
     @classmethod
     def poll(cls, context: Context) -> bool:
         return has_stored(context) or reports.unavailable(cls, MEASURE_FIRST)
 
-    def invoke(self, context: Context, _event: Event) -> set[str]:
-        return selection.ask_for_table(self, context)
-
-    def check(self, _context: Context) -> bool:
-        return selection.ensure_suffix(self, ".csv", SUFFIXES)
+    @property
+    def filename_ext(self) -> str:
+        suffix = Path(self.filepath).suffix.lower()
+        return suffix if suffix in SUFFIXES else ".csv"
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:

@@ -12,17 +12,18 @@ from math import pi
 from pathlib import Path
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
+from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy.types import Context, Event, Operator
+from bpy_extras.io_utils import ExportHelper
 
 from ... import core
-from ...blender import bodies, read, session, settings, write
+from ...blender import bodies, session, settings, write
 from .. import modal, selection
 
 SUFFIX = ".npz"
 
 
-class OBJECT_OT_body_moments_fourier(modal.ModalSteps, Operator):
+class OBJECT_OT_body_moments_fourier(modal.ModalSteps, selection.OnSubject, Operator, ExportHelper):
     """Ask for a file and a grid, then write the Fourier transform of the active object."""
 
     bl_idname = "object.body_moments_fourier"
@@ -35,13 +36,8 @@ class OBJECT_OT_body_moments_fourier(modal.ModalSteps, Operator):
     bl_options = {"REGISTER"}  # Blender would push its undo step before the image is there
     PROGRESS = "Fourier transform: {share:.0%}. Esc to cancel"
     CANCELED = "Fourier transform canceled; nothing was written"
+    filename_ext = SUFFIX
 
-    filepath: StringProperty(
-        name="File Path",
-        description="Path of the .npz file to write",
-        subtype="FILE_PATH",
-        options={"SKIP_SAVE"},
-    )
     of: EnumProperty(
         name="Domain",
         description="What the transform integrates over",
@@ -77,14 +73,6 @@ class OBJECT_OT_body_moments_fourier(modal.ModalSteps, Operator):
         "of twice the object's size",
     )
     filter_glob: StringProperty(default="*" + SUFFIX, options={"HIDDEN"})
-    check_existing: BoolProperty(default=True, options={"HIDDEN"})
-
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        obj = session.selected.subject(context)
-        if obj is None or not read.visibility.measurable(obj):
-            return write.reports.unavailable(cls, "Make an object with a surface active")
-        return True
 
     def invoke(self, context: Context, event: Event) -> set[str]:
         obj = session.selected.require_subject(context)
@@ -97,11 +85,7 @@ class OBJECT_OT_body_moments_fourier(modal.ModalSteps, Operator):
         name = bpy.path.clean_name(obj.name) + SUFFIX
         folder = os.path.dirname(self.filepath or bpy.data.filepath)
         self.filepath = os.path.join(folder, name)
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
-
-    def check(self, context: Context) -> bool:
-        return selection.ensure_suffix(self, SUFFIX)
+        return ExportHelper.invoke(self, context, event)
 
     def draw(self, context: Context) -> None:
         column = self.layout.column()
@@ -169,7 +153,7 @@ class OBJECT_OT_body_moments_fourier(modal.ModalSteps, Operator):
             file=self._path.name,
             image=image.name,
         )
-        return write.reports.report(self, done, *write.reports.first(findings))
+        return selection.report(self, done, *findings)
 
 
 CLASSES = (OBJECT_OT_body_moments_fourier,)

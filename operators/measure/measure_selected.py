@@ -154,13 +154,7 @@ class OBJECT_OT_body_moments_measure(modal.ModalSteps, selection.OnSelection, Op
             done = [reports.phrase(text, object=self._results[0][0].name)]
         else:
             text = reports.phrase("Measured {count} of {total} objects", count=count, total=tried)
-            done = [text] if tried > 1 else []
-            if warnings:
-                done.append(
-                    reports.phrase(
-                        "{count} with warnings: {objects}", count=len(names), objects=names
-                    )
-                )
+            done = [*([text] if tried > 1 else []), *selection.name_warned(names)]
         level = Severity.WARNING if warnings else Severity.NOTE
         return selection.finish(
             self, done, self._failures, notes, level=level, is_changed=bool(count)
@@ -186,19 +180,16 @@ class OBJECT_OT_body_moments_live(Operator):
 
     def execute(self, context: Context) -> set[str]:
         objects = _subjects(context)
-        if any(live.following.is_live(obj) for obj in objects):
-            for obj in objects:
-                live.measuring.stop(obj)
-            selection.redraw(context)
-            return {"FINISHED"}
+        was_live = any(map(live.following.is_live, objects))
         depsgraph = context.evaluated_depsgraph_get()
         refusals = []
         for obj in objects:
-            result = live.measuring.start(obj, depsgraph)
-            if result.refusal is not None:
-                refusals.append(reports.failure(obj.name, result.refusal))
+            if was_live:
+                live.measuring.stop(obj)
+            elif (refusal := live.measuring.start(obj, depsgraph).refusal) is not None:
+                refusals.append(reports.failure(obj.name, refusal))
         if refusals:
-            selection.report(self, *reports.first(refusals))
+            return selection.report(self, *refusals)
         selection.redraw(context)
         return {"FINISHED"}
 
@@ -251,9 +242,8 @@ class OBJECT_OT_body_moments_clear(selection.OnSelection, Operator):
         staleness.mark_up_to_date(context, objects)
         texts = ("Removed the results of {count} object", "Removed the results of {count} objects")
         done = reports.phrase(*texts, count=len(cleared))
-        nothing = "The selected objects have no results"
         return selection.summarize(
-            self, len(cleared), len(objects), done, failures, nothing=nothing
+            self, len(cleared), len(objects), done, failures, nothing=selection.NO_RESULTS
         )
 
 

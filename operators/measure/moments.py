@@ -12,14 +12,14 @@ from mathutils import Vector
 
 from ... import core
 from ...blender import bodies, read
-from ...blender.session import selected, stored
+from ...blender.session import stored
 from ...blender.write import properties, reports
 from ...core.inertia import tensor_rows
-from ...core.verdict import MeasureError, Severity, of_severity
+from ...core.verdict import Severity, of_severity
 from .. import selection
 
 
-class OBJECT_OT_body_moments_compute_moments(Operator):
+class OBJECT_OT_body_moments_compute_moments(selection.OnSubject, Operator):
     """Compute all moments of the active object up to the chosen order."""
 
     bl_idname = "object.body_moments_compute_moments"
@@ -32,19 +32,9 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
     )
     bl_options = {"REGISTER"}
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        obj = selected.subject(context)
-        is_measurable = obj is not None and read.visibility.measurable(obj)
-        return is_measurable or reports.unavailable(cls, "Make a measurable object active")
-
-    def execute(self, context: Context) -> set[str]:
-        obj = selected.require_subject(context)
+    def _change(self, context: Context, obj: Object) -> set[str]:
         order: int = context.scene.body_moments.moments_order
-        try:
-            computed, findings = stored.compute_moments(context, obj, order)
-        except MeasureError as error:
-            return selection.refuse(self, reports.failure(obj.name, error))
+        computed, findings = stored.compute_moments(context, obj, order)
         if computed is None:
             text = (
                 "{object}: a wire has no volume or surface. Set Kind to Solid or Shell; measure "
@@ -58,7 +48,7 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
             (order + 1) * (order + 2) // 2 if computed.volume is None else len(computed.volume.raw)
         )
         done = reports.phrase("Computed {count} moments of {object}", count=count, object=obj.name)
-        return reports.report(self, done, *reports.first(findings))
+        return selection.report(self, done, *findings)
 
 
 class OBJECT_OT_body_moments_measure_section(Operator):
@@ -103,12 +93,7 @@ class OBJECT_OT_body_moments_measure_section(Operator):
         else:
             texts = ("Measured {count} section", "Measured {count} sections")
             done = [reports.phrase(*texts, count=len(measured))] if measured else []
-            if warned:
-                done.append(
-                    reports.phrase(
-                        "{count} with warnings: {objects}", count=len(warned), objects=warned
-                    )
-                )
+            done += selection.name_warned(warned)
         level = Severity.WARNING if warned else Severity.NOTE
         return selection.finish(self, done, failures, level=level, is_changed=bool(measured))
 
@@ -148,16 +133,16 @@ class OBJECT_OT_body_moments_store_reference(selection.OnSelection, Operator):
 
         # the results are bound to their places, and stay the same
         with stored.assembly.kept_up_to_date(context):
-            changed, failures = selection.apply_to_all(objects, store)
-        texts = (
-            "Stored the inertia of {count} object about the reference",
-            "Stored the inertia of {count} objects about the reference",
-        )
-        done = reports.phrase(*texts, count=len(changed))
-        nothing = "The selected objects have no results"
-        return selection.summarize(
-            self, len(changed), len(objects), done, failures, nothing=nothing
-        )
+            return selection.change_all(
+                self,
+                objects,
+                store,
+                (
+                    "Stored the inertia of {count} object about the reference",
+                    "Stored the inertia of {count} objects about the reference",
+                ),
+                nothing=selection.NO_RESULTS,
+            )
 
 
 def reference_text(

@@ -69,11 +69,9 @@ class OBJECT_OT_body_moments_set_material(Operator):
             settings.material = material.name
             return before != _density_of(settings)
 
-        changed, failures = selection.apply_to_all(objects, set_density)
         texts = ("Set {count} object to {material}", "Set {count} objects to {material}")
-        done = reports.phrase(*texts, count=len(changed), material=material.name)
-        idle = reports.phrase("already set to {material}", material=material.name)
-        return selection.summarize(self, len(changed), len(objects), done, failures, idle=idle)
+        idle = "already set to {material}"
+        return selection.change_all(self, objects, set_density, texts, idle, material=material.name)
 
 
 def _density_of(settings) -> tuple:
@@ -145,11 +143,8 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
             scene.changes.require_storable_data(obj)
             return properties.copy_settings(active.body_moments, obj.body_moments)
 
-        copied, failures = selection.apply_to_all(objects, copy)
         texts = ("Copied the settings to {count} object", "Copied the settings to {count} objects")
-        done = reports.phrase(*texts, count=len(copied))
-        idle = reports.phrase("the settings are equal")
-        return selection.summarize(self, len(copied), len(objects), done, failures, idle=idle)
+        return selection.change_all(self, objects, copy, texts, "the settings are equal")
 
 
 class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):
@@ -192,10 +187,8 @@ class OBJECT_OT_body_moments_preset_apply(Operator):
                 bpy.ops.script.execute_preset(filepath=self.filepath, menu_idname=PRESET_PANEL)
 
         objects = session.selected.objects_with_settings(chosen_objects(context))
-        changed, failures = selection.apply_to_all(objects, apply)
         texts = ("Set {count} object", "Set {count} objects")
-        done = reports.phrase(*texts, count=len(changed))
-        return selection.summarize(self, len(changed), len(objects), done, failures)
+        return selection.change_all(self, objects, apply, texts)
 
 
 CLASSES = (

@@ -8,8 +8,8 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
-from ...blender import bodies, read, scene, settings
-from ...blender.session import displayed, selected, stored
+from ...blender import bodies, scene, settings
+from ...blender.session import displayed, stored
 from ...blender.write import properties, reports, translations
 from ...blender.write.remedies import (
     DUPLICATES,
@@ -36,29 +36,7 @@ def measure_anew(context: Context, objects: list[Object]) -> None:
         bpy.ops.object.body_moments_measure()
 
 
-class _OnSubject:
-    """Base of operators that change the settings of the object that the panel shows."""
-
-    bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        obj = selected.subject(context)
-        is_measurable = obj is not None and read.visibility.measurable(obj)
-        return is_measurable or reports.unavailable(cls, "Make a measurable object active")
-
-    def execute(self, context: Context) -> set[str]:
-        obj = selected.require_subject(context)
-        try:
-            return self._change(context, obj)
-        except verdict.MeasureError as refusal:
-            return selection.refuse(self, reports.failure(obj.name_full, refusal))
-
-    def _change(self, context: Context, obj: Object) -> set[str]:
-        raise NotImplementedError
-
-
-class OBJECT_OT_body_moments_remedy(_OnSubject, Operator):
+class OBJECT_OT_body_moments_remedy(selection.OnSubject, Operator):
     """Repair the active object and measure it again."""
 
     bl_idname = REPAIR
@@ -166,7 +144,7 @@ class SCENE_OT_body_moments_set_millimeters(Operator):
         return {"FINISHED"}
 
 
-class OBJECT_OT_body_moments_accept(_OnSubject, Operator):
+class OBJECT_OT_body_moments_accept(selection.OnSubject, Operator):
     """Accept this warning: it becomes a note, also when the object is measured again"""
 
     bl_idname = "object.body_moments_accept"

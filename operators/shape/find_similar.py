@@ -13,7 +13,8 @@ from pathlib import Path
 
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, FloatProperty, StringProperty
-from bpy.types import Context, Event, Operator, PropertyGroup, Scene
+from bpy.types import Context, Operator, PropertyGroup, Scene
+from bpy_extras.io_utils import ImportHelper
 
 from ...blender import read, session, write
 from ...blender.session.selected import require_subject, subject
@@ -173,7 +174,7 @@ class OBJECT_OT_body_moments_find_similar(modal.ModalSteps, _SearchMixin, Operat
         return self.store_and_report(context, matches, "", self._failures)
 
 
-class OBJECT_OT_body_moments_find_in_library(_SearchMixin, Operator):
+class OBJECT_OT_body_moments_find_in_library(_SearchMixin, Operator, ImportHelper):
     """Find the bodies of a library most similar in shape to the active object."""
 
     bl_idname = "object.body_moments_find_in_library"
@@ -186,12 +187,7 @@ class OBJECT_OT_body_moments_find_in_library(_SearchMixin, Operator):
 
     mirrored: MIRRORED
     scaled: SCALED
-    filepath: StringProperty(name="Library", description="File of the library", subtype="FILE_PATH")
     filter_glob: StringProperty(default="*.jsonl", options={"HIDDEN"})
-
-    def invoke(self, context: Context, _event: Event) -> set[str]:
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
 
     def execute(self, context: Context) -> set[str]:
         path = Path(bpy.path.abspath(self.filepath))

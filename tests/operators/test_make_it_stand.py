@@ -50,7 +50,7 @@ def margin_of(obj):
     from body_moments.blender.session.stored import stability
 
     bpy.context.view_layer.update()
-    return stability.support(obj).margin
+    return stability.support(obj, bpy.context.scene).margin
 
 
 def test_least_infill_gives_the_margin(scene):
