@@ -5,7 +5,8 @@
 A module has tables: CLASSES in the order of registration; POINTERS, groups of settings by Blender's
 type and the name of their property; MENUS, Blender's menus with functions that draw in them. The
 rest is done by functions `register`, which follows the tables, and `unregister`, which precedes
-them.
+them. The idname of an operator follows from the name of its class, and its tooltip is the
+docstring.
 """
 
 from collections.abc import Iterable
@@ -15,6 +16,7 @@ from types import ModuleType
 
 import bpy
 from bpy.props import PointerProperty
+from bpy.types import Operator
 
 
 def register_modules(package: str, names: Iterable[str]) -> None:
@@ -38,6 +40,10 @@ def unregister_modules(package: str, names: Iterable[str]) -> None:
 def _register(module: ModuleType) -> None:
     with ExitStack() as undo:
         for cls in getattr(module, "CLASSES", ()):
+            if issubclass(cls, Operator) and "bl_idname" not in vars(cls):
+                category, name = cls.__name__.split("_OT_")
+                cls.bl_idname = "{:s}.{:s}".format(category.lower(), name)
+                cls.bl_description = " ".join(cls.__doc__.split())
             bpy.utils.register_class(cls)
             undo.callback(bpy.utils.unregister_class, cls)
         for (owner, name), group in getattr(module, "POINTERS", {}).items():

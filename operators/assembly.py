@@ -55,7 +55,6 @@ def measured_assembly(context: Context, target: str) -> "bodies.Assembly":
 class OBJECT_OT_body_moments_measure_assembly(modal.ModalSteps, Operator):
     """Measure all members of a collection or all children of an empty, and store the total"""
 
-    bl_idname = "object.body_moments_measure_assembly"
     bl_label = "Measure Assembly"
     MAX_AT_ONCE = selection.MAX_OBJECTS_WITHOUT_REDRAW
 
@@ -94,7 +93,6 @@ class OBJECT_OT_body_moments_measure_assembly(modal.ModalSteps, Operator):
 class OBJECT_OT_body_moments_clear_assembly(Operator):
     """Remove the stored results of the assembly. Settings and results of members are kept"""
 
-    bl_idname = "object.body_moments_clear_assembly"
     bl_label = "Clear Assembly Results"
     bl_options = {"REGISTER", "UNDO"}
 
@@ -134,7 +132,6 @@ class _SnapToAssembly:
 class VIEW3D_OT_body_moments_cursor_to_assembly(_SnapToAssembly, Operator):
     """Move the 3D cursor to the center of mass of the assembly"""
 
-    bl_idname = "view3d.body_moments_cursor_to_assembly"
     bl_label = "Cursor to Center of Assembly"
 
     rotate: BoolProperty(
@@ -156,7 +153,6 @@ class VIEW3D_OT_body_moments_cursor_to_assembly(_SnapToAssembly, Operator):
 class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
     """Add or move an empty at the assembly's center of mass, along its principal axes"""
 
-    bl_idname = "object.body_moments_assembly_empty"
     bl_label = "Add Empty at Assembly"
 
     def _place(self, context: Context, assembly: "bodies.Assembly", center: list[float]) -> str:
@@ -184,15 +180,11 @@ class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
 
 
 class OBJECT_OT_body_moments_assembly_origin(_SnapToAssembly, Operator):
-    """Put the origin of the assembly at its center of mass."""
+    """Put the origin of the assembly at its center of mass: the offset of a collection's instances,
+    or the empty, whose children stay where they are
+    """
 
-    bl_idname = "object.body_moments_assembly_origin"
     bl_label = "Origin to Center of Assembly"
-    bl_description = (
-        "Put the origin of the assembly at its center of mass: the offset of a collection's "
-        "instances, or the empty, "
-        "whose children stay where they are"
-    )
 
     def _place(self, context: Context, assembly: "bodies.Assembly", center: list[float]) -> str:
         root = assembly.root.member.data
@@ -213,7 +205,6 @@ class OBJECT_OT_body_moments_assembly_origin(_SnapToAssembly, Operator):
 class OBJECT_OT_body_moments_export_bill(Operator, ExportHelper):
     """Write masses, centers and inertia of an assembly's members as a table (.csv), in SI units"""
 
-    bl_idname = "object.body_moments_export_bill"
     bl_label = "Export Bill of Masses"
     bl_options = {"REGISTER"}
     filename_ext = ".csv"

@@ -31,14 +31,11 @@ class WithDialog(InObjectMode):
 
 
 class OBJECT_OT_body_moments_level(WithDialog, Operator):
-    """Compute the level of a liquid in the active object, or its contents up to a level."""
+    """Compute the level of a volume or mass of liquid in the active vessel, or its contents up to a
+    level. The vessel may have a cavity, be open upward, or be one surface with a rim
+    """
 
-    bl_idname = "object.body_moments_level"
     bl_label = "Level"
-    bl_description = (
-        "Compute the level of a volume or mass of liquid in the active vessel, or its contents up "
-        "to a level. The vessel may have a cavity, be open upward, or be one surface with a rim"
-    )
 
     by: EnumProperty(
         name="Given",
@@ -76,11 +73,7 @@ class OBJECT_OT_body_moments_level(WithDialog, Operator):
     )
 
     def draw(self, _context: Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        layout.prop(self, "by")
-        layout.prop(self, self.by.lower())
-        layout.prop(self, "density")
+        selection.draw_properties(self, "by", self.by.lower(), "density")
 
     def _change(self, context: Context, obj: Object) -> set[str]:
         unit = meters_per_unit(context.scene)
@@ -94,11 +87,9 @@ class OBJECT_OT_body_moments_level(WithDialog, Operator):
 
 
 class OBJECT_OT_body_moments_show_level(InObjectMode, Operator):
-    """Add the surface of the liquid, or the table of its levels, as a mesh."""
+    """Add the liquid's surface, or the curve of volume and level, as a mesh object"""
 
-    bl_idname = "object.body_moments_show_level"
     bl_label = "Show Level"
-    bl_description = "Add the liquid's surface, or the curve of volume and level, as a mesh object"
 
     what: EnumProperty(
         name="Mesh",
@@ -128,14 +119,11 @@ class OBJECT_OT_body_moments_show_level(InObjectMode, Operator):
 
 
 class OBJECT_OT_body_moments_cut_fill(WithDialog, Operator):
-    """Measure the volumes of the active surface above and below a plane or another surface."""
+    """Measure the volumes of the active open surface above and below a height, the plane through
+    its rim, or another object's plane or surface
+    """
 
-    bl_idname = "object.body_moments_cut_fill"
     bl_label = "Cut and Fill"
-    bl_description = (
-        "Measure the volumes of the active open surface above and below a height, the plane "
-        "through its rim, or another object's plane or surface"
-    )
 
     against: EnumProperty(
         name="Against",
@@ -152,13 +140,10 @@ class OBJECT_OT_body_moments_cut_fill(WithDialog, Operator):
     other: StringProperty(name="Object", description="Name of the object to compare with")
 
     def draw(self, context: Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        layout.prop(self, "against")
-        if self.against == "HEIGHT":
-            layout.prop(self, "height")
-        elif self.against == "OBJECT":
-            layout.prop_search(self, "other", context.scene, "objects")
+        height = ("height",) if self.against == "HEIGHT" else ()
+        column = selection.draw_properties(self, "against", *height)
+        if self.against == "OBJECT":
+            column.prop_search(self, "other", context.scene, "objects")
 
     def _change(self, context: Context, obj: Object) -> set[str]:
         height = self.height * meters_per_unit(context.scene)

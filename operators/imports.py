@@ -19,7 +19,7 @@ from bpy.props import (
     IntVectorProperty,
     StringProperty,
 )
-from bpy.types import Context, Object, Operator, OperatorFileListElement, UILayout
+from bpy.types import Context, Object, Operator, OperatorFileListElement
 from bpy_extras.io_utils import ImportHelper
 
 from .. import core
@@ -46,7 +46,6 @@ def _positions(name: str) -> Any:
 class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, ImportHelper):
     """Import a scan or array of densities as a Volume object. A .vdb file is written beside it"""
 
-    bl_idname = "object.body_moments_import_scan"
     bl_label = "Import Scan"
 
     filter_glob: StringProperty(default=";".join("*" + end for end in SUFFIXES), options={"HIDDEN"})
@@ -156,7 +155,6 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
 class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, ImportHelper):
     """Import the solids of STEP and IGES files, and the surfaces of .obj files with surf"""
 
-    bl_idname = "object.body_moments_import_surfaces"
     bl_label = "Import CAD"
 
     filter_glob: StringProperty(default="*.step;*.stp;*.igs;*.iges;*.obj", options={"HIDDEN"})
@@ -173,9 +171,7 @@ class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, I
     )
 
     def draw(self, _context: Context) -> None:
-        layout: UILayout = self.layout
-        layout.use_property_split = True
-        layout.prop(self, "unit")
+        selection.draw_properties(self, "unit")
 
     def execute(self, context: Context) -> set[str]:
         made: list[Object] = []

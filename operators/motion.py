@@ -86,9 +86,7 @@ class KeyedFlight(modal.ModalDialog, rig.OnArmature):
         self._is_found = True
 
     def draw(self, context: Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        layout.prop(self, "use_contacts")
+        layout = selection.draw_properties(self, "use_contacts")
         column = layout.column(align=True)
         column.enabled = not self.use_contacts
         if self._is_found or not self.use_contacts:
@@ -146,7 +144,6 @@ class KeyedFlight(modal.ModalDialog, rig.OnArmature):
 class POSE_OT_body_moments_parabola(KeyedFlight, Operator):
     """Key the root for a free fall of the center of mass from take-off to landing; poses stay"""
 
-    bl_idname = "pose.body_moments_parabola"
     bl_label = "Put on Parabola"
     DONE = "The center of “{name}” falls freely from frame {start} to {end}"
     OWN = ("keep",)
@@ -169,7 +166,6 @@ class POSE_OT_body_moments_parabola(KeyedFlight, Operator):
 class POSE_OT_body_moments_keep_spin(KeyedFlight, Operator):
     """Turn the root so that angular momentum stays that of take-off: a tucked body spins faster"""
 
-    bl_idname = "pose.body_moments_keep_spin"
     bl_label = "Keep Spin"
     DONE = "“{name}” keeps its angular momentum within {off:percent} from frame {start} to {end}"
     TURNS = True
@@ -223,7 +219,6 @@ class KeyedPath(modal.ModalSteps, rig.OnArmature):
 class POSE_OT_body_moments_bake_curves(KeyedPath, Operator):
     """Key the character's momentum and balance on an empty, and list momentum from nothing"""
 
-    bl_idname = "pose.body_moments_bake_curves"
     bl_label = "Bake Curves"
     CURVES = True
 
@@ -231,7 +226,6 @@ class POSE_OT_body_moments_bake_curves(KeyedPath, Operator):
 class POSE_OT_body_moments_trace(KeyedPath, Operator):
     """Key the path of the center of mass on an empty, and draw it beside the arcs of free fall"""
 
-    bl_idname = "pose.body_moments_trace"
     bl_label = "Trace"
 
 

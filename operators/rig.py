@@ -46,7 +46,6 @@ class InPoseMode:
 class OBJECT_OT_body_moments_measure_bones(OnArmature, Operator):
     """Measure each bone's part of the selected armature at rest; store it on the pose bone"""
 
-    bl_idname = "object.body_moments_measure_bones"
     bl_label = "Measure Bones"
 
     @selection.report_refusals
@@ -68,7 +67,6 @@ class OBJECT_OT_body_moments_measure_bones(OnArmature, Operator):
 class OBJECT_OT_body_moments_clear_bones(OnArmature, Operator):
     """Remove the stored results of the selected armature and its bones. Settings are kept"""
 
-    bl_idname = "object.body_moments_clear_bones"
     bl_label = "Clear Results of Bones"
 
     @selection.report_refusals
@@ -77,16 +75,12 @@ class OBJECT_OT_body_moments_clear_bones(OnArmature, Operator):
 
 
 class OBJECT_OT_body_moments_physics_rig(OnArmature, Operator):
-    """Create rigid bodies with the exact masses of the bones' parts, joined at the bones."""
+    """Create a rigid body for the part of each bone, in rest pose, with its exact mass, its origin
+    at its center of mass and its axes along its principal axes, and a joint at each bone. One
+    created before is replaced
+    """
 
-    bl_idname = "object.body_moments_physics_rig"
     bl_label = "Create Physics Rig"
-    bl_description = (
-        "Create a rigid body for the part of each bone, in rest pose, with its exact mass, its "
-        "origin at its center of "
-        "mass and its axes along its principal axes, and a joint at each bone. One created before "
-        "is replaced"
-    )
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
@@ -102,15 +96,11 @@ class OBJECT_OT_body_moments_physics_rig(OnArmature, Operator):
 
 
 class OBJECT_OT_body_moments_rig_center(OnArmature, Operator):
-    """Add an empty that stays at the center of mass of the posed character."""
+    """Add an empty that stays at the center of mass of the character in every pose, by constraints
+    to the centers of the bones' parts. One added before is replaced
+    """
 
-    bl_idname = "object.body_moments_rig_center"
     bl_label = "Add Center of Mass"
-    bl_description = (
-        "Add an empty that stays at the center of mass of the character in every pose, by "
-        "constraints to the centers "
-        "of the bones' parts. One added before is replaced"
-    )
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
@@ -124,7 +114,6 @@ class OBJECT_OT_body_moments_rig_center(OnArmature, Operator):
 class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
     """Show or hide center of mass and support of the selected characters while they are posed"""
 
-    bl_idname = "pose.body_moments_show_weight"
     bl_label = "Show Weight"
 
     @selection.report_refusals
@@ -148,7 +137,6 @@ class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
 class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
     """Move a bone as little as brings the center of mass over the support; held feet stay"""
 
-    bl_idname = "pose.body_moments_balance_pose"
     bl_label = "Balance Pose"
 
     bone: StringProperty(
@@ -174,12 +162,9 @@ class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
     )
 
     def draw(self, context: Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        layout.prop_search(self, "bone", context.object.pose, "bones", icon="BONE_DATA")
-        layout.prop(self, "target")
-        if self.target == "INSIDE":
-            layout.prop(self, "margin")
+        margin = ("margin",) if self.target == "INSIDE" else ()
+        column = selection.draw_properties(self, "target", *margin)
+        column.prop_search(self, "bone", context.object.pose, "bones", icon="BONE_DATA")
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import bpy
-from bpy.types import Context, Object, Operator
+from bpy.types import Context, Object, Operator, UILayout
 
 from .. import core
 from ..blender import read, scene, settings, write
@@ -106,6 +106,15 @@ class OnSubject:
             return self._change(context, obj)
         except MeasureError as refusal:
             return refuse(self, reports.failure(obj.name_full, refusal))
+
+
+def draw_properties(operator: Operator, *names: str) -> UILayout:
+    """Draw properties of an operator, one below the other, and return their column."""
+    column = operator.layout.column()
+    column.use_property_split = True
+    for name in names:
+        column.prop(operator, name)
+    return column
 
 
 def select_only(context: Context, objects: Collection[Object], active: Object) -> None:

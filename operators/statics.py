@@ -15,15 +15,12 @@ from . import findings, modal, selection
 
 
 class OBJECT_OT_body_moments_stability(selection.OnSelection, Operator):
-    """Compute whether the selected objects stand on the ground, and in which poses they rest."""
+    """Compute whether the selected objects stand on the ground below them, how far the ground can
+    be tilted, and in which poses they rest. Objects are measured where their results are out of
+    date
+    """
 
-    bl_idname = "object.body_moments_stability"
     bl_label = "Check Stability"
-    bl_description = (
-        "Compute whether the selected objects stand on the ground below them, how far the ground "
-        "can be tilted, and in "
-        "which poses they rest. Objects are measured where their results are out of date"
-    )
 
     def execute(self, context: Context) -> set[str]:
         objects = selection.selected_measurable(context)
@@ -50,15 +47,11 @@ class OBJECT_OT_body_moments_stability(selection.OnSelection, Operator):
 
 
 class OBJECT_OT_body_moments_rest_on_ground(selection.OnSelectionInObjectMode, Operator):
-    """Lay the selected objects on the ground in a pose in which they stay."""
+    """Lay the selected objects on the ground in a stable pose, the likeliest or another one. They
+    turn by the smallest angle about the center of mass, which stays above the same point
+    """
 
-    bl_idname = "object.body_moments_rest_on_ground"
     bl_label = "Rest on Ground"
-    bl_description = (
-        "Lay the selected objects on the ground in a stable pose, the likeliest or another one. "
-        "They turn by the "
-        "smallest angle about the center of mass, which stays above the same point"
-    )
 
     pose: IntProperty(
         name="Pose",
@@ -80,9 +73,7 @@ class OBJECT_OT_body_moments_rest_on_ground(selection.OnSelectionInObjectMode, O
     )
 
     def draw(self, context: Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        layout.prop(self, "pose")
+        layout = selection.draw_properties(self, "pose")
         obj = session.selected.subject(context)
         poses = None if obj is None else session.stored.stability.poses(obj, context.scene)
         if self.pose and poses is not None and not isinstance(poses, Finding):
@@ -111,15 +102,12 @@ class OBJECT_OT_body_moments_rest_on_ground(selection.OnSelectionInObjectMode, O
 
 
 class OBJECT_OT_body_moments_balance_group(modal.ModalDialog, Operator):
-    """Follow the center of mass of several objects over the frame range."""
+    """Follow the common center of mass of the selected objects, of a collection, or of the meshes
+    that the selected armatures deform, over the frame range. Adds an empty with keys, and draws the
+    path
+    """
 
-    bl_idname = "object.body_moments_balance_group"
     bl_label = "Follow Center"
-    bl_description = (
-        "Follow the common center of mass of the selected objects, of a collection, or of the "
-        "meshes that the selected "
-        "armatures deform, over the frame range. Adds an empty with keys, and draws the path"
-    )
 
     collection: StringProperty(
         name="Collection",
@@ -165,19 +153,14 @@ class OBJECT_OT_body_moments_balance_group(modal.ModalDialog, Operator):
         )
 
     def draw(self, _context: Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        layout.prop_search(self, "collection", bpy.data, "collections")
-        layout.prop_search(self, "contacts", bpy.data, "collections")
-        if self.contacts:
-            layout.prop(self, "ground")
-            layout.prop(self, "reach")
-        layout.prop(self, "use_scene_range")
-        column = layout.column(align=True)
+        column = selection.draw_properties(self)
+        column.prop_search(self, "collection", bpy.data, "collections")
+        column.prop_search(self, "contacts", bpy.data, "collections")
+        ground = ("ground", "reach") if self.contacts else ()
+        selection.draw_properties(self, *ground, "use_scene_range")
+        column = selection.draw_properties(self, "frame_start", "frame_end")
         column.active = not self.use_scene_range
-        column.prop(self, "frame_start")
-        column.prop(self, "frame_end")
-        layout.prop(self, "frame_step")
+        selection.draw_properties(self, "frame_step")
 
     def _begin(self, context: Context) -> int:
         scene = context.scene

@@ -18,7 +18,7 @@ from bpy.types import Context, Object, UILayout
 from ..blender import session, settings, write
 from ..blender.read.visibility import measurable
 from ..blender.session.displayed import Displayed, Verdict, displayed, shown_objects, total
-from ..blender.session.live.following import Lag, current_numbers, is_live
+from ..blender.session.live.following import Lag
 from ..blender.write.translations import localized
 from ..core import inertia, wall
 from ..core.verdict import METHODS, Group, Source, method_key, truncate_list
@@ -135,9 +135,10 @@ def _of_one(context: Context, obj: Object) -> Answer:
         live = localized(LIVE[shown.lag]).format(milliseconds=1e3 * shown.live.seconds)
         state = live, "REC"
     findings = () if shown is None else shown.findings
-    now = current_numbers(obj)
-    if now is not None and now.refusal is not None and session.stored.outcome.last() is None:
-        findings = now.refusal, *findings
+    followed = session.memory.followed.get(obj)
+    refusal = followed and followed.result and followed.result.refusal
+    if refusal is not None and session.stored.outcome.last() is None:
+        findings = refusal, *findings
     return Answer(
         obj.name,
         "OBJECT_DATA",
@@ -244,7 +245,8 @@ def _buttons(layout: UILayout, context: Context) -> None:
     rows.button(buttons, "object.body_moments_measure", "PHYSICS", **measure)
     row = buttons.row(align=True)
     short = {"text": ""} if text != "Measure" else {}  # the longer text needs the room
-    rows.button(row, "object.body_moments_live", "REC", depress=any(map(is_live, shown)), **short)
+    is_live = any(obj in session.memory.followed for obj in shown)
+    rows.button(row, "object.body_moments_live", "REC", depress=is_live, **short)
     row.operator("object.body_moments_select_faults", text="", icon="ZOOM_SELECTED")
 
 

@@ -234,10 +234,6 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
     density: density_property(
         "Density in kg/m³, independent of the scene units", _density_changed, soft_min=0.01
     )
-    density_kg_m3: _density_in("KG_M3", "Density in {:s}")
-    density_g_cm3: _density_in("G_CM3", "Density in {:s}")
-    density_lb_in3: _density_in("LB_IN3", "Density in {:s}")
-    density_lb_ft3: _density_in("LB_FT3", "Density in {:s}")
     linear_density: mass_property(
         "Mass per length of the wire in kg/m, independent of the scene units",
         density_changed,
@@ -430,17 +426,18 @@ class BodyMomentsMaterialSettings(PropertyGroup):
         _forget_material,
         default=0.0,
     )
-    density_kg_m3: _density_in("KG_M3", "Density in {:s}. At 0, the density of the object is used")
-    density_g_cm3: _density_in("G_CM3", "Density in {:s}. At 0, the density of the object is used")
-    density_lb_in3: _density_in(
-        "LB_IN3", "Density in {:s}. At 0, the density of the object is used"
-    )
-    density_lb_ft3: _density_in(
-        "LB_FT3", "Density in {:s}. At 0, the density of the object is used"
-    )
     material: StringProperty(
         name="Material",
         description="Entry of the material table that the density was taken from",
+    )
+
+
+for unit in DENSITY_UNITS:
+    BodyMomentsObjectSettings.__annotations__["density_" + unit.lower()] = _density_in(
+        unit, "Density in {:s}"
+    )
+    BodyMomentsMaterialSettings.__annotations__["density_" + unit.lower()] = _density_in(
+        unit, "Density in {:s}. At 0, the density of the object is used"
     )
 
 

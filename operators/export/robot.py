@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
-from bpy.types import Context, FileHandler, Menu, Object, Operator, UILayout
+from bpy.types import Context, FileHandler, Menu, Object, Operator
 from bpy_extras.io_utils import ExportHelper
 
 from ...blender import session
@@ -164,24 +164,14 @@ class RobotExport(selection.InObjectMode, ExportHelper):
         return text.encode("utf-8")
 
     def draw(self, _context: Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
-        if not self.collection:
-            layout.prop(self, "use_selection")
-        self._draw_options(layout)
-
-    def _draw_options(self, layout: UILayout) -> None:
-        layout.prop(self, "links")
-        layout.prop(self, "inertial_only")
-        column = layout.column()
+        self.layout.use_property_decorate = False
+        chosen = () if self.collection else ("use_selection",)
+        selection.draw_properties(self, *chosen, "links", "inertial_only")
+        meshes = () if FORMATS[self.FORMAT].holds_meshes else ("mesh_format",)
+        column = selection.draw_properties(
+            self, "fixed_base", "merge_fixed", "geometry", *meshes, "use_collision"
+        )
         column.enabled = not self.inertial_only
-        column.prop(self, "fixed_base")
-        column.prop(self, "merge_fixed")
-        column.prop(self, "geometry")
-        if not FORMATS[self.FORMAT].holds_meshes:
-            column.prop(self, "mesh_format")
-        column.prop(self, "use_collision")
 
 
 class GeometryExport(RobotExport):
@@ -311,7 +301,6 @@ def _file_handler(form: RobotFormat) -> type[FileHandler]:
 class TOPBAR_MT_body_moments_export(Menu):
     """Formats of robots and engines, with exact mass properties"""
 
-    bl_idname = "TOPBAR_MT_body_moments_export"
     bl_label = "Mass Properties"
 
     def draw(self, _context: Context) -> None:
@@ -321,7 +310,7 @@ class TOPBAR_MT_body_moments_export(Menu):
                 "export_scene.body_moments_" + form.name, text=text, translate=False
             )
         self.layout.separator()
-        self.layout.menu(VIEW3D_MT_body_moments_copy.bl_idname)
+        self.layout.menu(VIEW3D_MT_body_moments_copy.__name__)
 
 
 CLASSES = (

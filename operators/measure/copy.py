@@ -40,7 +40,6 @@ def copy_text(operator: Operator, context: Context, text: str, done: str) -> Non
 class OBJECT_OT_body_moments_copy_value(Operator):
     """Copy this value to the clipboard in SI units, with all digits"""
 
-    bl_idname = "object.body_moments_copy_value"
     bl_label = "Copy Value"
     bl_options = {"INTERNAL"}
 
@@ -190,7 +189,6 @@ ITEMS = (
 class OBJECT_OT_body_moments_copy(Operator):
     """Copy numbers to the clipboard as text in SI units, with all digits"""
 
-    bl_idname = "object.body_moments_copy"
     bl_label = "Copy"
     bl_options = {"REGISTER"}
 
@@ -222,11 +220,10 @@ class OBJECT_OT_body_moments_copy(Operator):
 class VIEW3D_MT_body_moments_copy(Menu):
     """Numbers as text on the clipboard"""
 
-    bl_idname = "VIEW3D_MT_body_moments_copy"
     bl_label = "Copy"
 
     def draw(self, _context: Context) -> None:
-        self.layout.operator_enum(OBJECT_OT_body_moments_copy.bl_idname, "what")
+        self.layout.operator_enum("object.body_moments_copy", "what")
 
 
 SUFFIXES = {".csv": "csv", ".json": "json", ".jsonl": "jsonl"}
@@ -235,7 +232,6 @@ SUFFIXES = {".csv": "csv", ".json": "json", ".jsonl": "jsonl"}
 class OBJECT_OT_body_moments_save_numbers(Operator, ExportHelper):
     """Save the selected objects' results and their total, in SI units, as .csv, .json or .jsonl"""
 
-    bl_idname = "object.body_moments_save_numbers"
     bl_label = "Save CSV or JSON"
     bl_options = {"REGISTER"}
 

@@ -24,15 +24,11 @@ SUFFIX = ".npz"
 
 
 class OBJECT_OT_body_moments_fourier(modal.ModalSteps, selection.OnSubject, Operator, ExportHelper):
-    """Ask for a file and a grid, then write the Fourier transform of the active object."""
+    """Write the Fourier transform of the active object on a regular grid of frequencies to an .npz
+    file, and show slices of its magnitude as an image
+    """
 
-    bl_idname = "object.body_moments_fourier"
     bl_label = "Fourier Transform"
-    bl_description = (
-        "Write the Fourier transform of the active object on a regular grid of frequencies to an "
-        ".npz file, and show "
-        "slices of its magnitude as an image"
-    )
     bl_options = {"REGISTER"}  # Blender would push its undo step before the image is there
     PROGRESS = "Fourier transform: {share:.0%}. Esc to cancel"
     CANCELED = "Fourier transform canceled; nothing was written"
@@ -88,10 +84,7 @@ class OBJECT_OT_body_moments_fourier(modal.ModalSteps, selection.OnSubject, Oper
         return ExportHelper.invoke(self, context, event)
 
     def draw(self, context: Context) -> None:
-        column = self.layout.column()
-        column.use_property_split = True
-        for name in ("of", "frame", "count", "largest"):
-            column.prop(self, name)
+        column = selection.draw_properties(self, "of", "frame", "count", "largest")
         if not self.largest:
             column.label(text="0 rad/m: from the object's size", icon="INFO")
 

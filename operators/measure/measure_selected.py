@@ -29,7 +29,6 @@ AS_SET = "AS_SET"
 class OBJECT_OT_body_moments_measure(modal.ModalSteps, selection.OnSelection, Operator):
     """Compute exact mass properties of the selected objects and store them as custom properties"""
 
-    bl_idname = "object.body_moments_measure"
     bl_label = "Measure"
     MAX_AT_ONCE = selection.MAX_OBJECTS_WITHOUT_REDRAW
 
@@ -162,16 +161,12 @@ class OBJECT_OT_body_moments_measure(modal.ModalSteps, selection.OnSelection, Op
 
 
 class OBJECT_OT_body_moments_live(Operator):
-    """Let the numbers of the selected objects follow what happens to them."""
+    """Update the numbers of the selected objects while they are edited, sculpted, posed or
+    animated, until the file is closed. In Pose Mode, those of the meshes that the armature deforms.
+    Press Measure to store them
+    """
 
-    bl_idname = "object.body_moments_live"
     bl_label = "Live"
-    bl_description = (
-        "Update the numbers of the selected objects while they are edited, sculpted, posed or "
-        "animated, until the file "
-        "is closed. In Pose Mode, those of the meshes that the armature deforms. Press Measure to "
-        "store them"
-    )
     bl_options = {"INTERNAL"}
 
     @classmethod
@@ -180,7 +175,7 @@ class OBJECT_OT_body_moments_live(Operator):
 
     def execute(self, context: Context) -> set[str]:
         objects = _subjects(context)
-        was_live = any(map(live.following.is_live, objects))
+        was_live = any(obj in memory.followed for obj in objects)
         depsgraph = context.evaluated_depsgraph_get()
         refusals = []
         for obj in objects:
@@ -202,7 +197,6 @@ def _subjects(context: Context) -> list[Object]:
 class OBJECT_OT_body_moments_clear(selection.OnSelection, Operator):
     """Remove the stored results from the selected objects. Settings are kept"""
 
-    bl_idname = "object.body_moments_clear"
     bl_label = "Clear Results"
 
     kinds: EnumProperty(

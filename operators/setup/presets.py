@@ -21,15 +21,11 @@ PRESET_PANEL = "OBJECT_PT_body_moments_presets"
 
 
 class OBJECT_OT_body_moments_set_material(Operator):
-    """Set the density of the selected objects to that of a material."""
+    """Set the density of the selected objects to that of a material. With Density From set to
+    Materials, it applies to faces whose material has no density
+    """
 
-    bl_idname = "object.body_moments_set_material"
     bl_label = "Set Material"
-    bl_description = (
-        "Set the density of the selected objects to that of a material. With Density From set to "
-        "Materials, it "
-        "applies to faces whose material has no density"
-    )
     bl_options = {"REGISTER", "UNDO"}
     bl_property = "material"
 
@@ -81,7 +77,6 @@ def _density_of(settings) -> tuple:
 class MATERIAL_OT_body_moments_set_density(Operator):
     """Set the density of a Blender material from the material table"""
 
-    bl_idname = "material.body_moments_set_density"
     bl_label = "Set Material Density"
     bl_options = {"REGISTER", "UNDO"}
     bl_property = "material"
@@ -117,14 +112,11 @@ class MATERIAL_OT_body_moments_set_density(Operator):
 
 
 class OBJECT_OT_body_moments_copy_settings(Operator):
-    """Copy the settings of the active object to the other selected objects."""
+    """Copy kind, material, density or mass, wall and overlaps from the active object to the other
+    selected objects
+    """
 
-    bl_idname = "object.body_moments_copy_settings"
     bl_label = "Copy Settings to Selected"
-    bl_description = (
-        "Copy kind, material, density or mass, wall and overlaps from the active object to the "
-        "other selected objects"
-    )
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
@@ -150,7 +142,6 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
 class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):
     """Add or remove a preset of the settings that the panel shows"""
 
-    bl_idname = "object.body_moments_preset_add"
     bl_label = "Add Body Moments Preset"
     preset_menu = PRESET_PANEL
     preset_subdir = PRESET_FOLDER
@@ -172,7 +163,6 @@ class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):
 class OBJECT_OT_body_moments_preset_apply(Operator):
     """Give the settings of a preset to the objects that the panel is about"""
 
-    bl_idname = "object.body_moments_preset_apply"
     bl_label = "Apply Preset"
     bl_options = {"INTERNAL", "UNDO"}
 

@@ -17,8 +17,6 @@ from ...blender.write.remedies import (
     FILL,
     MERGE,
     REMEDIES,
-    REPAIR,
-    SELECT,
     SHELL,
     UNION,
 )
@@ -37,11 +35,9 @@ def measure_anew(context: Context, objects: list[Object]) -> None:
 
 
 class OBJECT_OT_body_moments_remedy(selection.OnSubject, Operator):
-    """Repair the active object and measure it again."""
+    """Repair the active object and measure it again"""
 
-    bl_idname = REPAIR
     bl_label = "Repair"
-    bl_description = "Repair the active object and measure it again"
 
     remedy: EnumProperty(
         name="Remedy",
@@ -116,7 +112,6 @@ class OBJECT_OT_body_moments_remedy(selection.OnSubject, Operator):
 class SCENE_OT_body_moments_set_millimeters(Operator):
     """Let one unit of the scene be a millimeter, and measure again what was measured"""
 
-    bl_idname = "scene.body_moments_set_millimeters"
     bl_label = "Set Units to Millimeters"
     bl_options = {"REGISTER", "UNDO"}
 
@@ -147,7 +142,6 @@ class SCENE_OT_body_moments_set_millimeters(Operator):
 class OBJECT_OT_body_moments_accept(selection.OnSubject, Operator):
     """Accept this warning: it becomes a note, also when the object is measured again"""
 
-    bl_idname = "object.body_moments_accept"
     bl_label = "Accept Warning"
     bl_options = {"INTERNAL", "UNDO"}
 
@@ -185,7 +179,6 @@ class OBJECT_OT_body_moments_accept(selection.OnSubject, Operator):
 class OBJECT_OT_body_moments_select_refused(selection.InObjectMode, Operator):
     """Select the objects that this line is about; by default, those that the last action refused"""
 
-    bl_idname = SELECT
     bl_label = "Select These Objects"
     bl_options = {"INTERNAL", "UNDO"}
 
@@ -223,7 +216,6 @@ class OBJECT_OT_body_moments_select_refused(selection.InObjectMode, Operator):
 class WM_OT_body_moments_dismiss(Operator):
     """Hide what the last action refused"""
 
-    bl_idname = "wm.body_moments_dismiss"
     bl_label = "Dismiss"
     bl_options = {"INTERNAL"}
 

@@ -20,15 +20,12 @@ SHOWN = 12  # bodies in the redo panel
 
 
 class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Operator):
-    """Make the selected objects rigid bodies with their exact mass, center and principal axes."""
+    """Make the selected objects rigid bodies: mass from density and true volume, origin at the
+    center of mass, axes along the principal axes. Nothing visible moves, and joints stay where they
+    are
+    """
 
-    bl_idname = "object.body_moments_rigid_bodies"
     bl_label = "Make Rigid Bodies"
-    bl_description = (
-        "Make the selected objects rigid bodies: mass from density and true volume, origin at the "
-        "center of mass, axes "
-        "along the principal axes. Nothing visible moves, and joints stay where they are"
-    )
 
     type: EnumProperty(
         name="Type",
@@ -88,13 +85,11 @@ class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Ope
     comparison: StringProperty(options={"HIDDEN", "SKIP_SAVE"})
 
     def draw(self, _context: Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        for name in ("type", "shape", "frame", "compounds", "use_density"):
-            layout.prop(self, name)
-        if self.use_density:
-            layout.prop(self, "density")
-        column = layout.column(align=True)
+        density = ("density",) if self.use_density else ()
+        selection.draw_properties(
+            self, "type", "shape", "frame", "compounds", "use_density", *density
+        )
+        column = self.layout.column(align=True)
         for line in self.comparison.splitlines():
             column.label(text=line, translate=False)
 
@@ -159,15 +154,11 @@ def _compare_masses(context: Context, made: "session.rigid_bodies.RigidBodies") 
 class OBJECT_OT_body_moments_set_rigid_body_mass(
     modal.ModalSteps, selection.OnSelectionInObjectMode, Operator
 ):
-    """Set the mass of rigid bodies to the measured mass in kilograms."""
+    """Set the mass of rigid bodies to the measured mass in kilograms. The physics engine uses the
+    origin as center of mass; use Axes to Principal Axes as well
+    """
 
-    bl_idname = "object.body_moments_set_rigid_body_mass"
     bl_label = "Set Rigid Body Mass"
-    bl_description = (
-        "Set the mass of rigid bodies to the measured mass in kilograms. The physics engine uses "
-        "the origin as center "
-        "of mass; use Axes to Principal Axes as well"
-    )
     MAX_AT_ONCE = selection.MAX_OBJECTS_WITHOUT_REDRAW
 
     add: BoolProperty(

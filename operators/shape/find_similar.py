@@ -116,15 +116,11 @@ class _SearchMixin:
 
 
 class OBJECT_OT_body_moments_find_similar(modal.ModalSteps, _SearchMixin, Operator):
-    """Find the visible objects most similar in shape to the active object."""
+    """Compare the shapes of all visible objects with the active object, in any pose, size and
+    triangulation, and list copies, mirror images and similar shapes
+    """
 
-    bl_idname = "object.body_moments_find_similar"
     bl_label = "Find Similar"
-    bl_description = (
-        "Compare the shapes of all visible objects with the active object, in any pose, size and "
-        "triangulation, and "
-        "list copies, mirror images and similar shapes"
-    )
     PROGRESS = "Comparing: {share:.0%}. Esc to cancel"
     CANCELED = "Search canceled; nothing was changed"
 
@@ -175,15 +171,11 @@ class OBJECT_OT_body_moments_find_similar(modal.ModalSteps, _SearchMixin, Operat
 
 
 class OBJECT_OT_body_moments_find_in_library(_SearchMixin, Operator, ImportHelper):
-    """Find the bodies of a library most similar in shape to the active object."""
+    """Compare the shape of the active object with those of a library, written by the command line
+    with --signature --format jsonl
+    """
 
-    bl_idname = "object.body_moments_find_in_library"
     bl_label = "Find in Library"
-    bl_description = (
-        "Compare the shape of the active object with those of a library, written by the command "
-        "line with "
-        "--signature --format jsonl"
-    )
 
     mirrored: MIRRORED
     scaled: SCALED
@@ -205,7 +197,6 @@ class OBJECT_OT_body_moments_find_in_library(_SearchMixin, Operator, ImportHelpe
 class OBJECT_OT_body_moments_select_found(Operator):
     """Select these objects and make the first one active"""
 
-    bl_idname = "object.body_moments_select_found"
     bl_label = "Select Similar Object"
     bl_options = {"REGISTER", "UNDO"}
 

@@ -64,15 +64,11 @@ class BodyMomentsSymmetry(PropertyGroup):
 
 
 class OBJECT_OT_body_moments_find_symmetry(modal.ModalSteps, selection.OnSelection, Operator):
-    """Find the rotation axes and mirror planes of the selected objects."""
+    """Find the rotation axes and mirror planes through the center of mass of the selected objects
+    that moments allow and the surface, or of flat shapes the outline, confirms
+    """
 
-    bl_idname = "object.body_moments_find_symmetry"
     bl_label = "Find Symmetry"
-    bl_description = (
-        "Find the rotation axes and mirror planes through the center of mass of the selected "
-        "objects that moments "
-        "allow and the surface, or of flat shapes the outline, confirms"
-    )
     PROGRESS = "Finding symmetry: {share:.0%}. Esc to cancel"
     CANCELED = "Search canceled; nothing was changed"
 

@@ -16,7 +16,6 @@ NOTHING = "There are no copies."
 class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
     """Let equal meshes, moved, turned, mirrored or scaled, share one mesh; nothing moves"""
 
-    bl_idname = "object.body_moments_link_copies"
     bl_label = "Link Copies"
 
     tolerance: FloatProperty(
@@ -84,10 +83,7 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
         return True
 
     def draw(self, context: Context) -> None:
-        column = self.layout.column()
-        column.use_property_split = True
-        column.prop(self, "tolerance")
-        column.prop(self, "may_differ")
+        column = selection.draw_properties(self, "tolerance", "may_differ")
         if self._found is None:  # the redo panel
             return
         kinds = sorted(

@@ -16,17 +16,12 @@ from .. import findings, modal, selection
 
 
 class OBJECT_OT_body_moments_match_pose(modal.ModalSteps, Operator):
-    """Move the other selected objects onto the active object."""
+    """Move and rotate the other selected objects onto the active object by centers of mass and
+    principal axes, and report the distance between the surfaces. Symmetric objects take the nearest
+    of their poses; mirror images are left unchanged
+    """
 
-    bl_idname = "object.body_moments_match_pose"
     bl_label = "Match Pose"
-    bl_description = (
-        "Move and rotate the other selected objects onto the active object by centers of mass and "
-        "principal axes, and "
-        "report the distance between the surfaces. Symmetric objects take the nearest of their "
-        "poses; mirror images "
-        "are left unchanged"
-    )
     PROGRESS = "Comparing: {share:.0%}. Esc to cancel"
     CANCELED = "Match Pose canceled; nothing was moved"
 

@@ -17,16 +17,11 @@ from .. import selection
 
 
 class OBJECT_OT_body_moments_sculpt_balance(selection.OnSubject, Operator):
-    """Move vertices as little as possible to bring the center of mass over a point."""
+    """Make it stand: move the selected vertices (in Object Mode those of a vertex group) as little
+    as possible, or lean an object without vertex groups, to bring the center of mass over a point
+    """
 
-    bl_idname = "object.body_moments_sculpt_balance"
     bl_label = "Balance"
-    bl_description = (
-        "Make it stand: move the selected vertices (in Object Mode those of a vertex group) as "
-        "little as "
-        "possible, or lean an object without vertex groups, to bring the center of mass over a "
-        "point"
-    )
     NEEDED = "Make a mesh object active"
 
     target: EnumProperty(
@@ -82,17 +77,10 @@ class OBJECT_OT_body_moments_sculpt_balance(selection.OnSubject, Operator):
         )
 
     def draw(self, context: Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        layout.prop(self, "target")
-        if self.target == "POINT":
-            layout.prop(self, "point")
-        layout.prop(self, "axes")
-        layout.prop(self, "limit")
+        point = ("point",) if self.target == "POINT" else ()
+        column = selection.draw_properties(self, "target", *point, "axes", "limit")
         if context.mode == "OBJECT":
-            layout.prop_search(
-                self, "group", session.selected.require_subject(context), "vertex_groups"
-            )
+            column.prop_search(self, "group", session.selected.subject(context), "vertex_groups")
 
     def _change(self, context: Context, obj: Object) -> set[str]:
         target = context.scene.cursor.location if self.target == "CURSOR" else self.point
@@ -127,15 +115,12 @@ class OBJECT_OT_body_moments_sculpt_balance(selection.OnSubject, Operator):
 
 
 class OBJECT_OT_body_moments_make_it_stand(selection.OnSubject, Operator):
-    """Change infill, walls or ballast of a print as little as possible, so that it stands."""
+    """Change the infill of a print as little as possible, and the walls if it does not suffice, or
+    a pocket of ballast, so that it stands, hangs level from the 3D cursor, or has its center on the
+    plumb line through it. The outside stays
+    """
 
-    bl_idname = "object.body_moments_make_it_stand"
     bl_label = "Make It Stand"
-    bl_description = (
-        "Change the infill of a print as little as possible, and the walls if it does not suffice, "
-        "or a pocket of ballast, so that it stands, hangs level from the 3D cursor, or has its "
-        "center on the plumb line through it. The outside stays"
-    )
     NEEDED = "Make an object of Kind: Printed active"
 
     target: EnumProperty(

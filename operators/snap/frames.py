@@ -56,16 +56,12 @@ def reframe_selected(
 
 
 class OBJECT_OT_body_moments_origin_to_center(selection.OnSelectionInObjectMode, Operator):
-    """Move the origin to the exact center of mass of the evaluated object."""
+    """Move the origin to the exact center of mass of the evaluated object. Nothing visible moves:
+    children and other users of the data stay in place. Objects whose modifiers depend on the origin
+    are left unchanged
+    """
 
-    bl_idname = "object.body_moments_origin_to_center"
     bl_label = "Origin to Center of Mass"
-    bl_description = (
-        "Move the origin to the exact center of mass of the evaluated object. Nothing visible "
-        "moves: children and "
-        "other users of the data stay in place. Objects whose modifiers depend on the origin are "
-        "left unchanged"
-    )
 
     def execute(self, context: Context) -> set[str]:
         done = (
@@ -76,15 +72,11 @@ class OBJECT_OT_body_moments_origin_to_center(selection.OnSelectionInObjectMode,
 
 
 class OBJECT_OT_body_moments_axes_to_principal(selection.OnSelectionInObjectMode, Operator):
-    """Make the principal frame the frame of the object."""
+    """Move the origin to the center of mass and align the local X, Y and Z axes with the principal
+    axes, from the smallest moment to the largest, with unit scale. Nothing visible moves
+    """
 
-    bl_idname = "object.body_moments_axes_to_principal"
     bl_label = "Axes to Principal Axes"
-    bl_description = (
-        "Move the origin to the center of mass and align the local X, Y and Z axes with the "
-        "principal axes, from the "
-        "smallest moment to the largest, with unit scale. Nothing visible moves"
-    )
 
     strict: STRICT_PROPERTY
 
@@ -102,15 +94,11 @@ ORDERS = ("XYZ", "YZX", "ZXY", "XZY", "YXZ", "ZYX")
 
 
 class OBJECT_OT_body_moments_align_to_world(selection.OnSelectionInObjectMode, Operator):
-    """Rotate the object so that its principal axes align with the world axes."""
+    """Rotate the object so that its principal axes align with the world axes, about its center of
+    mass or at the world origin. Children follow
+    """
 
-    bl_idname = "object.body_moments_align_to_world"
     bl_label = "Align Object to World"
-    bl_description = (
-        "Rotate the object so that its principal axes align with the world axes, about its center "
-        "of mass or at the "
-        "world origin. Children follow"
-    )
 
     order: EnumProperty(
         name="Axes",
@@ -160,7 +148,6 @@ class OBJECT_OT_body_moments_align_to_world(selection.OnSelectionInObjectMode, O
 class VIEW3D_OT_body_moments_cursor_to_center(selection.OnSelection, Operator):
     """Move the 3D cursor to the common center of mass of the selected objects"""
 
-    bl_idname = "view3d.body_moments_cursor_to_center"
     bl_label = "Cursor to Center of Mass"
 
     rotate: BoolProperty(
@@ -213,15 +200,11 @@ def turn_cursor(cursor: View3DCursor, axes: Sequence[Sequence[float]]) -> None:
 
 
 class OBJECT_OT_body_moments_add_empty(selection.OnSelectionInObjectMode, Operator):
-    """Add an empty at the center of mass, along the principal axes."""
+    """Add an empty at the center of mass, along the principal axes, with arrows as long as the
+    largest radius of gyration. An empty added before is moved
+    """
 
-    bl_idname = "object.body_moments_add_empty"
     bl_label = "Add Empty at Principal Frame"
-    bl_description = (
-        "Add an empty at the center of mass, along the principal axes, with arrows as long as the "
-        "largest radius of "
-        "gyration. An empty added before is moved"
-    )
 
     parent: BoolProperty(
         name="Parent to Object",
@@ -268,7 +251,6 @@ class OBJECT_OT_body_moments_add_empty(selection.OnSelectionInObjectMode, Operat
 class OBJECT_OT_body_moments_create_orientation(Operator):
     """Create a transform orientation along the principal axes of the active object"""
 
-    bl_idname = "object.body_moments_create_orientation"
     bl_label = "Orientation from Principal Axes"
     bl_options = {"REGISTER", "UNDO"}
 
@@ -333,15 +315,11 @@ def _view_3d(context: Context) -> dict | None:
 
 
 class OBJECT_OT_body_moments_add_nodes(selection.InObjectMode, Operator):
-    """Add a node group that computes the center of mass in geometry nodes."""
+    """Add the node group “Center of Mass” to the file, marked as an asset: it computes center,
+    volume and mass in geometry nodes, follows modifiers and animation, and works without the add-on
+    """
 
-    bl_idname = "object.body_moments_add_nodes"
     bl_label = "Center of Mass Node Group"
-    bl_description = (
-        "Add the node group “Center of Mass” to the file, marked as an asset: it computes center, "
-        "volume and mass in "
-        "geometry nodes, follows modifiers and animation, and works without the add-on"
-    )
 
     marker: BoolProperty(
         name="Add Marker",

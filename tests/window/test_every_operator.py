@@ -14,7 +14,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from body_moments.blender.write.remedies import REPAIR, SELECT
 from body_moments.core.robots.formats import FORMATS
 
 from tests.window.conftest import ROOT
@@ -538,11 +537,10 @@ def test_every_operator_has_been_pressed():
     for folder in ("operators", "panels"):
         for path in (ROOT / folder).rglob("*.py"):
             for node in ast.walk(ast.parse(path.read_text("utf-8"))):
-                if not isinstance(node, ast.Assign) or ast.unparse(node.targets[0]) != "bl_idname":
-                    continue
-                if isinstance(node.value, ast.Constant) and "." in node.value.value:
-                    made.add(node.value.value)
-    made |= {REPAIR, SELECT, *("export_scene.body_moments_" + name for name in FORMATS)}
+                if isinstance(node, ast.ClassDef) and "_OT_" in node.name:
+                    category, name = node.name.split("_OT_")
+                    made.add(f"{category.lower()}.{name}")
+    made |= {"export_scene.body_moments_" + name for name in FORMATS}
     pressed = {*CLICKED, *IN_BROWSER, *REDONE}
     for path in Path(__file__).parent.glob("test_*.py"):
         for node in ast.walk(ast.parse(path.read_text("utf-8"))):

@@ -1,16 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Objects with Live on and their current numbers: `measuring` makes them, the panels ask here."""
+"""Objects with Live on and their current numbers, as `memory.followed` keeps them."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING, NamedTuple
-
-from bpy.types import Object
-
-from .. import memory
 
 if TYPE_CHECKING:
     from ....core.measurement import Measurement
@@ -63,16 +59,3 @@ class Followed:
     pass_seconds: float = 0.0
     shows_others: bool = False
     is_pending: bool = False
-
-
-def is_live(obj: Object) -> bool:
-    """Return whether Live is on for the object."""
-    return obj in memory.followed
-
-
-def current_numbers(obj: Object) -> LiveResult | None:
-    """Return the result of an object's last live measurement, or None if there is none or Live is
-    off.
-    """
-    current = memory.followed.get(obj)
-    return None if current is None else current.result

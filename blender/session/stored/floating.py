@@ -40,7 +40,7 @@ from ...scene.transforms import TransformChannels, world
 from ...settings.floating import liquid_density
 from ...settings.options import AS_SET, MeasureOptions
 from ...write import properties
-from .. import live, memory
+from .. import memory
 from ..tracking import handlers, staleness
 from ..tracking.stamps import Kind
 from . import results
@@ -368,7 +368,7 @@ def follow(depsgraph: Depsgraph, budget: float) -> bool:
     waiting = False
     for afloat in {id(afloat): afloat for afloat in memory.afloat}.values():
         members = _members(afloat, depsgraph.scene)
-        if not any(map(live.following.is_live, members)) or (
+        if not any(member in memory.followed for member in members) or (
             _turn_since(afloat, members, depsgraph.scene) is not None
         ):
             continue
@@ -389,7 +389,7 @@ def _read_held(obj: Object, afloat: Afloat, scene: Scene) -> Held | Finding | No
         return None
     turn = _turn_since(afloat, members, scene)
     if turn is None:
-        is_live = any(map(live.following.is_live, members))
+        is_live = any(member in memory.followed for member in members)
         return afloat.shown[1] if is_live and afloat.shown is not None else None
     unit = meters_per_unit(scene)
     turn[:3, 3] *= unit
