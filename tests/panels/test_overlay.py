@@ -49,23 +49,23 @@ def test_shapes_have_their_size_in_pixels_wherever_they_are(view):
 
 
 def test_an_equal_box_has_the_inertia_of_the_body(registered):
-    from body_moments.panels.overlay import lines
+    from body_moments.panels.overlay import bodies
 
     sides = np.array([1.0, 2.0, 5.0])
     inertia = (sides @ sides - sides**2) / 12.0  # of a box of mass 1
     centers, axes = np.array([[10.0, 20.0, 30.0]]), np.eye(3)[None]
-    corners = lines.box_lines(centers, axes, np.sqrt(inertia)[None]).reshape(-1, 3)
+    corners = bodies.box_lines(centers, axes, np.sqrt(inertia)[None]).reshape(-1, 3)
     assert close(np.ptp(corners, axis=0), sides, 1e-12)
     assert close(corners.mean(axis=0), centers[0], 1e-12)
 
 
 def test_an_equal_ellipsoid_has_the_inertia_of_the_body(registered):
-    from body_moments.panels.overlay import lines
+    from body_moments.panels.overlay import bodies
 
     half = np.array([1.0, 2.0, 5.0])
     inertia = (half @ half - half**2) / 5.0
     turn = np.linalg.qr(np.random.default_rng(1).standard_normal((3, 3)))[0]
-    points = lines.ellipsoid_lines(np.zeros((1, 3)), turn[None], np.sqrt(inertia)[None]).reshape(
+    points = bodies.ellipsoid_lines(np.zeros((1, 3)), turn[None], np.sqrt(inertia)[None]).reshape(
         -1, 3
     )
     assert close(((points @ turn / half) ** 2).sum(axis=1), 1.0, 1e-12)
@@ -73,11 +73,11 @@ def test_an_equal_ellipsoid_has_the_inertia_of_the_body(registered):
 
 
 def test_axes_are_as_long_as_the_largest_gyration(registered):
-    from body_moments.panels.overlay import lines
+    from body_moments.panels.overlay import bodies
 
     gyration = np.array([[1.0, 2.0, 3.0]])
     turn = np.linalg.qr(np.random.default_rng(2).standard_normal((3, 3)))[0]
-    segments = lines.axis_lines(np.ones((1, 3)), turn[None], gyration)[0]
+    segments = bodies.axis_lines(np.ones((1, 3)), turn[None], gyration)[0]
     assert close(segments.mean(axis=1), 1.0, 1e-12)
     assert close(segments[:, 1] - segments[:, 0], 2.0 * 3.0 * turn.T, 1e-12)
 

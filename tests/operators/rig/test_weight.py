@@ -130,8 +130,7 @@ def test_total_mass_shows_the_measured_one_until_it_is_set(scene):
 
 
 def test_shown_weight_is_one_mark_with_axes_on_request(scene):
-    from body_moments.panels.overlay.bodies import Bodies, collect
-    from body_moments.panels.overlay.lines import body_lines
+    from body_moments.panels.overlay.bodies import Bodies, body_lines, collect
 
     rig, _body = posed()
     for bone in rig.pose.bones:
