@@ -13,9 +13,7 @@ from bpy.types import Context, Operator
 from bpy_extras.io_utils import ExportHelper
 from mathutils import Matrix
 
-from ..blender import bodies, read, scale, scene, session
-from ..blender.settings.assembly import Root, active_assembly, is_assembly
-from ..blender.write import properties, reports
+from ..blender import bodies, read, scale, scene, session, settings, write
 from ..core.verdict import EditRefusedError, MeasureError, Procedure, Severity, of_severity
 from . import modal, selection
 from .findings import NO_ACTIVE_ASSEMBLY
@@ -36,12 +34,12 @@ TARGET = EnumProperty(
 )
 
 
-def target_of(context: Context, target: str) -> Root:
+def target_of(context: Context, target: str) -> settings.assembly.Root:
     """Return the assembly that an operator works on; raise MeasureError if there is none."""
     if target == "OF_OBJECT":
-        return active_assembly(context)
+        return settings.assembly.active_assembly(context)
     data = context.collection if target == "COLLECTION" else context.object
-    if data is None or target == "OBJECT" and not is_assembly(data):
+    if data is None or target == "OBJECT" and not settings.assembly.is_assembly(data):
         raise MeasureError(NO_ACTIVE_ASSEMBLY)
     return data
 
@@ -64,7 +62,7 @@ class OBJECT_OT_body_moments_measure_assembly(modal.ModalSteps, Operator):
         """Prepare the steps that measure the members; return the number of objects to measure."""
         depsgraph = context.evaluated_depsgraph_get()
         data = target_of(context, self.target)
-        properties.require_storable(data)
+        write.properties.require_storable(data)
         self._member = read.assembly.members_of(data, depsgraph)
         self._results: bodies.Results = {}
         self._steps = bodies.measure_members(self._member, depsgraph, self._results)
@@ -75,7 +73,7 @@ class OBJECT_OT_body_moments_measure_assembly(modal.ModalSteps, Operator):
         failures = session.stored.assembly.store(context, assembly)
         measurement = assembly.measurement
         done = [
-            reports.phrase(
+            write.reports.phrase(
                 "{assembly}: {mass:.7g} kg from {count} object",
                 "{assembly}: {mass:.7g} kg from {count} objects",
                 assembly=measurement.name,
@@ -85,7 +83,7 @@ class OBJECT_OT_body_moments_measure_assembly(modal.ModalSteps, Operator):
         ]
         if failures:
             names = [name for name, _ in failures]
-            done.append(reports.phrase("Results not stored on {names}.", names=names))
+            done.append(write.reports.phrase("Results not stored on {names}.", names=names))
         findings = of_severity(measurement.findings, Severity.WARNING, Severity.ERROR)
         return selection.report(self, *done, *findings)
 
@@ -106,7 +104,7 @@ class OBJECT_OT_body_moments_clear_assembly(Operator):
 def report_cleared(operator: Operator, is_cleared: bool) -> set[str]:
     """Report that results were removed, or that there were none; return the result of `execute`."""
     text = "Removed the results of {count} object" if is_cleared else selection.NO_RESULTS
-    return selection.finish(operator, [reports.phrase(text, count=1)], is_changed=is_cleared)
+    return selection.finish(operator, [write.reports.phrase(text, count=1)], is_changed=is_cleared)
 
 
 # ID property of an empty: the collection or empty whose frame it shows
@@ -144,7 +142,7 @@ class VIEW3D_OT_body_moments_cursor_to_assembly(_SnapToAssembly, Operator):
             turn_cursor(
                 context.scene.cursor, assembly.measurement.mass_properties.principal.axes.tolist()
             )
-        return reports.phrase(
+        return write.reports.phrase(
             "Moved the 3D cursor to the center of mass of “{assembly}”",
             assembly=assembly.measurement.name,
         )
@@ -174,7 +172,7 @@ class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
         frame = Matrix(body.principal.axes.tolist()).to_4x4()
         frame.translation = center
         empty.matrix_world = frame
-        return reports.phrase(
+        return write.reports.phrase(
             "Placed an empty at the principal frame of “{assembly}”", assembly=root.name
         )
 
@@ -191,13 +189,13 @@ class OBJECT_OT_body_moments_assembly_origin(_SnapToAssembly, Operator):
         if isinstance(root, bpy.types.Collection):
             scene.changes.require_editable(root)
             root.instance_offset = center
-            return reports.phrase(
+            return write.reports.phrase(
                 "Instances of “{assembly}” are placed by its center of mass", assembly=root.name
             )
         scene.move_parent(context, root, center)
-        if properties.is_stored(root):
+        if write.properties.is_stored(root):
             session.stored.assembly.store(context, measured_assembly(context, "OBJECT"))
-        return reports.phrase(
+        return write.reports.phrase(
             "Moved “{assembly}” to the center of mass; its children stay", assembly=root.name
         )
 
@@ -224,7 +222,9 @@ class OBJECT_OT_body_moments_export_bill(Operator, ExportHelper):
             "Wrote the masses of {count} member to “{file}”",
             "Wrote the masses of {count} members to “{file}”",
         )
-        return selection.report(self, reports.phrase(*texts, count=len(lines) - 2, file=path.name))
+        return selection.report(
+            self, write.reports.phrase(*texts, count=len(lines) - 2, file=path.name)
+        )
 
 
 CLASSES = (

@@ -5,9 +5,8 @@
 from bpy.props import EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Event, Object, Operator
 
-from ..blender.scale import meters_per_unit
+from ..blender import scale, write
 from ..blender.session import memory, stored
-from ..blender.write import reports
 from . import selection
 
 
@@ -76,14 +75,14 @@ class OBJECT_OT_body_moments_level(WithDialog, Operator):
         selection.draw_properties(self, "by", self.by.lower(), "density")
 
     def _change(self, context: Context, obj: Object) -> set[str]:
-        unit = meters_per_unit(context.scene)
+        unit = scale.meters_per_unit(context.scene)
         amounts = {
             "VOLUME": self.volume * unit**3,
             "MASS": self.mass,
             "LEVEL": self.level * unit,
         }
         stored.cuts.fill_vessel(context, obj, self.by, amounts[self.by], self.density)
-        return selection.report(self, reports.phrase("Filled “{object}”", object=obj.name))
+        return selection.report(self, write.reports.phrase("Filled “{object}”", object=obj.name))
 
 
 class OBJECT_OT_body_moments_show_level(InObjectMode, Operator):
@@ -115,7 +114,7 @@ class OBJECT_OT_body_moments_show_level(InObjectMode, Operator):
             return selection.refuse(self, text, object=obj.name)
         add = stored.cuts.add_surface if self.what == "SURFACE" else stored.cuts.add_table
         added: Object = add(context, obj, level)
-        return selection.report(self, reports.phrase("Added “{object}”", object=added.name))
+        return selection.report(self, write.reports.phrase("Added “{object}”", object=added.name))
 
 
 class OBJECT_OT_body_moments_cut_fill(WithDialog, Operator):
@@ -146,9 +145,9 @@ class OBJECT_OT_body_moments_cut_fill(WithDialog, Operator):
             column.prop_search(self, "other", context.scene, "objects")
 
     def _change(self, context: Context, obj: Object) -> set[str]:
-        height = self.height * meters_per_unit(context.scene)
+        height = self.height * scale.meters_per_unit(context.scene)
         known = stored.cuts.measure_cut_fill(context, obj, self.against, height, self.other)
-        text = reports.phrase("Compared “{object}”", object=obj.name)
+        text = write.reports.phrase("Compared “{object}”", object=obj.name)
         return selection.report(self, text, *known.findings)
 
 

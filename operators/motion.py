@@ -8,8 +8,7 @@ from time import perf_counter
 from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 from bpy.types import Context, Event, Operator, Scene, UILayout
 
-from ..blender import session
-from ..blender.write import reports
+from ..blender import session, write
 from ..core.verdict import MeasureError, Severity
 from . import modal, rig, selection
 
@@ -65,7 +64,7 @@ class KeyedFlight(modal.ModalDialog, rig.OnArmature):
     def invoke(self, context: Context, event: Event) -> set[str]:
         if context.window is not None:
             self._is_found = False
-            with suppress(MeasureError, reports.Refused):  # reported when the keys are made
+            with suppress(MeasureError, write.reports.Refused):  # reported when the keys are made
                 self._look(context)
         return super().invoke(context, event)
 
@@ -105,7 +104,7 @@ class KeyedFlight(modal.ModalDialog, rig.OnArmature):
         if not self.use_contacts:
             flight = self.take_off, self.landing
             if self.landing < self.take_off + 2:
-                raise reports.Refused(EMPTY_FLIGHT)
+                raise write.reports.Refused(EMPTY_FLIGHT)
             frames = range(self.take_off - self.lead, self.landing + self.blend + 1)
         followed = session.CharacterMotion(context, frames)
         followed.find_carrier(context, self.bone, self.TURNS, self.use_layer)
@@ -120,7 +119,7 @@ class KeyedFlight(modal.ModalDialog, rig.OnArmature):
         self._show_found(followed)
         followed.key(context, self.TURNS, self.anyway)
         values = {"name": followed.armature.name, "start": followed.first, "end": followed.landing}
-        texts = [reports.phrase(self.DONE, off=followed.deviation, **values)]
+        texts = [write.reports.phrase(self.DONE, off=followed.deviation, **values)]
         level = Severity.NOTE
         if followed.landing != followed.last:
             text = "The landing moves from frame {old} to {new}, as the fall takes {count} frames"
@@ -129,14 +128,14 @@ class KeyedFlight(modal.ModalDialog, rig.OnArmature):
                 "new": followed.landing,
                 "count": followed.landing - followed.first,
             }
-            texts.append(reports.phrase(text, **values))
+            texts.append(write.reports.phrase(text, **values))
         if followed.off > 0.0:
             text = "The center is off by up to {off}: constraints hold parts in the world"
-            texts.append(reports.phrase(text, off=reports.distance(followed.off)))
+            texts.append(write.reports.phrase(text, off=write.reports.distance(followed.off)))
             level = Severity.WARNING
         if followed.is_lost:
             text = "The momentum changes by more than 1%, most at frame {frame}"
-            texts.append(reports.phrase(text, frame=round(followed.worst, 1)))
+            texts.append(write.reports.phrase(text, frame=round(followed.worst, 1)))
             level = Severity.WARNING
         return selection.report(self, *texts, level=level)
 
@@ -212,7 +211,8 @@ class KeyedPath(modal.ModalSteps, rig.OnArmature):
             "{spans}"
         )
         return selection.report(
-            self, reports.phrase(text, empty=empty.name, count=len(followed.centers), spans=spans)
+            self,
+            write.reports.phrase(text, empty=empty.name, count=len(followed.centers), spans=spans),
         )
 
 

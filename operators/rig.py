@@ -7,12 +7,9 @@ and balance.
 from bpy.props import EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Operator
 
-from ..blender import bodies, read, scene, session
-from ..blender.bodies.findings import BONE_PARTS_IMPOSSIBLE
-from ..blender.read.tracking import tracking_paused
+from ..blender import bodies, read, scene, session, write
 from ..blender.session.selected import armature_of
 from ..blender.session.tracking.armatures import stands_for_meshes
-from ..blender.write import reports
 from ..core.verdict import Severity, of_severity
 from . import assembly, selection
 
@@ -27,7 +24,7 @@ class OnArmature:
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return armature_of(context) is not None or reports.unavailable(
+        return armature_of(context) is not None or write.reports.unavailable(
             cls, "No armature is selected, or several are. Select one."
         )
 
@@ -40,7 +37,9 @@ class InPoseMode:
     @classmethod
     def poll(cls, context: Context) -> bool:
         is_posed = context.object is not None and stands_for_meshes(context.object)
-        return is_posed or reports.unavailable(cls, "Select an armature, and switch to Pose Mode")
+        return is_posed or write.reports.unavailable(
+            cls, "Select an armature, and switch to Pose Mode"
+        )
 
 
 class OBJECT_OT_body_moments_measure_bones(OnArmature, Operator):
@@ -52,7 +51,7 @@ class OBJECT_OT_body_moments_measure_bones(OnArmature, Operator):
     def execute(self, context: Context) -> set[str]:
         rig = bodies.measure_rig(context, read.rig.require_armature(armature_of(context)))
         failures = session.stored.results.store_rig(rig)
-        done = reports.phrase(
+        done = write.reports.phrase(
             "{armature}: {mass:.7g} kg in the parts of {count} bone",
             "{armature}: {mass:.7g} kg in the parts of {count} bones",
             armature=rig.armature.name,
@@ -60,7 +59,7 @@ class OBJECT_OT_body_moments_measure_bones(OnArmature, Operator):
             mass=rig.measurement.mass_properties.mass,
         )
         findings = of_severity(rig.measurement.findings, *NOTABLE)
-        findings += [reports.failure(name, reason) for name, reason in failures]
+        findings += [write.reports.failure(name, reason) for name, reason in failures]
         return selection.report(self, done, *findings)
 
 
@@ -85,13 +84,17 @@ class OBJECT_OT_body_moments_physics_rig(OnArmature, Operator):
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
         rig = bodies.measure_rig(context, read.rig.require_armature(armature_of(context)))
-        with tracking_paused():
+        with read.tracking.tracking_paused():
             count, joints = scene.create_physics_rig(context, rig)
         text = "Rigid bodies created: {count}, joints: {joints}"
         return selection.report(
             self,
-            reports.phrase(text, count=count, joints=joints),
-            *[found for found in rig.measurement.findings if found.code == BONE_PARTS_IMPOSSIBLE],
+            write.reports.phrase(text, count=count, joints=joints),
+            *[
+                found
+                for found in rig.measurement.findings
+                if found.code == bodies.findings.BONE_PARTS_IMPOSSIBLE
+            ],
         )
 
 
@@ -105,10 +108,10 @@ class OBJECT_OT_body_moments_rig_center(OnArmature, Operator):
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
         rig = bodies.measure_rig(context, read.rig.require_armature(armature_of(context)))
-        with tracking_paused():
+        with read.tracking.tracking_paused():
             scene.add_center(context, rig)
         text = "Added the center of mass of “{armature}”, which follows its pose"
-        return selection.report(self, reports.phrase(text, armature=rig.armature.name))
+        return selection.report(self, write.reports.phrase(text, armature=rig.armature.name))
 
 
 class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
@@ -130,7 +133,7 @@ class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
         found = [found for rig in rigs for found in rig.measurement.findings]
         names = ", ".join(armature.name for armature in armatures)
         text = "Showing the weight of {names}" if shown else "Hid the weight of {names}"
-        done = reports.phrase(text, names=names)
+        done = write.reports.phrase(text, names=names)
         return selection.report(self, done, *of_severity(found, *NOTABLE))
 
 
@@ -171,7 +174,7 @@ class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
         margin = self.margin if self.target == "INSIDE" else None
         values = session.balance_pose(context, context.object, self.bone, margin)
         text = "Moved “{bone}”: the center is {gap} from its target, {margin} inside the support"
-        done = reports.phrase(text if values else BALANCED, **values)
+        done = write.reports.phrase(text if values else BALANCED, **values)
         return selection.finish(self, [done], is_changed=bool(values))
 
 

@@ -17,7 +17,6 @@ from bpy.types import Context, Object, Operator, UILayout
 from .. import core
 from ..blender import read, scene, settings, write
 from ..blender.session import selected, stored, tracking
-from ..blender.write import reports
 from ..core.verdict import FileError, Finding, MeasureError, Severity, system_reason
 
 NO_FILE = "No file is named. Choose one."
@@ -46,7 +45,7 @@ def poll_object_mode(cls: type[Operator], context: Context) -> bool:
     """Return whether Blender is in Object Mode; if not, set the reason that the disabled button
     shows.
     """
-    return context.mode == "OBJECT" or reports.unavailable(cls, "Switch to Object Mode")
+    return context.mode == "OBJECT" or write.reports.unavailable(cls, "Switch to Object Mode")
 
 
 class InObjectMode:
@@ -66,7 +65,7 @@ class OnSelection:
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return bool(context.view_layer.objects.selected) or reports.unavailable(
+        return bool(context.view_layer.objects.selected) or write.reports.unavailable(
             cls, "Select objects"
         )
 
@@ -98,14 +97,14 @@ class OnSubject:
     @classmethod
     def poll(cls, context: Context) -> bool:
         obj = selected.subject(context)
-        return obj is not None and cls.suits(obj) or reports.unavailable(cls, cls.NEEDED)
+        return obj is not None and cls.suits(obj) or write.reports.unavailable(cls, cls.NEEDED)
 
     def execute(self, context: Context) -> set[str]:
         obj = selected.subject(context)
         try:
             return self._change(context, obj)
         except MeasureError as refusal:
-            return refuse(self, reports.failure(obj.name_full, refusal))
+            return refuse(self, write.reports.failure(obj.name_full, refusal))
 
 
 def draw_properties(operator: Operator, *names: str) -> UILayout:
@@ -145,9 +144,11 @@ def refuse(operator: Operator, reason: MeasureError | Finding | str, **values: A
     an English text.
     """
     if isinstance(reason, str):
-        report(operator, reports.phrase(reason, **values), level=Severity.ERROR)
+        report(operator, write.reports.phrase(reason, **values), level=Severity.ERROR)
     else:
-        report(operator, reports.refusal(reason) if isinstance(reason, MeasureError) else reason)
+        report(
+            operator, write.reports.refusal(reason) if isinstance(reason, MeasureError) else reason
+        )
     return {"CANCELLED"}
 
 
@@ -171,7 +172,7 @@ def reporting(operator: Operator, run: Callable[..., set[str]], *arguments: obje
         return run(*arguments)
     except MeasureError as error:
         return refuse(operator, error)
-    except reports.Refused as error:
+    except write.reports.Refused as error:
         return refuse(operator, error.text, **error.values)
 
 
@@ -194,13 +195,15 @@ def summarize(
     `idle` are translated already. nothing: the English text if there are no objects.
     """
     if not total:
-        done = reports.phrase(nothing)
+        done = write.reports.phrase(nothing)
     elif not changed and not failures and idle is not None:
-        done = reports.phrase("Nothing to do: {cause}", cause=idle)
+        done = write.reports.phrase("Nothing to do: {cause}", cause=idle)
     parts = [done] if changed or not failures else []
     if failures:
         parts.append(
-            reports.phrase("{count} of {total} left unchanged:", count=len(failures), total=total)
+            write.reports.phrase(
+                "{count} of {total} left unchanged:", count=len(failures), total=total
+            )
         )
     return finish(operator, parts, failures, findings, is_changed=bool(changed))
 
@@ -220,8 +223,12 @@ def finish(
         operator.bl_label, [part for part in (*failures, *findings) if isinstance(part, Finding)]
     )
     redraw(bpy.context)
-    reports.report(
-        operator, *texts, *reports.first(failures), *reports.first(findings), level=level
+    write.reports.report(
+        operator,
+        *texts,
+        *write.reports.first(failures),
+        *write.reports.first(findings),
+        level=level,
     )
     return {"FINISHED"} if is_changed else {"CANCELLED"}
 
@@ -243,14 +250,14 @@ def iterate_objects(
                 yield done - 1 + share
         except Exception as error:
             # objects of two libraries may have one name
-            failures.append(reports.failure(obj.name_full, error))
+            failures.append(write.reports.failure(obj.name_full, error))
         yield done
 
 
 def name_warned(names: Sequence[str]) -> list[str]:
     """Return a text that names the objects with warnings, none without any."""
     text = "{count} with warnings: {objects}"
-    return [reports.phrase(text, count=len(names), objects=names)] if names else []
+    return [write.reports.phrase(text, count=len(names), objects=names)] if names else []
 
 
 def change_all(
@@ -270,8 +277,8 @@ def change_all(
     texts.
     """
     changed, failures = apply_to_all(objects, action)
-    text = reports.phrase(*done, count=len(changed), **values)
-    reason = idle and reports.phrase(idle, **values)
+    text = write.reports.phrase(*done, count=len(changed), **values)
+    reason = idle and write.reports.phrase(idle, **values)
     return summarize(
         operator, len(changed), len(objects), text, failures, findings, reason, nothing
     )
@@ -293,7 +300,7 @@ def apply_to_all(
         if is_changed is None or is_changed:
             changed.append(obj)
 
-    with reports.progress(len(objects)) as step:
+    with write.reports.progress(len(objects)) as step:
         for done in iterate_objects(objects, run, failures):
             step(done)
     return changed, failures

@@ -8,8 +8,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
-from ..blender import session
-from ..blender.write import reports, translations
+from ..blender import session, write
 from ..core.verdict.finding import Finding, finding
 from . import findings, modal, selection
 
@@ -42,7 +41,7 @@ class OBJECT_OT_body_moments_stability(selection.OnSelection, Operator):
         if falling:
             notes.insert(0, finding(findings.OBJECTS_TIP, count=len(falling), names=falling))
         texts = ("{count} of {total} object stands", "{count} of {total} objects stand")
-        done = reports.phrase(*texts, count=len(standing), total=len(known))
+        done = write.reports.phrase(*texts, count=len(standing), total=len(known))
         return selection.summarize(self, len(known), len(objects), done, failures, notes)
 
 
@@ -79,7 +78,7 @@ class OBJECT_OT_body_moments_rest_on_ground(selection.OnSelectionInObjectMode, O
         if self.pose and poses is not None and not isinstance(poses, Finding):
             count = len(poses.shares)
             place = (self.pose - 1) % count
-            text = translations.localized("Pose {:d} of {:d}: {:.1f}%, tips at {:.1f}°")
+            text = write.translations.localized("Pose {:d} of {:d}: {:.1f}%, tips at {:.1f}°")
             share = 100.0 * poses.shares[place]
             angle = degrees(poses.tipping_angles[place])
             layout.label(text=text.format(place + 1, count, share, angle), translate=False)
@@ -96,8 +95,8 @@ class OBJECT_OT_body_moments_rest_on_ground(selection.OnSelectionInObjectMode, O
         moved, failures = selection.apply_to_all(objects, lay)
         session.remeasure(context, moved)
         texts = ("Laid {count} object on the ground", "Laid {count} objects on the ground")
-        done = reports.phrase(*texts, count=len(moved))
-        idle = reports.phrase("already on the ground")
+        done = write.reports.phrase(*texts, count=len(moved))
+        idle = write.reports.phrase("already on the ground")
         return selection.summarize(self, len(moved), len(objects), done, failures, notes, idle)
 
 
@@ -148,7 +147,7 @@ class OBJECT_OT_body_moments_balance_group(modal.ModalDialog, Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return context.mode in {"OBJECT", "POSE"} or reports.unavailable(
+        return context.mode in {"OBJECT", "POSE"} or write.reports.unavailable(
             cls, "Switch to Object Mode or Pose Mode"
         )
 
@@ -177,7 +176,7 @@ class OBJECT_OT_body_moments_balance_group(modal.ModalDialog, Operator):
         group = self._group
         empty = group.store(context)
         texts = [
-            reports.phrase(
+            write.reports.phrase(
                 "“{empty}” has {count} key of the center of mass; objects: {objects_count}",
                 "“{empty}” has {count} keys of the center of mass; objects: {objects_count}",
                 empty=empty.name,
@@ -188,7 +187,7 @@ class OBJECT_OT_body_moments_balance_group(modal.ModalDialog, Operator):
         if group.feet:
             inside = sum(support is not None and support.stands for support in group.supports)
             text = "It is over the support polygon at {count} of {total} frames"
-            texts.append(reports.phrase(text, count=inside, total=len(group.supports)))
+            texts.append(write.reports.phrase(text, count=inside, total=len(group.supports)))
         return selection.report(self, *texts)
 
 

@@ -15,11 +15,9 @@ from typing import NamedTuple
 
 from bpy.types import Context, Object, UILayout
 
-from ..blender import session, settings, write
-from ..blender.read.visibility import measurable
+from ..blender import read, session, settings, write
 from ..blender.session.displayed import Displayed, Verdict, displayed, shown_objects, total
 from ..blender.session.live.following import Lag
-from ..blender.write.translations import localized
 from ..core import inertia, wall
 from ..core.verdict import METHODS, Group, Source, method_key, truncate_list
 from . import places, remedies, rows
@@ -93,7 +91,10 @@ class BodyPanel:
         column = layout.column(align=True)
         state = answer.state
         if not state[0] and _questioned(context) is not None:
-            state = localized("Is a unit of this scene a millimeter?"), "QUESTION"
+            state = (
+                write.translations.localized("Is a unit of this scene a millimeter?"),
+                "QUESTION",
+            )
         rows.state(column, *state)
         remedies.summary(column, context, answer.groups)
         area = None
@@ -132,7 +133,9 @@ def _of_one(context: Context, obj: Object) -> Answer:
     if shown is not None and shown.reason is not None:
         state = rows.outdated(shown.reason), "FILE_REFRESH"
     elif shown is not None and shown.live is not None:
-        live = localized(LIVE[shown.lag]).format(milliseconds=1e3 * shown.live.seconds)
+        live = write.translations.localized(LIVE[shown.lag]).format(
+            milliseconds=1e3 * shown.live.seconds
+        )
         state = live, "REC"
     findings = () if shown is None else shown.findings
     followed = session.memory.followed.get(obj)
@@ -160,10 +163,12 @@ def _of_several(context: Context) -> Answer:
     posed = None
     if active is not None and session.tracking.armatures.stands_for_meshes(active):
         posed = displayed(active, context.scene)
-        name = localized("{:s}: {:d} Mesh" if count == 1 else "{:s}: {:d} Meshes")
+        name = write.translations.localized(
+            "{:s}: {:d} Mesh" if count == 1 else "{:s}: {:d} Meshes"
+        )
         name = name.format(active.name, count)
     else:
-        name = localized("{:d} Objects").format(count)
+        name = write.translations.localized("{:d} Objects").format(count)
     is_rest = posed is not None and write.properties.optional(active, "body_mass") is not None
     numbers = shown.numbers if posed is None else posed.world
     density = ""
@@ -176,7 +181,7 @@ def _of_several(context: Context) -> Answer:
     volume = None if numbers is None else numbers.volume
     if is_rest:
         state = rows.outdated(posed.reason) if posed.reason else ""
-        state = state or localized("The mass is that of the rest pose")
+        state = state or write.translations.localized("The mass is that of the rest pose")
         icon = "FILE_REFRESH" if posed.reason else "INFO"
     else:
         volume = shown.volume if shown.count else volume
@@ -205,10 +210,14 @@ def _of_several(context: Context) -> Answer:
 
 def _outstanding(template: str, names: Sequence[str], count: int) -> str:
     """Return a text with names, or with how many of `count` they are if they do not fit a row."""
-    text = localized(template).format(truncate_list(names, translate=localized))
+    text = write.translations.localized(template).format(
+        truncate_list(names, translate=write.translations.localized)
+    )
     if rows.fits(1.0, text):
         return text
-    return localized(template).format(localized("{} of {}").format(len(names), count))
+    return write.translations.localized(template).format(
+        write.translations.localized("{} of {}").format(len(names), count)
+    )
 
 
 def _density(numbers: inertia.PlainBody, length: float | None, template: str, *counts: int) -> str:
@@ -217,7 +226,7 @@ def _density(numbers: inertia.PlainBody, length: float | None, template: str, *c
         text = "{:.4g} kg/m".format(numbers.mass / length)
     else:
         text = rows.scene_units().texts("density", (numbers.density,))[0]
-    return localized(template).format(text, *counts)
+    return write.translations.localized(template).format(text, *counts)
 
 
 def _quantities(layout: UILayout, answer: Answer) -> None:
@@ -236,12 +245,18 @@ def _buttons(layout: UILayout, context: Context) -> None:
     buttons.scale_y = 1.4
     shown = shown_objects(context)
     selected = context.view_layer.objects.selected
-    subjects = [obj for obj in session.tracking.armatures.subjects(selected) if measurable(obj)]
+    subjects = [
+        obj
+        for obj in session.tracking.armatures.subjects(selected)
+        if read.visibility.measurable(obj)
+    ]
     text = "Measure" if not subjects or len(shown) == 1 and subjects == shown else "Measure {:s}"
     name = (
-        subjects[0].name if len(subjects) == 1 else localized("{:d} Objects").format(len(subjects))
+        subjects[0].name
+        if len(subjects) == 1
+        else write.translations.localized("{:d} Objects").format(len(subjects))
     )
-    measure = {"text": localized(text).format(name), "translate": False}
+    measure = {"text": write.translations.localized(text).format(name), "translate": False}
     rows.button(buttons, "object.body_moments_measure", "PHYSICS", **measure)
     row = buttons.row(align=True)
     short = {"text": ""} if text != "Measure" else {}  # the longer text needs the room
@@ -259,7 +274,9 @@ def _method(obj: Object, shown: Displayed) -> str:
         Source.POLYGONS if shown.method is None or key == str(shown.method) else shown.method.source
     )
     name = METHODS[key][0] if key in METHODS else write.properties.method_text(obj).title()
-    return localized(SOURCES.get(origin, "{:s}")).format(localized(name))
+    return write.translations.localized(SOURCES.get(origin, "{:s}")).format(
+        write.translations.localized(name)
+    )
 
 
 class FindingsPanel:
@@ -336,7 +353,7 @@ VIEW3D_PT_body_moments, OBJECT_PT_body_moments = places.in_both_places(
 )
 CLASSES = (
     *(VIEW3D_PT_body_moments, OBJECT_PT_body_moments),
-    *places.in_both_places(ApplyPanel, "apply", shown_for=measurable, of_all=True),
+    *places.in_both_places(ApplyPanel, "apply", shown_for=read.visibility.measurable, of_all=True),
     *places.in_both_places(
         FindingsPanel, "findings", options=frozenset(), shown_for=lambda obj: True, of_all=True
     ),

@@ -12,10 +12,8 @@ from typing import Any
 
 from bpy.types import Context, OperatorProperties
 
-from ..blender import scale, session
-from ..blender.read.visibility import measurable
+from ..blender import read, scale, session, settings
 from ..blender.session.stored.collider_tolerance import is_beyond_tolerance, tolerance_remedy
-from ..blender.settings.given import COLLIDER, COLLIDERS, body_of
 from ..operators.setup.colliders import SHAPES
 from . import places, rows
 
@@ -55,9 +53,9 @@ class CollidersPanel:
     def draw(self, context: Context) -> None:
         layout = self.layout
         chosen = session.selected.subject(context)
-        body = None if chosen is None else body_of(chosen)
+        body = None if chosen is None else settings.given.body_of(chosen)
         layout.label(text="" if body is None else body.name, icon="OBJECT_DATA", translate=False)
-        group = None if body is None else body.get(COLLIDERS)
+        group = None if body is None else body.get(settings.given.COLLIDERS)
         stored = group if hasattr(group, "keys") and KEYS.issubset(group.keys()) else None
         make_colliders = "object.body_moments_make_colliders"
         kind = SHAPES[0][0] if stored is None else str(stored["shape"]).upper()
@@ -107,7 +105,11 @@ class CollidersPanel:
         )
         if max(changes) > SLIGHT:
             remedies = REMEDIES.get(stored["correct"], REMEDIES["none"])
-            kinds = {child[COLLIDER]["kind"] for child in body.children if COLLIDER in child}
+            kinds = {
+                child[settings.given.COLLIDER]["kind"]
+                for child in body.children
+                if settings.given.COLLIDER in child
+            }
             remedy = remedies[stored["shape"] == "pieces"] if "mesh" in kinds else PRIMITIVE_REMEDY
             rows.remark(column, ANOTHER_BODY, icon="ERROR")
             rows.remark(column, remedy)
@@ -151,4 +153,6 @@ def _repeat(make: OperatorProperties, stored: Mapping[str, Any] | None, correct:
         make.pieces, make.vertices = stored["limits"]
 
 
-CLASSES = places.in_both_places(CollidersPanel, "colliders", shown_for=measurable, of_all=True)
+CLASSES = places.in_both_places(
+    CollidersPanel, "colliders", shown_for=read.visibility.measurable, of_all=True
+)

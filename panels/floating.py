@@ -11,12 +11,11 @@ from bpy.types import Context, UILayout
 
 from ..blender.read.visibility import measurable
 from ..blender.session import displayed, memory, selected, stored
-from ..core import verdict
+from ..core import floating, verdict
 from . import places, rows
 
 if TYPE_CHECKING:
     from ..blender.session.stored.floating import Afloat, Held
-    from ..core.floating import RightingCurve
 
 MAX_POSITIONS = 6
 
@@ -124,7 +123,7 @@ def _positions(layout: UILayout, afloat: Afloat) -> None:
         rows.filled(column, "{:d} more", more)
 
 
-def _stability(layout: UILayout, curve: RightingCurve) -> None:
+def _stability(layout: UILayout, curve: floating.RightingCurve) -> None:
     layout.label(text="Righting Arms")
     column = layout.column(align=True)
     largest = int(curve.arms.argmax())

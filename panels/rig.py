@@ -13,7 +13,6 @@ from bpy.types import Context, Menu, Panel, PoseBone, UILayout
 
 from ..blender import scale, session, write
 from ..blender.session.tracking import armatures, staleness
-from ..blender.write import reports, translations
 from ..core import lazy, verdict
 from . import places, rows
 
@@ -90,7 +89,7 @@ class WeightPanel:
         spans = _spans(context)
         row = column.row()
         row.enabled = bool(spans)
-        text = translations.localized("Momentum from nothing: {:d}").format(len(spans))
+        text = write.translations.localized("Momentum from nothing: {:d}").format(len(spans))
         icon = "ERROR" if spans else "BLANK1"
         row.menu("VIEW3D_MT_body_moments_spans", text=text, icon=icon, translate=False)
         column = layout.column()
@@ -120,9 +119,9 @@ def standing(weight: Weight, unit: float) -> tuple[str, dict[str, str], str]:
     if height is None:
         return "No mesh can touch the ground", {}, "INFO"
     if support is None:
-        lengths = {"height": reports.distance(height * unit)}
+        lengths = {"height": write.reports.distance(height * unit)}
         return "In the air: {height} above ground", lengths, "INFO"
-    margin = {"margin": reports.distance(abs(support.margin) * unit)}
+    margin = {"margin": write.reports.distance(abs(support.margin) * unit)}
     if not support.stands:
         return "Falls: {margin} outside", margin, "CANCEL"
     if support.is_near_edge:
@@ -134,14 +133,14 @@ def _standing(layout: UILayout, weight: Weight | None, unit: float) -> None:
     """Draw how a character stands, its mass, and the contacts that carry it, in as many rows
     however it stands.
     """
-    text = translations.localized("Not measured. Show the weight again.")
+    text = write.translations.localized("Not measured. Show the weight again.")
     icon = "INFO"
     mass = None
     lengths: dict[str, float] = {}
     names: dict[str, Sequence[str]] = {}
     if weight is not None:
         template, shown, icon = standing(weight, unit)
-        text = translations.localized(template).format(**shown)
+        text = write.translations.localized(template).format(**shown)
         mass = weight.parts.mass
         unmeasured = [name for name, own in zip(weight.parts.names, weight.parts.masses) if not own]
         contacts = weight.contacts
@@ -157,11 +156,16 @@ def _standing(layout: UILayout, weight: Weight | None, unit: float) -> None:
     for name in ("Margin", "Height"):
         value = lengths.get(name)
         cell = (
-            ("–", "", "") if value is None else (reports.distance(value), repr(float(value)), "m")
+            ("–", "", "")
+            if value is None
+            else (write.reports.distance(value), repr(float(value)), "m")
         )
         rows.table(column, [(name, *cell)])
     for word in ("Carries", "Lifted", "Not Measured"):
-        listed = verdict.truncate_list(names.get(word, ()), translate=translations.localized) or "–"
+        listed = (
+            verdict.truncate_list(names.get(word, ()), translate=write.translations.localized)
+            or "–"
+        )
         row = column.split(factor=rows.LABEL_SHARE)
         row.label(text=word)
         row.label(text=listed, translate=False)
@@ -186,9 +190,9 @@ class VIEW3D_MT_body_moments_spans(Menu):
 
     def draw(self, context: Context) -> None:
         for first, last, impulse, twist in _spans(context)[:LISTED]:
-            text = translations.localized("Frames {:.0f}–{:.0f}: {:.3g} N·s, {:.3g} N·m·s").format(
-                first, last, impulse, twist
-            )
+            text = write.translations.localized(
+                "Frames {:.0f}–{:.0f}: {:.3g} N·s, {:.3g} N·m·s"
+            ).format(first, last, impulse, twist)
             jump = self.layout.operator("wm.context_set_int", text=text, translate=False)
             jump.data_path = "scene.frame_current"
             jump.value = round(first)

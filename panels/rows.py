@@ -19,11 +19,9 @@ import blf
 import bpy
 from bpy.types import PropertyGroup, UILayout
 
+from ..blender import write
 from ..blender.session.selected import is_mixed
-from ..blender.write.translations import localized, localized_sentence
-from ..blender.write.units import SI_UNITS, Units
-from ..core import inertia, measurement
-from ..core.verdict import Finding, Severity, Verdict, fill, severity
+from ..core import inertia, measurement, verdict
 
 # share of a row for its label, for one of up to 3 letters, and for one of 1 letter
 LABEL_SHARE = 0.36
@@ -41,17 +39,17 @@ MIN_LAST_PART = 3
 NARROW = 220  # regions below this width have buttons without icons, and headings above
 # ERROR is Blender's warning sign
 ICONS = {
-    Severity.NOTE: "INFO",
-    Severity.WARNING: "ERROR",
-    Severity.ERROR: "CANCEL",
+    verdict.Severity.NOTE: "INFO",
+    verdict.Severity.WARNING: "ERROR",
+    verdict.Severity.ERROR: "CANCEL",
 }
 
 VERDICTS = {  # icon and word; the form says it, not the color alone
-    Verdict.EXACT: ("CHECKMARK", "Exact"),
-    Verdict.REPAIRED: ("MODIFIER", "Repaired"),
-    Verdict.DOUBTFUL: ("ERROR", "Doubtful"),
-    Verdict.OUT_OF_DATE: ("FILE_REFRESH", "Out of Date"),
-    Verdict.INCOMPLETE: ("ERROR", "Incomplete"),
+    verdict.Verdict.EXACT: ("CHECKMARK", "Exact"),
+    verdict.Verdict.REPAIRED: ("MODIFIER", "Repaired"),
+    verdict.Verdict.DOUBTFUL: ("ERROR", "Doubtful"),
+    verdict.Verdict.OUT_OF_DATE: ("FILE_REFRESH", "Out of Date"),
+    verdict.Verdict.INCOMPLETE: ("ERROR", "Incomplete"),
     None: ("RADIOBUT_OFF", "Not Measured"),
 }
 AXIS_LABELS = ("X", "Y", "Z")
@@ -106,7 +104,7 @@ def _setting(layout: UILayout, data: PropertyGroup, name: str, expand: bool) -> 
     row = layout.row()
     row.use_property_split = not narrow
     if expand:
-        names = [localized(item.name) for item in definition.enum_items]
+        names = [write.translations.localized(item.name) for item in definition.enum_items]
         expand = fits(1.0 if narrow else VALUE_SHARE, *(one + BUTTON_MARGIN for one in names))
     row.prop(data, name, expand=expand, **options)
 
@@ -154,7 +152,7 @@ def quantity_cell(label: str, quantity: str, si: float | None) -> Cell:
     """
     if si is None:
         return label, "–", "", ""
-    return label, scene_units().text(quantity, si), repr(float(si)), SI_UNITS[quantity]
+    return label, scene_units().text(quantity, si), repr(float(si)), write.units.SI_UNITS[quantity]
 
 
 def angle_cell(label: str, angle: float) -> Cell:
@@ -171,7 +169,7 @@ def values(
     table(
         layout,
         [
-            (label, text, repr(float(number)), SI_UNITS[quantity])
+            (label, text, repr(float(number)), write.units.SI_UNITS[quantity])
             for label, text, number in zip(labels, texts, si)
         ],
     )
@@ -201,7 +199,12 @@ def error_bounds(
         table(
             column,
             [
-                (label, bound(quantity, errors[name], size), repr(errors[name]), SI_UNITS[quantity])
+                (
+                    label,
+                    bound(quantity, errors[name], size),
+                    repr(errors[name]),
+                    write.units.SI_UNITS[quantity],
+                )
                 for label, quantity, name, size in entries
             ],
         )
@@ -212,12 +215,12 @@ def heading(layout: UILayout, label: str, quantity: str, si: Sequence[float] | N
     row = layout.row(align=True)
     title(row, label)
     if si is not None:
-        _copy(row, repr(measurement.plain(si)), SI_UNITS.get(quantity, ""))
+        _copy(row, repr(measurement.plain(si)), write.units.SI_UNITS.get(quantity, ""))
 
 
 def title(layout: UILayout, label: str) -> None:
     """Draw a label above rows, in several lines if the panel is too narrow for one."""
-    _title(layout, localized(label))
+    _title(layout, write.translations.localized(label))
 
 
 def direction(layout: UILayout, label: str, vector: Sequence[float] | None) -> None:
@@ -259,7 +262,7 @@ def table(layout: UILayout, cells: Sequence[Cell]) -> None:
     if not cells:
         return
     layout = layout.column(align=True)
-    labels = [localized(label) for label, *_ in cells]
+    labels = [write.translations.localized(label) for label, *_ in cells]
     share, rests = _form(labels, [shown for _, shown, *_ in cells])
     for label, (_, shown, exact, unit) in zip(labels, cells):
         if share:
@@ -335,12 +338,14 @@ def fold(layout: UILayout, idname: str, label: str, closed: bool = True) -> UILa
 
 def filled(layout: UILayout, template: str, *values: object, icon: str = "NONE") -> None:
     """Draw a label that is filled after its translation."""
-    layout.label(text=localized(template).format(*values), icon=icon, translate=False)
+    layout.label(
+        text=write.translations.localized(template).format(*values), icon=icon, translate=False
+    )
 
 
-def scene_units() -> Units:
+def scene_units() -> write.units.Units:
     """Return the units of the scene that is shown."""
-    return Units.from_settings(bpy.context.scene.unit_settings)
+    return write.units.Units.from_settings(bpy.context.scene.unit_settings)
 
 
 def is_narrow() -> bool:
@@ -386,13 +391,15 @@ def sentence(layout: UILayout, text: str, icon: str = "NONE", boxed: bool = Fals
             column.label(text=line, icon=icon if i == 0 else "BLANK1", translate=False)
 
 
-def message(layout: UILayout, shown: Finding, icon: str = "", boxed: bool = False) -> None:
+def message(layout: UILayout, shown: verdict.Finding, icon: str = "", boxed: bool = False) -> None:
     """Draw the sentence of a finding, with the number of its elements instead of their indices.
 
     icon: by default that of its severity. boxed: as for `sentence`.
     """
-    text = localized_sentence(replace(shown, elements=()), bpy.context.scene.unit_settings)
-    sentence(layout, text, icon or ICONS[severity(shown)], boxed)
+    text = write.translations.localized_sentence(
+        replace(shown, elements=()), bpy.context.scene.unit_settings
+    )
+    sentence(layout, text, icon or ICONS[verdict.severity(shown)], boxed)
 
 
 def remark(
@@ -401,7 +408,9 @@ def remark(
     """Draw an interface text, translated, filled and wrapped."""
     sentence(
         layout,
-        fill(text, None, values, localized, partial(scene_units().text, "length")),
+        verdict.fill(
+            text, None, values, write.translations.localized, partial(scene_units().text, "length")
+        ),
         icon,
         boxed,
     )
@@ -424,7 +433,9 @@ def stale_state(layout: UILayout, reason: str | None) -> None:
 
 def outdated(reason: str) -> str:
     """Return the translated sentence on why numbers are out of date."""
-    return localized("Out of date: {:s}").format(localized(reason))
+    return write.translations.localized("Out of date: {:s}").format(
+        write.translations.localized(reason)
+    )
 
 
 def fits(share: float, *cells: str) -> bool:

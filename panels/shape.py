@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from bpy.types import Context, Object, UILayout
 
-from ..blender import session, settings, write
-from ..blender.read.visibility import measurable
+from ..blender import read, session, settings, write
 from ..blender.session.tracking import staleness, stamps
 from ..core.verdict import SIMILARITY, truncate
 from . import places, rows
@@ -106,4 +105,6 @@ def _similar(layout: UILayout, context: Context) -> None:
         rows.right(row, "{:s}{:s}, {:.2g}".format(words, size, shape.distance))
 
 
-CLASSES = places.in_both_places(ShapePanel, "shape", shown_for=measurable, of_all=True)
+CLASSES = places.in_both_places(
+    ShapePanel, "shape", shown_for=read.visibility.measurable, of_all=True
+)

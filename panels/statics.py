@@ -7,18 +7,12 @@ poses.
 from __future__ import annotations
 
 from math import atan2, degrees
-from typing import TYPE_CHECKING
 
 from bpy.types import Context, UILayout
 
-from ..blender import scale, session
-from ..blender.read.visibility import measurable
-from ..blender.write.translations import localized
-from ..core import verdict
+from ..blender import read, scale, session, write
+from ..core import statics, verdict
 from . import places, rows
-
-if TYPE_CHECKING:
-    from ..core.statics import RestingPoses, Support
 
 MAX_POSES = 6  # limit of the list: round bodies have thousands
 
@@ -60,19 +54,23 @@ class StabilityPanel:
         )
 
 
-def _support(layout: UILayout, context: Context, support: Support | None, is_known: bool) -> None:
+def _support(
+    layout: UILayout, context: Context, support: statics.Support | None, is_known: bool
+) -> None:
     """Draw the standing state, margin and angles, in as many rows before they are known."""
     cells = [(name, "–", "", "") for name in ("Margin", "Tipping Angle", "Toward, from X")]
     column = layout.column(align=True)
     if support is None:
         text = "Changed since: check again" if is_known else "Not checked yet"
-        rows.state(column, localized(text), "FILE_REFRESH" if is_known else "INFO")
+        rows.state(
+            column, write.translations.localized(text), "FILE_REFRESH" if is_known else "INFO"
+        )
     elif support.stands:
-        rows.state(column, localized("Stands"), "CHECKMARK")
+        rows.state(column, write.translations.localized("Stands"), "CHECKMARK")
     else:
         is_on_area = len(support.polygon) > 2
         text = "Tips Over" if is_on_area else "On an edge or corner: lay it down"
-        rows.state(column, localized(text), "ERROR")
+        rows.state(column, write.translations.localized(text), "ERROR")
     if support is not None:
         margin = support.margin * scale.meters_per_unit(context.scene)
         toward = atan2(support.direction[1], support.direction[0])
@@ -84,7 +82,7 @@ def _support(layout: UILayout, context: Context, support: Support | None, is_kno
     rows.table(column, cells)
 
 
-def _poses(layout: UILayout, poses: RestingPoses | verdict.Finding | None) -> None:
+def _poses(layout: UILayout, poses: statics.RestingPoses | verdict.Finding | None) -> None:
     """Draw the most probable poses, in as many rows before they are known."""
     narrow = rows.is_narrow()
     column = layout.column(align=True)
@@ -111,7 +109,7 @@ def _poses(layout: UILayout, poses: RestingPoses | verdict.Finding | None) -> No
             place + 1
         )
     more = len(known) - MAX_POSES
-    rows.state(column, localized("{:d} more").format(more) if more > 0 else "")
+    rows.state(column, write.translations.localized("{:d} more").format(more) if more > 0 else "")
     if isinstance(poses, verdict.Finding):
         rows.message(layout, poses)
 
@@ -119,6 +117,8 @@ def _poses(layout: UILayout, poses: RestingPoses | verdict.Finding | None) -> No
 CLASSES = places.in_both_places(
     StabilityPanel,
     "stability",
-    shown_for=lambda obj: measurable(obj) or session.tracking.armatures.stands_for_meshes(obj),
+    shown_for=lambda obj: (
+        read.visibility.measurable(obj) or session.tracking.armatures.stands_for_meshes(obj)
+    ),
     of_all=True,
 )

@@ -31,7 +31,6 @@ from ...core.verdict import (
 )
 from .. import read, scale, write
 from ..settings.chosen import chosen_objects
-from ..write import properties
 from . import character, live, memory, stored
 from .live import following
 from .tracking import armatures, handlers, staleness, stamps
@@ -125,7 +124,7 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
         unit = scale.meters_per_unit(scene)
         world = own.in_world(obj.matrix_world, unit)
         return Displayed(own, world, unit, method, findings, verdict, reason, now, lag)
-    own = properties.stored(obj) if "body_mass" in obj else None
+    own = write.properties.stored(obj) if "body_mass" in obj else None
     return None if own is None else _stored(obj, scene, own, obj.matrix_world, obj)
 
 
@@ -135,8 +134,8 @@ def _stored(
     """Return stored numbers, in the frame of a matrix, of an object or of its bone."""
     unit = scale.meters_per_unit(scene)
     world = own.in_world(matrix, unit)
-    method = properties.method(measured)
-    findings = properties.findings(obj)
+    method = write.properties.method(measured)
+    findings = write.properties.findings(obj)
     reason = staleness.stale_reason(obj, scene)
     verdict = find_verdict(method, findings) if reason is None else Verdict.OUT_OF_DATE
     return Displayed(own, world, unit, method, findings, verdict, reason)
@@ -227,7 +226,7 @@ def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
     """Return the numbers of an original armature's bone at the bone's current place, or None if
     there are none.
     """
-    own = properties.stored(bone)
+    own = write.properties.stored(bone)
     if own is None:
         return None
     armature = bone.id_data
@@ -243,7 +242,7 @@ def _as_one(armature: Object, scene: Scene, parts: Iterable[Displayed | None]) -
     if world is None:
         return None
     unit = scale.meters_per_unit(scene)
-    rest = properties.optional(armature, "body_mass")
+    rest = write.properties.optional(armature, "body_mass")
     if rest is not None:  # posing stretches and squeezes the skin, and leaves the mass
         factor = rest / world.mass
         inertia, moments = (
@@ -313,7 +312,9 @@ def _sum(scene: Scene, layer: ViewLayer, *chosen: Object) -> Total:
     parts = {}
     missing = []
     for obj in chosen:
-        if properties.method(obj) == ASSEMBLY and not selected.isdisjoint(_members(obj, selected)):
+        if write.properties.method(obj) == ASSEMBLY and not selected.isdisjoint(
+            _members(obj, selected)
+        ):
             continue  # its members count by themselves
         shown = displayed(obj, scene)
         if shown is None:
@@ -335,7 +336,7 @@ def _sum(scene: Scene, layer: ViewLayer, *chosen: Object) -> Total:
         stale,
         sum(shown.is_assumed for shown in parts.values()),
         (
-            *open_body_caveats((obj.name, properties.method(obj)) for obj in parts),
+            *open_body_caveats((obj.name, write.properties.method(obj)) for obj in parts),
             *read.assembly.total_caveats(parts, layer),
             *overlaps,
         ),

@@ -20,11 +20,11 @@ from typing import TYPE_CHECKING, Generic, ParamSpec, TypeVar
 
 from bpy.types import ID, Object, Scene
 
+from ...core import statics, verdict
+
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from ...core.statics import Support
-    from ...core.verdict import Finding
     from .character.weight import Character
     from .displayed import Displayed
     from .live.following import Followed
@@ -127,7 +127,7 @@ drawn: dict[int, Displayed] = _remembered({})
 # session uids of drawn objects that have only moved since
 moved: set[int] = _remembered(set())
 # scene → the last measured objects with their places (`displayed.places`), and their overlaps
-overlaps: SessionCache[tuple[frozenset, Sequence[Finding]]] = SessionCache()
+overlaps: SessionCache[tuple[frozenset, Sequence[verdict.Finding]]] = SessionCache()
 
 # ---------------------------------------------------------------- Results too large to store
 
@@ -144,7 +144,7 @@ due_numbers: list[tuple[Object, Scene]] = _remembered([])
 # armature → the stamp of its results, and its model
 characters: SessionCache[tuple[str, Character | None]] = SessionCache()
 # empty of a balance group → its support by frame
-supports: SessionCache[Mapping[int, Support]] = SessionCache()
+supports: SessionCache[Mapping[int, statics.Support]] = SessionCache()
 
 
 @dataclass

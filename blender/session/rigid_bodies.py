@@ -15,14 +15,12 @@ import bpy
 import numpy as np
 from bpy.types import Context, Mesh, Object
 
-from ...core.inertia import combine
+from ...core import inertia, verdict
 from ...core.measurement import NO_VOLUME
 from ...core.mesh import convex_hull, triangle_areas
-from ...core.verdict import EditRefusedError, Finding, MeasureError, Procedure
 from .. import read, scale, scene, settings, write
 from ..bodies.measure_object import measured_in_turn
 from ..bodies.stack import Measured as MeasuredObject
-from ..scene import changes, findings, reframe, rigid_world, snap_targets, transforms
 from . import stored, tracking
 from .colliders import colliders_kept_current
 
@@ -38,7 +36,7 @@ Body = tuple[Object, ...]  # an object, and the objects below it that belong to 
 class Measured(NamedTuple):
     """A measured body. density: mean density, kg/m³. parts: its objects with their measurements."""
 
-    target: snap_targets.SnapTarget
+    target: scene.snap_targets.SnapTarget
     density: float
     parts: dict[Object, MeasuredObject]
 
@@ -50,7 +48,7 @@ class RigidBodies(NamedTuple):
 
     measured: dict[Object, Measured]
     calculated: dict[Object, float]
-    failures: list[Finding]
+    failures: list[verdict.Finding]
     floors: list[Object]
 
 
@@ -62,7 +60,7 @@ def make_rigid_bodies(
     """
     bodies = _bodies(objects) if compounds else [(obj,) for obj in objects]
     measured: dict[Object, Measured] = {}
-    failures: list[Finding] = []
+    failures: list[verdict.Finding] = []
     floors: list[Object] = []
     ask = _measure_in_turn(context, bodies)
     with write.reports.progress(len(bodies)) as step:
@@ -70,8 +68,8 @@ def make_rigid_bodies(
             try:
                 measured[body[0]] = _measured(context, body, ask)
             except Exception as error:
-                found = error.finding.code if isinstance(error, MeasureError) else None
-                if type == "PASSIVE" and found in {findings.OPEN_OBJECT, NO_VOLUME}:
+                found = error.finding.code if isinstance(error, verdict.MeasureError) else None
+                if type == "PASSIVE" and found in {scene.findings.OPEN_OBJECT, NO_VOLUME}:
                     floors += body  # no engine asks for their mass
                 else:
                     failures.append(write.reports.failure(body[0].name_full, error))
@@ -85,7 +83,7 @@ def make_rigid_bodies(
         failures += _place(context, measured, frame)
         new = _add(context, measured, type, shape)
         new_floors = [obj for obj in floors if obj.rigid_body is None]
-        rigid_world.add_rigid_bodies(context, new_floors, type)
+        scene.rigid_world.add_rigid_bodies(context, new_floors, type)
         depsgraph = context.evaluated_depsgraph_get()
         for obj in floors:
             obj.rigid_body.type = "PASSIVE"
@@ -104,15 +102,17 @@ def make_rigid_bodies(
     return RigidBodies(measured, calculated, failures, floors)
 
 
-def _place(context: Context, measured: dict[Object, Measured], frame: str) -> list[Finding]:
+def _place(context: Context, measured: dict[Object, Measured], frame: str) -> list[verdict.Finding]:
     """Give each body the requested frame; remove refused bodies from `measured`, and return the
     reasons.
     """
-    failures: list[Finding] = []
+    failures: list[verdict.Finding] = []
     if frame == "KEEP":
         return failures
     frame_of = (
-        snap_targets.matrix_for_bullet if frame == "ORIGIN" else snap_targets.matrix_along_axes
+        scene.snap_targets.matrix_for_bullet
+        if frame == "ORIGIN"
+        else scene.snap_targets.matrix_along_axes
     )
     for _ in range(2):  # a new scale may cut faces that are not flat into other triangles
         plans = []
@@ -122,19 +122,19 @@ def _place(context: Context, measured: dict[Object, Measured], frame: str) -> li
             if target is None:
                 continue
             try:
-                reframe.check(obj)
+                scene.reframe.check(obj)
                 joints[obj] = _joint_in_place(context, obj)
             except Exception as error:
                 failures.append(write.reports.failure(obj.name_full, error))
                 del measured[obj]
                 continue
-            move_only = np.array_equal(target[:3, :3], transforms.world(obj)[:3, :3])
-            plans.append(reframe.Plan(obj, target, one.target.size, move_only=move_only))
+            move_only = np.array_equal(target[:3, :3], scene.transforms.world(obj)[:3, :3])
+            plans.append(scene.reframe.Plan(obj, target, one.target.size, move_only=move_only))
         with write.reports.progress(len(plans)) as step:
-            changed, refused = reframe.reframe(context, plans, step)
+            changed, refused = scene.reframe.reframe(context, plans, step)
         for plan in changed:
             if joints[plan.obj] is not None:
-                rigid_world.remove_joint(context, plan.obj)
+                scene.rigid_world.remove_joint(context, plan.obj)
         for obj, refusal in refused:
             failures.append(write.reports.failure(obj.name_full, refusal))
             del measured[obj]
@@ -158,7 +158,7 @@ def _add(context: Context, measured: dict[Object, Measured], type: str, shape: s
     new = [obj for obj in parts if obj.rigid_body is None]
     for collider in added:
         scene.colliders.apply_for_bullet(collider)
-    rigid_world.add_rigid_bodies(
+    scene.rigid_world.add_rigid_bodies(
         context, [*new, *(obj for obj in added if obj.rigid_body is None)], type
     )
     for collider in added:
@@ -190,7 +190,7 @@ def _is_convex_polygon(mesh: Mesh) -> bool:
     surface = read.mesh.mesh_surface(mesh, edges=False)
     try:
         hull = convex_hull(surface.points, FLAT_RTOL)
-    except MeasureError:
+    except verdict.MeasureError:
         return False
     area = triangle_areas(surface.points, surface.all_triangles()[0]).sum()
     both_sides = triangle_areas(hull.points, hull.triangles).sum()
@@ -222,36 +222,42 @@ def _measure_in_turn(
 
 def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredObject]) -> Measured:
     """Measure a body as it is now; raise EditRefusedError if it cannot be a rigid body."""
-    rigid_world.require_rigid_world(context.scene, joints=body[0].rigid_body_constraint is not None)
+    scene.rigid_world.require_rigid_world(
+        context.scene, joints=body[0].rigid_body_constraint is not None
+    )
     parts = {body[0]: _measured_part(body[0], ask)}
     for part in body[1:]:
         try:
             parts[part] = _measured_part(part, ask)
-        except MeasureError as error:
-            raise EditRefusedError(error.finding.of_sources([part.name_full])) from error
+        except verdict.MeasureError as error:
+            raise verdict.EditRefusedError(error.finding.of_sources([part.name_full])) from error
     measurements = [measured.measurement for measured in parts.values()]
     if len(body) > 1:
         moments = [measurement.mass_moments for measurement in measurements]
-        whole = combine(moments, preferred_axes=measurements[0].rotation)
+        whole = inertia.combine(moments, preferred_axes=measurements[0].rotation)
         unit = scale.meters_per_unit(context.scene)
-        target = snap_targets.SnapTarget.of_body(body[0], whole, whole.principal, unit)
+        target = scene.snap_targets.SnapTarget.of_body(body[0], whole, whole.principal, unit)
     else:
-        target = snap_targets.target_of(context, body[0], parts[body[0]])
-    if target.mass < rigid_world.MIN_MASS:
-        raise EditRefusedError(
-            findings.RIGID_BODY_MASS_TOO_SMALL, mass=float(target.mass), limit=rigid_world.MIN_MASS
+        target = scene.snap_targets.target_of(context, body[0], parts[body[0]])
+    if target.mass < scene.rigid_world.MIN_MASS:
+        raise verdict.EditRefusedError(
+            scene.findings.RIGID_BODY_MASS_TOO_SMALL,
+            mass=float(target.mass),
+            limit=scene.rigid_world.MIN_MASS,
         )
     volume = sum(measurement.volume for measurement in measurements)
     return Measured(target, target.mass / volume, parts)
 
 
 def _measured_part(part: Object, ask: Callable[[Object], MeasuredObject]) -> MeasuredObject:
-    changes.require_storable_data(part)
+    scene.changes.require_storable_data(part)
     if part.type != "MESH":
-        raise EditRefusedError(findings.RIGID_BODY_UNFIT, fault=findings.RIGID_BODY_NEEDS_MESH)
+        raise verdict.EditRefusedError(
+            scene.findings.RIGID_BODY_UNFIT, fault=scene.findings.RIGID_BODY_NEEDS_MESH
+        )
     measured = ask(part)
-    if measured.measurement.method.procedure == Procedure.OPEN:
-        raise EditRefusedError(findings.OPEN_OBJECT)
+    if measured.measurement.method.procedure == verdict.Procedure.OPEN:
+        raise verdict.EditRefusedError(scene.findings.OPEN_OBJECT)
     return measured
 
 
@@ -281,7 +287,7 @@ def _joint_in_place(context: Context, obj: Object) -> Object | None:
     empty.rotation_mode = "QUATERNION"
     empty.location = location
     empty.rotation_quaternion = turn
-    copy = rigid_world.add_joint(context, empty, joint.type)
+    copy = scene.rigid_world.add_joint(context, empty, joint.type)
     for prop in joint.bl_rna.properties:
         if not prop.is_readonly:
             setattr(copy, prop.identifier, getattr(joint, prop.identifier))

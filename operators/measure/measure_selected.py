@@ -13,12 +13,10 @@ import bpy
 from bpy.props import EnumProperty
 from bpy.types import Context, Object, Operator
 
-from ...blender import bodies, scene, session, write
-from ...blender.read.visibility import has_shape, measurable
+from ...blender import bodies, read, scene, session, write
 from ...blender.session import character, displayed, live, memory
 from ...blender.session.tracking import armatures, staleness
 from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
-from ...blender.write import properties, reports
 from ...core import density, verdict
 from ...core.verdict.finding import Finding, Severity, finding
 from .. import findings, modal, selection
@@ -66,10 +64,12 @@ class OBJECT_OT_body_moments_measure(modal.ModalSteps, selection.OnSelection, Op
     @classmethod
     def poll(cls, context: Context) -> bool:
         may_have_mass = any(
-            has_shape(obj) or measurable(obj) or armatures.stands_for_meshes(obj)
+            read.visibility.has_shape(obj)
+            or read.visibility.measurable(obj)
+            or armatures.stands_for_meshes(obj)
             for obj in context.selected_objects
         )
-        return may_have_mass or reports.unavailable(cls, "Nothing selected can be measured")
+        return may_have_mass or write.reports.unavailable(cls, "Nothing selected can be measured")
 
     def _begin(self, context: bpy.types.Context) -> int:
         """Apply the settings of the redo panel and prepare the steps; return the number of selected
@@ -77,8 +77,10 @@ class OBJECT_OT_body_moments_measure(modal.ModalSteps, selection.OnSelection, Op
         """
         copy_defaults(context.scene)
         if not (subjects := armatures.subjects(context.selected_objects)):
-            raise reports.Refused("Nothing selected can be measured")
-        self._objects = objects = [obj for obj in subjects if has_shape(obj)] or subjects
+            raise write.reports.Refused("Nothing selected can be measured")
+        self._objects = objects = [
+            obj for obj in subjects if read.visibility.has_shape(obj)
+        ] or subjects
         for obj in objects:
             self._change_settings(obj)
         self._results: list[tuple[bpy.types.Object, Any]] = []
@@ -125,7 +127,7 @@ class OBJECT_OT_body_moments_measure(modal.ModalSteps, selection.OnSelection, Op
             character.weight.store_rest(context, armature)
         refusals = self._refusals | failed
         self._failures = [
-            reports.failure(obj.name_full, refusals[obj])
+            write.reports.failure(obj.name_full, refusals[obj])
             for obj in self._objects
             if obj in refusals
         ]
@@ -150,9 +152,11 @@ class OBJECT_OT_body_moments_measure(modal.ModalSteps, selection.OnSelection, Op
         names = [warning.values["object"] for warning in warnings]
         if tried == count == 1:
             text = "Measured {object}, with warnings" if warnings else "Measured {object}"
-            done = [reports.phrase(text, object=self._results[0][0].name)]
+            done = [write.reports.phrase(text, object=self._results[0][0].name)]
         else:
-            text = reports.phrase("Measured {count} of {total} objects", count=count, total=tried)
+            text = write.reports.phrase(
+                "Measured {count} of {total} objects", count=count, total=tried
+            )
             done = [*([text] if tried > 1 else []), *selection.name_warned(names)]
         level = Severity.WARNING if warnings else Severity.NOTE
         return selection.finish(
@@ -171,7 +175,7 @@ class OBJECT_OT_body_moments_live(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return bool(_subjects(context)) or reports.unavailable(cls, "Select objects")
+        return bool(_subjects(context)) or write.reports.unavailable(cls, "Select objects")
 
     def execute(self, context: Context) -> set[str]:
         objects = _subjects(context)
@@ -182,7 +186,7 @@ class OBJECT_OT_body_moments_live(Operator):
             if was_live:
                 live.measuring.stop(obj)
             elif (refusal := live.measuring.start(obj, depsgraph).refusal) is not None:
-                refusals.append(reports.failure(obj.name, refusal))
+                refusals.append(write.reports.failure(obj.name, refusal))
         if refusals:
             return selection.report(self, *refusals)
         selection.redraw(context)
@@ -191,7 +195,7 @@ class OBJECT_OT_body_moments_live(Operator):
 
 def _subjects(context: Context) -> list[Object]:
     """Return the measurable objects that the panel is about."""
-    return [obj for obj in displayed.shown_objects(context) if measurable(obj)]
+    return [obj for obj in displayed.shown_objects(context) if read.visibility.measurable(obj)]
 
 
 class OBJECT_OT_body_moments_clear(selection.OnSelection, Operator):
@@ -217,14 +221,18 @@ class OBJECT_OT_body_moments_clear(selection.OnSelection, Operator):
         objects = [
             obj
             for obj in dict.fromkeys((*selected, *armatures.subjects(selected)))
-            if any(key in obj for key in (*properties.DESCRIPTIONS, write.section.KEY))
+            if any(key in obj for key in (*write.properties.DESCRIPTIONS, write.section.KEY))
             or obj.is_property_set("body_moments_symmetry")
         ]
 
         def remove(obj: Object) -> bool:
             scene.changes.require_editable(obj)
             staleness.note_edits(obj)
-            clear = session.stored.results.clear_rig if obj.type == "ARMATURE" else properties.clear
+            clear = (
+                session.stored.results.clear_rig
+                if obj.type == "ARMATURE"
+                else write.properties.clear
+            )
             removed = "MASS" in self.kinds and clear(obj)
             removed |= "SECTION" in self.kinds and write.section.clear(obj)
             if "SYMMETRY" in self.kinds and obj.is_property_set("body_moments_symmetry"):
@@ -235,7 +243,7 @@ class OBJECT_OT_body_moments_clear(selection.OnSelection, Operator):
         cleared, failures = selection.apply_to_all(objects, remove)
         staleness.mark_up_to_date(context, objects)
         texts = ("Removed the results of {count} object", "Removed the results of {count} objects")
-        done = reports.phrase(*texts, count=len(cleared))
+        done = write.reports.phrase(*texts, count=len(cleared))
         return selection.summarize(
             self, len(cleared), len(objects), done, failures, nothing=selection.NO_RESULTS
         )

@@ -11,9 +11,8 @@ from bpy.types import Context, Object, Operator
 from mathutils import Vector
 
 from ... import core
-from ...blender import bodies, read
+from ...blender import bodies, read, write
 from ...blender.session import stored
-from ...blender.write import properties, reports
 from ...core.inertia import tensor_rows
 from ...core.verdict import Severity, of_severity
 from .. import selection
@@ -37,13 +36,17 @@ class OBJECT_OT_body_moments_compute_moments(selection.OnSubject, Operator):
                 "--order gives moments "
                 "of length."
             )
-            reports.report(self, reports.phrase(text, object=obj.name), level=Severity.WARNING)
+            write.reports.report(
+                self, write.reports.phrase(text, object=obj.name), level=Severity.WARNING
+            )
             return {"CANCELLED"}
         stored.moments.cache_moments(obj, computed, context.evaluated_depsgraph_get())
         count = (
             (order + 1) * (order + 2) // 2 if computed.volume is None else len(computed.volume.raw)
         )
-        done = reports.phrase("Computed {count} moments of {object}", count=count, object=obj.name)
+        done = write.reports.phrase(
+            "Computed {count} moments of {object}", count=count, object=obj.name
+        )
         return selection.report(self, done, *findings)
 
 
@@ -58,14 +61,14 @@ class OBJECT_OT_body_moments_measure_section(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         reason = "Select faces in Edit Mode, or a flat mesh, 2D curve or text"
-        return bool(_objects_with_sections(context)) or reports.unavailable(cls, reason)
+        return bool(_objects_with_sections(context)) or write.reports.unavailable(cls, reason)
 
     def execute(self, context: Context) -> set[str]:
         depsgraph = context.evaluated_depsgraph_get()
         sections = []
 
         def measure(obj: Object) -> None:
-            properties.require_storable(obj)
+            write.properties.require_storable(obj)
             sections.append((obj, bodies.section_of(obj, depsgraph)))
 
         measured, failures = selection.apply_to_all(_objects_with_sections(context), measure)
@@ -81,10 +84,10 @@ class OBJECT_OT_body_moments_measure_section(Operator):
                 if warned
                 else "Measured the section of {object}"
             )
-            done = [reports.phrase(text, object=measured[0].name)]
+            done = [write.reports.phrase(text, object=measured[0].name)]
         else:
             texts = ("Measured {count} section", "Measured {count} sections")
-            done = [reports.phrase(*texts, count=len(measured))] if measured else []
+            done = [write.reports.phrase(*texts, count=len(measured))] if measured else []
             done += selection.name_warned(warned)
         level = Severity.WARNING if warned else Severity.NOTE
         return selection.finish(self, done, failures, level=level, is_changed=bool(measured))
@@ -116,11 +119,13 @@ class OBJECT_OT_body_moments_store_reference(selection.OnSelection, Operator):
     bl_label = "Store Inertia about Reference"
 
     def execute(self, context: Context) -> set[str]:
-        objects = [obj for obj in context.view_layer.objects.selected if properties.is_stored(obj)]
+        objects = [
+            obj for obj in context.view_layer.objects.selected if write.properties.is_stored(obj)
+        ]
 
         def store(obj: Object) -> None:
             stored.reference.store(obj, context.scene)
-            properties.retrigger_drivers(obj)
+            write.properties.retrigger_drivers(obj)
 
         # the results are bound to their places, and stay the same
         with stored.assembly.kept_up_to_date(context):

@@ -9,10 +9,9 @@ from bl_operators.presets import AddPresetBase
 from bpy.props import EnumProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
-from ...blender import scene, session
+from ...blender import scene, session, write
 from ...blender.settings import given, preferences, properties
 from ...blender.settings.chosen import chosen_objects
-from ...blender.write import reports
 from ...core.density import BY_NAME
 from .. import selection
 
@@ -105,9 +104,11 @@ class MATERIAL_OT_body_moments_set_density(Operator):
         entry = BY_NAME[self.material]
         target.body_moments.density = entry.density
         target.body_moments.material = entry.name
-        return reports.report(
+        return write.reports.report(
             self,
-            reports.phrase("Set “{target}” to {material}", target=target.name, material=entry.name),
+            write.reports.phrase(
+                "Set “{target}” to {material}", target=target.name, material=entry.name
+            ),
         )
 
 
@@ -125,7 +126,9 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
         others = active is not None and any(
             obj != active for obj in context.view_layer.objects.selected
         )
-        return others or reports.unavailable(cls, "Select other objects besides the active one")
+        return others or write.reports.unavailable(
+            cls, "Select other objects besides the active one"
+        )
 
     def execute(self, context: Context) -> set[str]:
         active = context.view_layer.objects.active

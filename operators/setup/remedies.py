@@ -8,18 +8,8 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
-from ...blender import bodies, scene, settings
+from ...blender import bodies, scene, settings, write
 from ...blender.session import displayed, stored
-from ...blender.write import properties, reports, translations
-from ...blender.write.remedies import (
-    DUPLICATES,
-    EDITS,
-    FILL,
-    MERGE,
-    REMEDIES,
-    SHELL,
-    UNION,
-)
 from ...core import solid, verdict
 from .. import selection
 
@@ -42,7 +32,10 @@ class OBJECT_OT_body_moments_remedy(selection.OnSubject, Operator):
     remedy: EnumProperty(
         name="Remedy",
         description="What is changed before the object is measured again",
-        items=[(key, remedy.name, remedy.description) for key, remedy in REMEDIES.items()],
+        items=[
+            (key, remedy.name, remedy.description)
+            for key, remedy in write.remedies.REMEDIES.items()
+        ],
         options={"SKIP_SAVE"},
     )
     thickness: FloatProperty(
@@ -56,51 +49,56 @@ class OBJECT_OT_body_moments_remedy(selection.OnSubject, Operator):
 
     @classmethod
     def description(cls, _context: Context, values) -> str:
-        text = translations.localized("{:s}, and measure the object again").format(
-            translations.localized(REMEDIES[values.remedy].description)
+        text = write.translations.localized("{:s}, and measure the object again").format(
+            write.translations.localized(write.remedies.REMEDIES[values.remedy].description)
         )
-        others = ". " + translations.localized("Other objects that use the mesh change too")
-        return text + others if values.remedy in EDITS else text
+        others = ". " + write.translations.localized("Other objects that use the mesh change too")
+        return text + others if values.remedy in write.remedies.EDITS else text
 
     def draw(self, _context: Context) -> None:
-        if self.remedy == SHELL:
+        if self.remedy == write.remedies.SHELL:
             self.layout.prop(self, "thickness")
 
     def _change(self, context: Context, obj: Object) -> set[str]:
-        text = reports.phrase(REMEDIES[self.remedy].name)
-        if self.remedy in EDITS:
+        text = write.reports.phrase(write.remedies.REMEDIES[self.remedy].name)
+        if self.remedy in write.remedies.EDITS:
             if obj.type != "MESH":
                 return selection.refuse(self, "Make a mesh object active")
             if context.mode != "OBJECT":
                 return selection.refuse(self, "Switch to Object Mode")
             count = self._edit(context, obj)
             if not count:
-                cause = reports.phrase("the mesh has nothing to repair in this way")
-                reports.report(self, reports.phrase("Nothing to do: {cause}", cause=cause))
+                cause = write.reports.phrase("the mesh has nothing to repair in this way")
+                write.reports.report(
+                    self, write.reports.phrase("Nothing to do: {cause}", cause=cause)
+                )
                 return {"CANCELLED"}
             text = "{:s}: {:d}".format(text, count)
         else:
             scene.changes.require_storable_data(obj)
-            if self.remedy == UNION:
+            if self.remedy == write.remedies.UNION:
                 obj.body_moments.overlap = "UNION"
             else:
                 obj.body_moments.kind = "SHELL"
                 obj.body_moments.thickness = self.thickness or obj.body_moments.thickness
         measure_anew(context, [obj])
-        return reports.report(self, text)
+        return write.reports.report(self, text)
 
     def _edit(self, context: Context, obj: Object) -> int:
         """Edit the mesh of an object; return the number of changed elements."""
-        if self.remedy in (FILL, MERGE):  # also of a mesh whose modifiers change its elements
+        if self.remedy in (
+            write.remedies.FILL,
+            write.remedies.MERGE,
+        ):  # also of a mesh whose modifiers change its elements
             return (
                 scene.fill_holes(obj.data)
-                if self.remedy == FILL
+                if self.remedy == write.remedies.FILL
                 else scene.merge_by_distance(obj.data)
             )
         scene.require_editable_mesh(obj)
         depsgraph = context.evaluated_depsgraph_get()
         measurement = bodies.measured_in_turn([obj], depsgraph)(obj).measurement
-        if self.remedy == DUPLICATES:
+        if self.remedy == write.remedies.DUPLICATES:
             return scene.delete_faces(
                 obj.data, scene.defects_by_kind(measurement).get("duplicate_faces", ())
             )
@@ -132,7 +130,7 @@ class SCENE_OT_body_moments_set_millimeters(Operator):
         measured = [
             obj
             for obj in context.view_layer.objects
-            if properties.is_stored(obj) and obj.is_editable
+            if write.properties.is_stored(obj) and obj.is_editable
         ]
         if self.remeasure and measured:
             measure_anew(context, measured)
@@ -158,9 +156,11 @@ class OBJECT_OT_body_moments_accept(selection.OnSubject, Operator):
         """Accept a code, or every warning without one, on the objects that the panel is about."""
         changed = False
         for shown in displayed.shown_objects(context):
-            own = verdict.of_severity(properties.findings(shown), verdict.Severity.WARNING)
+            own = verdict.of_severity(write.properties.findings(shown), verdict.Severity.WARNING)
             codes = {self.code} if self.code else {found.code for found in own}
-            if shown != obj and not codes & {found.code for found in properties.findings(shown)}:
+            if shown != obj and not codes & {
+                found.code for found in write.properties.findings(shown)
+            }:
                 continue
             scene.changes.require_storable_data(shown)
             if not any(
@@ -168,11 +168,11 @@ class OBJECT_OT_body_moments_accept(selection.OnSubject, Operator):
             ):
                 continue
             changed = True
-            if properties.is_stored(shown):
+            if write.properties.is_stored(shown):
                 kept = settings.accepted.with_acceptance(
-                    properties.findings(shown), settings.accepted.accepted_codes(shown)
+                    write.properties.findings(shown), settings.accepted.accepted_codes(shown)
                 )
-                properties.store_findings(shown, kept)
+                write.properties.store_findings(shown, kept)
         return {"FINISHED"} if changed else {"CANCELLED"}
 
 

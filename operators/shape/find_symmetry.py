@@ -20,9 +20,8 @@ from bpy.props import (
 from bpy.types import Context, Object, Operator, PropertyGroup
 
 from ... import core
-from ...blender import bodies, scene, session
+from ...blender import bodies, scene, session, write
 from ...blender.session.tracking import staleness, stamps
-from ...blender.write import reports
 from ...core.verdict import Finding
 from .. import modal, selection
 
@@ -118,7 +117,7 @@ class OBJECT_OT_body_moments_find_symmetry(modal.ModalSteps, selection.OnSelecti
             "{object}: {group}, {description}, of the display mesh",
         )
         symmetries = [
-            reports.phrase(
+            write.reports.phrase(
                 texts[shape.is_display_mesh],
                 object=obj.name,
                 group=found.group,
@@ -129,18 +128,18 @@ class OBJECT_OT_body_moments_find_symmetry(modal.ModalSteps, selection.OnSelecti
         selection.redraw(context)
         if self._failures or not symmetries:
             count = len(symmetries)
-            done = reports.phrase(
+            done = write.reports.phrase(
                 "Searched {count} object", "Searched {count} objects", count=count
             )
             return selection.summarize(
                 self, count, len(self._objects), done, self._failures, symmetries
             )
-        return reports.report(self, *reports.first(symmetries))
+        return write.reports.report(self, *write.reports.first(symmetries))
 
 
 def describe(symmetry: "core.shape.Symmetry") -> list[str]:
     """Return translated descriptions of the elements of a symmetry."""
-    phrase = reports.phrase
+    phrase = write.reports.phrase
     if len(symmetry.revolution_axes) == 3:
         return [phrase("sphere")]
     if len(symmetry.revolution_axes) == 1:

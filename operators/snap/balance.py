@@ -10,9 +10,8 @@ their weights say; without groups the whole body leans.
 from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
-from ...blender import scene, session
+from ...blender import scene, session, write
 from ...blender.scale import meters_per_unit
-from ...blender.write import reports
 from .. import selection
 
 
@@ -73,7 +72,7 @@ class OBJECT_OT_body_moments_sculpt_balance(selection.OnSubject, Operator):
     def poll(cls, context: Context) -> bool:
         reason = "Switch to Edit Mode and select the vertices that may move"
         return super().poll(context) and (
-            context.mode in {"OBJECT", "EDIT_MESH"} or reports.unavailable(cls, reason)
+            context.mode in {"OBJECT", "EDIT_MESH"} or write.reports.unavailable(cls, reason)
         )
 
     def draw(self, context: Context) -> None:
@@ -89,7 +88,7 @@ class OBJECT_OT_body_moments_sculpt_balance(selection.OnSubject, Operator):
         if obj in session.memory.hulls:
             session.check_stability(context, obj, [])
         texts = [
-            reports.phrase(
+            write.reports.phrase(
                 "Moved {count} vertex by at most {distance:length}; the center of mass went from "
                 "{start:point} to "
                 "{end:point}",
@@ -100,18 +99,18 @@ class OBJECT_OT_body_moments_sculpt_balance(selection.OnSubject, Operator):
             )
         ]
         if obj.data.users - obj.data.use_fake_user > 1:
-            texts.append(reports.phrase("Other objects use this mesh and changed too."))
+            texts.append(write.reports.phrase("Other objects use this mesh and changed too."))
         if any(
             other.type == "MESH" and other.data.is_editmode and other.data != obj.data
             for other in context.view_layer.objects
         ):
             texts.append(
-                reports.phrase(
+                write.reports.phrase(
                     "Only “{object}” was balanced; the other meshes in Edit Mode are unchanged.",
                     object=obj.name,
                 )
             )
-        return reports.report(self, *texts)
+        return write.reports.report(self, *texts)
 
 
 class OBJECT_OT_body_moments_make_it_stand(selection.OnSubject, Operator):
@@ -178,7 +177,7 @@ class OBJECT_OT_body_moments_make_it_stand(selection.OnSubject, Operator):
         )
         if found is None:
             text = "It touches the ground along an edge or at a corner. Lay it on a face first."
-            return selection.refuse(self, reports.phrase(text))
+            return selection.refuse(self, write.reports.phrase(text))
         values = {
             "walls": found.walls,
             "infill": round(found.infill, 2),
@@ -194,7 +193,7 @@ class OBJECT_OT_body_moments_make_it_stand(selection.OnSubject, Operator):
                 else "Walls and infill cannot do it: the margin is at best {margin:length}, with "
                 "{walls} walls and {infill} % infill. Choose another margin, or use Balance"
             )
-            return selection.refuse(self, reports.phrase(text, **values))
+            return selection.refuse(self, write.reports.phrase(text, **values))
         if is_ballast:
             settings.pocket_radius = 1e3 * values["radius"]
             if found.pocket:
@@ -209,7 +208,7 @@ class OBJECT_OT_body_moments_make_it_stand(selection.OnSubject, Operator):
         if is_ballast:
             text = "It has a pocket with a radius of {radius:length}"
             text = text if found.pocket else "It needs no pocket"
-        return reports.report(self, reports.phrase(text, **values))
+        return write.reports.report(self, write.reports.phrase(text, **values))
 
 
 CLASSES = (

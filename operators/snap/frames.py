@@ -16,8 +16,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Object, Operator, View3DCursor
 from mathutils import Matrix
 
-from ...blender import bodies, read, scale, scene, session
-from ...blender.write import reports
+from ...blender import bodies, read, scale, scene, session, write
 from ...core import inertia, verdict
 from .. import selection
 
@@ -50,8 +49,8 @@ def reframe_selected(
         context, objects, target_matrix, not along_axes, strict
     )
     findings = [found.of_sources([plan.obj.name]) for plan in changed for found in plan.findings]
-    text = reports.phrase(*done, count=len(changed))
-    idle = reports.phrase("already in place")
+    text = write.reports.phrase(*done, count=len(changed))
+    idle = write.reports.phrase("already in place")
     return selection.summarize(operator, len(changed), len(objects), text, failures, findings, idle)
 
 
@@ -136,12 +135,12 @@ class OBJECT_OT_body_moments_align_to_world(selection.OnSelectionInObjectMode, O
         # in turn: a child moves with its parent
         moved, failures = selection.apply_to_all(objects, align)
         session.remeasure(context, moved)
-        done = reports.phrase(
+        done = write.reports.phrase(
             "Aligned {count} object to the world axes",
             "Aligned {count} objects to the world axes",
             count=len(moved),
         )
-        idle = reports.phrase("already aligned")
+        idle = write.reports.phrase("already aligned")
         return selection.summarize(self, len(moved), len(objects), done, failures, idle=idle)
 
 
@@ -178,7 +177,7 @@ class VIEW3D_OT_body_moments_cursor_to_center(selection.OnSelection, Operator):
             if self.rotate:
                 turn_cursor(cursor, total.principal.axes.tolist())
                 findings = [total.principal.finding] if total.principal.finding is not None else []
-        done = reports.phrase(
+        done = write.reports.phrase(
             "Moved the 3D cursor to the center of mass of {count} object",
             "Moved the 3D cursor to the center of mass of {count} objects",
             count=len(added),
@@ -231,20 +230,20 @@ class OBJECT_OT_body_moments_add_empty(selection.OnSelectionInObjectMode, Operat
 
     def execute(self, context: Context) -> set[str]:
         objects = selection.selected_measurable(context)
-        with reports.progress(len(objects)) as step:
+        with write.reports.progress(len(objects)) as step:
             placed, refused = scene.place_empties(
                 context, objects, self.parent, self.display, self.size, step
             )
         findings = [
             body.finding.of_sources([body.obj.name]) for body in placed if body.finding is not None
         ]
-        failures = [reports.failure(obj.name_full, error) for obj, error in refused.items()]
-        done = reports.phrase(
+        failures = [write.reports.failure(obj.name_full, error) for obj, error in refused.items()]
+        done = write.reports.phrase(
             "Placed an empty at the principal frame of {count} object",
             "Placed empties at the principal frames of {count} objects",
             count=len(placed),
         )
-        idle = reports.phrase("the empties are in place")
+        idle = write.reports.phrase("the empties are in place")
         return selection.summarize(self, len(placed), len(objects), done, failures, findings, idle)
 
 
@@ -269,7 +268,7 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
     def poll(cls, context: Context) -> bool:
         obj = context.view_layer.objects.active
         if obj is None or not obj.select_get():
-            return reports.unavailable(cls, "Make an object active and select it")
+            return write.reports.unavailable(cls, "Make an object active and select it")
         return selection.poll_object_mode(cls, context)
 
     def execute(self, context: Context) -> set[str]:
@@ -277,12 +276,12 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
         try:
             body = scene.snap_target(context, obj)
         except verdict.MeasureError as error:
-            return selection.refuse(self, reports.failure(obj.name_full, error))
+            return selection.refuse(self, write.reports.failure(obj.name_full, error))
         place = _view_3d(context)
         if place is None:
-            reports.report(
+            write.reports.report(
                 self,
-                reports.phrase("A transform orientation needs an open 3D Viewport."),
+                write.reports.phrase("A transform orientation needs an open 3D Viewport."),
                 level=verdict.Severity.WARNING,
             )
             return {"CANCELLED"}
@@ -295,8 +294,10 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
         if not self.use:
             slot.type = before
         free = [body.finding] if body.finding is not None else []
-        return reports.report(
-            self, reports.phrase("Created the transform orientation “{name}”", name=name), *free
+        return write.reports.report(
+            self,
+            write.reports.phrase("Created the transform orientation “{name}”", name=name),
+            *free,
         )
 
 
@@ -332,20 +333,20 @@ class OBJECT_OT_body_moments_add_nodes(selection.InObjectMode, Operator):
         group = scene.center_of_mass_group()
         obj = session.selected.subject(context)
         if not self.marker or obj is None or not read.visibility.measurable(obj):
-            return reports.report(
-                self, reports.phrase("Added the node group “{group}”", group=group.name)
+            return write.reports.report(
+                self, write.reports.phrase("Added the node group “{group}”", group=group.name)
             )
         marker = scene.add_marker(context, obj, group)
         text = "Added the node group “{group}” and the marker “{object}”"
-        texts = [reports.phrase(text, group=group.name, object=marker.name)]
+        texts = [write.reports.phrase(text, group=group.name, object=marker.name)]
         settings = obj.body_moments
         if (settings.kind, settings.mass_from, settings.density_from) != (
             "SOLID",
             "DENSITY",
             "VALUE",
         ):
-            texts.append(reports.phrase("nodes take the object as a solid of one density"))
-        return reports.report(self, *texts)
+            texts.append(write.reports.phrase("nodes take the object as a solid of one density"))
+        return write.reports.report(self, *texts)
 
 
 CLASSES = (

@@ -15,12 +15,11 @@ from ...blender.session.tracking.staleness import stale_reason
 from ...blender.settings.assembly import active_assembly, settings_of
 from ...blender.settings.scene import BodyMomentsOverlaySettings
 from ...blender.write import properties
-from ...core.inertia import PlainBody, add_bodies
-from ...core.numerics import Array, Index, Mask, NDArray
+from ...core import inertia, numerics
 from ...core.verdict import Verdict
 from . import appearance as look
 
-Entry = Displayed | PlainBody  # one body, or several as one
+Entry = Displayed | inertia.PlainBody  # one body, or several as one
 MAX_MEMBERS = (
     250  # of an assembly that is drawn; to know whether it is out of date takes 40 µs a member
 )
@@ -42,12 +41,12 @@ class Bodies:
     `shows_axes`, `shows_drop`: (n,) masks of the bodies with these lines.
     """
 
-    centers: Array
-    axes: Array
-    gyration: Array
-    verdicts: Index
-    shows_axes: Mask
-    shows_drop: Mask
+    centers: numerics.Array
+    axes: numerics.Array
+    gyration: numerics.Array
+    verdicts: numerics.Index
+    shows_axes: numerics.Mask
+    shows_drop: numerics.Mask
 
     @classmethod
     def of(cls, entries: Sequence[Entry], unit: float) -> Bodies:
@@ -101,7 +100,7 @@ def collect(context: Context, objects: list[Object]) -> tuple[list[Entry], int]:
         parts = [
             body.world for obj, body in bodies if body.method != ASSEMBLY and obj.type != "ARMATURE"
         ]
-        whole = add_bodies(parts)
+        whole = inertia.add_bodies(parts)
     elif are_many or settings.show_sum:
         selected = total(context)
         whole = selected.numbers if selected.count > 1 else None
@@ -122,7 +121,7 @@ def collect(context: Context, objects: list[Object]) -> tuple[list[Entry], int]:
     return entries + [one for one in (whole, assembly) if one is not None], active
 
 
-def body_lines(bodies: Bodies, settings: BodyMomentsOverlaySettings) -> Array:
+def body_lines(bodies: Bodies, settings: BodyMomentsOverlaySettings) -> numerics.Array:
     """Return the (n, k, 2, 3) segments of the enabled drawings, in the world."""
     place = bodies.centers, bodies.axes, bodies.gyration
     drawings = [np.empty((len(bodies.centers), 0, 2, 3))]
@@ -139,12 +138,14 @@ def body_lines(bodies: Bodies, settings: BodyMomentsOverlaySettings) -> Array:
     return np.concatenate(drawings, axis=1)
 
 
-def _each(mask: NDArray) -> Mask:
+def _each(mask: numerics.NDArray) -> numerics.Mask:
     """Return an (n,) mask for (n, k, 2, 3) segments."""
     return mask[:, None, None, None]
 
 
-def axis_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> Array:
+def axis_lines(
+    centers: numerics.NDArray, axes: numerics.NDArray, gyration: numerics.NDArray
+) -> numerics.Array:
     """Return (n, 3, 2, 3) segments of the axes through each center, to both sides the largest
     radius of gyration.
     """
@@ -152,7 +153,7 @@ def axis_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> Array:
     return np.stack([centers[:, None] - arms, centers[:, None] + arms], axis=2)
 
 
-def drop_lines(centers: NDArray, gyration: NDArray) -> Array:
+def drop_lines(centers: numerics.NDArray, gyration: numerics.NDArray) -> numerics.Array:
     """Return a dashed line from each center to the floor, and a ring at its foot."""
     feet = centers.copy()
     feet[:, 2] = 0.0
@@ -166,7 +167,7 @@ def drop_lines(centers: NDArray, gyration: NDArray) -> Array:
     )
 
 
-def _spread(gyration: NDArray) -> Array:
+def _spread(gyration: numerics.NDArray) -> numerics.Array:
     """Return (n, 3) values (I_j + I_k - I_i) / m from (n, 3) radii of gyration.
 
     The values are twice the mean square distance along axis i.
@@ -175,7 +176,9 @@ def _spread(gyration: NDArray) -> Array:
     return np.maximum(squares.sum(axis=1, keepdims=True) - 2.0 * squares, 0.0)
 
 
-def box_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> Array:
+def box_lines(
+    centers: numerics.NDArray, axes: numerics.NDArray, gyration: numerics.NDArray
+) -> numerics.Array:
     """Return the edges of the box with the same mass and inertia: sides s_i² = 6 (I_j + I_k - I_i)
     / m.
     """
@@ -183,7 +186,9 @@ def box_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> Array:
     return (centers[:, None] + np.einsum("nij,kj,nj->nki", axes, CORNERS, half))[:, EDGES]
 
 
-def ellipsoid_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> Array:
+def ellipsoid_lines(
+    centers: numerics.NDArray, axes: numerics.NDArray, gyration: numerics.NDArray
+) -> numerics.Array:
     """Return the ellipsoid with the same mass and inertia as three ellipses.
 
     Its semi-axes are a_i² = 5 (I_j + I_k - I_i) / (2 m).

@@ -8,11 +8,10 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING, NamedTuple
 
+from ....core import numerics, nurbs, verdict
+
 if TYPE_CHECKING:
     from ....core.measurement import Measurement
-    from ....core.numerics import Array
-    from ....core.nurbs import TrackedSolid
-    from ....core.verdict import Finding
     from .measuring import MovingSurface
 
 
@@ -33,7 +32,7 @@ class LiveResult(NamedTuple):
     """
 
     measurement: Measurement | None
-    refusal: Finding | None
+    refusal: verdict.Finding | None
     seconds: float
     settings: str
 
@@ -50,12 +49,12 @@ class Followed:
     """
 
     result: LiveResult | None = None
-    matrix: Array | None = None
+    matrix: numerics.Array | None = None
     transform: str = ""
     number: int = 0
-    tracked: TrackedSolid | None = None
+    tracked: nurbs.TrackedSolid | None = None
     surface: MovingSurface | None = None
-    first_order: tuple[float, Array] | None = None
+    first_order: tuple[float, numerics.Array] | None = None
     pass_seconds: float = 0.0
     shows_others: bool = False
     is_pending: bool = False

@@ -27,7 +27,6 @@ from bpy.types import Depsgraph, Object
 
 from ....core import bodies, mesh, numerics, nurbs, polyhedron
 from ....core.measurement import Body, Measurement
-from ....core.numerics import Integers
 from ....core.verdict import MeasureError, Method, Procedure, ReadError, Source, internal_error
 from ...bodies.measure_body import measure_body
 from ...bodies.request import Request, measurement_of
@@ -253,7 +252,7 @@ class MovingSurface:
     """
 
     surface: mesh.Surface
-    corners: Integers
+    corners: numerics.Integers
 
     @classmethod
     def from_measured(cls, measured: Measured) -> MovingSurface | None:

@@ -18,8 +18,6 @@ from ....core import inertia, verdict
 from ....core.moments import Invariant
 from ....core.moments.moments import Measure, Moments, monomial_count, monomials
 from ... import bodies, write
-from ...bodies.flat.flat import area_findings, clearer_refusal, flat_region
-from ...bodies.measure_object import measure_object
 from ...settings.options import MeasureOptions
 from .. import memory
 from ..tracking import staleness
@@ -54,19 +52,19 @@ def compute_moments(
     flat = None
     not_flat = None
     try:
-        region = flat_region(obj, depsgraph)
+        region = bodies.flat.flat.flat_region(obj, depsgraph)
         flat = FlatMoments(region.moments(order), region.plane)
     except verdict.MeasureError as error:
         not_flat = error
     try:
-        measurement = measure_object(
+        measurement = bodies.measure_object.measure_object(
             obj,
             depsgraph,
             MeasureOptions(order=order, surface=True, threads=bodies.measure_body.THREADS),
         )
     except verdict.MeasureError as refusal:
         if not_flat is not None:
-            raise clearer_refusal(refusal, not_flat) from None
+            raise bodies.flat.flat.clearer_refusal(refusal, not_flat) from None
         measurement = None
     if measurement is None or measurement.length is not None:
         if region is None or flat is None:
@@ -74,7 +72,10 @@ def compute_moments(
         computed = ComputedMoments(
             obj.name, None, None, None, region.rotation, region.location, flat
         )
-        return computed, (*region.findings, *area_findings(region, flat.moments.total))
+        return computed, (
+            *region.findings,
+            *bodies.flat.flat.area_findings(region, flat.moments.total),
+        )
     area = measurement.area_moments.truncate(order)
     volume = measurement.volume_moments or replace(
         area * measurement.thickness, measure=Measure.VOLUME

@@ -14,9 +14,7 @@ import numpy as np
 from bpy.types import Context, Object, Scene
 
 from .... import core
-from ... import bodies, read, scale, settings
-from ...bodies.stack import Measured, MeasuredStack
-from ...write import properties, section
+from ... import bodies, read, scale, settings, write
 from .. import stored  # the sliders are imported when an object has them
 from ..tracking import armatures, staleness, stamps
 from . import density, faults, reference
@@ -25,7 +23,7 @@ MAX_STORED_ELEMENTS = 32  # of a symmetry: nobody reads more for a ball or a fin
 
 
 def store_many(
-    measured: Sequence[tuple[Object, Measured]],
+    measured: Sequence[tuple[Object, bodies.stack.Measured]],
     scene: Scene,
     shapes: Mapping[Object, bytes | None] = staleness.NO_SHAPES,
 ) -> Iterator[tuple[Object, Exception | None]]:
@@ -47,12 +45,12 @@ def store_many(
                 yield obj, None
 
 
-def _store(obj: Object, found: Measured, values: dict[str, Any], scene: Scene) -> None:
+def _store(obj: Object, found: bodies.stack.Measured, values: dict[str, Any], scene: Scene) -> None:
     """Write a measurement on the object; remember its faults, and the data for its sliders."""
     about = reference.stored_choice(obj)
     if found.stack is None:
-        values = properties.values_of(density.noted(obj, found.measurement, scene))
-    properties.store_values(obj, values)
+        values = write.properties.values_of(density.noted(obj, found.measurement, scene))
+    write.properties.store_values(obj, values)
     faults.remember(obj, found)
     reference.follow(obj, scene, about)
     if found.stack is None:
@@ -60,7 +58,7 @@ def _store(obj: Object, found: Measured, values: dict[str, Any], scene: Scene) -
 
 
 def store_measured(
-    context: Context, measured: Iterable[tuple[Object, Measured]]
+    context: Context, measured: Iterable[tuple[Object, bodies.stack.Measured]]
 ) -> dict[Object, Exception]:
     """Store measurements of the present scene; return the errors of objects that cannot hold their
     results.
@@ -74,12 +72,12 @@ def store_measured(
     return {obj: refusal for obj, refusal in outcomes if refusal is not None}
 
 
-def _values_of_stack(part: MeasuredStack, scene: Scene) -> Iterator[dict[str, Any]]:
+def _values_of_stack(part: bodies.stack.MeasuredStack, scene: Scene) -> Iterator[dict[str, Any]]:
     findings = list(part.findings)
     for i, (member, from_mass) in enumerate(zip(part.members, part.from_mass.tolist())):
         if not from_mass and settings.density.is_density_unset(member.obj.body_moments, scene):
             findings[i] = density.with_default_note(findings[i], "density")
-    return properties.values_of_stack(
+    return write.properties.values_of_stack(
         part.mass_properties.in_frame(part.rotation, part.location),
         part.density,
         part.volume.raw[:, 0],
@@ -138,7 +136,7 @@ def store_sections(
             read.fingerprint.matrix_hash(obj),
             read.fingerprint.settings_hash(obj, context.scene),
         )
-        section.store(obj, found, description, findings, mark, unit)
+        write.section.store(obj, found, description, findings, mark, unit)
     staleness.mark_stored(context, [obj for obj, _ in sections], stamps.Kind.SECTION)
 
 
@@ -147,18 +145,18 @@ def store_rig(rig: bodies.rig.Rig) -> list[tuple[str, core.verdict.Finding]]:
     without, and reasons.
     """
     armature = rig.armature
-    properties.store(armature, rig.measurement)
+    write.properties.store(armature, rig.measurement)
     parts = {part.name: part for part in rig.parts}
     failures: list[tuple[str, core.verdict.Finding]] = []
     for bone in armature.pose.bones:
         part = parts.get(bone.name)
         if part is None or part.measurement is None:
-            properties.clear(bone)
+            write.properties.clear(bone)
             if part is not None and part.refusal is not None:
                 failures.append((bone.name, part.refusal))
             continue
         try:
-            properties.store(bone, part.measurement)
+            write.properties.store(bone, part.measurement)
         except Exception as error:
             failures.append((bone.name, core.verdict.internal_error.finding_of(error)))
     armatures.watch(armature, rig.objects)
@@ -170,5 +168,5 @@ def clear_rig(armature: Object) -> bool:
     """Remove the results of all bones and of the whole, or raise EditRefusedError; return whether
     there were any.
     """
-    properties.require_storable(armature)
-    return any([properties.clear(owner) for owner in (armature, *armature.pose.bones)])
+    write.properties.require_storable(armature)
+    return any([write.properties.clear(owner) for owner in (armature, *armature.pose.bones)])

@@ -15,8 +15,7 @@ import bpy
 import numpy as np
 from bpy.types import Context, Depsgraph, Object, Scene
 
-from ....core import inertia, mesh, statics, verdict
-from ....core.numerics import Array, NDArray, rotation_matrix
+from ....core import inertia, mesh, numerics, statics, verdict
 from ... import bodies, read, write
 from ...scene import findings, reframe, rigid_world, transforms
 from .. import displayed, memory
@@ -43,7 +42,7 @@ class KnownHull:
     digest: bytes | None = None
     earlier: tuple[KnownHull, ...] = ()
     sought_at: int = -1
-    shape: NDArray | None = None
+    shape: numerics.NDArray | None = None
     poses: statics.RestingPoses | verdict.Finding | None = None
 
 
@@ -121,10 +120,10 @@ def poses(obj: Object, scene: Scene) -> statics.RestingPoses | verdict.Finding |
     return remembered.poses
 
 
-def frame(obj: Object) -> tuple[Array, Array]:
+def frame(obj: Object) -> tuple[numerics.Array, numerics.Array]:
     """Return location, (3,), and rotation, (3, 3), of an object: the frame of `poses`."""
     location, rotation, _scale = obj.matrix_world.decompose()
-    return np.array(location, np.float64), rotation_matrix(rotation)
+    return np.array(location, np.float64), numerics.rotation_matrix(rotation)
 
 
 def check_stability(context: Context, obj: Object, measured: list[Object]) -> list[str]:
@@ -192,7 +191,9 @@ def lay_on_ground(context: Context, obj: Object, pose: int, ground: str, notes: 
     return bool(is_moved)
 
 
-def _ground(context: Context, obj: Object, ground: str, center: NDArray, gravity: NDArray) -> float:
+def _ground(
+    context: Context, obj: Object, ground: str, center: numerics.NDArray, gravity: numerics.NDArray
+) -> float:
     """Return the distance from the center down to the ground, in Blender's units."""
     if ground == "LOWEST":
         found = support(obj, context.scene)
@@ -204,7 +205,7 @@ def _ground(context: Context, obj: Object, ground: str, center: NDArray, gravity
     return float((point - center) @ gravity)
 
 
-def _shortest_turn(start: Array, end: Array) -> Array:
+def _shortest_turn(start: numerics.Array, end: numerics.Array) -> numerics.Array:
     middle = start + end
     length = np.linalg.norm(middle)
     if length < 1e-8:

@@ -27,7 +27,6 @@ from bpy.types import Collection, Context, Depsgraph, Object, Scene
 
 from ....core import measurement
 from ... import read, scale, settings, write
-from ...read import fingerprint, tracking
 from .. import memory
 from . import handlers, stamps, updates
 from .stamps import EDITED, Kind, Stale, Stamp
@@ -54,7 +53,7 @@ def stale_reason(
 
 
 def _has_settings(obj: Object, stamp: Stamp, scene: Scene) -> bool:
-    return stamp.settings == fingerprint.settings_hash(obj, scene)
+    return stamp.settings == read.fingerprint.settings_hash(obj, scene)
 
 
 def _has_geometry(obj: Object, stamp: Stamp, _scene: Scene | None = None) -> bool:
@@ -68,7 +67,7 @@ def _is_unedited(obj: Object, stamp: Stamp, _scene: Scene | None = None) -> bool
 
 
 def _has_matrix(owner: Object | Collection, stamp: Stamp, _scene: Scene) -> bool:
-    return not isinstance(owner, Object) or stamp.transform == fingerprint.matrix_hash(owner)
+    return not isinstance(owner, Object) or stamp.transform == read.fingerprint.matrix_hash(owner)
 
 
 def _has_structure(root: Object | Collection, stamp: Stamp, scene: Scene) -> bool:
@@ -132,7 +131,7 @@ CHECKS = {
         (Stale.GEOMETRY, _has_geometry),
         (
             Stale.TRANSFORM,
-            lambda obj, stamp, _scene: fingerprint.has_transform(obj, stamp.transform),
+            lambda obj, stamp, _scene: read.fingerprint.has_transform(obj, stamp.transform),
         ),
     ),
     **dict.fromkeys(
@@ -150,7 +149,7 @@ CHECKS = {
         (Stale.GEOMETRY, _has_geometry),
         (
             Stale.SCALE,
-            lambda obj, stamp, _scene: stamp.transform == fingerprint.scale_hash(obj),
+            lambda obj, stamp, _scene: stamp.transform == read.fingerprint.scale_hash(obj),
         ),
     ),
     Kind.ASSEMBLY: (
@@ -175,14 +174,15 @@ CHECKS = {
         (Stale.GEOMETRY, _has_geometry),
         (
             Stale.TRANSFORM,
-            lambda obj, stamp, _scene: fingerprint.has_scale(
+            lambda obj, stamp, _scene: read.fingerprint.has_scale(
                 obj, stamp.transform, [*obj[settings.given.COLLIDERS].get("scale", ())]
             ),
         ),
         (
             Stale.COLLIDERS,
             lambda obj, _stamp, _scene: (
-                obj[settings.given.COLLIDERS].get("digest") == fingerprint.colliders_digest(obj)
+                obj[settings.given.COLLIDERS].get("digest")
+                == read.fingerprint.colliders_digest(obj)
             ),
         ),
     ),
@@ -195,7 +195,7 @@ def is_edited(obj: Object) -> bool:
     """
     stamp = stamps.stamp_of(obj)
     return stamp is None or not (
-        _has_geometry(obj, stamp) and fingerprint.has_transform(obj, stamp.transform)
+        _has_geometry(obj, stamp) and read.fingerprint.has_transform(obj, stamp.transform)
     )
 
 
@@ -222,7 +222,7 @@ def mark_stored(context: Context, objects: Iterable[Object], kind: Kind) -> None
     """Mark fresh stored data of a kind, such as sections, as up to date, if nothing else was
     changed.
     """
-    with tracking.tracking_paused():
+    with read.tracking.tracking_paused():
         depsgraph = context.evaluated_depsgraph_get()
     for obj in objects:
         if (stamp := stamps.stamp_of(obj, kind)) is not None:
@@ -235,8 +235,8 @@ def carry(obj: Object, kind: Kind, depsgraph: Depsgraph) -> None:
         kind,
         measurement.settings.VERSION,
         "{:s} {:d} {:d}".format(kind.value, obj.session_uid, memory.state.updates),
-        fingerprint.matrix_hash(obj),
-        fingerprint.settings_hash(obj, depsgraph.scene),
+        read.fingerprint.matrix_hash(obj),
+        read.fingerprint.settings_hash(obj, depsgraph.scene),
         scale.meters_per_unit(depsgraph.scene),
     )
     memory.carried[obj] = {**(memory.carried.get(obj) or {}), kind: stamp}
@@ -272,8 +272,8 @@ def pin(obj: Object) -> None:
     stored with them.
     """
     stamp = stamps.stamp_of(obj)
-    if stamp is not None and stamp.version and fingerprint.has_transform(obj, stamp.transform):
-        obj["body_fingerprint"] = stamp._replace(transform=fingerprint.matrix_hash(obj)).text
+    if stamp is not None and stamp.version and read.fingerprint.has_transform(obj, stamp.transform):
+        obj["body_fingerprint"] = stamp._replace(transform=read.fingerprint.matrix_hash(obj)).text
         replace_stamp(obj, stamp.text)
 
 
