@@ -13,7 +13,7 @@ from ..blender import session, write
 from ..blender.session.displayed import displayed
 from ..blender.settings.preferences import shows_advanced
 from ..core import inertia
-from . import places, rows
+from . import places, rows, texts
 
 
 class AdvancedPanel:
@@ -45,7 +45,7 @@ def _display_mesh(layout: UILayout, obj: Object, shown: inertia.PlainBody) -> No
     if body is not None:
         column = body.column(align=True)
         rows.values(column, ("Volume", "Difference"), "volume", (display, display - shown.volume))
-        rows.filled(column, "{:+.3g}% of the volume", 100.0 * (display / shown.volume - 1.0))
+        texts.filled(column, "{:+.3g}% of the volume", 100.0 * (display / shown.volume - 1.0))
 
 
 def _bounds(layout: UILayout, obj: Object, shown: inertia.PlainBody) -> None:
@@ -90,13 +90,13 @@ class MomentsPanel:
         table = session.stored.moments
         kind = session.tracking.stamps.Kind.MOMENTS
         reason = session.tracking.staleness.stale_reason(obj, context.scene, kind)
-        rows.stale_state(layout, reason)
+        texts.stale_state(layout, reason)
         degrees, missing = table.current_numbers(obj, context.scene)
         if missing is not None:
-            rows.message(layout, missing)
+            texts.message(layout, missing)
         for degree in degrees:
             column = layout.column(align=True)
-            rows.filled(
+            texts.filled(
                 column,
                 "Order {:d} ({:s})" if degree.unit else "Order {:d}",
                 degree.degree,
@@ -105,7 +105,7 @@ class MomentsPanel:
             rows.table(column, [(*row, degree.unit) for row in degree.rows])
         if computed.order > table.MAX_SHOWN_ORDER:
             text = "Orders {first} to {last} are only in the copy."
-            rows.remark(layout, text, first=table.MAX_SHOWN_ORDER + 1, last=computed.order)
+            texts.remark(layout, text, first=table.MAX_SHOWN_ORDER + 1, last=computed.order)
 
 
 CLASSES = (

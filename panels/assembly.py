@@ -27,7 +27,7 @@ from ..blender.session.tracking.staleness import stale_reason
 from ..blender.settings import assembly, chosen, given
 from ..blender.write import properties, translations
 from ..core import inertia, verdict
-from . import density, places, remedies, rows
+from . import density, places, remedies, rows, texts
 
 MEMBER_ICONS = {
     "COLLECTION": "OUTLINER_COLLECTION",
@@ -60,18 +60,18 @@ class BODY_MOMENTS_UL_assembly(UIList):
         text = row.name if copies == 1 else "{:d} × {:s}".format(copies, _base_name(row.name))
         name.label(text=text, icon=MEMBER_ICONS[row.member], translate=False)
         findings = properties.findings_in(row.findings)
-        texts = []
+        words = []
         if row.mass > 0.0:
-            texts.append(rows.scene_units().text("mass", copies * row.mass))
+            words.append(texts.scene_units().text("mass", copies * row.mass))
             if row.is_counted and row.depth:
-                texts.append("{:.0f}%".format(100.0 * copies * row.share))
-        numbers = rows.right(line, *texts)
+                words.append("{:.0f}%".format(100.0 * copies * row.share))
+        numbers = rows.right(line, *words)
         numbers.active = row.is_counted
         if findings:
             worst = max(
-                findings, key=lambda found: tuple(rows.ICONS).index(verdict.severity(found))
+                findings, key=lambda found: tuple(texts.ICONS).index(verdict.severity(found))
             )
-            numbers.label(text="", icon=rows.ICONS[verdict.severity(worst)])
+            numbers.label(text="", icon=texts.ICONS[verdict.severity(worst)])
 
     def filter_items(self, _context, data, name) -> tuple[list[int], list[int]]:
         """Hide rows below a closed member, rows that do not match a search, and equal parts but for
@@ -130,7 +130,7 @@ def draw_assembly(layout: UILayout, context: Context, root: assembly.Root, targe
     actions.enabled = stored is not None
     _actions(actions, target, isinstance(root, Collection))
     reason = None if stored is None else stale_reason(root, context.scene)
-    rows.stale_state(layout, reason)
+    texts.stale_state(layout, reason)
     if stored is None:
         return
     groups = [verdict.Group(found) for found in properties.findings(root)]
@@ -173,7 +173,7 @@ def _tree(layout: UILayout, settings: PropertyGroup) -> None:
     )
     if 0 <= settings.active_row < len(settings.rows):
         for found in properties.findings_in(settings.rows[settings.active_row].findings):
-            rows.message(layout, found)
+            texts.message(layout, found)
 
 
 def _numbers(layout: UILayout, stored: inertia.PlainBody, in_world: bool) -> None:

@@ -20,7 +20,7 @@ from ..blender.session.displayed import Displayed, Verdict, displayed, shown_obj
 from ..blender.session.live.following import Lag
 from ..core import inertia, wall
 from ..core.verdict import METHODS, Group, Source, method_key, truncate_list
-from . import places, remedies, rows
+from . import places, remedies, rows, texts
 from .density import material_row
 from .overlay.draw import header_switch
 
@@ -75,7 +75,7 @@ class BodyPanel:
     def draw_header_preset(self, context: Context) -> None:
         row = self.layout.row(align=True)
         header_switch(row, context)
-        if not rows.is_narrow():  # the name would be below them
+        if not texts.is_narrow():  # the name would be below them
             settings.preferences.draw_links(row, icons_only=True)
 
     def draw(self, context: Context) -> None:
@@ -95,7 +95,7 @@ class BodyPanel:
                 write.translations.localized("Is a unit of this scene a millimeter?"),
                 "QUESTION",
             )
-        rows.state(column, *state)
+        texts.state(column, *state)
         remedies.summary(column, context, answer.groups)
         area = None
         density = None
@@ -105,7 +105,7 @@ class BodyPanel:
         column = layout.column(align=True)
         rows.quantities(column, [("Area", "area", area), ("Density", "density", density)])
         rows.table(column, [("Method", answer.method or "–", "", "")])
-        row = layout.column(align=True) if rows.is_narrow() else layout.row(align=True)
+        row = layout.column(align=True) if texts.is_narrow() else layout.row(align=True)
         row.menu("VIEW3D_MT_body_moments_copy", icon="COPYDOWN")
         rows.button(row, "object.body_moments_clear", "TRASH")
 
@@ -131,7 +131,7 @@ def _of_one(context: Context, obj: Object) -> Answer:
         density = _density(numbers, length, "at {:s}, not set" if shown.is_assumed else "at {:s}")
     state = ("", "")
     if shown is not None and shown.reason is not None:
-        state = rows.outdated(shown.reason), "FILE_REFRESH"
+        state = texts.outdated(shown.reason), "FILE_REFRESH"
     elif shown is not None and shown.live is not None:
         live = write.translations.localized(LIVE[shown.lag]).format(
             milliseconds=1e3 * shown.live.seconds
@@ -180,19 +180,19 @@ def _of_several(context: Context) -> Answer:
         density = _density(numbers, None, template, shown.assumed, count)
     volume = None if numbers is None else numbers.volume
     if is_rest:
-        state = rows.outdated(posed.reason) if posed.reason else ""
+        state = texts.outdated(posed.reason) if posed.reason else ""
         state = state or write.translations.localized("The mass is that of the rest pose")
         icon = "FILE_REFRESH" if posed.reason else "INFO"
     else:
         volume = shown.volume if shown.count else volume
         missing = shown.missing if shown.count else ()  # of none the verdict says it
-        texts = [
+        outstanding = [
             _outstanding(text, names, count)
             for names, text in ((missing, "Not measured: {:s}"), (shown.stale, "Out of date: {:s}"))
             if names
         ]
-        state = "; ".join(texts)
-        icon = "FILE_REFRESH" if texts else ""
+        state = "; ".join(outstanding)
+        icon = "FILE_REFRESH" if outstanding else ""
     return Answer(
         name,
         "GROUP",
@@ -213,7 +213,7 @@ def _outstanding(template: str, names: Sequence[str], count: int) -> str:
     text = write.translations.localized(template).format(
         truncate_list(names, translate=write.translations.localized)
     )
-    if rows.fits(1.0, text):
+    if texts.fits(1.0, text):
         return text
     return write.translations.localized(template).format(
         write.translations.localized("{} of {}").format(len(names), count)
@@ -225,7 +225,7 @@ def _density(numbers: inertia.PlainBody, length: float | None, template: str, *c
     if length:
         text = "{:.4g} kg/m".format(numbers.mass / length)
     else:
-        text = rows.scene_units().texts("density", (numbers.density,))[0]
+        text = texts.scene_units().texts("density", (numbers.density,))[0]
     return write.translations.localized(template).format(text, *counts)
 
 
@@ -240,7 +240,7 @@ def _quantities(layout: UILayout, answer: Answer) -> None:
 
 
 def _buttons(layout: UILayout, context: Context) -> None:
-    narrow = rows.is_narrow()
+    narrow = texts.is_narrow()
     buttons = layout.column(align=True) if narrow else layout.row(align=True)
     buttons.scale_y = 1.4
     shown = shown_objects(context)
@@ -294,7 +294,7 @@ class FindingsPanel:
         objects = shown_objects(context)
         source = write.properties.density_from(objects[0]) if len(objects) == 1 else ""
         if source:
-            rows.remark(layout, "Mean density, from {cause}", icon="BLANK1", cause=source)
+            texts.remark(layout, "Mean density, from {cause}", icon="BLANK1", cause=source)
 
 
 def _questioned(context: Context) -> tuple[Object, inertia.PlainBody] | None:

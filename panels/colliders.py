@@ -15,7 +15,7 @@ from bpy.types import Context, OperatorProperties
 from ..blender import read, scale, session, settings
 from ..blender.session.stored.collider_tolerance import is_beyond_tolerance, tolerance_remedy
 from ..operators.setup.colliders import SHAPES
-from . import places, rows
+from . import places, rows, texts
 
 # Ratios to numbers that are zero are not stored.
 KEYS = {
@@ -88,12 +88,12 @@ class CollidersPanel:
                 body, context.scene, session.tracking.stamps.Kind.COLLIDERS
             )
         )
-        rows.stale_state(layout, reason)
+        texts.stale_state(layout, reason)
         if stored is None:
-            rows.remark(layout, "Engines take mass, center and inertia from colliders.")
+            texts.remark(layout, "Engines take mass, center and inertia from colliders.")
             return
         column = layout.column(align=True)
-        rows.filled(
+        texts.filled(
             column, "1 Collider" if stored["count"] == 1 else "{:d} Colliders", stored["count"]
         )
         size = max(body.dimensions) * scale.meters_per_unit(context.scene)
@@ -111,14 +111,14 @@ class CollidersPanel:
                 if settings.given.COLLIDER in child
             }
             remedy = remedies[stored["shape"] == "pieces"] if "mesh" in kinds else PRIMITIVE_REMEDY
-            rows.remark(column, ANOTHER_BODY, icon="ERROR")
-            rows.remark(column, remedy)
+            texts.remark(column, ANOTHER_BODY, icon="ERROR")
+            texts.remark(column, remedy)
         else:
-            rows.remark(column, "An engine simulates the body within 1%.", icon="CHECKMARK")
+            texts.remark(column, "An engine simulates the body within 1%.", icon="CHECKMARK")
         if is_beyond_tolerance(stored):
-            rows.remark(column, "The tolerance is not kept.", icon="ERROR")
-            rows.remark(column, tolerance_remedy(stored))
-        rows.title(layout, "Of the Object's")
+            texts.remark(column, "The tolerance is not kept.", icon="ERROR")
+            texts.remark(column, tolerance_remedy(stored))
+        texts.title(layout, "Of the Object's")
         labels = ("Volume", "Mass", "Moment 1", "Moment 2", "Moment 3")
         moments = stored.get("moment_ratios", (None,) * 3)
         ratios = zip(labels, (stored.get("volume_ratio"), stored.get("mass_ratio"), *moments))
@@ -130,7 +130,7 @@ class CollidersPanel:
                 if one is not None
             ],
         )
-        rows.title(layout, "Off by")
+        texts.title(layout, "Off by")
         column = layout.column(align=True)
         labels = ("Center", "Outward", "Inward", "Uncertain by")
         lengths = shift, *(stored[name] for name in ("outward", "inward", "distance_bound"))

@@ -13,7 +13,7 @@ from ..blender.read.visibility import measurable
 from ..blender.session import memory, selected
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.session.tracking.stamps import Kind
-from . import places, rows
+from . import places, rows, texts
 
 if TYPE_CHECKING:
     from ..blender.session.stored.cuts import KnownCutFill, Level
@@ -37,7 +37,7 @@ class CutsPanel:
         ):
             if obj in values and stale_reason(obj, context.scene, kind):
                 text = "The object has changed. Press the button again."
-                rows.remark(layout, text, icon="FILE_REFRESH")
+                texts.remark(layout, text, icon="FILE_REFRESH")
             elif obj in values:
                 draw(layout, values[obj])
 
@@ -56,7 +56,7 @@ def _level(layout: UILayout, level: Level) -> None:
         ],
     )
     if level.tilt is None:
-        rows.remark(column, "Spills at Tilt: only up to 20,000 triangles")
+        texts.remark(column, "Spills at Tilt: only up to 20,000 triangles")
     elif level.tilt < pi:
         rows.table(column, [rows.angle_cell("Spills at Tilt", level.tilt)])
     row = layout.row(align=True)
@@ -84,7 +84,7 @@ def _level(layout: UILayout, level: Level) -> None:
         )
     body = rows.fold(layout, "body_moments_level_table", "Level Table")
     if body is not None:
-        units = rows.scene_units()
+        units = texts.scene_units()
         cells = [
             (units.text("length", height), units.text("volume", volume), repr(volume), "m³")
             for height, volume in level.table[TABLE_STEP::TABLE_STEP].tolist()
@@ -106,7 +106,7 @@ def _cut_fill(layout: UILayout, known: KnownCutFill) -> None:
         ],
     )
     for shown in known.findings:
-        rows.message(layout, shown)
+        texts.message(layout, shown)
     body = rows.fold(layout, "body_moments_cut_fill_centers", "Centers")
     if body is not None:
         for label, part, area in (

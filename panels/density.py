@@ -19,7 +19,7 @@ from ..blender.settings import given, preferences, properties
 from ..blender.write.translations import CONTEXT
 from ..core.lazy import loaded_module
 from . import material_menus as materials
-from . import places, rows
+from . import places, rows, texts
 
 PRINT_SETTINGS = (
     "print_preset",
@@ -85,7 +85,7 @@ def _settings(layout: UILayout, context: Context) -> None:
     settings = chosen_settings(context)
     objects = owners(context)
     if any(obj.override_library is not None for obj in objects):
-        rows.remark(
+        texts.remark(
             layout,
             "Library override: settings and results are lost on saving. Make it local.",
             icon="ERROR",
@@ -139,9 +139,9 @@ def _print_settings(column: UILayout, settings: PropertyGroup) -> None:
         rows.settings(column, settings, "spool_mass")
     objects = owners(bpy.context)
     if len(objects) == 1 and "body_material_volume" in objects[0]:
-        rows.filled(column, "Material: {:.5g} cm³", 1e6 * objects[0]["body_material_volume"])
+        texts.filled(column, "Material: {:.5g} cm³", 1e6 * objects[0]["body_material_volume"])
         if "body_price" in objects[0]:
-            rows.filled(column, "Price: {:.2f}", objects[0]["body_price"])
+            texts.filled(column, "Price: {:.2f}", objects[0]["body_price"])
 
 
 def _density_settings(
@@ -182,20 +182,20 @@ def _max_thickness(layout: UILayout, obj: Object) -> None:
     row = layout.row()
     row.alert = folds
     if folds:
-        rows.remark(row, "Folds over from {length:length}", icon="ERROR", length=limit)
+        texts.remark(row, "Folds over from {length:length}", icon="ERROR", length=limit)
     else:
-        rows.remark(row, "Largest wall: {length:length}", length=limit)
+        texts.remark(row, "Largest wall: {length:length}", length=limit)
 
 
 def _materials(layout: UILayout, context: Context, settings: PropertyGroup) -> None:
     column = layout.column(align=True)
-    rows.filled(column, "Densities ({:s})", rows.scene_units().unit("density", 0.0)[1])
+    texts.filled(column, "Densities ({:s})", texts.scene_units().unit("density", 0.0)[1])
     slots = chain.from_iterable(obj.material_slots for obj in owners(context))
     shown = dict.fromkeys(slot.material for slot in slots if slot.material)
     for material in shown:
         materials.density_row(column, context.scene, material, material.name)
     if not shown:
-        rows.remark(column, "No material slots")
+        texts.remark(column, "No material slots")
     column = layout.column()
     column.use_property_split = True
     _uniform_density(column, context, settings, "Others")
@@ -264,7 +264,7 @@ def _grid_settings(layout: UILayout, settings: PropertyGroup) -> bool:
         rows.settings(column, settings, "value_density")
     else:
         rows.settings(column, settings, "transfer_table")
-        rows.sentence(layout.column(), settings.transfer_table.replace(", ", " · "))
+        texts.sentence(layout.column(), settings.transfer_table.replace(", ", " · "))
     if common(settings, "mass_from") == "MASS":
         rows.settings(column, settings, "mass")
     return True

@@ -12,7 +12,7 @@ from bpy.types import Context, UILayout
 from ..blender.read.visibility import measurable
 from ..blender.session import displayed, memory, selected, stored
 from ..core import floating, verdict
-from . import places, rows
+from . import places, rows, texts
 
 if TYPE_CHECKING:
     from ..blender.session.stored.floating import Afloat, Held
@@ -47,13 +47,13 @@ class FloatingPanel:
             if tank.role == "TANK":
                 column.prop(tank, "fill")
         if obj is None or obj not in memory.afloat:
-            rows.remark(layout, "Press Float to see where it rests.")
+            texts.remark(layout, "Press Float to see where it rests.")
             return
         held = stored.floating.held_body(obj, context.scene)
         if isinstance(held, verdict.Finding):
-            rows.message(layout, held)
+            texts.message(layout, held)
         elif held is None:
-            rows.remark(layout, "The object has changed. Press Float again.", icon="FILE_REFRESH")
+            texts.remark(layout, "The object has changed. Press Float again.", icon="FILE_REFRESH")
         else:
             _numbers(layout, held)
             _positions(layout, held.afloat)
@@ -69,7 +69,7 @@ def _numbers(layout: UILayout, held: Held) -> None:
     else:
         layout.label(text="Afloat", icon="CHECKMARK" if stable else "ERROR")
     for found in held.afloat.rest.findings:
-        rows.message(layout, found)
+        texts.message(layout, found)
     column = layout.column(align=True)
     rows.quantities(
         column,
@@ -115,12 +115,12 @@ def _positions(layout: UILayout, afloat: Afloat) -> None:
     column = layout.column(align=True)
     for place, rest in enumerate(afloat.rests[:MAX_POSITIONS], 1):
         row = column.row(align=True)
-        gm = rows.scene_units().text("length", rest.metacentric_heights[0])
+        gm = texts.scene_units().text("length", rest.metacentric_heights[0])
         row.label(text="{:d}: GM {:s}".format(place, gm), translate=False)
         row.operator("object.body_moments_float", text="", icon="MOD_OCEAN").position = place
     more = len(afloat.rests) - MAX_POSITIONS
     if more > 0:
-        rows.filled(column, "{:d} more", more)
+        texts.filled(column, "{:d} more", more)
 
 
 def _stability(layout: UILayout, curve: floating.RightingCurve) -> None:
@@ -142,7 +142,7 @@ def _stability(layout: UILayout, curve: floating.RightingCurve) -> None:
         if reached:
             rows.table(column, [rows.angle_cell(label, min(reached))])
     if high >= pi - 1e-6 and low <= 1e-6 - pi:
-        rows.remark(column, "It comes back from any heel.")
+        texts.remark(column, "It comes back from any heel.")
 
 
 CLASSES = places.in_both_places(FloatingPanel, "floating", shown_for=measurable, of_all=True)

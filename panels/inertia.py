@@ -11,7 +11,7 @@ from bpy.types import Context
 from ..blender import read, session, write
 from ..blender.session.displayed import displayed, shown_objects, total
 from ..core import inertia, verdict
-from . import places, rows
+from . import places, rows, texts
 
 ERROR_OF_A_DIFFERENCE = (
     6.0  # each principal moment is off by at most 3 times the error of a tensor entry
@@ -40,7 +40,7 @@ class InertiaPanel:
         rows.heading(column, "Principal Axes", "", None if shown is None else shown.axes)
         for place, label in enumerate(rows.PRINCIPAL_LABELS):
             rows.direction(column, label, None if shown is None else shown.axes[place])
-        rows.state(
+        texts.state(
             column, "" if shown is None else write.translations.localized(_equal_moments(shown))
         )
         gyration = None if shown is None else shown.gyration
@@ -109,7 +109,7 @@ class ReferencePanel:
         if result is None:
             return
         if isinstance(result, verdict.Finding):
-            rows.message(layout, result)
+            texts.message(layout, result)
             return
         if settings.about == "AXIS":
             column = layout.column(align=True)

@@ -14,7 +14,7 @@ from ..blender.settings.chosen import chosen_objects
 from ..blender.settings.properties import density_field_name
 from ..core.density import CATEGORIES, FILAMENT, MATERIALS
 from ..operators.setup.presets import PRESET_FOLDER
-from . import places, rows
+from . import places, texts
 
 
 class OBJECT_MT_body_moments_materials(Menu):
@@ -77,7 +77,7 @@ def _draw_category(self: Menu, context: Context) -> None:
 
 
 def _entries(layout: UILayout, context: Context, category: str) -> None:
-    units = rows.scene_units()
+    units = texts.scene_units()
     for material in MATERIALS:
         if material.category == category:
             text = "{:s}  ({:s})".format(material.name, units.text("density", material.density))
@@ -138,7 +138,7 @@ class MATERIAL_PT_body_moments(places.AmongProperties, Panel):
         if material.body_moments.material:
             column.label(text=material.body_moments.material, icon="CHECKMARK", translate=False)
         elif not material.body_moments.density:
-            rows.remark(column, "None: the object's density is used")
+            texts.remark(column, "None: the object's density is used")
 
 
 CLASSES = (

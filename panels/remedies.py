@@ -16,7 +16,7 @@ from bpy.types import Context, Object, UILayout
 from ..blender import write
 from ..blender.session import selected, stored
 from ..core import inertia, verdict
-from . import rows
+from . import rows, texts
 
 ICONS = {write.remedies.DEFECTS: "ZOOM_SELECTED", write.remedies.SELECT: "RESTRICT_SELECT_OFF"}
 LINE_SHARE = 0.6  # of a row for the text of a line and its button, beside the icons
@@ -40,7 +40,7 @@ def lines(
         if body is None:
             continue
         column = body.column(align=True)
-        rows.message(column, _of_objects(group), icon="BLANK1")
+        texts.message(column, _of_objects(group), icon="BLANK1")
         for remedy in _remedies(context, group)[1:]:
             _remedy(column, group, remedy)
     if can_accept and sum(map(_is_acceptable, warnings)) > 1:
@@ -51,7 +51,7 @@ def summary(layout: UILayout, context: Context, groups: Sequence[verdict.Group])
     """Draw one row, always: the worst of errors and warnings with its first remedy, and the number
     of the others.
     """
-    ranks = tuple(rows.ICONS)
+    ranks = tuple(texts.ICONS)
     warnings = [
         group for group in groups if verdict.severity(group.finding) != verdict.Severity.NOTE
     ]
@@ -59,7 +59,7 @@ def summary(layout: UILayout, context: Context, groups: Sequence[verdict.Group])
         warnings, key=lambda group: ranks.index(verdict.severity(group.finding)), default=None
     )
     if worst is None:
-        rows.state(layout, "")
+        texts.state(layout, "")
     else:
         _line(layout.row(align=True), context, worst, more=len(warnings) - 1)
 
@@ -70,11 +70,11 @@ def _line(
     """Draw the headline of a finding with its first remedy; more: the number of other findings."""
     own = _remedies(context, group)
     text = _headline(context, group) + (" (+{:d})".format(more) if more else "")
-    row.label(text=text, icon=rows.ICONS[verdict.severity(group.finding)], translate=False)
+    row.label(text=text, icon=texts.ICONS[verdict.severity(group.finding)], translate=False)
     buttons = row.row(align=True)
     buttons.alignment = "RIGHT"
     if own:
-        _remedy(buttons, group, own[0], with_text=rows.fits(LINE_SHARE, text + _name(own[0])))
+        _remedy(buttons, group, own[0], with_text=texts.fits(LINE_SHARE, text + _name(own[0])))
     if can_accept and _is_acceptable(group):
         _accept(buttons, group.finding.code, "CHECKMARK")
 
@@ -94,10 +94,10 @@ def notes(layout: UILayout, idname: str, groups: Sequence[verdict.Group]) -> Non
     """
     shown_notes = verdict.of_severity(map(_of_objects, groups), verdict.Severity.NOTE)
     header, body = layout.panel(idname, default_closed=True)
-    rows.filled(header, "Notes ({:d})", len(shown_notes))
+    texts.filled(header, "Notes ({:d})", len(shown_notes))
     for shown in shown_notes if body is not None else ():
         row = body.row(align=True)
-        rows.message(row, shown)
+        texts.message(row, shown)
         if shown.values.get("accepted"):
             _accept(row, shown.code, "LOOP_BACK", accepted=False)
 
@@ -112,7 +112,7 @@ def _headline(context: Context, group: verdict.Group) -> str:
     )[0]
     if not group.objects:
         # its names are in the sentence
-        return clause if rows.fits(1.0, clause) else clause.partition(": “")[0]
+        return clause if texts.fits(1.0, clause) else clause.partition(": “")[0]
     # nouns keep their capitals in other languages
     if bpy.app.translations.locale[:2] in (
         "",
@@ -173,12 +173,12 @@ def last_action(layout: UILayout, context: Context) -> None:
         return
     box = layout.box()
     header = box.row(align=True)
-    icon = "NONE" if rows.is_narrow() else "CANCEL"
-    rows.sentence(header, write.translations.localized(last.action), icon=icon, boxed=True)
+    icon = "NONE" if texts.is_narrow() else "CANCEL"
+    texts.sentence(header, write.translations.localized(last.action), icon=icon, boxed=True)
     header.operator("wm.body_moments_dismiss", text="", icon="X", emboss=False)
     column = box.column(align=True)
     for group in last.groups:
-        rows.message(column, _of_objects(group), icon="NONE", boxed=True)
+        texts.message(column, _of_objects(group), icon="NONE", boxed=True)
         for remedy in _remedies(context, group):
             _remedy(column, group, remedy)
 
@@ -200,13 +200,15 @@ def unit_question(
 ) -> None:
     """Ask whether a unit of the scene is a millimeter."""
     box = layout.box()
-    units = rows.scene_units()._replace(mass="TONNES", digits=QUESTION_DIGITS)
-    texts = {
-        "length": units.text("length", max(obj.dimensions)),
-        "mass": units.text("mass", shown.mass),
-    }
-    question = "{length} long and {mass}: is a unit of this scene a millimeter?"
-    rows.remark(box, question, icon="QUESTION", boxed=True, **texts)
+    units = texts.scene_units()._replace(mass="TONNES", digits=QUESTION_DIGITS)
+    texts.remark(
+        box,
+        "{length} long and {mass}: is a unit of this scene a millimeter?",
+        icon="QUESTION",
+        boxed=True,
+        length=units.text("length", max(obj.dimensions)),
+        mass=units.text("mass", shown.mass),
+    )
     column = box.column(align=True)
     rows.button(column, "scene.body_moments_set_millimeters", "DRIVER_DISTANCE")
     column.prop(context.scene.body_moments, "units_answered", toggle=True, icon="X")

@@ -14,7 +14,7 @@ from bpy.types import Context, Menu, Panel, PoseBone, UILayout
 from ..blender import scale, session, write
 from ..blender.session.tracking import armatures, staleness
 from ..core import lazy, verdict
-from . import places, rows
+from . import places, rows, texts
 
 if TYPE_CHECKING:
     from ..blender.session.character.weight import Weight
@@ -46,8 +46,8 @@ class BonesPanel:
         column.enabled = is_measured
         if not is_measured:
             return
-        rows.stale_state(layout, staleness.stale_reason(armature, context.scene))
-        units = rows.scene_units()
+        texts.stale_state(layout, staleness.stale_reason(armature, context.scene))
+        units = texts.scene_units()
         measured = [
             (bone, own.mass)
             for bone in armature.pose.bones
@@ -60,7 +60,7 @@ class BonesPanel:
             row.label(text=bone.name, icon="BONE_DATA", translate=False)
             rows.right(row, units.text("mass", mass), "{:.1f}%".format(100.0 * mass / total))
         if len(measured) > LISTED:
-            rows.filled(layout, "And {:d} more", len(measured) - LISTED)
+            texts.filled(layout, "And {:d} more", len(measured) - LISTED)
 
 
 class WeightPanel:
@@ -108,7 +108,7 @@ class WeightPanel:
         weight = None
         if posed is not None and depsgraph is not None:
             weight = posed.weight(armature, depsgraph)
-        rows.stale_state(layout, staleness.stale_reason(armature, context.scene))
+        texts.stale_state(layout, staleness.stale_reason(armature, context.scene))
         _standing(layout, weight, scale.meters_per_unit(context.scene))
 
 
@@ -215,7 +215,7 @@ class BONE_PT_body_moments(places.AmongProperties, Panel):
         own = {"DENSITY": ("density",), "MASS": ("mass",)}
         rows.settings(layout.column(), settings, "mass_from", *own.get(settings.mass_from, ()))
         rows.button(layout, "object.body_moments_measure_bones", "BONE_DATA")
-        rows.stale_state(layout, staleness.stale_reason(bone.id_data, context.scene))
+        texts.stale_state(layout, staleness.stale_reason(bone.id_data, context.scene))
         _numbers(layout, bone)
 
 

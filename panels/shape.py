@@ -11,7 +11,7 @@ from bpy.types import Context, Object, UILayout
 from ..blender import read, session, settings, write
 from ..blender.session.tracking import staleness, stamps
 from ..core.verdict import SIMILARITY, truncate
-from . import places, rows
+from . import places, rows, texts
 
 MAX_SHOWN = 12  # elements of a symmetry, and similar shapes
 KINDS = {"AXIS": "{:d}-Fold Axis", "PLANE": "Mirror Plane", "ROUND": "Axis of Revolution"}
@@ -51,15 +51,15 @@ def _symmetry(layout: UILayout, context: Context, obj: Object | None) -> None:
         return
     stored = obj.body_moments_symmetry
     column = layout.column(align=True)
-    rows.filled(column, "Symmetry {:s}", stored.group, icon="CHECKMARK")
-    rows.stale_state(column, staleness.stale_reason(obj, context.scene, stamps.Kind.SYMMETRY))
+    texts.filled(column, "Symmetry {:s}", stored.group, icon="CHECKMARK")
+    texts.stale_state(column, staleness.stale_reason(obj, context.scene, stamps.Kind.SYMMETRY))
     if stored.compatible != stored.group:
         text = "Moments to order 6 alone allow {group}"
-        rows.remark(column, text, icon="BLANK1", group=stored.compatible)
+        texts.remark(column, text, icon="BLANK1", group=stored.compatible)
     text = "The surface matches its images within {share:.2g} of the radius of gyration"
     if stored.of_display_mesh:
         text = "The display mesh matches its images within {share:.2g} of the radius of gyration"
-    rows.remark(column, text, icon="BLANK1", share=stored.tolerance)
+    texts.remark(column, text, icon="BLANK1", share=stored.tolerance)
     if not stored.elements:
         return
     body = rows.fold(layout, "body_moments_symmetry", "Axes and Mirror Planes")
@@ -69,10 +69,10 @@ def _symmetry(layout: UILayout, context: Context, obj: Object | None) -> None:
     column.label(text="Directions and normals along the object's axes")
     shown, more = truncate(stored.elements, MAX_SHOWN)
     for element in shown:
-        rows.filled(column, KINDS[element.kind], element.order)
+        texts.filled(column, KINDS[element.kind], element.order)
         rows.direction(column, "", element.direction)
     if more:
-        rows.filled(column, "And {:d} more", more)
+        texts.filled(column, "And {:d} more", more)
 
 
 def _similar(layout: UILayout, context: Context) -> None:
@@ -80,14 +80,14 @@ def _similar(layout: UILayout, context: Context) -> None:
     if not search.wanted:
         return
     header, body = layout.panel("body_moments_similar")
-    rows.filled(header, "Similar to {:s}", search.wanted)
+    texts.filled(header, "Similar to {:s}", search.wanted)
     if body is None:
         return
     column = body.column(align=True)
     if search.looked_at:
         column.label(text=search.looked_at, icon="FILE", translate=False)
     if not search.found:
-        rows.remark(column, "Nothing to compare with")
+        texts.remark(column, "Nothing to compare with")
     else:
         rows.right(column).label(text="Similarity, Distance")
     for shape in search.found[:MAX_SHOWN]:

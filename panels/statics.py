@@ -12,7 +12,7 @@ from bpy.types import Context, UILayout
 
 from ..blender import read, scale, session, write
 from ..core import statics, verdict
-from . import places, rows
+from . import places, rows, texts
 
 MAX_POSES = 6  # limit of the list: round bodies have thousands
 
@@ -62,15 +62,15 @@ def _support(
     column = layout.column(align=True)
     if support is None:
         text = "Changed since: check again" if is_known else "Not checked yet"
-        rows.state(
+        texts.state(
             column, write.translations.localized(text), "FILE_REFRESH" if is_known else "INFO"
         )
     elif support.stands:
-        rows.state(column, write.translations.localized("Stands"), "CHECKMARK")
+        texts.state(column, write.translations.localized("Stands"), "CHECKMARK")
     else:
         is_on_area = len(support.polygon) > 2
         text = "Tips Over" if is_on_area else "On an edge or corner: lay it down"
-        rows.state(column, write.translations.localized(text), "ERROR")
+        texts.state(column, write.translations.localized(text), "ERROR")
     if support is not None:
         margin = support.margin * scale.meters_per_unit(context.scene)
         toward = atan2(support.direction[1], support.direction[0])
@@ -84,7 +84,7 @@ def _support(
 
 def _poses(layout: UILayout, poses: statics.RestingPoses | verdict.Finding | None) -> None:
     """Draw the most probable poses, in as many rows before they are known."""
-    narrow = rows.is_narrow()
+    narrow = texts.is_narrow()
     column = layout.column(align=True)
     column.label(text="Resting Poses")
     heading = column.row()
@@ -109,9 +109,9 @@ def _poses(layout: UILayout, poses: statics.RestingPoses | verdict.Finding | Non
             place + 1
         )
     more = len(known) - MAX_POSES
-    rows.state(column, write.translations.localized("{:d} more").format(more) if more > 0 else "")
+    texts.state(column, write.translations.localized("{:d} more").format(more) if more > 0 else "")
     if isinstance(poses, verdict.Finding):
-        rows.message(layout, poses)
+        texts.message(layout, poses)
 
 
 CLASSES = places.in_both_places(

@@ -134,9 +134,11 @@ class BodyMomentsSelectionSettings(PropertyGroup):
     """Settings of the selected objects: each shows the first object's, and sets that of all."""
 
 
-ANNOTATIONS = (
-    given.GivenPartProperties.__annotations__ | properties.BodyMomentsObjectSettings.__annotations__
-)
+ANNOTATIONS = {
+    name: definition
+    for kind in reversed(properties.BodyMomentsObjectSettings.__mro__)
+    for name, definition in vars(kind).get("__annotations__", {}).items()
+}
 BodyMomentsSelectionSettings.__annotations__ = {
     name: _of_all(name, ANNOTATIONS[name].function, ANNOTATIONS[name].keywords)
     for name in NAMES

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from bpy.types import Object, PropertyGroup, Scene
+from bpy.types import Object, Scene
 
 from ...core import measurement, numerics
 from ..scale import meters_per_unit
 from .density import object_density
-from .properties import PRINT_OPTIONS
+from .prints import print_settings
 
 
 @dataclass(frozen=True)
@@ -43,22 +43,6 @@ class MeasureOptions:
 
 
 AS_SET = MeasureOptions()  # every object as its own settings say
-
-
-def print_settings(properties: PropertyGroup) -> measurement.PrintSettings:
-    """Return the print settings in the settings of an object."""
-    radius, density = properties.pocket_radius, properties.pocket_density
-    center = tuple(map(numerics.shortest_decimal, properties.pocket_center))
-    pocket = measurement.Pocket(
-        center, numerics.shortest_decimal(radius) * 1e-3, numerics.shortest_decimal(density)
-    )
-    values = {}
-    for field, (name, scale) in PRINT_OPTIONS.items():
-        value = getattr(properties, name)
-        values[field] = (
-            numerics.shortest_decimal(value) * scale if isinstance(value, float) else value
-        )
-    return measurement.PrintSettings(**values, pocket=pocket if radius else None)
 
 
 def object_settings(

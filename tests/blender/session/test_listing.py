@@ -14,7 +14,7 @@ pytest.importorskip("bpy")
 import bpy
 from body_moments.blender.session import displayed
 from body_moments.blender.session.displayed import SortBy, listed_masses, listing
-from body_moments.panels.rows import scene_units
+from body_moments.panels.texts import scene_units
 
 from tests.blender.boxes import box_mesh
 from tests.blender.objects import add, mesh_body, only, strip_mesh
