@@ -5,6 +5,10 @@
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.session.tracking import staleness
+from body_moments.blender.write.units import Units
+from body_moments.core.density.materials import BY_NAME
+from body_moments.core.numerics.float32 import shortest_decimal
 
 from tests.blender.boxes import box_mesh
 from tests.blender.objects import add, measured, mesh_body, only, place
@@ -124,7 +128,6 @@ def test_rigid_body_mass_is_in_kilograms_in_any_unit():
 
 def test_faultless_object_keeps_mode_and_selection():
     import bmesh
-    from body_moments.blender.session.tracking import staleness
 
     obj = add(mesh_body())
     bpy.ops.object.mode_set(mode="EDIT")
@@ -262,9 +265,6 @@ def test_faults_of_modifiers_are_not_selected():
 
 
 def test_material_sets_density_of_selected_objects(reported):
-    from body_moments.core.density.materials import BY_NAME
-    from body_moments.core.numerics.float32 import shortest_decimal
-
     one, other = add(mesh_body(), "One"), add(mesh_body(), "Other")
     only(one, other)
     other.body_moments.mass_from = "MASS"
@@ -318,8 +318,6 @@ def test_settings_are_copied_to_the_other_selected_objects(reported):
     ],
 )
 def test_numbers_are_shown_in_the_scenes_units(system, length, mass, expected):
-    from body_moments.blender.write.units import Units
-
     values = {
         "length": 1.5,
         "area": 2e-4,
@@ -337,8 +335,6 @@ def test_without_unit_system_masses_are_kilograms():
     """Else a density beside a volume in the scene's units would seem to give another mass than the
     one shown.
     """
-    from body_moments.blender.write.units import Units
-
     units = Units("NONE", "ADAPTIVE", "ADAPTIVE", 0.001)
     values = (
         ("length", 0.002),
@@ -357,8 +353,6 @@ def test_without_unit_system_masses_are_kilograms():
 
 
 def test_default_material_is_density_of_unset_objects():
-    from body_moments.blender.session.tracking import staleness
-
     scene, obj = bpy.context.scene, add(mesh_body())
     scene.body_moments.default_material = "PLA"
     bpy.ops.object.body_moments_measure()

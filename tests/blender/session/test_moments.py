@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.session import memory
+from body_moments.blender.session.stored import computed_moments
 from body_moments.blender.session.tracking import staleness
 from body_moments.blender.session.tracking.stamps import Kind, Stale
 from body_moments.core.verdict.finding import MeasureError, finding
@@ -38,8 +39,6 @@ def drawn():
 
 
 def rows():
-    from body_moments.blender.session.stored import computed_moments
-
     group = bpy.context.scene.body_moments
     text = computed_moments.as_csv(
         memory.moments[bpy.context.object],

@@ -12,6 +12,8 @@ import body_moments
 import bpy
 from body_moments.blender.session.tracking import staleness
 from body_moments.blender.session.tracking.stamps import Kind, Stale
+from body_moments.blender.write import text_report
+from body_moments.core.verdict.finding import finding
 
 from tests.blender.objects import add, mesh_body, only
 
@@ -357,9 +359,6 @@ def test_storing_evaluates_no_modifier_again():
     ],
 )
 def test_numbers_that_a_person_has_overwritten_break_nothing(key, value):
-    from body_moments.blender.write import text_report
-    from body_moments.core.verdict.finding import finding
-
     from tests.panels.drawing import shown
 
     good, obj = add(mesh_body(), "Good"), add(mesh_body())

@@ -16,6 +16,7 @@ from body_moments.blender.session.stored.collider_tolerance import tolerance_rem
 from body_moments.blender.session.tracking.staleness import stale_reason
 from body_moments.blender.session.tracking.stamps import Kind, Stale
 from body_moments.blender.settings.given import COLLIDER, COLLIDERS
+from body_moments.command.measure.measuring import objects_to_measure
 from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.polyhedron.integration import volume_and_center
 from mathutils import Euler, Vector
@@ -212,8 +213,6 @@ def test_instancer_gets_colliders_around_its_instances():
 
 
 def test_colliders_are_left_out_of_measuring():
-    from body_moments.command.measure.measuring import objects_to_measure
-
     body = add(mesh_body(), "Body")
     make(shape="PIECES")
     made = colliders(body)

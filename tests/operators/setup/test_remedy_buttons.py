@@ -6,6 +6,8 @@ findings are notes.
 
 import bpy
 import pytest
+from body_moments.blender.bodies.measure_object import measure_object
+from body_moments.blender.session.tracking import staleness
 
 from tests.blender.objects import add, only
 from tests.close import close
@@ -83,8 +85,6 @@ def test_union_and_shell_remedies_set_and_measure():
 
 
 def test_accepted_warning_stays_a_note_after_measuring():
-    from body_moments.blender.bodies.measure_object import measure_object
-    from body_moments.blender.session.tracking import staleness
     from body_moments.core.measurement import record
 
     obj, other = add(boxes(2.0, 1.0)), add(boxes(2.0, 1.0), "Other")

@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.bodies.flat.flat_shape import flat_shape_of
+from body_moments.blender.session.tracking import staleness
 from body_moments.blender.session.tracking.stamps import Kind, Stale
 
 from tests.blender.findings import refused
@@ -121,8 +122,6 @@ def test_flat_symmetry_group_and_elements_are_found(make, group):
 
 
 def test_the_symmetry_of_a_changed_text_is_out_of_date():
-    from body_moments.blender.session.tracking import staleness
-
     obj = text("H")
     only(obj)
     run("find_symmetry")

@@ -5,6 +5,7 @@
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.session.tracking import staleness
 from body_moments.blender.session.tracking.stamps import Kind, Stale
 from body_moments.operators import batch
 
@@ -243,8 +244,6 @@ def test_symmetry_group_of_blender_primitives_is_found(make, group):
 
 
 def test_symmetry_is_stale_after_edit_not_after_motion():
-    from body_moments.blender.session.tracking import staleness
-
     obj = wedge()
     run("measure")
     run("find_symmetry")

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.session.stored import stability
 from body_moments.blender.session.tracking import staleness
 from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.blender.write import properties
@@ -316,8 +317,6 @@ def test_union_of_overlapping_boxes_is_balanced(vertices):
 
 
 def test_stability_is_valid_after_undo_to_measured_shape():
-    from body_moments.blender.session.stored import stability
-
     obj = bracket()
     bpy.ops.object.body_moments_stability()
     bpy.ops.ed.undo_push(message="checked")
