@@ -225,13 +225,3 @@ class OBJECT_OT_body_moments_export_bill(Operator, ExportHelper):
         return selection.report(
             self, write.reports.phrase(*texts, count=len(lines) - 2, file=path.name)
         )
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_measure_assembly,
-    OBJECT_OT_body_moments_clear_assembly,
-    VIEW3D_OT_body_moments_cursor_to_assembly,
-    OBJECT_OT_body_moments_assembly_empty,
-    OBJECT_OT_body_moments_assembly_origin,
-    OBJECT_OT_body_moments_export_bill,
-)

@@ -149,10 +149,3 @@ class OBJECT_OT_body_moments_cut_fill(WithDialog, Operator):
         known = stored.cuts.measure_cut_fill(context, obj, self.against, height, self.other)
         text = write.reports.phrase("Compared “{object}”", object=obj.name)
         return selection.report(self, text, *known.findings)
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_level,
-    OBJECT_OT_body_moments_show_level,
-    OBJECT_OT_body_moments_cut_fill,
-)

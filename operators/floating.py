@@ -128,10 +128,3 @@ class OBJECT_OT_body_moments_righting_arms(OnFloating, Operator):
             "Computed righting arms of {count} bodies",
         )
         return self.for_each_body(context, heel, texts)
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_float,
-    OBJECT_OT_body_moments_float_positions,
-    OBJECT_OT_body_moments_righting_arms,
-)

@@ -33,6 +33,3 @@ class WM_OT_body_moments_manual(Operator):
             area.spaces.active.text = text
             area.spaces.active.show_word_wrap = True
         return {"FINISHED"}
-
-
-CLASSES = (WM_OT_body_moments_manual,)

@@ -222,9 +222,3 @@ class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, I
             texts = "Imported {count} solid from {file}.", "Imported {count} solids from {file}."
         done = write.reports.phrase(*texts, count=found.patches, order=found.order, file=path.name)
         return found.objects, [done, *found.findings]
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_import_scan,
-    OBJECT_OT_body_moments_import_surfaces,
-)

@@ -227,11 +227,3 @@ class POSE_OT_body_moments_trace(KeyedPath, Operator):
     """Key the path of the center of mass on an empty, and draw it beside the arcs of free fall"""
 
     bl_label = "Trace"
-
-
-CLASSES = (
-    POSE_OT_body_moments_parabola,
-    POSE_OT_body_moments_keep_spin,
-    POSE_OT_body_moments_bake_curves,
-    POSE_OT_body_moments_trace,
-)

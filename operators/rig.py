@@ -176,13 +176,3 @@ class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
         text = "Moved “{bone}”: the center is {gap} from its target, {margin} inside the support"
         done = write.reports.phrase(text if values else BALANCED, **values)
         return selection.finish(self, [done], is_changed=bool(values))
-
-
-CLASSES = (
-    POSE_OT_body_moments_show_weight,
-    POSE_OT_body_moments_balance_pose,
-    OBJECT_OT_body_moments_measure_bones,
-    OBJECT_OT_body_moments_clear_bones,
-    OBJECT_OT_body_moments_physics_rig,
-    OBJECT_OT_body_moments_rig_center,
-)

@@ -189,10 +189,3 @@ class OBJECT_OT_body_moments_balance_group(modal.ModalDialog, Operator):
             text = "It is over the support polygon at {count} of {total} frames"
             texts.append(write.reports.phrase(text, count=inside, total=len(group.supports)))
         return selection.report(self, *texts)
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_stability,
-    OBJECT_OT_body_moments_rest_on_ground,
-    OBJECT_OT_body_moments_balance_group,
-)

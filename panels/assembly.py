@@ -221,8 +221,4 @@ class COLLECTION_PT_body_moments(places.AmongProperties, Panel):
         draw_assembly(self.layout, context, context.collection, "COLLECTION")
 
 
-CLASSES = (
-    BODY_MOMENTS_UL_assembly,
-    *places.in_both_places(AssemblyPanel, "assembly"),
-    COLLECTION_PT_body_moments,
-)
+CLASSES = places.in_both_places(AssemblyPanel, "assembly")

@@ -352,7 +352,6 @@ VIEW3D_PT_body_moments, OBJECT_PT_body_moments = places.in_both_places(
     BodyPanel, shown_for=lambda obj: True, of_all=True
 )
 CLASSES = (
-    *(VIEW3D_PT_body_moments, OBJECT_PT_body_moments),
     *places.in_both_places(ApplyPanel, "apply", shown_for=read.visibility.measurable, of_all=True),
     *places.in_both_places(
         FindingsPanel, "findings", options=frozenset(), shown_for=lambda obj: True, of_all=True

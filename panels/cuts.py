@@ -5,18 +5,14 @@
 from __future__ import annotations
 
 from math import pi
-from typing import TYPE_CHECKING
 
 from bpy.types import Context, UILayout
 
 from ..blender.read.visibility import measurable
-from ..blender.session import memory, selected
+from ..blender.session import memory, selected, stored
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.session.tracking.stamps import Kind
 from . import places, rows, texts
-
-if TYPE_CHECKING:
-    from ..blender.session.stored.cuts import KnownCutFill, Level
 
 TABLE_STEP = 4  # every fourth row of the level table is listed
 
@@ -42,7 +38,7 @@ class CutsPanel:
                 draw(layout, values[obj])
 
 
-def _level(layout: UILayout, level: Level) -> None:
+def _level(layout: UILayout, level: stored.cuts.Level) -> None:
     layout.label(text="Liquid", icon="MATFLUID")
     column = layout.column(align=True)
     rows.quantities(
@@ -92,7 +88,7 @@ def _level(layout: UILayout, level: Level) -> None:
         rows.table(body, cells)
 
 
-def _cut_fill(layout: UILayout, known: KnownCutFill) -> None:
+def _cut_fill(layout: UILayout, known: stored.cuts.KnownCutFill) -> None:
     found = known.found
     layout.label(text="Cut and Fill", icon="MOD_BOOLEAN")
     rows.quantities(

@@ -307,7 +307,6 @@ def given_rows(layout: UILayout, settings: PropertyGroup) -> None:
 
 
 CLASSES = (
-    OBJECT_PT_body_moments_mixed,
     *places.in_both_places(DensityPanel, "density", shown_for=given.has_density, of_all=True),
     *places.in_both_places(
         GivenPanel,

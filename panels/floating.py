@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from math import isfinite, pi
-from typing import TYPE_CHECKING
 
 from bpy.types import Context, UILayout
 
@@ -13,9 +12,6 @@ from ..blender.read.visibility import measurable
 from ..blender.session import displayed, memory, selected, stored
 from ..core import floating, verdict
 from . import places, rows, texts
-
-if TYPE_CHECKING:
-    from ..blender.session.stored.floating import Afloat, Held
 
 MAX_POSITIONS = 6
 
@@ -61,7 +57,7 @@ class FloatingPanel:
                 _stability(layout, held.afloat.curve)
 
 
-def _numbers(layout: UILayout, held: Held) -> None:
+def _numbers(layout: UILayout, held: stored.floating.Held) -> None:
     state = held.state
     stable = state.metacentric_heights[0] > 0.0
     if not held.is_at_rest:
@@ -108,7 +104,7 @@ def _numbers(layout: UILayout, held: Held) -> None:
             rows.group(body, label, rows.AXIS_LABELS, "length", held.to_world(point), size)
 
 
-def _positions(layout: UILayout, afloat: Afloat) -> None:
+def _positions(layout: UILayout, afloat: stored.floating.Afloat) -> None:
     if not afloat.rests:
         return
     layout.label(text="Positions of Rest")

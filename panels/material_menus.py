@@ -141,9 +141,4 @@ class MATERIAL_PT_body_moments(places.AmongProperties, Panel):
             texts.remark(column, "None: the object's density is used")
 
 
-CLASSES = (
-    *CATEGORY_MENUS,
-    OBJECT_MT_body_moments_materials,
-    OBJECT_PT_body_moments_presets,
-    MATERIAL_PT_body_moments,
-)
+CLASSES = CATEGORY_MENUS

@@ -228,7 +228,6 @@ MENUS = (
     (bpy.types.PHYSICS_PT_rigid_body, _rigid_body_panel),
     (bpy.types.TOPBAR_MT_help, _help_entry),
 )
-CLASSES = (VIEW3D_MT_body_moments_shape, VIEW3D_MT_body_moments_advanced, VIEW3D_MT_body_moments)
 
 
 def register() -> None:

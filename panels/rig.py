@@ -7,7 +7,6 @@ character.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from bpy.types import Context, Menu, Panel, PoseBone, UILayout
 
@@ -15,9 +14,6 @@ from ..blender import scale, session, write
 from ..blender.session.tracking import armatures, staleness
 from ..core import lazy, verdict
 from . import places, rows, texts
-
-if TYPE_CHECKING:
-    from ..blender.session.character.weight import Weight
 
 LISTED = 60  # bones that the sub-panel lists
 
@@ -112,7 +108,9 @@ class WeightPanel:
         _standing(layout, weight, scale.meters_per_unit(context.scene))
 
 
-def standing(weight: Weight, unit: float) -> tuple[str, dict[str, str], str]:
+def standing(
+    weight: session.character.weight.Weight, unit: float
+) -> tuple[str, dict[str, str], str]:
     """Return the English text on how a character stands, the lengths in it, and its icon."""
     support = weight.support
     height = weight.contacts.height
@@ -129,7 +127,9 @@ def standing(weight: Weight, unit: float) -> tuple[str, dict[str, str], str]:
     return "Balanced: {margin} inside", margin, "CHECKMARK"
 
 
-def _standing(layout: UILayout, weight: Weight | None, unit: float) -> None:
+def _standing(
+    layout: UILayout, weight: session.character.weight.Weight | None, unit: float
+) -> None:
     """Draw how a character stands, its mass, and the contacts that carry it, in as many rows
     however it stands.
     """
@@ -241,6 +241,4 @@ CLASSES = (
         WeightPanel, "weight", options=frozenset(), shown_for=armatures.stands_for_meshes
     ),
     *places.in_both_places(BonesPanel, "bones"),
-    VIEW3D_MT_body_moments_spans,
-    BONE_PT_body_moments,
 )

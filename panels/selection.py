@@ -92,4 +92,4 @@ class SelectionPanel:
         rows.button(column, "object.body_moments_save_numbers", "FILE_TICK", short="Save")
 
 
-CLASSES = (BODY_MOMENTS_UL_measured, *places.in_both_places(SelectionPanel, "selection"))
+CLASSES = places.in_both_places(SelectionPanel, "selection")

@@ -153,5 +153,4 @@ BodyMomentsSelectionSettings.__annotations__["density_volume"] = StringProperty(
         obj.name for obj in bpy.data.objects if obj.type == "VOLUME"
     ],
 )
-CLASSES = (BodyMomentsSelectionSettings,)
 POINTERS = {(Scene, "body_moments_selection"): BodyMomentsSelectionSettings}

@@ -385,7 +385,6 @@ def apply_options(settings: PropertyGroup, options, scene: Scene) -> None:
         settings.thickness = options.thickness / meters_per_unit(scene)
 
 
-CLASSES = (BodyMomentsObjectSettings, BodyMomentsMaterialSettings)
 POINTERS = {
     (Object, "body_moments"): BodyMomentsObjectSettings,
     (Material, "body_moments"): BodyMomentsMaterialSettings,

@@ -84,6 +84,3 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
             raise verdict.FileError(findings.FILE_EXISTS, file=target.name)
         selection.write_file(target, [robots.audit.repaired_copy(audit.description, repairs)])
         return str(target)
-
-
-CLASSES = (IMPORT_SCENE_OT_body_moments_audit,)

@@ -316,5 +316,4 @@ class TOPBAR_MT_body_moments_export(Menu):
 CLASSES = (
     *map(_exporter, FORMATS.values()),
     *map(_file_handler, FORMATS.values()),
-    TOPBAR_MT_body_moments_export,
 )

@@ -292,11 +292,3 @@ def register() -> None:
 def unregister() -> None:
     """Remove the property."""
     del Scene.body_moments_listed
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_copy_value,
-    OBJECT_OT_body_moments_copy,
-    VIEW3D_MT_body_moments_copy,
-    OBJECT_OT_body_moments_save_numbers,
-)

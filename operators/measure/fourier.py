@@ -147,6 +147,3 @@ class OBJECT_OT_body_moments_fourier(modal.ModalSteps, selection.OnSubject, Oper
             image=image.name,
         )
         return selection.report(self, done, *findings)
-
-
-CLASSES = (OBJECT_OT_body_moments_fourier,)

@@ -163,6 +163,3 @@ class _Documents:
 
     def __iter__(self) -> Generator[dict, None, None]:
         yield from map(self._journal.document, self._paths)
-
-
-CLASSES = (OBJECT_OT_body_moments_measure_library,)

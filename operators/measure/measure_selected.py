@@ -247,10 +247,3 @@ class OBJECT_OT_body_moments_clear(selection.OnSelection, Operator):
         return selection.summarize(
             self, len(cleared), len(objects), done, failures, nothing=selection.NO_RESULTS
         )
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_measure,
-    OBJECT_OT_body_moments_live,
-    OBJECT_OT_body_moments_clear,
-)

@@ -205,11 +205,3 @@ def _selected_points(context: Context) -> list[Vector]:
         chosen += [vertex for vertex in mesh.verts if vertex.select and vertex not in chosen]
         points += [obj.matrix_world @ vertex.co for vertex in chosen]
     return points
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_compute_moments,
-    OBJECT_OT_body_moments_measure_section,
-    OBJECT_OT_body_moments_store_reference,
-    OBJECT_OT_body_moments_axis_from_selection,
-)

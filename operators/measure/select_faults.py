@@ -126,6 +126,3 @@ def _show_defects(context: Context, faults: dict[Object, dict[str, Any]]) -> Non
     bpy.ops.object.mode_set(mode="EDIT")
     for obj, elements in faults.items():
         scene.select_elements(obj, elements)
-
-
-CLASSES = (OBJECT_OT_body_moments_select_faults,)

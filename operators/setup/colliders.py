@@ -257,10 +257,3 @@ class OBJECT_OT_body_moments_equal_inertia(_Making, Operator):
             plan.obj.parent = new
             plan.obj.matrix_parent_inverse = matrix.inverted()
         return result
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_make_colliders,
-    OBJECT_OT_body_moments_remove_colliders,
-    OBJECT_OT_body_moments_equal_inertia,
-)

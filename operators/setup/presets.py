@@ -182,12 +182,3 @@ class OBJECT_OT_body_moments_preset_apply(Operator):
         objects = session.selected.objects_with_settings(chosen_objects(context))
         texts = ("Set {count} object", "Set {count} objects")
         return selection.change_all(self, objects, apply, texts)
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_set_material,
-    MATERIAL_OT_body_moments_set_density,
-    OBJECT_OT_body_moments_copy_settings,
-    OBJECT_OT_body_moments_preset_add,
-    OBJECT_OT_body_moments_preset_apply,
-)

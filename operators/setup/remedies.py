@@ -222,12 +222,3 @@ class WM_OT_body_moments_dismiss(Operator):
     def execute(self, _context: Context) -> set[str]:
         stored.outcome.forget()
         return {"FINISHED"}
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_remedy,
-    SCENE_OT_body_moments_set_millimeters,
-    OBJECT_OT_body_moments_accept,
-    OBJECT_OT_body_moments_select_refused,
-    WM_OT_body_moments_dismiss,
-)

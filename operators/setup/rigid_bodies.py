@@ -258,9 +258,3 @@ def _display_scaled(context: Context, count: int) -> list[str]:
         "uses kilograms."
     )
     return [write.reports.phrase(text, factor=unit**3)]
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_rigid_bodies,
-    OBJECT_OT_body_moments_set_rigid_body_mass,
-)

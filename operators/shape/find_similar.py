@@ -214,10 +214,3 @@ class OBJECT_OT_body_moments_select_found(Operator):
 
 
 POINTERS = {(Scene, "body_moments_search"): BodyMomentsSearch}
-CLASSES = (
-    BodyMomentsSimilar,
-    BodyMomentsSearch,
-    OBJECT_OT_body_moments_find_similar,
-    OBJECT_OT_body_moments_find_in_library,
-    OBJECT_OT_body_moments_select_found,
-)

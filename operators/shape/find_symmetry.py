@@ -162,5 +162,4 @@ def describe(symmetry: "core.shape.Symmetry") -> list[str]:
     return clauses or [phrase("no symmetry")]
 
 
-CLASSES = (BodyMomentsElement, BodyMomentsSymmetry, OBJECT_OT_body_moments_find_symmetry)
 POINTERS = {(Object, "body_moments_symmetry"): BodyMomentsSymmetry}

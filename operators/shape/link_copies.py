@@ -142,6 +142,3 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
 
 def _size(size: int) -> str:
     return "{:.3g} MB".format(size / 1e6) if size >= 1e6 else "{:.3g} kB".format(size / 1e3)
-
-
-CLASSES = (OBJECT_OT_body_moments_link_copies,)

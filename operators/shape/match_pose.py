@@ -104,6 +104,3 @@ def _distance(name: str, match: "core.shape.RigidMatch", size: float) -> Finding
     return write.reports.phrase(
         "{object}: surfaces at most {maximum:length} apart, {mean:length} on average", **values
     )
-
-
-CLASSES = (OBJECT_OT_body_moments_match_pose,)

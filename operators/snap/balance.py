@@ -209,9 +209,3 @@ class OBJECT_OT_body_moments_make_it_stand(selection.OnSubject, Operator):
             text = "It has a pocket with a radius of {radius:length}"
             text = text if found.pocket else "It needs no pocket"
         return write.reports.report(self, write.reports.phrase(text, **values))
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_sculpt_balance,
-    OBJECT_OT_body_moments_make_it_stand,
-)

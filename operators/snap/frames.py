@@ -347,14 +347,3 @@ class OBJECT_OT_body_moments_add_nodes(selection.InObjectMode, Operator):
         ):
             texts.append(write.reports.phrase("nodes take the object as a solid of one density"))
         return write.reports.report(self, *texts)
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_origin_to_center,
-    OBJECT_OT_body_moments_axes_to_principal,
-    OBJECT_OT_body_moments_align_to_world,
-    VIEW3D_OT_body_moments_cursor_to_center,
-    OBJECT_OT_body_moments_add_empty,
-    OBJECT_OT_body_moments_create_orientation,
-    OBJECT_OT_body_moments_add_nodes,
-)

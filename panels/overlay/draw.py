@@ -170,7 +170,6 @@ def section(self: Panel | Menu, context: Context) -> None:
     column.row(align=True).prop(settings, "equivalent", expand=True)
 
 
-CLASSES = (BodyMomentsOverlayMirror,)
 POINTERS = {(WindowManager, "body_moments_overlay"): BodyMomentsOverlayMirror}
 MENUS = ((bpy.types.VIEW3D_PT_overlay_object, section),)
 

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.session import memory, stored
-from body_moments.core.cuts import cut_outline
+from body_moments.core.cuts import TABLE_ROWS, cut_outline
 from body_moments.core.verdict import sentence
 from mathutils import Vector
 
@@ -135,7 +135,7 @@ def test_show_level_adds_meshes_and_nothing_else_moves():
     assert bpy.ops.object.body_moments_show_level(what="TABLE") == {"FINISHED"}
     table = bpy.data.objects["Trough Level Table"]
     assert table.location == trough.matrix_world.translation == Vector((4, 5, 3))
-    assert len(table.data.edges) == stored.cuts.TABLE_ROWS - 1
+    assert len(table.data.edges) == TABLE_ROWS - 1
     assert trough.matrix_world == before
 
 

@@ -11,6 +11,7 @@ from types import SimpleNamespace
 
 import bpy
 from body_moments import panels
+from body_moments.blender.registration import classes_of
 from body_moments.core.verdict import sentences
 from body_moments.core.verdict.finding import finding
 from body_moments.panels import body, places
@@ -166,7 +167,7 @@ def every_panel():
     """The labels of all panels, of both places, that Blender's own context shows."""
     layout = Layout()
     for module in panels.MODULES:
-        for cls in getattr(import_module("body_moments.panels." + module), "CLASSES", ()):
+        for cls in classes_of(import_module("body_moments.panels." + module)):
             # else Blender's
             is_ours = issubclass(cls, bpy.types.Panel) and not hasattr(cls, "preset_add_operator")
             if is_ours and (not hasattr(cls, "poll") or cls.poll(bpy.context)):

@@ -37,7 +37,7 @@ def _enough_time(monkeypatch):
 def start(*objects):
     only(*objects)
     assert bpy.ops.object.body_moments_live() == {"FINISHED"}
-    assert all(following.is_live(obj) for obj in objects)
+    assert all(obj in memory.followed for obj in objects)
 
 
 def tick(monkeypatch, idle=True):
@@ -104,7 +104,7 @@ def test_an_object_that_moves_is_not_measured(unit, given_mass, monkeypatch):
         assert_current(obj)
     assert tick(monkeypatch) is None
     assert_current(obj)
-    assert close(following.current_numbers(obj).measurement.area, measured(obj).area, 1e-12)
+    assert close(memory.followed[obj].result.measurement.area, measured(obj).area, 1e-12)
 
 
 def test_stretched_object_keeps_direction_of_axes():
@@ -155,10 +155,10 @@ def test_update_beyond_budget_is_late_and_marked(monkeypatch):
     ]
     for obj in objects:
         memory.followed.get(obj).result = following.LiveResult(
-            following.current_numbers(obj).measurement,
+            memory.followed[obj].result.measurement,
             None,
             5.0,
-            following.current_numbers(obj).settings,
+            memory.followed[obj].result.settings,
         )
     assert tick(monkeypatch, idle=False) == live.POLL and memory.followed[objects[0]].is_pending
     assert tick(monkeypatch) is None
@@ -193,13 +193,13 @@ def flipped(obj):
 def test_an_edit_measures_that_object_alone(change, monkeypatch):
     obj, other = add(mesh_body()), add(mesh_body(), "Other", (9, 0, 0))
     start(obj, other)
-    kept = following.current_numbers(other)
+    kept = memory.followed[other].result
     change(obj)
     update()
     assert memory.followed[obj].is_pending and not memory.followed[other].is_pending
     assert tick(monkeypatch) is None
     assert_current(obj)
-    assert following.current_numbers(other) is kept
+    assert memory.followed[other].result is kept
     if bpy.context.mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
 
@@ -293,7 +293,7 @@ def test_in_pose_mode_the_armature_stands_for_its_meshes(monkeypatch):
     bpy.ops.object.mode_set(mode="POSE")
     assert armatures.subjects([armature]) == meshes
     assert bpy.ops.object.body_moments_live() == {"FINISHED"}
-    assert [following.is_live(obj) for obj in (*meshes, other, armature)] == [
+    assert [obj in memory.followed for obj in (*meshes, other, armature)] == [
         True,
         True,
         False,
@@ -315,7 +315,7 @@ def test_in_pose_mode_the_armature_stands_for_its_meshes(monkeypatch):
         assert total(bpy.context).count == 2
         assert_bounds_hold(shown, [displayed(mesh, bpy.context.scene).world for mesh in meshes])
     bpy.ops.object.body_moments_live()
-    assert not any(following.is_live(obj) for obj in meshes)
+    assert not any(obj in memory.followed for obj in meshes)
     bpy.ops.object.mode_set(mode="OBJECT")
 
 
@@ -331,7 +331,7 @@ def test_undo_is_followed(monkeypatch):
     bpy.ops.ed.undo()
     update()
     obj = bpy.data.objects["Body"]
-    assert following.is_live(obj)
+    assert obj in memory.followed
     tick(monkeypatch)
     assert_current(obj)
     assert memory.followed.get(obj).number == memory.state.updates
