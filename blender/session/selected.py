@@ -15,7 +15,7 @@ from bpy.props import StringProperty
 from bpy.types import Context, Object, PropertyGroup, Scene, ViewLayer
 
 from ...core.density import DENSITY_UNITS
-from ..settings import given, properties
+from ..settings import given, prints, properties
 from ..settings.chosen import chosen_objects, pinned_object
 from . import memory, tracking
 
@@ -134,11 +134,11 @@ class BodyMomentsSelectionSettings(PropertyGroup):
     """Settings of the selected objects: each shows the first object's, and sets that of all."""
 
 
-ANNOTATIONS = {
-    name: definition
-    for kind in reversed(properties.BodyMomentsObjectSettings.__mro__)
-    for name, definition in vars(kind).get("__annotations__", {}).items()
-}
+ANNOTATIONS = (
+    given.GivenPartProperties.__annotations__
+    | prints.PrintProperties.__annotations__
+    | properties.BodyMomentsObjectSettings.__annotations__
+)
 BodyMomentsSelectionSettings.__annotations__ = {
     name: _of_all(name, ANNOTATIONS[name].function, ANNOTATIONS[name].keywords)
     for name in NAMES
