@@ -139,9 +139,9 @@ def _of_one(context: Context, obj: Object) -> Answer:
         state = live, "REC"
     findings = () if shown is None else shown.findings
     followed = session.memory.followed.get(obj)
-    refusal = followed and followed.result and followed.result.refusal
-    if refusal is not None and session.stored.outcome.last() is None:
-        findings = refusal, *findings
+    is_refused = followed is not None and followed.refusal is not None
+    if is_refused and session.stored.outcome.last() is None:
+        findings = followed.refusal, *findings
     return Answer(
         obj.name,
         "OBJECT_DATA",

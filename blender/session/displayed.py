@@ -44,7 +44,7 @@ class Displayed(NamedTuple):
     """The displayed numbers of an object, SI.
 
     numbers: in the object frame. world: in the world frame. unit: meters per Blender unit. reason:
-    the reason if the numbers are out of date. live: the result with Live on. lag: the lag of live
+    the reason if the numbers are out of date. live: the object with Live on. lag: the lag of live
     numbers behind the object. is_posed: whether the numbers are a sum of parts in the present pose.
     is_plumbed: whether a plumb line is drawn with a support polygon, in place of a drop line.
     shows_axes: whether principal axes may be drawn.
@@ -57,7 +57,7 @@ class Displayed(NamedTuple):
     findings: Sequence[Finding]
     verdict: Verdict
     reason: stamps.Stale | None = None
-    live: following.LiveResult | None = None
+    live: following.Followed | None = None
     lag: following.Lag = following.Lag.NONE
     is_posed: bool = False
     is_plumbed: bool = False
@@ -112,8 +112,7 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
         if total is not None:
             return total
     current = memory.followed.get(obj)
-    now = None if current is None else current.result
-    if current is not None and now is not None and (measurement := now.measurement) is not None:
+    if current is not None and (measurement := current.measurement) is not None:
         own = live.mapping.map_properties(obj, current, measurement, scene)
         method = measurement.method
         findings = stored.density.noted(obj, measurement, scene).findings
@@ -123,7 +122,7 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
         verdict = Verdict.OUT_OF_DATE if is_behind else find_verdict(method, findings)
         unit = scale.meters_per_unit(scene)
         world = own.in_world(obj.matrix_world, unit)
-        return Displayed(own, world, unit, method, findings, verdict, reason, now, lag)
+        return Displayed(own, world, unit, method, findings, verdict, reason, current, lag)
     own = write.properties.stored(obj) if "body_mass" in obj else None
     return None if own is None else _stored(obj, scene, own, obj.matrix_world, obj)
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from ....core import numerics, nurbs, verdict
 
@@ -24,31 +24,23 @@ class Lag(StrEnum):
     BEHIND = "behind"
 
 
-class LiveResult(NamedTuple):
-    """An object's current numbers.
-
-    measurement: None if it was refused. refusal: the reason for that. seconds: duration of the
-    measurement. settings: the digest of the object's settings.
-    """
-
-    measurement: Measurement | None
-    refusal: verdict.Finding | None
-    seconds: float
-    settings: str
-
-
 @dataclass(eq=False)
 class Followed:
     """An object with Live on.
 
-    matrix, transform, number: at the measurement, matrix_world, transform key and number of the
-    last update. tracked: the body, if edits are followed rather than measured anew. surface: the
-    faces, if a light pass can follow them. first_order: volume and center in the object's
-    coordinates by the last light pass. pass_seconds: its duration. shows_others: whether the object
-    shows instances. is_pending: whether the object changed since the measurement.
+    measurement: None if it was refused; refusal: the reason for that. seconds: duration of the
+    measurement. settings: the digest of the object's settings. matrix, transform, number: at the
+    measurement, matrix_world, transform key and number of the last update. tracked: the body, if
+    edits are followed rather than measured anew. surface: the faces, if a light pass can follow
+    them. first_order: volume and center in the object's coordinates by the last light pass.
+    pass_seconds: its duration. shows_others: whether the object shows instances. is_pending:
+    whether the object changed since the measurement.
     """
 
-    result: LiveResult | None = None
+    measurement: Measurement | None = None
+    refusal: verdict.Finding | None = None
+    seconds: float = 0.0
+    settings: str = ""
     matrix: numerics.Array | None = None
     transform: str = ""
     number: int = 0

@@ -97,8 +97,7 @@ def stamp_of(owner: Object | Collection, kind: Kind = Kind.RESULTS) -> Stamp | N
         return None if known is None else Stamp.parse(known.fingerprint, kind, known.unit)
     if kind == Kind.LIVE:
         followed = memory.followed.get(owner)
-        now = None if followed is None else followed.result
-        return now and Stamp(kind, measurement.settings.VERSION, settings=now.settings)
+        return followed and Stamp(kind, measurement.settings.VERSION, settings=followed.settings)
     if kind not in STORED:
         return (memory.carried.get(owner) or {}).get(kind)
     text = ""

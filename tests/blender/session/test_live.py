@@ -104,7 +104,7 @@ def test_an_object_that_moves_is_not_measured(unit, given_mass, monkeypatch):
         assert_current(obj)
     assert tick(monkeypatch) is None
     assert_current(obj)
-    assert close(memory.followed[obj].result.measurement.area, measured(obj).area, 1e-12)
+    assert close(memory.followed[obj].measurement.area, measured(obj).area, 1e-12)
 
 
 def test_stretched_object_keeps_direction_of_axes():
@@ -154,12 +154,7 @@ def test_update_beyond_budget_is_late_and_marked(monkeypatch):
         Verdict.EXACT,
     ]
     for obj in objects:
-        memory.followed.get(obj).result = following.LiveResult(
-            memory.followed[obj].result.measurement,
-            None,
-            5.0,
-            memory.followed[obj].result.settings,
-        )
+        memory.followed[obj].seconds = 5.0
     assert tick(monkeypatch, idle=False) == live.POLL and memory.followed[objects[0]].is_pending
     assert tick(monkeypatch) is None
     for obj in objects:
@@ -193,13 +188,13 @@ def flipped(obj):
 def test_an_edit_measures_that_object_alone(change, monkeypatch):
     obj, other = add(mesh_body()), add(mesh_body(), "Other", (9, 0, 0))
     start(obj, other)
-    kept = memory.followed[other].result
+    kept = memory.followed[other].measurement
     change(obj)
     update()
     assert memory.followed[obj].is_pending and not memory.followed[other].is_pending
     assert tick(monkeypatch) is None
     assert_current(obj)
-    assert memory.followed[other].result is kept
+    assert memory.followed[other].measurement is kept
     if bpy.context.mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
 

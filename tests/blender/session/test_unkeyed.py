@@ -165,12 +165,8 @@ def test_live_keeps_unkeyed_values_and_stops(monkeypatch):
     live._tick()
     bpy.context.view_layer.update()
     assert obj.scale.x == 2.0 and not memory.followed[obj].is_pending
-    assert memory.followed[obj].result.measurement.volume == pytest.approx(
-        obj["body_volume"], rel=1e-9
-    )
-    assert memory.followed[obj].result.measurement.volume == pytest.approx(
-        measured(obj).volume, rel=1e-9
-    )
+    assert memory.followed[obj].measurement.volume == pytest.approx(obj["body_volume"], rel=1e-9)
+    assert memory.followed[obj].measurement.volume == pytest.approx(measured(obj).volume, rel=1e-9)
 
 
 def test_wall_slider_keeps_unkeyed_values():
