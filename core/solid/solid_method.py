@@ -13,9 +13,18 @@ from ..mesh import Planarity, Surface, half_ulp, triangle_areas
 from ..moments import Moments
 from ..numerics import Array, ArrayLike, Index, Integers, Mask, unique_pairs
 from ..polyhedron import polyhedron_moments
-from ..verdict import FLIPPED_FACES, NEGLIGIBLE, SELF_INTERSECTION, Procedure
-from ..verdict.finding import Finding, finding
-from ..verdict.health import NO_FACES, DefectiveElements, Intersection, MeshHealth
+from ..verdict import (
+    FLIPPED_FACES,
+    NEGLIGIBLE,
+    NO_FACES,
+    SELF_INTERSECTION,
+    DefectiveElements,
+    Finding,
+    Intersection,
+    MeshHealth,
+    Procedure,
+    finding,
+)
 from .closedness import CheckedSurface, GivenIntegrals
 from .findings import (
     CAVITIES_BREAK_THROUGH,
