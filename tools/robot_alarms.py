@@ -38,8 +38,7 @@ from body_moments.core.robots.audit import Audit, Auditor, LinkAudit
 from body_moments.core.robots.read.descriptions import Roots, read_description
 from body_moments.core.robots.stated import Description, rotation_of_angles
 from body_moments.core.robots.totals import Expectation
-from body_moments.core.verdict import FileError, severity
-from body_moments.core.verdict.finding import MeasureError
+from body_moments.core.verdict import FileError, MeasureError, severity
 
 AGREES = 5e-3  # of planted links' inertial and geometry; faults change more than four times that
 MOST_LINKS = 3  # of a robot
