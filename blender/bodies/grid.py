@@ -32,8 +32,7 @@ from ...core.density import Blocks, GridOptions, sample_positions, sum_labels
 from ...core.measurement import Body, Settings
 from ...core.moments import KNOWN_ORDER, affine_matrices
 from ...core.scans import AXES, LABEL_ABSENT, Positions
-from ...core.verdict import Method, Source
-from ...core.verdict.finding import ReadError, finding
+from ...core.verdict import Method, ReadError, Source, finding
 from ..read.findings import GRID_UNSUPPORTED, IS_LEVEL_SET
 from ..read.tracking import tracking_paused
 from ..read.volume import VolumeReading, volume_reading

@@ -17,8 +17,13 @@ from ...core.bodies import float64_matrix
 from ...core.mesh import BoundarySum, Surface, join_surfaces, overlapping_box_pairs, sort_components
 from ...core.numerics import Array, Mask, cross_rows
 from ...core.solid import classify_pairs
-from ...core.verdict import CLOSED_SHEET_VOLUME_RTOL, welding_tolerance
-from ...core.verdict.finding import Finding, MeasureError, finding
+from ...core.verdict import (
+    CLOSED_SHEET_VOLUME_RTOL,
+    Finding,
+    MeasureError,
+    finding,
+    welding_tolerance,
+)
 from .. import read  # most objects need not be read again
 from ..read.assembly import copies_caveats, copies_in_place, operands_of
 from .findings import BODIES_OVERLAP

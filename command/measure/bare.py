@@ -37,14 +37,7 @@ from ...core.files import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...core.measurement import Measurement, PrintSettings, Settings, record
 from ...core.scans import LABEL_ABSENT, UNIT_ASSUMED, Label, read_label_table
 from ...core.scans import formats as scans
-from ...core.verdict.finding import (
-    FileError,
-    Finding,
-    MeasureError,
-    QueryError,
-    finding,
-    system_reason,
-)
+from ...core.verdict import FileError, Finding, MeasureError, QueryError, finding, system_reason
 from .. import measure
 from ..files.suffixes import STREAMED, check_file, file_suffix
 from ..findings import (

@@ -27,8 +27,7 @@ from ..solid import (
     measure_again,
     measure_stack,
 )
-from ..verdict import NEGLIGIBLE, Method, Procedure, least_trusted
-from ..verdict.finding import Finding, finding
+from ..verdict import NEGLIGIBLE, Finding, Method, Procedure, finding, least_trusted
 from .findings import (
     DRAWN_AS_POLYGONS,
     FLAT_SURFACES,

@@ -30,8 +30,7 @@ from ..moments import (
 from ..numerics import IDENTITY_3, Array, ArrayLike, NDArray
 from ..polyhedron import MAX_TRIANGLES_EXACT_THIRD
 from ..solid.measure import SolidIntegrals, measure_solid
-from ..verdict import MeshHealth, Method, Procedure
-from ..verdict.finding import Finding, ReadError, finding
+from ..verdict import Finding, MeshHealth, Method, Procedure, ReadError, finding
 from ..wall import NO_FACE_AREA
 from .findings import (
     DENSITY_FROM,

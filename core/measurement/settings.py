@@ -14,7 +14,7 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 from ..numerics import shortest_decimal
-from ..verdict.finding import ReadError
+from ..verdict import ReadError
 from ..wall import PRINT_UNFIT
 
 VERSION = "v1"

@@ -13,7 +13,7 @@ pytest.importorskip("bpy")
 
 from body_moments.core.files.limits import Limits
 from body_moments.core.streams import threemf
-from body_moments.core.verdict.finding import FileError
+from body_moments.core.verdict import FileError
 
 from tests.blender.batch_files import CORNERS, FACES, document, measured, sentence
 from tests.close import close

@@ -58,8 +58,7 @@ from ....core.shape.axial_harmonics import (
 )
 from ....core.shape.signatures import Signature, signature, signatures
 from ....core.solid import SmallSolid
-from ....core.verdict import OBJECT_SIZE, TOO_LARGE, Procedure, Source
-from ....core.verdict.finding import Finding, ReadError, finding
+from ....core.verdict import OBJECT_SIZE, TOO_LARGE, Finding, Procedure, ReadError, Source, finding
 from ...settings.options import MeasureOptions
 from ..measure_body import THREADS, measure_body
 from ..measure_object import measured_in_turn
