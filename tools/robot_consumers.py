@@ -102,8 +102,8 @@ The remaining differences come from the programs, not from the files:
   multiplies quaternions and never normalizes them. After some joints, their lengths are therefore
   wrong by up to 1e-6. The effect is largest with Newton's MJCF importer. If the same joint frames
   are multiplied in double precision, the places agree to 1e-6 of their distance.
-- PyBullet turns a tensor to its axes step by step. It makes only one more step as soon as all
-  products are below 1e-6 of the trace. Its moments agree to 3e-12, and its axes to 6e-7.
+- PyBullet turns a tensor to its axes step by step. As soon as all products are below 1e-6 of the
+  trace, PyBullet makes only one more step. Its moments agree to 3e-12, and its axes to 6e-7.
 
 | program | format | files read | mass | center | inertia | remark |
 |---|---|---|---|---|---|---|
