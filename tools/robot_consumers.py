@@ -44,32 +44,35 @@ CONSUMERS = {
     "Pinocchio 4.1.0": (
         "pinocchio",
         ["pin==4.1.0"],
-        {"urdf": "", "mjcf": "places the root at the origin: compared in its frame"},
+        {"urdf": "", "mjcf": "the root is at the origin, so its frame is used to compare"},
     ),
     "Newton 1.8.0": (
         "newton",
         ["newton[importers]==1.8.0"],
-        {"urdf": "", "mjcf": "", "usd": "converts nothing by `metersPerUnit`"},
+        {"urdf": "", "mjcf": "", "usd": "`metersPerUnit` is not used"},
     ),
     "OpenSim 4.6": ("opensim", ["opensim==4.6"], {"osim": ""}),
     "Genesis 1.4.5": (
         "genesis",
         ["genesis-world==1.4.5", "torch"],
-        {"urdf": "every fifth file: it cuts up meshes", "mjcf": "every fifth file"},
+        {
+            "urdf": "every fifth file, because Genesis cuts the meshes into pieces",
+            "mjcf": "every fifth file",
+        },
     ),
     "PyBullet 3.2.7": (
         "pybullet",
         ["pybullet==3.2.7"],
         {
             "urdf": "with `URDF_USE_INERTIA_FROM_FILE`",
-            "mjcf": "inertia of the geoms, some masses and places off",
-            "sdf": "neither places nor inertia of the file",
+            "mjcf": "the inertia is that of the geoms, and some masses and places are wrong",
+            "sdf": "the places and the inertia of the file are not used",
         },
     ),
     "PyBullet 3.2.7, no flag": (
         "pybullet_default",
         ["pybullet==3.2.7"],
-        {"urdf": "inertia of the collider's bounding box"},
+        {"urdf": "the inertia is that of the collider's bounding box"},
     ),
     "libsdformat 12.3": ("libsdformat", [], {"sdf": ""}),
 }
