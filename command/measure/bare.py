@@ -192,8 +192,11 @@ class BareFile:
         settings, findings = self._mesh_settings()
         table = {}
         if options.label_table is not None:
-            with about_file(options.label_table.name):
+            named = options.label_table.name
+            with contents.attempt(named), about_file(named):
                 table = read_label_table(options.label_table, options.limits)
+            if not table:
+                return
         wanted = None if options.label == "all" else [options.label]
         array = self._array_options()
         measured = measure_labels(
