@@ -86,6 +86,14 @@ class Measured:
         solid = self.shapes[self.member.shape]
         return isinstance(solid, SmallSolid) and solid.method is Procedure.EXACT
 
+    @property
+    def surface(self) -> Surface | None:
+        """The object's surface as it was read, None if it has several or none."""
+        if self.index is not None:
+            return self.shapes.surfaces[self.member.shape]
+        parts = self.reading.parts
+        return parts[0].surface if len(parts) == 1 else None
+
     @cached_property
     def measurement(self) -> Measurement:
         if self.index is None:

@@ -79,7 +79,7 @@ def store_measured(
     results.
     """
     measured = list(measured)
-    shapes = {obj: read.mesh.read_digest(obj, found.reading) for obj, found in measured}
+    shapes = {obj: read.mesh.read_digest(obj, found.surface) for obj, found in measured}
     outcomes = list(store_many(measured, context.scene, shapes))
     staleness.mark_up_to_date(
         context, [obj for obj, refusal in outcomes if refusal is None], shapes
