@@ -9,7 +9,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 from bpy.types import Context, Object, Operator
 
 from ..blender import session, write
-from ..core.verdict.finding import Finding, finding
+from ..core.verdict import Finding, finding
 from . import findings, modal, selection
 
 

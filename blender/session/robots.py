@@ -16,7 +16,7 @@ from bpy.types import Collection, Context, Depsgraph, Object
 from ...core import bodies, mesh, numerics, robots
 from ...core.measurement import Measurement
 from ...core.robots.write.shapes import with_colliders
-from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
+from ...core.verdict import EditRefusedError, Finding, MeasureError, finding
 from .. import read, scene, settings, write
 from ..bodies import measure_object, overlaps
 from ..bodies.assembly.assembly import measure_assembly

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ...core.measurement import Measurement
-from ...core.verdict.finding import Finding, MeasureError, finding, unique
+from ...core.verdict import Finding, MeasureError, finding, unique
 
 
 @dataclass

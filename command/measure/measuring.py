@@ -29,7 +29,7 @@ from ...blender.write.thumbnail import thumbnail
 from ...core import bodies, files, verdict
 from ...core.measurement import Measurement, flat_record
 from ...core.moments import flusser_invariants, hu_invariants, normalize
-from ...core.verdict.finding import Finding, MeasureError, QueryError, finding
+from ...core.verdict import Finding, MeasureError, QueryError, finding
 from ..files.output import guard
 from ..findings import NO_SHAPES, NOTHING_MEASURED, NOTHING_RENDERED, SIGNATURE_OF_DISPLAY_MESH
 from ..options import checks, option_types

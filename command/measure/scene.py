@@ -30,14 +30,7 @@ from ...core.cuts import CutFill
 from ...core.files import FILE_UNREADABLE
 from ...core.floating import Flotation
 from ...core.measurement import Measurement, record
-from ...core.verdict.finding import (
-    FileError,
-    Finding,
-    MeasureError,
-    QueryError,
-    finding,
-    system_reason,
-)
+from ...core.verdict import FileError, Finding, MeasureError, QueryError, finding, system_reason
 from ..files import placing, references, saving, suffixes
 from ..files.files import newer_version, open_file, requested_file
 from ..findings import (

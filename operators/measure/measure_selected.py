@@ -18,7 +18,7 @@ from ...blender.session import character, displayed, live, memory
 from ...blender.session.tracking import armatures, staleness
 from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
 from ...core import density, verdict
-from ...core.verdict.finding import Finding, Severity, finding
+from ...core.verdict import Finding, Severity, finding
 from .. import findings, modal, selection
 
 AS_SET = "AS_SET"

@@ -10,7 +10,7 @@ from bpy.types import Context, Object, Operator
 
 from ... import core
 from ...blender import bodies, scene, session, write
-from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
+from ...core.verdict import EditRefusedError, Finding, MeasureError, finding
 from .. import findings, modal, selection
 
 

@@ -12,8 +12,7 @@ from types import SimpleNamespace
 import bpy
 from body_moments import panels
 from body_moments.blender.registration import classes_of
-from body_moments.core.verdict import sentences
-from body_moments.core.verdict.finding import finding
+from body_moments.core.verdict import finding, sentences
 from body_moments.panels import body, places
 
 LAYOUT = bpy.types.UILayout.bl_rna

@@ -7,14 +7,18 @@ symmetries and sections.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import groupby, repeat
+from dataclasses import replace
+from itertools import groupby
 from typing import Any
 
 import numpy as np
 from bpy.types import Context, Object, Scene
 
 from .... import core
-from ... import bodies, read, scale, settings, write
+from ....core.measurement import Measurement
+from ... import bodies, read, scale, settings
+from ...bodies.stack import Measured
+from ...write import properties, section
 from .. import stored  # the sliders are imported when an object has them
 from ..tracking import armatures, staleness, stamps
 from . import density, faults, reference
@@ -23,7 +27,7 @@ MAX_STORED_ELEMENTS = 32  # of a symmetry: nobody reads more for a ball or a fin
 
 
 def store_many(
-    measured: Sequence[tuple[Object, bodies.stack.Measured]],
+    measured: Sequence[tuple[Object, Measured]],
     scene: Scene,
     shapes: Mapping[Object, bytes | None] = staleness.NO_SHAPES,
 ) -> Iterator[tuple[Object, Exception | None]]:
@@ -33,58 +37,54 @@ def store_many(
     """
     for stack, run in groupby(measured, key=lambda item: item[1].stack):
         items = list(run)
-        which = [found.index for _, found in items if found.stack is not None]
-        rows = repeat({}) if stack is None else _values_of_stack(stack.some(which), scene)
-        for (obj, found), values in zip(items, rows):
+        for (obj, found), values in zip(items, properties.values_of(_noted(items, stack, scene))):
             try:
                 staleness.note_edits(obj, shapes.get(obj))
-                _store(obj, found, values, scene)
+                about = reference.stored_choice(obj)
+                properties.store_values(obj, values)
+                faults.remember(obj, found)
+                reference.follow(obj, scene, about)
+                if found.index is None:
+                    stored.sliders.remember(obj, found, scene)
             except Exception as error:
                 yield obj, error
             else:
                 yield obj, None
 
 
-def _store(obj: Object, found: bodies.stack.Measured, values: dict[str, Any], scene: Scene) -> None:
-    """Write a measurement on the object; remember its faults, and the data for its sliders."""
-    about = reference.stored_choice(obj)
-    if found.stack is None:
-        values = write.properties.values_of(density.noted(obj, found.measurement, scene))
-    write.properties.store_values(obj, values)
-    faults.remember(obj, found)
-    reference.follow(obj, scene, about)
-    if found.stack is None:
-        stored.sliders.remember(obj, found, scene)
+def _noted(
+    items: Sequence[tuple[Object, Measured]], stack: Measurement, scene: Scene
+) -> Measurement:
+    """Return the objects' rows of a stack, with notes on unset densities."""
+    obj, first = items[0]
+    if first.index is None:
+        return density.noted(obj, stack, scene)
+    part: Any = stack
+    if len(items) < len(part.findings):
+        part = stack.at([found.index for _, found in items if found.index is not None])
+    findings = [
+        density.with_default_note(own, "density")
+        if source is core.measurement.DENSITY_FROM_VALUE
+        and settings.density.is_density_unset(obj.body_moments, scene)
+        else own
+        for (obj, _), own, source in zip(items, part.findings, part.density_from)
+    ]
+    return replace(part, findings=findings)
 
 
 def store_measured(
-    context: Context, measured: Iterable[tuple[Object, bodies.stack.Measured]]
+    context: Context, measured: Iterable[tuple[Object, Measured]]
 ) -> dict[Object, Exception]:
     """Store measurements of the present scene; return the errors of objects that cannot hold their
     results.
     """
     measured = list(measured)
-    shapes = {obj: found.shape_digest(obj) for obj, found in measured if obj.mode == "OBJECT"}
+    shapes = {obj: read.mesh.read_digest(obj, found.surface) for obj, found in measured}
     outcomes = list(store_many(measured, context.scene, shapes))
     staleness.mark_up_to_date(
         context, [obj for obj, refusal in outcomes if refusal is None], shapes
     )
     return {obj: refusal for obj, refusal in outcomes if refusal is not None}
-
-
-def _values_of_stack(part: bodies.stack.MeasuredStack, scene: Scene) -> Iterator[dict[str, Any]]:
-    findings = list(part.findings)
-    for i, (member, from_mass) in enumerate(zip(part.members, part.from_mass.tolist())):
-        if not from_mass and settings.density.is_density_unset(member.obj.body_moments, scene):
-            findings[i] = density.with_default_note(findings[i], "density")
-    return write.properties.values_of_stack(
-        part.mass_properties.in_frame(part.rotation, part.location),
-        part.density,
-        part.volume.raw[:, 0],
-        part.area.raw[:, 0],
-        part.error_bounds,
-        zip(part.methods, findings, part.fingerprints),
-    )
 
 
 def store_symmetry(
@@ -136,7 +136,7 @@ def store_sections(
             read.fingerprint.matrix_hash(obj),
             read.fingerprint.settings_hash(obj, context.scene),
         )
-        write.section.store(obj, found, description, findings, mark, unit)
+        section.store(obj, found, description, findings, mark, unit)
     staleness.mark_stored(context, [obj for obj, _ in sections], stamps.Kind.SECTION)
 
 
@@ -145,18 +145,18 @@ def store_rig(rig: bodies.rig.Rig) -> list[tuple[str, core.verdict.Finding]]:
     without, and reasons.
     """
     armature = rig.armature
-    write.properties.store(armature, rig.measurement)
+    properties.store(armature, rig.measurement)
     parts = {part.name: part for part in rig.parts}
     failures: list[tuple[str, core.verdict.Finding]] = []
     for bone in armature.pose.bones:
         part = parts.get(bone.name)
         if part is None or part.measurement is None:
-            write.properties.clear(bone)
+            properties.clear(bone)
             if part is not None and part.refusal is not None:
                 failures.append((bone.name, part.refusal))
             continue
         try:
-            write.properties.store(bone, part.measurement)
+            properties.store(bone, part.measurement)
         except Exception as error:
             failures.append((bone.name, core.verdict.internal_error.finding_of(error)))
     armatures.watch(armature, rig.objects)
@@ -168,5 +168,5 @@ def clear_rig(armature: Object) -> bool:
     """Remove the results of all bones and of the whole, or raise EditRefusedError; return whether
     there were any.
     """
-    write.properties.require_storable(armature)
-    return any([write.properties.clear(owner) for owner in (armature, *armature.pose.bones)])
+    properties.require_storable(armature)
+    return any([properties.clear(owner) for owner in (armature, *armature.pose.bones)])

@@ -14,7 +14,7 @@ import pytest
 from body_moments.blender.session import memory
 from body_moments.blender.session.stored import computed_moments
 from body_moments.blender.session.stored import moments as moments_table
-from body_moments.core.verdict.finding import MeasureError, finding
+from body_moments.core.verdict import MeasureError, finding
 
 from tests.blender.flat_objects import sheet, text
 from tests.blender.moments import compute, settings

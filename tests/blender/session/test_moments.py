@@ -12,7 +12,7 @@ from body_moments.blender.session import memory
 from body_moments.blender.session.stored import computed_moments
 from body_moments.blender.session.tracking import staleness
 from body_moments.blender.session.tracking.stamps import Kind, Stale
-from body_moments.core.verdict.finding import MeasureError, finding
+from body_moments.core.verdict import MeasureError, finding
 
 from tests.blender import batch_files as files
 from tests.blender.moments import compute, settings

@@ -13,7 +13,7 @@ import bpy
 from body_moments.blender.session.tracking import staleness
 from body_moments.blender.session.tracking.stamps import Kind, Stale
 from body_moments.blender.write import text_report
-from body_moments.core.verdict.finding import finding
+from body_moments.core.verdict import finding
 
 from tests.blender.objects import add, mesh_body, only
 
