@@ -268,15 +268,17 @@ def change_all(
     idle: str | None = None,
     findings: Sequence[Finding | str] = (),
     nothing: str = "Nothing selected can be measured",
+    then: Callable[[list[Object]], None] = lambda changed: None,
     **values: Any,
 ) -> set[str]:
     """Run `action` on each object, report the run once, and return the result of `execute`.
 
     done: the English report, for one object and for `count` objects. idle: the English reason if
-    nothing had to be done. findings: other observations, to which `action` may add. values: of the
-    texts.
+    nothing had to be done. findings: other observations, to which `action` may add. then: gets the
+    changed objects. values: of the texts.
     """
     changed, failures = apply_to_all(objects, action)
+    then(changed)
     text = write.reports.phrase(*done, count=len(changed), **values)
     reason = idle and write.reports.phrase(idle, **values)
     return summarize(

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Stability of objects, their resting poses, and the balance of groups over time."""
 
+from functools import partial
 from math import degrees
 
 import bpy
@@ -85,19 +86,16 @@ class OBJECT_OT_body_moments_rest_on_ground(selection.OnSelectionInObjectMode, O
         layout.prop(self, "ground")
 
     def execute(self, context: Context) -> set[str]:
-        objects = selection.selected_measurable(context)
         notes: list[str] = []
-
-        def lay(obj: Object) -> bool:
-            return session.lay_on_ground(context, obj, self.pose, self.ground, notes)
-
-        # one after the other, for a child moves with its parent
-        moved, failures = selection.apply_to_all(objects, lay)
-        session.remeasure(context, moved)
-        texts = ("Laid {count} object on the ground", "Laid {count} objects on the ground")
-        done = write.reports.phrase(*texts, count=len(moved))
-        idle = write.reports.phrase("already on the ground")
-        return selection.summarize(self, len(moved), len(objects), done, failures, notes, idle)
+        return selection.change_all(
+            self,
+            selection.selected_measurable(context),
+            lambda obj: session.lay_on_ground(context, obj, self.pose, self.ground, notes),
+            ("Laid {count} object on the ground", "Laid {count} objects on the ground"),
+            "already on the ground",
+            notes,
+            then=partial(session.remeasure, context),
+        )
 
 
 class OBJECT_OT_body_moments_balance_group(modal.ModalDialog, Operator):

@@ -13,10 +13,9 @@ import bpy
 import numpy as np
 from bpy.types import Collection, Context, Depsgraph, Object
 
-from ...core import bodies, mesh, numerics, robots
+from ...core import bodies, mesh, numerics, robots, verdict
 from ...core.measurement import Measurement
 from ...core.robots.write.shapes import with_colliders
-from ...core.verdict import EditRefusedError, Finding, MeasureError, finding
 from .. import read, scene, settings, write
 from ..bodies import measure_object, overlaps
 from ..bodies.assembly.assembly import measure_assembly
@@ -34,7 +33,7 @@ class SceneLinks:
     """
 
     robot: robots.Robot
-    findings: list[Finding]
+    findings: list[verdict.Finding]
     unit: float
     members: dict[str, list[Object]] = field(default_factory=dict)
     pieces: dict[str, tuple[tuple[mesh.Surface, numerics.Array], ...]] = field(default_factory=dict)
@@ -104,7 +103,7 @@ def jointed_robot(
     made: Sequence[robots.Candidate],
     labels: Mapping[Object, str],
     unit: float,
-) -> tuple[robots.Robot, list[Finding]]:
+) -> tuple[robots.Robot, list[verdict.Finding]]:
     """Return a robot of candidates with the joints of the scene's rigid-body constraints, and
     findings.
     """
@@ -136,7 +135,9 @@ def object_links(
             failures.append(write.reports.failure(obj.name_full, error))
         step(done)
     if not measured:
-        raise EditRefusedError(failures[0] if failures else finding(robots.ROBOT_WITHOUT_LINKS))
+        raise verdict.EditRefusedError(
+            failures[0] if failures else verdict.finding(robots.ROBOT_WITHOUT_LINKS)
+        )
     labels = {obj: obj.name_full for obj in measured}
     made = [
         object_candidate(labels[obj], obj, measurement, labels)
@@ -168,7 +169,7 @@ def collection_links(
         label = collection.name_full
         try:
             measurement = measure_assembly(collection, depsgraph, options).measurement
-        except MeasureError as error:
+        except verdict.MeasureError as error:
             failures.append(write.reports.failure(label, error.finding))
             continue
         held = {*collection.all_objects}
@@ -180,7 +181,7 @@ def collection_links(
             )
         )
     if not made:
-        raise EditRefusedError(failures[0])
+        raise verdict.EditRefusedError(failures[0])
     unit = options.meters_per_unit(context.scene)
     robot, findings = jointed_robot(context, name, made, labels, unit)
     return SceneLinks(robot, [*findings, *left_out(failures, len(collections))], unit, members)
@@ -228,19 +229,19 @@ def bone_links(
                 )
             pieces[label] = part.surfaces
     if not made:
-        raise EditRefusedError(robots.ROBOT_WITHOUT_LINKS)
+        raise verdict.EditRefusedError(robots.ROBOT_WITHOUT_LINKS)
     robot, left = robots.assemble_robot(name, made, connections)
     return SceneLinks(robot, [*findings, *left], unit, pieces=pieces)
 
 
-def left_out(failures: list[Finding], total: int) -> list[Finding]:
+def left_out(failures: list[verdict.Finding], total: int) -> list[verdict.Finding]:
     """Return a list with one finding about all objects that could not be measured, empty if there
     are none.
     """
     if not failures:
         return []
     causes = [failure.as_record() for failure in write.reports.first(failures)]
-    return [finding(LEFT_OUT_OF_ROBOT, count=len(failures), total=total, causes=causes)]
+    return [verdict.finding(LEFT_OUT_OF_ROBOT, count=len(failures), total=total, causes=causes)]
 
 
 def object_candidate(
@@ -276,7 +277,7 @@ def link_surface(
     for obj in objects:
         try:
             surface = read.objects.read_object(obj, depsgraph, edges=False).join()
-        except MeasureError:  # such as a grid of densities
+        except verdict.MeasureError:  # such as a grid of densities
             continue
         pieces.append(surface.transform(unit * to_link.rotation, to_link.position))
     if len(pieces) > 1:

@@ -18,7 +18,6 @@ from ...blender.session import character, displayed, live, memory
 from ...blender.session.tracking import armatures, staleness
 from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
 from ...core import density, verdict
-from ...core.verdict import Finding, Severity, finding
 from .. import findings, modal, selection
 
 AS_SET = "AS_SET"
@@ -84,7 +83,7 @@ class OBJECT_OT_body_moments_measure(modal.ModalSteps, selection.OnSelection, Op
         for obj in objects:
             self._change_settings(obj)
         self._results: list[tuple[bpy.types.Object, Any]] = []
-        self._refusals: dict[bpy.types.Object, Finding] = {}
+        self._refusals: dict[bpy.types.Object, verdict.Finding] = {}
         self._steps = self._measure(objects, context.evaluated_depsgraph_get())
         return len(objects)
 
@@ -138,15 +137,19 @@ class OBJECT_OT_body_moments_measure(modal.ModalSteps, selection.OnSelection, Op
         memory.overlaps[context.scene] = displayed.places(measured), shared
         return self._report(len(measured), shared)
 
-    def _report(self, count: int, notes: list[Finding]) -> set[str]:
+    def _report(self, count: int, notes: list[verdict.Finding]) -> set[str]:
         warnings = [
-            finding(
+            verdict.finding(
                 findings.OBJECT_WARNINGS,
                 object=obj.name_full,
                 causes=[cause.as_record() for cause in causes],
             )
             for obj, measured in self._results
-            if (causes := verdict.of_severity(measured.findings, Severity.WARNING, Severity.ERROR))
+            if (
+                causes := verdict.of_severity(
+                    measured.findings, verdict.Severity.WARNING, verdict.Severity.ERROR
+                )
+            )
         ]
         tried = count + len(self._failures)
         names = [warning.values["object"] for warning in warnings]
@@ -158,7 +161,7 @@ class OBJECT_OT_body_moments_measure(modal.ModalSteps, selection.OnSelection, Op
                 "Measured {count} of {total} objects", count=count, total=tried
             )
             done = [*([text] if tried > 1 else []), *selection.name_warned(names)]
-        level = Severity.WARNING if warnings else Severity.NOTE
+        level = verdict.Severity.WARNING if warnings else verdict.Severity.NOTE
         return selection.finish(
             self, done, self._failures, notes, level=level, is_changed=bool(count)
         )
@@ -240,10 +243,12 @@ class OBJECT_OT_body_moments_clear(selection.OnSelection, Operator):
                 removed = True
             return removed
 
-        cleared, failures = selection.apply_to_all(objects, remove)
-        staleness.mark_up_to_date(context, objects)
         texts = ("Removed the results of {count} object", "Removed the results of {count} objects")
-        done = write.reports.phrase(*texts, count=len(cleared))
-        return selection.summarize(
-            self, len(cleared), len(objects), done, failures, nothing=selection.NO_RESULTS
+        return selection.change_all(
+            self,
+            objects,
+            remove,
+            texts,
+            nothing=selection.NO_RESULTS,
+            then=lambda _cleared: staleness.mark_up_to_date(context, objects),
         )

@@ -10,6 +10,7 @@ warns. A node group shows the center at every frame.
 """
 
 from collections.abc import Sequence
+from functools import partial
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
@@ -125,23 +126,22 @@ class OBJECT_OT_body_moments_align_to_world(selection.OnSelectionInObjectMode, O
     strict: STRICT_PROPERTY
 
     def execute(self, context: Context) -> set[str]:
-        objects = selection.selected_measurable(context)
-
         def align(obj: Object) -> bool:
             return scene.align_to_world(
                 context, obj, self.order, self.pivot == "ORIGIN", self.strict
             )
 
-        # in turn: a child moves with its parent
-        moved, failures = selection.apply_to_all(objects, align)
-        session.remeasure(context, moved)
-        done = write.reports.phrase(
-            "Aligned {count} object to the world axes",
-            "Aligned {count} objects to the world axes",
-            count=len(moved),
+        return selection.change_all(
+            self,
+            selection.selected_measurable(context),
+            align,
+            (
+                "Aligned {count} object to the world axes",
+                "Aligned {count} objects to the world axes",
+            ),
+            "already aligned",
+            then=partial(session.remeasure, context),
         )
-        idle = write.reports.phrase("already aligned")
-        return selection.summarize(self, len(moved), len(objects), done, failures, idle=idle)
 
 
 class VIEW3D_OT_body_moments_cursor_to_center(selection.OnSelection, Operator):

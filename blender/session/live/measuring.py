@@ -25,8 +25,7 @@ import bpy
 import numpy as np
 from bpy.types import Depsgraph, Object
 
-from ....core import bodies, mesh, numerics, nurbs, polyhedron
-from ....core.measurement import Body, Measurement
+from ....core import bodies, measurement, mesh, numerics, nurbs, polyhedron
 from ....core.verdict import MeasureError, Method, Procedure, ReadError, Source, internal_error
 from ...bodies.measure_body import measure_body
 from ...bodies.request import Request, measurement_of
@@ -86,7 +85,7 @@ def stop(obj: Object) -> None:
 
 def _measure(
     obj: Object, current: Followed, depsgraph: Depsgraph
-) -> tuple[Measurement, MovingSurface | None]:
+) -> tuple[measurement.Measurement, MovingSurface | None]:
     plain = MeasureOptions(compare=False)
     request = Request.resolve(obj, depsgraph, plain)
     options = request.settings
@@ -112,7 +111,7 @@ def _measure(
     else:
         current.tracked.update(patches, stored)
     measure = current.tracked.measure
-    measured_body = Body(
+    measured_body = measurement.Body(
         measure.volume,
         measure.area,
         measure.health,
