@@ -4,7 +4,6 @@
 
 import re
 
-import bmesh
 import bpy
 import numpy as np
 import pytest
@@ -14,7 +13,7 @@ from body_moments.core.verdict import sentence
 from mathutils import Vector
 
 from tests.blender.batch_files import document
-from tests.blender.objects import add
+from tests.blender.objects import add, editing
 
 pytestmark = pytest.mark.usefixtures("scene")
 LEVEL = bpy.ops.object.body_moments_level
@@ -100,13 +99,11 @@ def test_full_round_cavity_has_no_free_surface():
     """A cube of edge 2 with an octahedron of corners at 0.5 cut out of it."""
     bpy.ops.mesh.primitive_cube_add()
     cube = bpy.context.object
-    edited = bmesh.new()
-    edited.from_mesh(cube.data)
-    ends = [[edited.verts.new(0.5 * sign * np.eye(3)[i]) for sign in (1, -1)] for i in range(3)]
-    for i, j, k in np.ndindex(2, 2, 2):
-        corners = [ends[0][i], ends[1][j], ends[2][k]]
-        edited.faces.new(corners[:: 1 if (i + j + k) % 2 else -1])
-    edited.to_mesh(cube.data)
+    with editing(cube.data) as edited:
+        ends = [[edited.verts.new(0.5 * sign * np.eye(3)[i]) for sign in (1, -1)] for i in range(3)]
+        for i, j, k in np.ndindex(2, 2, 2):
+            corners = [ends[0][i], ends[1][j], ends[2][k]]
+            edited.faces.new(corners[:: 1 if (i + j + k) % 2 else -1])
     assert LEVEL(by="LEVEL", level=0.8) == {"FINISHED"}
     level = level_of(cube)
     assert level.volume == pytest.approx(4 / 3 * 0.5**3)

@@ -11,7 +11,7 @@ from body_moments.core.density.materials import BY_NAME
 from body_moments.core.numerics.float32 import shortest_decimal
 
 from tests.blender.boxes import box_mesh
-from tests.blender.objects import add, measured, mesh_body, only, place
+from tests.blender.objects import add, editing, measured, mesh_body, only, place
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -143,17 +143,9 @@ def test_faultless_object_keeps_mode_and_selection():
 def test_boundary_edges_and_flipped_faces_are_selected(reported):
     mesh = mesh_body()
     obj = add(mesh)
-    import bmesh
-
-    bm = bmesh.new()
-    bm.from_mesh(mesh)
-    bm.faces.ensure_lookup_table()
-    bmesh.ops.delete(bm, geom=[bm.faces[0]], context="FACES_ONLY")
-    bm.faces.ensure_lookup_table()
-    bm.faces[3].normal_flip()
-    bm.to_mesh(mesh)
-    bm.free()
-    mesh.update()
+    with editing(mesh) as edited:
+        edited.faces[4].normal_flip()
+        edited.faces.remove(edited.faces[0])
     assert bpy.ops.object.body_moments_select_faults() == {"FINISHED"}
     assert obj.mode == "EDIT"
     bpy.ops.object.mode_set(mode="OBJECT")
@@ -238,14 +230,8 @@ def test_undo_of_faults_restores_measurement_then_start(mode):
 
 def test_only_faulty_objects_go_to_edit_mode():
     good, bad = add(mesh_body(), "Good"), add(mesh_body(), "Bad")
-    import bmesh
-
-    bm = bmesh.new()
-    bm.from_mesh(bad.data)
-    bm.faces.ensure_lookup_table()
-    bmesh.ops.delete(bm, geom=[bm.faces[0]], context="FACES_ONLY")
-    bm.to_mesh(bad.data)
-    bm.free()
+    with editing(bad.data) as edited:
+        edited.faces.remove(edited.faces[0])
     only(good, bad)
     assert bpy.ops.object.body_moments_select_faults() == {"FINISHED"}
     assert (good.mode, bad.mode) == ("OBJECT", "EDIT")

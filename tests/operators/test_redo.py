@@ -8,7 +8,7 @@ from body_moments.blender.session.tracking import staleness
 from body_moments.blender.session.tracking.stamps import Kind, Stale
 from body_moments.blender.write import section
 
-from tests.blender.objects import add, mesh_body
+from tests.blender.objects import add, after, mesh_body
 from tests.close import close
 from tests.operators.overlapping_boxes import boxes
 
@@ -71,7 +71,5 @@ def test_undo_of_clearing_stale_results_keeps_them_stale():
     obj.data.update()
     bpy.ops.ed.undo_push(message="edited")
     assert bpy.ops.object.body_moments_clear("EXEC_DEFAULT", True) == {"FINISHED"}
-    bpy.ops.ed.undo()
-    bpy.context.view_layer.update()
-    obj = bpy.data.objects["Body"]
+    obj = after(bpy.ops.ed.undo)
     assert "body_mass" in obj and staleness.stale_reason(obj, bpy.context.scene) == Stale.GEOMETRY

@@ -6,8 +6,7 @@ its pixels.
 
 import numpy as np
 import pytest
-from body_moments.panels.overlay import discs
-from body_moments.panels.overlay.bodies import Bodies
+from body_moments.panels.overlay import bodies, discs
 from body_moments.panels.overlay.discs import View
 
 from tests.close import close
@@ -50,8 +49,6 @@ def test_shapes_have_their_size_in_pixels_wherever_they_are(view):
 
 
 def test_an_equal_box_has_the_inertia_of_the_body(registered):
-    from body_moments.panels.overlay import bodies
-
     sides = np.array([1.0, 2.0, 5.0])
     inertia = (sides @ sides - sides**2) / 12.0  # of a box of mass 1
     centers, axes = np.array([[10.0, 20.0, 30.0]]), np.eye(3)[None]
@@ -61,8 +58,6 @@ def test_an_equal_box_has_the_inertia_of_the_body(registered):
 
 
 def test_an_equal_ellipsoid_has_the_inertia_of_the_body(registered):
-    from body_moments.panels.overlay import bodies
-
     half = np.array([1.0, 2.0, 5.0])
     inertia = (half @ half - half**2) / 5.0
     turn = np.linalg.qr(np.random.default_rng(1).standard_normal((3, 3)))[0]
@@ -74,8 +69,6 @@ def test_an_equal_ellipsoid_has_the_inertia_of_the_body(registered):
 
 
 def test_axes_are_as_long_as_the_largest_gyration(registered):
-    from body_moments.panels.overlay import bodies
-
     gyration = np.array([[1.0, 2.0, 3.0]])
     turn = np.linalg.qr(np.random.default_rng(2).standard_normal((3, 3)))[0]
     segments = bodies.axis_lines(np.ones((1, 3)), turn[None], gyration)[0]
@@ -89,14 +82,14 @@ def test_disc_is_never_larger_than_its_ball(view, size):
     count = len(centers)
     gyration = np.full((count, 3), size * np.sqrt(0.4))
     for verdict in range(5):
-        bodies = Bodies(
+        drawn = bodies.Bodies(
             centers,
             np.tile(np.eye(3), (count, 1, 1)),
             gyration,
             np.full(count, verdict),
             *np.ones((2, count), bool),
         )
-        points, _, _ = discs.disc_triangles(bodies, view, 1.0)
+        points, _, _ = discs.disc_triangles(drawn, view, 1.0)
         order = np.argsort(-view.depths(centers), kind="stable")
         pixels = (
             view.pixels(points.astype(float)).reshape(count, -1, 2)

@@ -22,7 +22,7 @@ from mathutils import Euler, Matrix
 
 from tests.blender.boxes import armature_with, update
 from tests.blender.grids import vdb_grid, volume_object
-from tests.blender.objects import add, arrays, measured, mesh_body, only
+from tests.blender.objects import add, after, arrays, measured, mesh_body, only
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -323,9 +323,7 @@ def test_undo_is_followed(monkeypatch):
     update()
     bpy.ops.ed.undo_push(message="Edited")
     tick(monkeypatch)
-    bpy.ops.ed.undo()
-    update()
-    obj = bpy.data.objects["Body"]
+    obj = after(bpy.ops.ed.undo)
     assert obj in memory.followed
     tick(monkeypatch)
     assert_current(obj)

@@ -15,7 +15,7 @@ from body_moments.blender.session.tracking.stamps import Kind, Stale
 from body_moments.blender.write import text_report
 from body_moments.core.verdict import finding
 
-from tests.blender.objects import add, mesh_body, only
+from tests.blender.objects import add, after, mesh_body, only
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -76,13 +76,9 @@ def test_undone_results_are_stale_after_later_edit(stacked):
     measure(obj)
     bpy.ops.ed.undo_push(message="Measured Again")
     assert obj["body_volume"] != first
-    bpy.ops.ed.undo()
-    update()
-    obj = bpy.data.objects["Body"]
+    obj = after(bpy.ops.ed.undo)
     assert obj["body_volume"] == first and reason(obj) == Stale.GEOMETRY
-    bpy.ops.ed.redo()
-    update()
-    obj = bpy.data.objects["Body"]
+    obj = after(bpy.ops.ed.redo)
     assert obj["body_volume"] != first and reason(obj) is None
     measure(obj)
 
@@ -144,13 +140,9 @@ def test_an_edit_that_is_taken_back_is_none():
     edit(obj)
     bpy.ops.ed.undo_push(message="Edited")
     assert reason(obj) == Stale.GEOMETRY
-    bpy.ops.ed.undo()
-    update()
-    obj = bpy.data.objects["Body"]
+    obj = after(bpy.ops.ed.undo)
     assert reason(obj) is None
-    bpy.ops.ed.redo()
-    update()
-    obj = bpy.data.objects["Body"]
+    obj = after(bpy.ops.ed.redo)
     assert reason(obj) == Stale.GEOMETRY
     obj.data.vertices[0].co.x += 1.0
     obj.data.update()
@@ -179,9 +171,7 @@ def test_undo_in_edit_mode_brings_no_numbers_back_and_is_an_edit():
     assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
     update()
     assert reason(obj) is None
-    bpy.ops.ed.undo()
-    update()
-    obj = bpy.data.objects["Body"]
+    obj = after(bpy.ops.ed.undo)
     assert bpy.context.mode == "EDIT_MESH" and reason(obj) == Stale.GEOMETRY
     bpy.ops.object.mode_set(mode="OBJECT")
 
