@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`audit`: comparison of the inertials in robot descriptions with the links' own geometry."""
 
-from __future__ import annotations
-
 import argparse
 import os
 import re

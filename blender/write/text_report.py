@@ -7,8 +7,6 @@ It is made from a document (`documents.document`); results stored on objects bec
 first.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterable, Sequence
 from math import sqrt
 from typing import Any

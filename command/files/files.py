@@ -7,8 +7,6 @@ Files that Blender's importers accept silently are refused: a FIFO (it would blo
 without objects.
 """
 
-from __future__ import annotations
-
 import gzip
 import os
 import re

@@ -7,8 +7,6 @@ before: a wrong body would be measured as exact. Numbers that place no point may
 damage is left to Blender, which reports it.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable
 from contextlib import suppress

@@ -6,8 +6,6 @@ Blender's importer ignores KHR_node_visibility and MSFT_lod, drops the shear of 
 joints, and clamps the weights of morph targets. Its hook tells the object of each node.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from bisect import bisect_right

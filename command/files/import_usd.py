@@ -6,8 +6,6 @@ Blender's importer makes polygons of round solids, drops the shear of a transfor
 visibility, purpose and subdivision. Its hook tells the object of each prim.
 """
 
-from __future__ import annotations
-
 import importlib
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple

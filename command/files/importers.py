@@ -5,8 +5,6 @@
 Blender has none for .3mf and IGES; that of .obj leaves out ``surf``.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from dataclasses import replace

@@ -8,8 +8,6 @@ one for the result, and descriptor 1 becomes the standard error until the proces
 print what it has buffered at any time.
 """
 
-from __future__ import annotations
-
 import csv
 import os
 import re

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Objects of a file, brought to the frame to measure and to the places that the file states."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 

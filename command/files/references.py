@@ -4,8 +4,6 @@
 prints.
 """
 
-from __future__ import annotations
-
 import os
 import re
 import sys

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Kinds of files by their suffixes, and checks of a file before anything reads it."""
 
-from __future__ import annotations
-
 import zipfile
 from pathlib import Path
 

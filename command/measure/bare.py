@@ -7,8 +7,6 @@ An array, a scan, and a mesh that is read in blocks are one body, named after th
 may have several.
 """
 
-from __future__ import annotations
-
 import os
 from argparse import Namespace
 from collections.abc import Callable, Iterable, Sequence

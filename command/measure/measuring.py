@@ -6,8 +6,6 @@ Omitted objects come with the reasons, and unknown names as errors. Bodies are m
 one by one, with their shapes; flat shapes, Fourier transforms and pictures alone.
 """
 
-from __future__ import annotations
-
 from argparse import Namespace
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence

@@ -4,8 +4,6 @@
 storage of results.
 """
 
-from __future__ import annotations
-
 import os
 from argparse import Namespace
 from collections.abc import Callable, Iterator, Sequence

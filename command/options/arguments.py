@@ -6,8 +6,6 @@ Standard library only: the process that supervises others may have neither numpy
 Options that need these are checked in `checks.py`, by the process that measures.
 """
 
-from __future__ import annotations
-
 import argparse
 import functools
 import os

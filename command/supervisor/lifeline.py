@@ -6,8 +6,6 @@ The child ends when the supervisor ends for any reason. On Linux the system itse
 Blender hangs on a file. Elsewhere a thread waits for the end of the pipe.
 """
 
-from __future__ import annotations
-
 import ctypes
 import json
 import os

@@ -4,8 +4,6 @@
 window.
 """
 
-from __future__ import annotations
-
 import ctypes
 import importlib.util
 import os
