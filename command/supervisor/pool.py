@@ -222,11 +222,11 @@ class Pool:
             return []
         if head is None:
             return self._ended(child)
+        if child.doomed:  # it was late
+            return []
         if "usage" in head:
             raise SetupError(head["usage"])
         task = child.task
-        if child.doomed:  # it was late
-            return []
         if "ready" in head:
             self.about = head["ready"]
             child.ready, self._failed_starts = True, 0
@@ -263,20 +263,20 @@ class Pool:
         self._children.remove(child)
         how = processes.how_it_ended(child.process.returncode)
         said = self._stderr_tail(child)
-        outcomes = []
-        if child.task is not None:
-            outcomes = [self._outcome(child, child.doomed or "crashed", how=how)]
+        task = child.task
+        outcome = self._outcome(child, child.doomed or "crashed", how=how) if task else None
         self._close(child)
         if not child.ready:
             self._failed_starts += 1
             if self._failed_starts >= MAX_FAILED_STARTS:
                 raise ChildError(" ".join(said.split()) or how)
-        for outcome in outcomes:
-            if outcome.attempts < ATTEMPTS:
-                self._attempts[outcome.task] = outcome.attempts, outcome.seconds
-                self._again.append(outcome.task)
-                return []
-        return outcomes
+        if task is None or outcome is None:
+            return []
+        if outcome.attempts < ATTEMPTS:
+            self._attempts[task] = outcome.attempts, outcome.seconds
+            self._again.append(task)
+            return []
+        return [outcome]
 
     def _watch(self) -> None:
         """End children that have passed their deadline or use too much memory."""
