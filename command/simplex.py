@@ -14,7 +14,7 @@ import numpy as np
 
 from ..core import files, measurement, polyhedron, scans
 from ..core.numerics import Array, Integers, NDArray
-from ..core.verdict.finding import MeasureError, finding, system_reason
+from ..core.verdict import MeasureError, finding, system_reason
 from .findings import SIMPLEX_OPEN
 from .options import arguments
 from .options import option_types as types

@@ -22,7 +22,7 @@ from mathutils import Matrix
 
 from ...core.measurement import digest
 from ...core.numerics import shortest_decimal
-from ...core.verdict.finding import Finding, finding
+from ...core.verdict import Finding, finding
 from ..settings.assembly import Root, is_assembly, settings_of
 from ..settings.given import GivenPart, is_point_mass, shows_collection
 from .findings import (

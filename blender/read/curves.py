@@ -13,7 +13,7 @@ import numpy as np
 
 from ...core.numerics import Array, NDArray, SplineSpace
 from ...core.nurbs import CONTROL_POINTS_INVALID, NON_FINITE, Curve, blender_space
-from ...core.verdict.finding import Finding, ReadError, finding
+from ...core.verdict import Finding, ReadError, finding
 from .findings import (
     CURVE_MEASURED_WHOLE,
     NO_SPLINE_LENGTH,

@@ -10,8 +10,7 @@ from collections.abc import Iterator
 
 from ...core.bodies import DRAWN_AS_POLYGONS, attribute_to_source
 from ...core.numerics import shortest_decimal
-from ...core.verdict.finding import Finding, finding
-from ...core.verdict.findings import NO_FACES
+from ...core.verdict import NO_FACES, Finding, finding
 from .curves import is_round
 from .findings import (
     DISPLAY_MESH_FOR_MODIFIERS,

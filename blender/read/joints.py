@@ -24,7 +24,7 @@ from ...core.robots import (
     Mimic,
     Pose,
 )
-from ...core.verdict.finding import Finding, finding
+from ...core.verdict import Finding, finding
 
 
 def is_passive(obj: Object) -> bool:

@@ -19,7 +19,7 @@ from ...core.flat import NO_SECTION_AREA
 from ...core.mesh import Surface, triangle_areas
 from ...core.numerics import Array, Index, Mask, NDArray, polar_rotation
 from ...core.nurbs import Curve
-from ...core.verdict.finding import Finding, ReadError, finding
+from ...core.verdict import Finding, ReadError, finding
 from .curves import read_curves, text_curves
 from .findings import (
     EXTRUDED,

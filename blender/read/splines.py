@@ -22,7 +22,7 @@ from ...core.cad import read_source
 from ...core.moments import FLOAT32_HALF_ULP
 from ...core.numerics import Array, NDArray
 from ...core.nurbs import Patch, blender_space, display_parameters, display_table
-from ...core.verdict.finding import ReadError, finding
+from ...core.verdict import ReadError, finding
 from .findings import CONTROL_POINTS_RECOVERED, SCALE_ZERO_AXIS, SOLID_CHANGED, SPLINES_LEFT_OUT
 from .mesh import read_array, vertex_points
 

@@ -20,7 +20,7 @@ from ...core.bodies import Reading, name_subject
 from ...core.files import OTHERS_LEFT_OUT
 from ...core.mesh import Surface
 from ...core.numerics import Array, NDArray, shortest_decimal
-from ...core.verdict.finding import Finding, ReadError, finding
+from ...core.verdict import Finding, ReadError, finding
 from .decisions import modifier_findings
 from .findings import (
     GRID_MISSING,

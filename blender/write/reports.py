@@ -14,8 +14,17 @@ from typing import Any
 import bpy
 from bpy.types import Operator
 
-from ...core.verdict import fill, internal_error, sentence, severity
-from ...core.verdict.finding import Finding, MeasureError, Severity, finding, truncate_findings
+from ...core.verdict import (
+    Finding,
+    MeasureError,
+    Severity,
+    fill,
+    finding,
+    internal_error,
+    sentence,
+    severity,
+    truncate_findings,
+)
 from .findings import FAILURE
 from .units import Units
 

@@ -14,7 +14,7 @@ from typing import Any
 
 from ...core import measurement, verdict, wall
 from ...core.inertia import TENSOR, PlainBody, add_bodies, principal_axes, tensor_rows
-from ...core.verdict.finding import Finding, ReadError, finding
+from ...core.verdict import Finding, ReadError, finding
 from ..scale import meters_per_unit
 from . import properties
 from .findings import NO_STORED_RESULTS, STALE_RESULTS

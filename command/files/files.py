@@ -19,7 +19,7 @@ from itertools import takewhile
 import bpy
 
 from ...core.files import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
-from ...core.verdict.finding import FileError, Finding, finding, system_reason
+from ...core.verdict import FileError, Finding, finding, system_reason
 from ..findings import FILE_NEWER_VERSION, FILE_VERSION_UNSUPPORTED
 from ..supervisor.listing import BLEND, USD
 from . import finite, placing, suffixes

@@ -19,7 +19,7 @@ from bpy.types import Object
 from ...core.cad import UPRIGHT
 from ...core.files import FILE_UNREADABLE, MALFORMED, GltfFile, map_file, node_matrix
 from ...core.numerics import Array
-from ...core.verdict.finding import FileError, Finding, finding
+from ...core.verdict import FileError, Finding, finding
 from ..findings import FILE_HIDES, PLACES_UNCHECKED
 from .placing import measure_at, place_objects, show_points, shown_seconds
 from .references import Opened

@@ -17,7 +17,7 @@ from bpy.types import Object
 from ...blender import read, scene
 from ...core import cad, files
 from ...core.numerics import Array, NDArray
-from ...core.verdict.finding import FileError, Finding, finding
+from ...core.verdict import FileError, Finding, finding
 from ..findings import FILE_HIDES, FRAME_MEASURED, USD_CAGE, USD_UNREAD
 from . import placing, references
 

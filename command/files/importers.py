@@ -20,7 +20,7 @@ from ...blender.settings.properties import set_print
 from ...core import cad, files, polyhedron, streams, verdict
 from ...core.mesh import Surface
 from ...core.solid import UNCHECKED, measure_solid
-from ...core.verdict.finding import FileError, Finding, finding
+from ...core.verdict import FileError, Finding, finding
 from ..findings import FILE_HIDES, PRINT_SETTINGS
 from .references import Opened
 

@@ -12,7 +12,7 @@ from mathutils import Matrix
 from ...blender.read.places import set_places
 from ...core.bodies import float64_matrix
 from ...core.numerics import Array
-from ...core.verdict.finding import Finding, finding
+from ...core.verdict import Finding, finding
 from ..findings import FRAME_MEASURED
 
 ANCHOR = "Imported Places"  # an empty at the world's origin

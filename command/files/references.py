@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 import bpy
 
 from ...core.files import MISSING_REFERENCES
-from ...core.verdict.finding import Finding, finding
+from ...core.verdict import Finding, finding
 from ..findings import DRIVER_BLOCKED, SCRIPT_BLOCKED, SCRIPTS_ALLOWED
 
 # An error of composing a stage, by stage.cpp: "… -- In </A>: Could not open asset @file@ for

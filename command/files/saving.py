@@ -17,7 +17,7 @@ import bpy
 from ...blender import read, settings, write
 from ...core.files import partial_file, replace
 from ...core.measurement import Measurement
-from ...core.verdict.finding import FileError, Finding, finding
+from ...core.verdict import FileError, Finding, finding
 from ..findings import ASSETS_NOT_MEASURED, RESULTS_NOT_STORED
 from ..supervisor.listing import COPY_SUFFIX
 from .files import reason

@@ -36,14 +36,7 @@ from ...core.files import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...core.measurement import Measurement, PrintSettings, Settings, record
 from ...core.scans import LABEL_ABSENT, UNIT_ASSUMED, Label, read_label_table
 from ...core.scans import formats as scans
-from ...core.verdict.finding import (
-    FileError,
-    Finding,
-    MeasureError,
-    QueryError,
-    finding,
-    system_reason,
-)
+from ...core.verdict import FileError, Finding, MeasureError, QueryError, finding, system_reason
 from .. import measure
 from ..files.suffixes import STREAMED, check_file, file_suffix
 from ..findings import (
@@ -198,8 +191,11 @@ class BareFile:
         settings, findings = self._mesh_settings()
         table = {}
         if options.label_table is not None:
-            with about_file(options.label_table.name):
+            named = options.label_table.name
+            with contents.attempt(named), about_file(named):
                 table = read_label_table(options.label_table, options.limits)
+            if not table:
+                return
         wanted = None if options.label == "all" else [options.label]
         array = self._array_options()
         measured = measure_labels(

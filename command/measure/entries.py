@@ -30,8 +30,7 @@ from ...core.inertia import NO_CERTAIN_VOLUME
 from ...core.measurement import NO_VOLUME, Body, Measurement
 from ...core.mesh import Surface, join_surfaces
 from ...core.polyhedron import BOUNDARY_OPEN
-from ...core.verdict import Procedure
-from ...core.verdict.finding import Finding, MeasureError, finding, unique
+from ...core.verdict import Finding, MeasureError, Procedure, finding, unique
 from ..options.arguments import RIM
 
 

@@ -24,7 +24,7 @@ from ...blender.settings.options import MeasureOptions
 from ...core import bodies, files, verdict
 from ...core.measurement import Measurement, flat_record
 from ...core.moments import flusser_invariants, hu_invariants, normalize
-from ...core.verdict.finding import Finding, MeasureError, QueryError, finding
+from ...core.verdict import Finding, MeasureError, QueryError, finding
 from ..files.output import guard
 from ..findings import NO_SHAPES, NOTHING_MEASURED, NOTHING_RENDERED, SIGNATURE_OF_DISPLAY_MESH
 from ..options import checks, option_types

@@ -23,7 +23,7 @@ from typing import Any
 
 from ...core import files, robots
 from ...core.measurement import PROGRAM, counted, failed_document, print_message
-from ...core.verdict.finding import Finding, finding, system_reason
+from ...core.verdict import Finding, finding, system_reason
 from .. import findings, parser
 from ..files import output
 from ..options import arguments, measure_parser

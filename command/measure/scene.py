@@ -26,14 +26,7 @@ from ...core import bodies, cad, mesh, verdict
 from ...core.cuts import CutFill
 from ...core.floating import Flotation
 from ...core.measurement import Measurement, record
-from ...core.verdict.finding import (
-    FileError,
-    Finding,
-    MeasureError,
-    QueryError,
-    finding,
-    system_reason,
-)
+from ...core.verdict import FileError, Finding, MeasureError, QueryError, finding, system_reason
 from ..files import references, saving, suffixes
 from ..files.files import newer_version, open_file, open_name
 from ..findings import (

@@ -18,7 +18,7 @@ from body_moments.core.mesh import Surface, convex_hull
 from body_moments.core.numerics import spread_directions
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.robots import Pose, Shape, moments_of
-from body_moments.core.verdict.finding import MeasureError
+from body_moments.core.verdict import MeasureError
 
 from tests.core import bodies
 from tests.core.steps import run
