@@ -5,8 +5,6 @@
 Blender's importer scales models twice that do not inherit a scale, and shows all levels of detail.
 """
 
-from __future__ import annotations
-
 import re
 
 import bpy

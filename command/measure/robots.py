@@ -7,8 +7,6 @@ The process that measures makes the text, because that needs numpy; the process 
 documents only copies it.
 """
 
-from __future__ import annotations
-
 from argparse import Namespace
 from collections.abc import Sequence
 from dataclasses import replace

@@ -7,8 +7,6 @@ Standard library only: it runs in Blender, in a Python with the bpy module, and 
 --blender PATH.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os
