@@ -30,61 +30,36 @@ POWERS = monomials(KNOWN_ORDER)
 CUBE = (1.0, 0.0, 1.0 / 12.0, 0.0)
 
 
-class _Numbering:
-    """Consecutive numbers for the labels met so far."""
+def _number_labels(block: NDArray, known: dict[int, int]) -> Index:
+    """Return the consecutive numbers of a block's labels, known or new ones.
 
-    def __init__(self) -> None:
-        self.labels: list[int] = []
-        self._first = 0
-        self._table = np.zeros(0, np.intp)
-
-    def number(self, block: NDArray) -> Index:
-        """Return the numbers of a block's labels, or raise ReadError if it has no labels."""
-        if block.dtype.kind == "f":
-            whole = np.rint(block)
-            if not (whole == block).all():
-                raise ReadError(LABELS_UNFIT, cause="a sample is no whole number")
-            if not (np.abs(whole) < LARGEST).all():
-                raise ReadError(LABELS_UNFIT, cause="a label is too large")
-            block = whole.astype(np.int64)
-        low, high = int(block.min()), int(block.max())
-        if high >= LARGEST:
+    Raises ReadError if it has no labels.
+    """
+    if block.dtype.kind == "f":
+        whole = np.rint(block)
+        if not (whole == block).all():
+            raise ReadError(LABELS_UNFIT, cause="a sample is no whole number")
+        if not (np.abs(whole) < LARGEST).all():
             raise ReadError(LABELS_UNFIT, cause="a label is too large")
-        if high - low >= TABLE:
-            labels, inverse = np.unique(block, return_inverse=True)
-            return self._numbers(labels.tolist())[inverse.reshape(block.shape)]
-        self._extend(low, high)
-        places = block.astype(np.intp) - self._first
-        numbers = self._table[places]
-        if numbers.min() < 0:
-            new = np.unique(places[numbers < 0])
-            self._table[new] = self._numbers((new + self._first).tolist())
-            numbers = self._table[places]
-        return numbers
-
-    def _extend(self, low: int, high: int) -> None:
-        """Make the table cover a range of labels, if need be alone."""
-        last = self._first + len(self._table) - 1
-        if len(self._table) and self._first <= low and high <= last:
-            return
-        if len(self._table) and max(high, last) - min(low, self._first) < TABLE:
-            low, high = min(low, self._first), max(high, last)
-        self._first = low
-        self._table = np.full(high - low + 1, -1)
-        for number, label in enumerate(self.labels):
-            if low <= label <= high:
-                self._table[label - low] = number
-
-    def _numbers(self, labels: list[int]) -> Index:
-        known = {label: number for number, label in enumerate(self.labels)}
-        for label in labels:
-            known.setdefault(label, len(known))
-        self.labels = [*known]
-        if len(known) > MAX_LABELS:
-            raise ReadError(
-                LABELS_UNFIT, cause="they have more than {} different numbers".format(MAX_LABELS)
-            )
-        return np.array([known[label] for label in labels], np.intp)
+        block = whole.astype(np.int64)
+    low, high = int(block.min()), int(block.max())
+    if high >= LARGEST:
+        raise ReadError(LABELS_UNFIT, cause="a label is too large")
+    if high - low < TABLE:
+        places = block.astype(np.intp) - low
+        there = np.bincount(places.ravel()) > 0
+        labels = (np.flatnonzero(there) + low).tolist()
+        order = np.cumsum(there) - 1
+    else:
+        distinct, places = np.unique(block, return_inverse=True)
+        labels = distinct.tolist()
+        order = np.arange(len(labels))
+    numbers = [known.setdefault(label, len(known)) for label in labels]
+    if len(known) > MAX_LABELS:
+        raise ReadError(
+            LABELS_UNFIT, cause="they have more than {} different numbers".format(MAX_LABELS)
+        )
+    return np.array(numbers)[order][places].reshape(block.shape)
 
 
 def sum_labels(samples: NDArray | Blocks) -> dict[int, NDArray]:
@@ -113,18 +88,19 @@ def sum_labels(samples: NDArray | Blocks) -> dict[int, NDArray]:
     >>> sums[1][:5].tolist()
     [4, 4, 2, 2, 4]
     """
-    numbering = _Numbering()
+    known: dict[int, int] = {}
     sums = np.zeros((0, len(POWERS)), object)
     for offset, block in _blocks(samples):
         if not block.size:
             continue
-        own = _block_sums(numbering.number(block), len(numbering.labels))
-        added = np.zeros((len(numbering.labels), len(POWERS)), object)
+        numbers = _number_labels(block, known)
+        own = _block_sums(numbers, len(known))
+        added = np.zeros((len(known), len(POWERS)), object)
         added[: len(sums)] = sums
         used = np.flatnonzero(own[:, 0])
         added[used] += own[used].astype(object) @ _shift(offset)
         sums = added
-    return dict(zip(numbering.labels, sums))
+    return dict(zip(known, sums))
 
 
 def label_moments(sums: NDArray) -> Moments:
