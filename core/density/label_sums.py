@@ -8,7 +8,7 @@ rows of at most ROW voxels; all further sums are of whole numbers.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import comb
 
 import numpy as np
@@ -22,7 +22,7 @@ from .spline_grid import Blocks
 
 ROW = 1 << 12  # voxels along each axis of a block
 BLOCK = 1 << 18  # voxels of a block, at most, and bins of its sums
-TABLE = 1 << 20  # span of label numbers that are looked up in a table
+NARROW = 1 << 10  # range of labels in a block that are all counted, there or not
 MAX_LABELS = 10_000
 LARGEST = 1 << 62
 POWERS = monomials(KNOWN_ORDER)
@@ -30,10 +30,11 @@ POWERS = monomials(KNOWN_ORDER)
 CUBE = (1.0, 0.0, 1.0 / 12.0, 0.0)
 
 
-def _number_labels(block: NDArray, known: dict[int, int]) -> Index:
-    """Return the consecutive numbers of a block's labels, known or new ones.
+def _number_labels(block: NDArray) -> tuple[Sequence[int], Index]:
+    """Return labels of a block, with more between those of a narrow range, and the place of each
+    voxel's label among them.
 
-    Raises ReadError if it has no labels.
+    Raises ReadError if the block has no labels.
     """
     if block.dtype.kind == "f":
         whole = np.rint(block)
@@ -45,21 +46,18 @@ def _number_labels(block: NDArray, known: dict[int, int]) -> Index:
     low, high = int(block.min()), int(block.max())
     if high >= LARGEST:
         raise ReadError(LABELS_UNFIT, cause="a label is too large")
-    if high - low < TABLE:
-        places = block.astype(np.intp) - low
-        there = np.bincount(places.ravel()) > 0
-        labels = (np.flatnonzero(there) + low).tolist()
-        order = np.cumsum(there) - 1
-    else:
-        distinct, places = np.unique(block, return_inverse=True)
-        labels = distinct.tolist()
-        order = np.arange(len(labels))
-    numbers = [known.setdefault(label, len(known)) for label in labels]
-    if len(known) > MAX_LABELS:
+    if high - low < NARROW:
+        return range(low, high + 1), block.astype(np.intp) - low
+    labels, places = np.unique(block, return_inverse=True)
+    _check_count(len(labels))
+    return labels.tolist(), places.reshape(block.shape)
+
+
+def _check_count(labels: int) -> None:
+    if labels > MAX_LABELS:
         raise ReadError(
             LABELS_UNFIT, cause="they have more than {} different numbers".format(MAX_LABELS)
         )
-    return np.array(numbers)[order][places].reshape(block.shape)
 
 
 def sum_labels(samples: NDArray | Blocks) -> dict[int, NDArray]:
@@ -88,19 +86,18 @@ def sum_labels(samples: NDArray | Blocks) -> dict[int, NDArray]:
     >>> sums[1][:5].tolist()
     [4, 4, 2, 2, 4]
     """
-    known: dict[int, int] = {}
-    sums = np.zeros((0, len(POWERS)), object)
+    sums: dict[int, NDArray] = {}
     for offset, block in _blocks(samples):
         if not block.size:
             continue
-        numbers = _number_labels(block, known)
-        own = _block_sums(numbers, len(known))
-        added = np.zeros((len(known), len(POWERS)), object)
-        added[: len(sums)] = sums
+        labels, places = _number_labels(block)
+        own = _block_sums(places, len(labels))
         used = np.flatnonzero(own[:, 0])
-        added[used] += own[used].astype(object) @ _shift(offset)
-        sums = added
-    return dict(zip(known, sums))
+        moved = own[used].astype(object) @ _shift(offset)
+        for place, row in zip(used.tolist(), moved):
+            sums[labels[place]] = sums.get(labels[place], 0) + row
+        _check_count(len(sums))
+    return sums
 
 
 def label_moments(sums: NDArray) -> Moments:
