@@ -29,6 +29,7 @@ import numpy as np
 
 from ..moments.moments import Measure, Moments, U, monomials
 from ..numerics import Array, Index, NDArray, SplineSpace, cross, gauss_legendre
+from ..verdict import WELDING_RTOL
 from .bezier import ROUNDING, VOLUME_RTOL
 from .patch_moments import AREA_RTOL, area_slope, area_terms, flux_terms, sheet_terms
 from .quadric import Quadric
@@ -144,10 +145,14 @@ class TrimmedFace:
 
     @property
     def uneven(self) -> float:
-        """A bound of the volume that the edges' distance from the surface leaves uncertain: true
-        edges of surfaces that touch there are as far off as the root of distance times size.
+        """A bound of the volume that the edges' distance from the surface leaves uncertain.
+
+        Surfaces meet beside edges near them, at most at the root of distance times size if they
+        touch there. Of edges farther off, either the edges or the surfaces may be right.
         """
-        return self.deviation * self.perimeter * float(np.sqrt(self.deviation * self._size))
+        is_near = self.deviation <= WELDING_RTOL * self._size
+        lever = np.sqrt(self.deviation * self._size) if is_near else self._size / 2.0
+        return self.deviation * self.perimeter * float(lever)
 
     @property
     def _size(self) -> float:
