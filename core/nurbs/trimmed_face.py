@@ -460,7 +460,7 @@ class TrimmedFace:
             track = self.tracks[part[:, None], left] * (1.0 - share)
             track += self.tracks[part[:, None], left + 1] * share
             nets, origin = self._nets
-            on_curve = _evaluate(nets[part], steps, origin)
+            on_curve = evaluate_nets(nets[part], steps, origin)
             points, velocity = (row.reshape(3, -1).T for row in on_curve)
             place = self.chart.project(points, track.reshape(-1, 2))
             slope = self.chart.follow(points, velocity, place)
@@ -514,10 +514,10 @@ def sample_pieces(curves: Sequence[Curve]) -> Array:
     """Return (c, SAMPLES, 3) points of the Bézier pieces of curves."""
     nets, origin = bezier_nets(curves)
     at = np.broadcast_to(np.linspace(0.0, 1.0, SAMPLES), (len(nets), SAMPLES))
-    return np.moveaxis(_evaluate(nets, at, origin)[0], 0, -1)
+    return np.moveaxis(evaluate_nets(nets, at, origin)[0], 0, -1)
 
 
-def _evaluate(nets: NDArray, at: NDArray, origin: NDArray) -> tuple[Array, Array]:
+def evaluate_nets(nets: NDArray, at: NDArray, origin: NDArray) -> tuple[Array, Array]:
     """Return (3, n, m) points and velocities of Bézier curves (n, order, 4), at (n, m) parameters
     from 0 to 1.
     """
