@@ -4,8 +4,6 @@
 its boundary.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 from math import comb
@@ -16,7 +14,7 @@ import numpy as np
 
 from ..core import files, measurement, polyhedron, scans
 from ..core.numerics import Array, Integers, NDArray
-from ..core.verdict.finding import MeasureError, finding, system_reason
+from ..core.verdict import MeasureError, finding, system_reason
 from .findings import SIMPLEX_OPEN
 from .options import arguments
 from .options import option_types as types

@@ -10,7 +10,7 @@ from bpy.types import Context, Object, Operator
 
 from ..blender import session
 from ..blender.write import reports, translations
-from ..core.verdict.finding import Finding, finding
+from ..core.verdict import Finding, finding
 from . import findings, modal, selection
 
 

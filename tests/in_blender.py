@@ -22,7 +22,7 @@ class Reported(list):
         self.texts = []
 
     def add(self, finding):
-        from body_moments.core.verdict.finding import Finding
+        from body_moments.core.verdict import Finding
 
         self.append(finding)
         for value in finding.values.values():

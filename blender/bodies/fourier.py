@@ -27,8 +27,7 @@ from ...core.measurement import WALL_UNSUPPORTED, ZERO_QUANTITY
 from ...core.mesh import Surface
 from ...core.moments import Measure, affine_matrices, placed_boxes
 from ...core.numerics import Array, NDArray
-from ...core.verdict import Procedure
-from ...core.verdict.finding import Finding, ReadError, finding
+from ...core.verdict import Finding, Procedure, ReadError, finding
 from ..read.findings import DISPLAY_MESH_MEASURED
 from ..read.objects import read_object
 from ..read.visibility import shows_flat_region

@@ -32,8 +32,7 @@ from ...core.density import Blocks, GridOptions, sample_positions, sum_labels
 from ...core.measurement import Body, Settings
 from ...core.moments import KNOWN_ORDER, affine_matrices
 from ...core.scans import AXES, LABEL_ABSENT, Positions
-from ...core.verdict import Method, Source
-from ...core.verdict.finding import ReadError, finding
+from ...core.verdict import Method, ReadError, Source, finding
 from ..read.findings import GRID_UNSUPPORTED, IS_LEVEL_SET
 from ..read.tracking import tracking_paused
 from ..read.volume import VolumeReading, volume_reading
@@ -117,7 +116,7 @@ def _grid_body(reading: VolumeReading, options: GridOptions, settings: Settings)
 def _label(reading: VolumeReading, label: int, unit: float) -> Body:
     """Return the body of the voxels of a label, or for 0 of all labels but 0."""
     sums = sum_labels(reading.blocks)
-    chosen = [row for own, row in sums.items() if own == label or label == 0 != own]
+    chosen = [row for own, row in sums.items() if own and label in (0, own)]
     if not chosen:
         values = {"labels": [label], "others": sorted(sums.keys() - {0}), "remedy": "Label"}
         raise ReadError(LABEL_ABSENT, file=reading.grid, **values)

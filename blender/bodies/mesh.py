@@ -27,8 +27,7 @@ from ...core.bodies import (
 from ...core.measurement import Body
 from ...core.mesh import ConvexHull, convex_hull
 from ...core.solid import HOLES_CAPPED, INVERTED_COMPONENTS, measure_solid
-from ...core.verdict import FLIPPED_FACES, Method, Procedure
-from ...core.verdict.finding import EditRefusedError, ReadError, finding
+from ...core.verdict import FLIPPED_FACES, EditRefusedError, Method, Procedure, ReadError, finding
 from ..read.findings import DISPLAY_MESH_MEASURED, SCALE_ZERO_AXIS
 from ..read.objects import read_object
 from ..read.visibility import shows_flat_region
@@ -147,7 +146,7 @@ def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
         area=solid.area,
         method=Method(Procedure.UNION),
         findings=tuple(findings),
-        face_count=len(solid.repaired_surface.triangles) + len(solid.repaired_surface.quads),
+        face_count=solid.face_count,
         solids=((solid, np.eye(4)[None]),),
     )
 

@@ -54,8 +54,16 @@ from ...core.nurbs import (
     volume_moments,
 )
 from ...core.solid import OVERLAP_OF_INSTANCES, UNCHECKED
-from ...core.verdict import Method, Procedure, Source, least_trusted
-from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
+from ...core.verdict import (
+    Finding,
+    MeasureError,
+    Method,
+    Procedure,
+    ReadError,
+    Source,
+    finding,
+    least_trusted,
+)
 from ..read.findings import DISPLAY_MESH_MEASURED
 from .findings import WALL_CREASES, ZERO_SCALE
 from .mesh import mesh_body

@@ -17,8 +17,13 @@ from ...core.bodies import float64_matrix
 from ...core.mesh import BoundarySum, Surface, join_surfaces, overlapping_box_pairs, sort_components
 from ...core.numerics import Array, Mask, cross_rows
 from ...core.solid import classify_pairs
-from ...core.verdict import CLOSED_SHEET_VOLUME_RTOL, welding_tolerance
-from ...core.verdict.finding import Finding, MeasureError, finding
+from ...core.verdict import (
+    CLOSED_SHEET_VOLUME_RTOL,
+    Finding,
+    MeasureError,
+    finding,
+    welding_tolerance,
+)
 from .. import read  # most objects need not be read again
 from ..read.assembly import copies_caveats, copies_in_place, operands_of
 from .findings import BODIES_OVERLAP
@@ -48,10 +53,7 @@ def overlap_caveats(
     operands = operands_of(objects)
     pairs = _overlapping_pairs(
         [obj for obj in objects if obj.name not in copies and obj not in operands],
-        lambda obj, limit: (
-            (obj in measured and measured[obj].closed_surface(limit))
-            or _closed_surface(obj, depsgraph, limit)
-        ),
+        lambda obj, limit: _closed_surface(obj, depsgraph, limit, measured.get(obj)),
     )
     if not pairs:
         return []
@@ -114,18 +116,26 @@ def _boxes_meet(first: Array, second: Array) -> Mask:
     return ~(apart > 0.0).any(axis=1)
 
 
-def _closed_surface(obj: Object, depsgraph: Depsgraph, limit: int) -> Surface | None:
+def _closed_surface(
+    obj: Object, depsgraph: Depsgraph, limit: int, measured: Measured | None
+) -> Surface | None:
     """Return the triangles of a closed object in the world, None if it is open or has more than
     `limit`.
     """
     try:
-        reading = read.objects.read_object(obj, depsgraph, edges=False)
+        reading = (
+            read.objects.read_object(obj, depsgraph, edges=False)
+            if measured is None or measured.reading.has_patches
+            else measured.reading
+        )
     except MeasureError:  # such as a grid of densities
         return None
     count = sum(part.surface.triangle_count * len(part.matrices) for part in reading.parts)
-    for part in reading.parts:
+    if not 0 < count <= limit:
+        return None
+    for part in [] if measured is not None and measured.is_faultless else reading.parts:
         boundary = BoundarySum()
         boundary.add(part.surface)
-        if count > limit or not boundary.is_zero:
+        if not boundary.is_zero:
             return None
     return reading.join()

@@ -31,8 +31,16 @@ from ...core.numerics import Array, Integers, NDArray, shortest_decimal
 from ...core.polyhedron import polyhedron_moments
 from ...core.rig import bone_pieces, bones_of_caps, dominant_bones
 from ...core.solid import measure_solid
-from ...core.verdict import Method, Procedure, internal_error, least_trusted
-from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
+from ...core.verdict import (
+    Finding,
+    MeasureError,
+    Method,
+    Procedure,
+    ReadError,
+    finding,
+    internal_error,
+    least_trusted,
+)
 from ..read.bones import RestBones, vertex_weights
 from ..read.fingerprint import matrix_hash
 from ..read.objects import locate, read_object

@@ -13,7 +13,7 @@ from ...core.mesh import Surface
 from ...core.numerics import NDArray, rotation_matrix
 from ...core.nurbs import CONTROL_POINTS_INVALID, NON_POSITIVE_WEIGHTS
 from ...core.solid import NON_FINITE_VERTICES
-from ...core.verdict.finding import ReadError, finding
+from ...core.verdict import ReadError, finding
 from .curves import read_curves
 from .decisions import reading_findings, why_empty
 from .findings import NON_FINITE_TRANSFORM, ONLY_CURVES_ARE_WIRES

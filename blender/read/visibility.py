@@ -10,7 +10,7 @@ hidden objects are read and reported.
 from collections.abc import Iterator
 from itertools import islice
 
-from ...core.verdict.finding import Finding, ReadError, finding
+from ...core.verdict import Finding, ReadError, finding
 from ..settings.given import GEOMETRY_TYPES, SURFACE_TYPES, is_point_mass, shows_collection
 from .findings import (
     HIDDEN_IN_VIEWPORT,

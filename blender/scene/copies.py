@@ -28,8 +28,7 @@ from bpy.types import ID, Context, Mesh, Node, NodesModifier, NodeTree, Object, 
 from ...core.mesh import Correspondence, Elements, correspondences
 from ...core.moments import affine_matrices
 from ...core.numerics import Array, NDArray
-from ...core.verdict import LINKED_OBJECT
-from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
+from ...core.verdict import LINKED_OBJECT, EditRefusedError, Finding, MeasureError, finding
 from . import reframe
 from .dependents import SAME_SHAPE_RTOL
 from .findings import (

@@ -12,7 +12,7 @@ from bpy.types import ID, Depsgraph, Object
 from mathutils import Matrix
 
 from ...core.numerics import Array, NDArray
-from ...core.verdict.finding import EditRefusedError, Finding, ReadError, finding
+from ...core.verdict import EditRefusedError, Finding, ReadError, finding
 from ..read.objects import read_object
 from ..read.visibility import measurable
 from .changes import LINKING_TYPES, users_of

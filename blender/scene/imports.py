@@ -36,7 +36,7 @@ from ...core.scans import (
     sample_matrix,
     scan_suffix,
 )
-from ...core.verdict.finding import FileError, Finding, finding, system_reason
+from ...core.verdict import FileError, Finding, finding, system_reason
 from ..read.splines import keep_faces, keep_source
 from ..scale import meters_per_unit
 from .findings import SURFACES_ROUNDED

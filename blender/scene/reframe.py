@@ -24,8 +24,7 @@ from bpy.types import ID, Context, Object
 from mathutils import Matrix
 
 from ...core.numerics import Index
-from ...core.verdict import LINKED_OBJECT, internal_error
-from ...core.verdict.finding import EditRefusedError, Finding, finding
+from ...core.verdict import LINKED_OBJECT, EditRefusedError, Finding, finding, internal_error
 from ..read.findings import SCALE_ZERO_AXIS
 from ..read.mesh import read_array
 from ..settings.density import density_anchor

@@ -19,8 +19,7 @@ from bpy.types import Context, Mesh, Object
 from mathutils import Matrix
 
 from ...core.numerics import Array, Index, Mask, NDArray, PerBody
-from ...core.verdict import internal_error
-from ...core.verdict.finding import Finding, finding
+from ...core.verdict import Finding, finding, internal_error
 from .changes import ancestors
 from .dependents import SAME_SHAPE_RTOL
 from .findings import DATA_COPIED

@@ -27,7 +27,7 @@ from ...core.robots import (
     make_candidate,
 )
 from ...core.robots.write.shapes import with_colliders
-from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
+from ...core.verdict import EditRefusedError, Finding, MeasureError, finding
 from ..bodies import measure_object, overlaps
 from ..bodies.assembly.assembly import measure_assembly
 from ..bodies.rig import measure_rig

@@ -14,7 +14,7 @@ import bpy
 from ...core import density as density_engine
 from ...core import numerics
 from ...core.measurement import DENSITY_FROM_VALUE
-from ...core.verdict.finding import Finding, ReadError, finding
+from ...core.verdict import Finding, ReadError, finding
 from .findings import (
     DENSITY_FROM_POLYNOMIAL,
     DENSITY_SOURCE_MISSING,

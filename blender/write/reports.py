@@ -7,8 +7,6 @@ and fills it. Findings are shown by their sentences. Both are in the language of
 lengths in the scene's units.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
@@ -16,8 +14,17 @@ from typing import Any
 import bpy
 from bpy.types import Operator
 
-from ...core.verdict import fill, internal_error, sentence, severity
-from ...core.verdict.finding import Finding, MeasureError, Severity, finding, truncate_findings
+from ...core.verdict import (
+    Finding,
+    MeasureError,
+    Severity,
+    fill,
+    finding,
+    internal_error,
+    sentence,
+    severity,
+    truncate_findings,
+)
 from .findings import FAILURE
 from .units import Units
 

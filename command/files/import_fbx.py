@@ -5,8 +5,6 @@
 Blender's importer scales models twice that do not inherit a scale, and shows all levels of detail.
 """
 
-from __future__ import annotations
-
 import re
 
 import bpy
@@ -15,7 +13,7 @@ from bpy.types import Object
 
 from ...core.files import MALFORMED, fbx_tree, map_file
 from ...core.numerics import Array
-from ...core.verdict.finding import Finding, finding
+from ...core.verdict import Finding, finding
 from ..findings import FILE_HIDES, PLACES_UNCHECKED
 from .fbx_animation import RARE
 from .fbx_models import FbxModel, fbx_models, fbx_to_scene

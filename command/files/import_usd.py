@@ -6,8 +6,6 @@ Blender's importer makes polygons of round solids, drops the shear of a transfor
 visibility, purpose and subdivision. Its hook tells the object of each prim.
 """
 
-from __future__ import annotations
-
 import importlib
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
@@ -19,7 +17,7 @@ from bpy.types import Object
 from ...blender import read, scene
 from ...core import cad, files
 from ...core.numerics import Array, NDArray
-from ...core.verdict.finding import FileError, Finding, finding
+from ...core.verdict import FileError, Finding, finding
 from ..findings import FILE_HIDES, FRAME_MEASURED, USD_CAGE, USD_UNREAD
 from . import placing, references
 
@@ -56,7 +54,7 @@ def import_usd(path: str, frame: float | None) -> references.Opened:
     prims, missing, start = _import(path, frame)
     members = [prim for prim in prims.values() if prim.is_member]
     has_instancer = any(prim.members is not None for prim in prims.values())
-    if members and (has_instancer or any(_is_special(prim) for prim in members)):
+    if members and (has_instancer or any(map(_is_special, members))):
         # All instances show the same objects; objects of their own can be hidden, sheared and
         # reported.
         bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
@@ -173,6 +171,7 @@ class _Stage:
         prims |= {objects[block].name: prim for prim, block in pairs if block in objects}
         names = {prim.GetPath(): name for name, prim in prims.items()}
         facts = {name: self._facts(prim, names) for name, prim in prims.items()}
+        # Baking changes the stage, so that the facts are read before.
         moving = self._moving_points()
         return {
             name: fact._replace(points=moving.get(prims[name].GetPath()))
@@ -183,24 +182,23 @@ class _Stage:
         """Return the points of skinned and animated meshes by their paths, in their own
         coordinates.
         """
-        meshes = [prim for prim in self._stage.Traverse() if prim.IsA(self._geom.Mesh)]
-        bound = [
+        points = {
+            prim: self._geom.Mesh(prim).GetPointsAttr()
+            for prim in self._stage.Traverse()
+            if prim.IsA(self._geom.Mesh)
+        }
+        bound = {
             prim
-            for prim in meshes
+            for prim in points
             if self._skel.BindingAPI(prim).GetJointIndicesAttr().HasAuthoredValue()
             or self._skel.BindingAPI(prim).GetBlendShapesAttr().HasAuthoredValue()
-        ]
-        moving = bound + [
-            prim for prim in meshes if self._geom.Mesh(prim).GetPointsAttr().GetNumTimeSamples() > 1
-        ]
+        }
+        moving = {prim for prim in points if points[prim].GetNumTimeSamples() > 1}
         if bound:
             # Blender's modifiers may read the other layers again.
             self._stage.SetEditTarget(self._stage.GetSessionLayer())
             self._skel.BakeSkinning(self._stage.Traverse())
-        return {
-            prim.GetPath(): np.array(self._geom.Mesh(prim).GetPointsAttr().Get(self._time))
-            for prim in moving
-        }
+        return {prim.GetPath(): np.array(points[prim].Get(self._time)) for prim in bound | moving}
 
     def unread(self, blocks: Mapping[str, list[bpy.types.ID]]) -> list[str]:
         """Return the paths and types of visible shapes that Blender's importer leaves out."""
@@ -270,8 +268,7 @@ class _Stage:
             return
         local = np.array(self._places.ComputeRelativeTransform(prim, root)[0]).T
         if prim.IsA(self._geom.PointInstancer):
-            for path, matrices in self._members(prim):
-                yield path, local @ matrices
+            yield from ((path, local @ matrices) for path, matrices in self._members(prim))
             return
         if prim.IsA(self._geom.Gprim):
             yield prim.GetPath(), local[None]
@@ -361,9 +358,6 @@ def _rendered() -> set[bpy.types.Collection]:
 def _show_members(name: str, prim: _Prim) -> None:
     """Replace an instancer by an empty that shows the shapes of its prototypes in their places."""
     old = bpy.data.objects[name]
-    is_hidden = old.hide_render
-    homes = [*old.users_collection]
-    bpy.data.objects.remove(old)
     collection = bpy.data.collections.new(name)
     for member, matrices in (prim.members or {}).items():
         copy = bpy.data.objects[member].copy()
@@ -373,27 +367,30 @@ def _show_members(name: str, prim: _Prim) -> None:
         collection.objects.link(copy)
     obj = bpy.data.objects.new(name, None)
     obj.instance_type, obj.instance_collection = "COLLECTION", collection
-    obj.hide_render = is_hidden
-    for home in homes:
-        home.objects.link(obj)
+    _take_place(obj, old)
     placing.place_objects({name: prim.place})
 
 
 def _replace(obj: Object, data: bpy.types.Curve) -> None:
     """Replace an object by one with other data of another type, in its place and under its name."""
-    name = obj.name
-    new = bpy.data.objects.new(name, data)
+    new = bpy.data.objects.new(obj.name, data)
     for slot in obj.data.materials if not data.materials else ():
         data.materials.append(slot)
     new.parent = obj.parent
     new.matrix_parent_inverse = obj.matrix_parent_inverse
     new.matrix_basis = obj.matrix_basis
-    new.hide_render = obj.hide_render
     for constraint in obj.constraints:
         new.constraints.copy(constraint)
-    for collection in obj.users_collection:
-        collection.objects.link(new)
     for child in obj.children:
         child.parent = new
-    bpy.data.objects.remove(obj)
+    _take_place(new, obj)
+
+
+def _take_place(new: Object, old: Object) -> None:
+    """Give an object the name, the collections and the visibility of one that it replaces."""
+    name = old.name
+    new.hide_render = old.hide_render
+    for collection in old.users_collection:
+        collection.objects.link(new)
+    bpy.data.objects.remove(old)
     new.name = name

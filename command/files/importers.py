@@ -5,8 +5,6 @@
 Blender has none for .3mf and IGES; that of .obj leaves out ``surf``.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from dataclasses import replace
@@ -22,7 +20,7 @@ from ...blender.settings.properties import set_print
 from ...core import cad, files, polyhedron, streams, verdict
 from ...core.mesh import Surface
 from ...core.solid import UNCHECKED, measure_solid
-from ...core.verdict.finding import FileError, Finding, finding
+from ...core.verdict import FileError, Finding, finding
 from ..findings import FILE_HIDES, PRINT_SETTINGS
 from .references import Opened
 
@@ -89,19 +87,15 @@ def import_3mf(path: str) -> Opened:
             meshes[one.key] = _mesh(one)
         obj = bpy.data.objects.new(one.name, meshes[one.key])
         bpy.context.scene.collection.objects.link(obj)
-        remarks = []
-        if one.print_settings is None:
-            remarks.append(finding(UNCHECKED, subject=PRINT_SETTINGS))
-        else:
-            found = dict(one.print_settings)
-            if found:
-                obj.body_moments.kind = "PRINTED"
-            if "density" in found:
-                obj.body_moments.density = found.pop("density")
-            set_print(obj.body_moments, found)
-        if negative:
-            remarks.append(finding(streams.NEGATIVE_PARTS_CUT, names=negative))
-        notes[obj.name] = tuple(remarks)
+        found = dict(one.print_settings or ())
+        if found:
+            obj.body_moments.kind = "PRINTED"
+        if "density" in found:
+            obj.body_moments.density = found.pop("density")
+        set_print(obj.body_moments, found)
+        unread = [finding(UNCHECKED, subject=PRINT_SETTINGS)] * (one.print_settings is None)
+        cut = [finding(streams.NEGATIVE_PARTS_CUT, names=negative)] if negative else []
+        notes[obj.name] = (*unread, *cut)
         if one.hidden:
             obj.hide_render = True
             hidden[obj.name] = finding(FILE_HIDES, cause=one.hidden)

@@ -6,8 +6,6 @@ mass.
 With asset metadata, collections that are assets are included.
 """
 
-from __future__ import annotations
-
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from typing import Any

@@ -6,8 +6,6 @@ Every failure is an entry in `errors` and stops nothing else; an unexpected one 
 traceback, too.
 """
 
-from __future__ import annotations
-
 import os
 import sys
 from argparse import Namespace

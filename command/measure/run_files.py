@@ -7,8 +7,6 @@ Standard library only: it runs in Blender, in a Python with the bpy module, and 
 --blender PATH.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os
@@ -25,7 +23,7 @@ from typing import Any
 
 from ...core import files, robots
 from ...core.measurement import PROGRAM, counted, failed_document, print_message
-from ...core.verdict.finding import Finding, finding, system_reason
+from ...core.verdict import Finding, finding, system_reason
 from .. import findings, parser
 from ..files import output
 from ..options import arguments, measure_parser

@@ -6,8 +6,6 @@ and unused options.
 A failed check ends like wrong usage, with SystemExit(2) and a message.
 """
 
-from __future__ import annotations
-
 from argparse import Namespace
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
@@ -17,7 +15,7 @@ from ...core import density, files, scans
 from ...core.fourier.wave_vectors import FrequencyGrid, wave_vectors
 from ...core.measurement import Measurement
 from ...core.numerics import Array
-from ...core.verdict.finding import Finding, MeasureError, finding, system_reason
+from ...core.verdict import Finding, MeasureError, finding, system_reason
 from ..files.suffixes import file_suffix
 from ..findings import OPTIONS_UNUSED
 from ..parser import UsageError

@@ -7,8 +7,6 @@ They are a public contract; unknown options end with exit code 2.
 Standard library only, as the process that supervises others may have neither numpy nor Blender.
 """
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Progress of a run over many files, on the standard error: a line every few seconds."""
 
-from __future__ import annotations
-
 import time
 from collections import Counter
 from collections.abc import Sequence

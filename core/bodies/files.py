@@ -38,9 +38,17 @@ from ..streams import (
     measure_stream,
     open_mesh_file,
 )
-from ..verdict import SELF_INTERSECTION, MeshHealth, Method, Procedure, Source
-from ..verdict.finding import Finding, ReadError, finding
-from ..verdict.findings import NO_FACES
+from ..verdict import (
+    NO_FACES,
+    SELF_INTERSECTION,
+    Finding,
+    MeshHealth,
+    Method,
+    Procedure,
+    ReadError,
+    Source,
+    finding,
+)
 from .findings import (
     GIVEN_DENSITY_IGNORED,
     GRID_AS_SHELL,

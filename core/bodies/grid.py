@@ -27,8 +27,7 @@ from ..measurement import Body
 from ..moments import KNOWN_ORDER, Measure, Moments
 from ..numerics import Array, NDArray
 from ..scans import EVEN, SCAN_LABELS, Positions, count_labels
-from ..verdict import MeshHealth, Method, Procedure, Source
-from ..verdict.finding import Finding, ReadError, finding
+from ..verdict import Finding, MeshHealth, Method, Procedure, ReadError, Source, finding
 from .findings import (
     DENSITY_FROM_GRID,
     GRID_EMPTY,

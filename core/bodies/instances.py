@@ -37,11 +37,12 @@ from ..verdict import (
     NEGLIGIBLE,
     SELF_INTERSECTION,
     DefectiveElements,
+    Finding,
     Intersection,
     MeshHealth,
+    finding,
     welding_tolerance,
 )
-from ..verdict.finding import Finding, finding
 from .findings import FLAT_SURFACES
 from .reading import Reading
 

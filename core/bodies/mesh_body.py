@@ -27,8 +27,7 @@ from ..solid import (
     measure_again,
     measure_stack,
 )
-from ..verdict import NEGLIGIBLE, Method, Procedure, least_trusted
-from ..verdict.finding import Finding, finding
+from ..verdict import NEGLIGIBLE, Finding, Method, Procedure, finding, least_trusted
 from .findings import (
     DRAWN_AS_POLYGONS,
     FLAT_SURFACES,
@@ -214,12 +213,7 @@ def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -
         health,
         Method(least_trusted(of_solids)),
         tuple(findings),
-        face_count=sum(
-            [
-                len(solid.repaired_surface.triangles) + len(solid.repaired_surface.quads)
-                for solid, _ in parts
-            ]
-        ),
+        face_count=sum([solid.face_count for solid, _ in parts]),
         solids=tuple(parts),
         threads=threads,
     )

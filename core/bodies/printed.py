@@ -15,8 +15,7 @@ from ..mesh import Surface
 from ..moments import KNOWN_ORDER, Measure, sum_moments
 from ..numerics import Array
 from ..polyhedron import polyhedron_moments
-from ..verdict import NEGLIGIBLE, Procedure
-from ..verdict.finding import ReadError, finding
+from ..verdict import NEGLIGIBLE, Procedure, ReadError, finding
 from ..wall import PRINT_UNFIT, PrintCore, find_core
 from .findings import WALL_THICKNESS_VARIES
 from .mesh_body import MeshBody

@@ -38,8 +38,16 @@ from ..solid import (
     UNCHECKED,
     SolidIntegrals,
 )
-from ..verdict import FLIPPED_FACES, NEGLIGIBLE, Procedure
-from ..verdict.finding import Finding, MeasureError, ReadError, finding, unique
+from ..verdict import (
+    FLIPPED_FACES,
+    NEGLIGIBLE,
+    Finding,
+    MeasureError,
+    Procedure,
+    ReadError,
+    finding,
+    unique,
+)
 from ..wall import WALL_MEASURED, OffsetSolid, offset_solid, split_thickness, wall_moments
 from .findings import (
     WALL_FACES_WITHOUT_AREA,

@@ -33,7 +33,7 @@ from ..nurbs import (
     patches_size,
     reverse_curves,
 )
-from ..verdict.finding import FileError, MeasureError, finding
+from ..verdict import FileError, MeasureError, finding
 from .findings import (
     CURVES_LEFT_OUT,
     SURFACE_DAMAGED,

@@ -22,8 +22,7 @@ import numpy as np
 from ..files import FILE_TOO_LARGE
 from ..numerics import Array, NDArray, clamped_space
 from ..nurbs import Curve, Face, close_pairs, patches_size, reverse_curves
-from ..verdict import WELDING_RTOL
-from ..verdict.finding import FileError, finding
+from ..verdict import WELDING_RTOL, FileError, finding
 from .findings import SURFACE_DAMAGED, SURFACES_HIDDEN
 from .iges_entities import MAX_DEPTH
 from .part21 import Part21, Reference

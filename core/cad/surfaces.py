@@ -23,7 +23,7 @@ from ..nurbs import (
     bezier_patches,
     bezier_space,
 )
-from ..verdict.finding import FileError, Finding, MeasureError, finding, truncate_findings
+from ..verdict import FileError, Finding, MeasureError, finding, truncate_findings
 from .findings import (
     NO_SURFACE_KEPT,
     SURFACE_BEYOND_LIMIT,

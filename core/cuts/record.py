@@ -10,8 +10,7 @@ import numpy as np
 
 from ..mesh import Surface
 from ..moments import Moments
-from ..verdict import MeasureError
-from ..verdict.finding import Finding, finding
+from ..verdict import Finding, MeasureError, finding
 from .findings import COMPARED_IN_PART, LEVEL_UNAVAILABLE, PLANE_MISSES
 from .hollow import find_hollow
 from .open_surfaces import CutFill

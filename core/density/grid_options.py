@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ..numerics import shortest_decimal
-from ..verdict.finding import Finding, ReadError, finding
+from ..verdict import Finding, ReadError, finding
 from .findings import POSITIONS_ONLY_AS_DENSITY, VALUES_BY_TABLE, VALUES_SCALED
 
 

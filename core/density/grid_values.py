@@ -12,7 +12,7 @@ import numpy as np
 
 from ..numerics import Array, NDArray
 from ..scans import AXES, EVEN, Positions
-from ..verdict.finding import Finding, MeasureError, ReadError, finding
+from ..verdict import Finding, MeasureError, ReadError, finding
 from .findings import (
     BACKGROUND_EMPTY,
     DENSITY_NON_FINITE,

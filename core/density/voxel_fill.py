@@ -20,8 +20,7 @@ import numpy as np
 
 from ..moments.moments import Measure, Moments, U, monomials
 from ..numerics import Array, ArrayLike, NDArray, batches, float_array, power_table, triangle_rule
-from ..verdict import MeasureError
-from ..verdict.findings import NO_FACES
+from ..verdict import NO_FACES, MeasureError
 from .findings import DENSITY_NON_FINITE
 
 PIECES_PER_BATCH = 1 << 17  # Expected pieces of the triangles taken at a time.

@@ -8,7 +8,7 @@ import zlib
 from pathlib import Path
 from typing import Any
 
-from ..verdict.finding import FileError, finding
+from ..verdict import FileError, finding
 from .findings import (
     AT_ROW,
     DAMAGE_SIZE,

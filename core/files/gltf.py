@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..numerics import NDArray, rotation_matrix
-from ..verdict.finding import FileError, finding
+from ..verdict import FileError, finding
 from .findings import DAMAGE_SIZE, FILE_DAMAGED, MISSING_REFERENCES
 from .text_fields import Data, map_file
 

@@ -35,8 +35,7 @@ from ..numerics import (
     rotation_matrix,
     unit_vector,
 )
-from ..verdict import Finding, MeasureError
-from ..verdict.finding import finding
+from ..verdict import Finding, MeasureError, finding
 from .findings import (
     FLOAT_UNAVAILABLE,
     HOLLOW_FLOODED,

@@ -15,8 +15,7 @@ import numpy as np
 from ..mesh import Surface
 from ..moments import Measure, distinct_linear_parts
 from ..numerics import Array, ArrayLike, NDArray, check_type, float_array, phase_factors
-from ..verdict import MeasureError
-from ..verdict.findings import NO_FACES
+from ..verdict import NO_FACES, MeasureError
 from .grid import GridTransform
 from .transform import Transform
 from .wave_vectors import FrequencyGrid, Spectrum, wave_vectors

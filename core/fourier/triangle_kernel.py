@@ -32,8 +32,7 @@ from ..numerics import (
     indices_in_range,
     spread_bits,
 )
-from ..verdict import MAX_COORDINATE, MeasureError, check_size
-from ..verdict.findings import NO_FACES, OBJECT_SIZE, TOO_LARGE
+from ..verdict import MAX_COORDINATE, NO_FACES, OBJECT_SIZE, TOO_LARGE, MeasureError, check_size
 from .wave_vectors import GridWaves, ListWaves
 
 TRIANGLES_PER_BLOCK = 128  # triangles

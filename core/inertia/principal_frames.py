@@ -32,8 +32,7 @@ from ..numerics import (
     quaternion,
     rotation_array,
 )
-from ..verdict import OBJECT_SIZE, TOO_SMALL
-from ..verdict.finding import MeasureError, finding
+from ..verdict import OBJECT_SIZE, TOO_SMALL, MeasureError, finding
 from .findings import (
     ANY_DIRECTIONS,
     AXES_AMBIGUOUS,

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/measurement`."""
 
-from ..verdict import error, note, warning
-from ..verdict.finding import finding
+from ..verdict import error, finding, note, warning
 
 NO_VOLUME = error(
     "no_volume",

@@ -36,8 +36,15 @@ from ..solid import (
     classify_pairs,
     zero_volume,
 )
-from ..verdict import NEGLIGIBLE, MeshHealth, Procedure, welding_tolerance
-from ..verdict.finding import Finding, MeasureError, finding
+from ..verdict import (
+    NEGLIGIBLE,
+    Finding,
+    MeasureError,
+    MeshHealth,
+    Procedure,
+    finding,
+    welding_tolerance,
+)
 from .findings import (
     AMBIGUOUS_PATCH_SIDES,
     ERROR_ESTIMATE_LARGE,

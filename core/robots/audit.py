@@ -21,8 +21,16 @@ from ..mesh import Surface, hull_volumes
 from ..moments import Moments
 from ..moments.moments import SECOND_MOMENT_INDEX
 from ..numerics import Array, NDArray, first_occurrence, inertia_of_second, second_of_inertia
-from ..verdict import Procedure, internal_error, sentence, severity
-from ..verdict.finding import Finding, MeasureError, Severity, finding
+from ..verdict import (
+    Finding,
+    MeasureError,
+    Procedure,
+    Severity,
+    finding,
+    internal_error,
+    sentence,
+    severity,
+)
 from . import read
 from .diagnosis import DENSITIES, DIFFERS, Diagnosis, Reference, diagnose, diagnose_density
 from .findings import (

@@ -20,7 +20,7 @@ import numpy as np
 
 from ..density import POUND
 from ..numerics import Array, ArrayLike, NDArray, rotation_matrix, second_of_inertia
-from ..verdict.finding import Finding, finding
+from ..verdict import Finding, finding
 from .findings import (
     AUDIT_ANGLES,
     AUDIT_DENSITY,

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..measurement import Measurement
 from ..numerics import quaternion, rotation_matrix
-from ..verdict.finding import Finding, finding
+from ..verdict import Finding, finding
 from .findings import (
     JOINT_VALUE_UNUSABLE,
     JOINTS_CLOSE_LOOP,

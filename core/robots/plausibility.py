@@ -26,7 +26,7 @@ from math import pi, sqrt
 import numpy as np
 
 from ..numerics import Array, NDArray, second_of_inertia, spread_directions
-from ..verdict.finding import Finding, finding
+from ..verdict import Finding, finding
 from .findings import (
     INERTIAL_CENTER_OUTSIDE,
     INERTIAL_NOT_FINITE,

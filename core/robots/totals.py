@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..numerics import Array
-from ..verdict.finding import Finding, finding
+from ..verdict import Finding, finding
 from .findings import AUDIT_JOINT, AUDIT_TOTAL
 from .model import Pose
 from .plausibility import LARGEST

@@ -21,7 +21,7 @@ from ..files import (
     wrong_field,
 )
 from ..numerics import Array, NDArray, check_type, float_array
-from ..verdict.finding import FileError, Finding, finding
+from ..verdict import FileError, Finding, finding
 from .findings import (
     POSITIONS_COUNT,
     POSITIONS_NOT_ASCENDING,

@@ -25,7 +25,7 @@ from ..files import (
     check_length,
     damaged,
 )
-from ..verdict.finding import FileError, finding
+from ..verdict import FileError, finding
 from .findings import RAW_WITHOUT_LAYOUT, SCAN_SAMPLE_TYPE, SCAN_SIZE
 from .scan import (
     Scan,

@@ -12,7 +12,7 @@ from enum import StrEnum
 from pathlib import Path
 
 from ..numerics import check_type
-from ..verdict.finding import FileError, Finding, finding
+from ..verdict import FileError, Finding, finding
 from .findings import LIBRARY_LINE, NO_SHAPE, RECORD_WITHOUT_SIGNATURE
 from .signatures import MAX_SIMILAR_DIFFERENCE, Likeness, Signature, similarity
 

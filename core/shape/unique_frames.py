@@ -24,7 +24,7 @@ from ..inertia import (
 )
 from ..moments import Moments
 from ..numerics import Array, ArrayLike, NDArray, check_type, rotation_array
-from ..verdict.finding import finding
+from ..verdict import finding
 from .canonical_frame import EquivalentFrames, canonical_frames
 
 

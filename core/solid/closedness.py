@@ -20,8 +20,16 @@ from ..numerics import (
     indices_in_range,
 )
 from ..polyhedron import polyhedron_moments, third_order
-from ..verdict import MAX_COORDINATE, MeasureError, MeshHealth, check_size, welding_tolerance
-from ..verdict.findings import NO_FACES, OBJECT_SIZE, TOO_LARGE
+from ..verdict import (
+    MAX_COORDINATE,
+    NO_FACES,
+    OBJECT_SIZE,
+    TOO_LARGE,
+    MeasureError,
+    MeshHealth,
+    check_size,
+    welding_tolerance,
+)
 from .findings import INVALID_FACES, NON_FINITE_VERTICES
 from .repaired_mesh import RepairedMesh
 

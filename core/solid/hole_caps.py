@@ -31,7 +31,7 @@ from ..numerics import (
     hash_uint64,
     sums_by_index,
 )
-from ..verdict.finding import Finding, finding
+from ..verdict import Finding, finding
 from .boundary_loops import (
     OwnedLoops,
     distinct_vertex_pairs,

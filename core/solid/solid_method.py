@@ -13,9 +13,17 @@ from ..mesh import Planarity, Surface, half_ulp, triangle_areas
 from ..moments import Moments
 from ..numerics import Array, ArrayLike, Index, Integers, Mask, unique_pairs
 from ..polyhedron import polyhedron_moments
-from ..verdict import FLIPPED_FACES, NEGLIGIBLE, SELF_INTERSECTION, Procedure
-from ..verdict.finding import Finding, finding
-from ..verdict.health import NO_FACES, DefectiveElements, Intersection, MeshHealth
+from ..verdict import (
+    FLIPPED_FACES,
+    NEGLIGIBLE,
+    SELF_INTERSECTION,
+    DefectiveElements,
+    Finding,
+    Intersection,
+    MeshHealth,
+    Procedure,
+    finding,
+)
 from .closedness import CheckedSurface, GivenIntegrals
 from .findings import (
     CAVITIES_BREAK_THROUGH,
@@ -94,6 +102,12 @@ class SolidIntegrals:
         """The repaired surface, whose signed sum is ``volume``."""
         return self.oriented.surface
 
+    @property
+    def face_count(self) -> int:
+        """The number of triangles and quads of the repaired surface."""
+        surface = self.repaired_surface
+        return len(surface.triangles) + len(surface.quads)
+
     def moments(
         self,
         order: int,
@@ -164,7 +178,7 @@ def judge(
             raw=np.zeros_like(volume.raw),
             rounding_error=volume.rounding_error + np.abs(volume.raw),
         )
-    flipped = NO_FACES
+    flipped = np.empty(0, np.int64)
     inverted = np.flatnonzero(oriented.turned)
     if mesh.flipped.any():
         flipped, inverted = _flipped_faces(mesh, oriented.turned)
@@ -286,7 +300,7 @@ def _is_slight(mesh: RepairedMesh, rows: Mask, size: float, volume: float) -> bo
 def _inverted_finding(mesh: RepairedMesh, inverted: Index, size: float, volume: float) -> Finding:
     which = np.zeros(mesh.number, bool)
     which[inverted] = True
-    faces = NO_FACES if which.all() else mesh.faces_of(which)
+    faces = () if which.all() else mesh.faces_of(which)
     slight = not which.all() and _is_slight(mesh, which[mesh.component], size, volume)
     return finding(
         INVERTED_COMPONENTS, faces, slight=slight, count=len(inverted), total=int(mesh.number)

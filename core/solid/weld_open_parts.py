@@ -23,8 +23,7 @@ from ..mesh import (
     vertex_tolerance,
 )
 from ..numerics import Array, Index, Integers, Mask, connected_components, first_occurrence
-from ..verdict import NEGLIGIBLE, MeshHealth
-from ..verdict.finding import finding
+from ..verdict import NEGLIGIBLE, MeshHealth, finding
 from .boundary_loops import distinct_vertex_pairs, has_distinct_vertices, side_ends
 from .findings import DUPLICATE_FACES_COUNTED, DUPLICATE_FACES_IGNORED, VERTICES_WELDED
 from .repaired_mesh import UNKNOWN, OpenParts, RepairedMesh, RepairState, copy_with

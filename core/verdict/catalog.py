@@ -5,7 +5,7 @@
 from functools import cache
 from importlib import import_module
 
-from .finding import Code
+from .finding_types import Code
 
 ROOT = __name__.removesuffix(".core.verdict.catalog")
 # The packages that declare findings, each in a module `findings` that imports `core.verdict` alone.

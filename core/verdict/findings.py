@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/verdict`."""
 
-from .finding import error, note, repair, warning
+from .finding_types import error, note, repair, warning
 
 NO_FACES = error("no_faces", "No surface. Add faces, or check whether a modifier removes them.")
 TOO_LARGE = "Too large to be measured. Scale the object down"

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from .findings import FLIPPED_FACES, SELF_INTERSECTION
 
 NO_PAIRS = np.empty((0, 2), np.int64)
-NO_FACES = np.empty(0, np.int64)
+EMPTY = np.empty(0, np.int64)
 
 
 class Intersection(StrEnum):
@@ -36,12 +36,12 @@ class DefectiveElements:
     degenerate_faces: faces without area.
     """
 
-    flipped_faces: NDArray[np.integer] = field(default_factory=NO_FACES.view)
+    flipped_faces: NDArray[np.integer] = field(default_factory=EMPTY.view)
     boundary_edges: NDArray[np.integer] = field(default_factory=NO_PAIRS.view)
     non_manifold_edges: NDArray[np.integer] = field(default_factory=NO_PAIRS.view)
     inconsistent_edges: NDArray[np.integer] = field(default_factory=NO_PAIRS.view)
-    duplicate_faces: NDArray[np.integer] = field(default_factory=NO_FACES.view)
-    degenerate_faces: NDArray[np.integer] = field(default_factory=NO_FACES.view)
+    duplicate_faces: NDArray[np.integer] = field(default_factory=EMPTY.view)
+    degenerate_faces: NDArray[np.integer] = field(default_factory=EMPTY.view)
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,7 +9,7 @@ the console.
 
 import traceback
 
-from .finding import Finding, MeasureError, finding
+from .finding_types import Finding, MeasureError, finding
 from .findings import INTERNAL_ERROR, OUT_OF_MEMORY
 
 CODE = INTERNAL_ERROR

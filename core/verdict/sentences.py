@@ -24,7 +24,7 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 from .catalog import declared
-from .finding import MAX_STORED_ELEMENTS, Elements, Finding, Severity, truncate
+from .finding_types import MAX_STORED_ELEMENTS, Elements, Finding, Severity, truncate
 from .findings import AND_MORE
 from .method import Method, Procedure
 

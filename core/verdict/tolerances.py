@@ -6,7 +6,7 @@ size.
 
 from math import hypot
 
-from .finding import MeasureError
+from .finding_types import MeasureError
 from .findings import OBJECT_SIZE, TOO_SMALL
 
 # The sixth power of the first and the fifth of the second are still numbers.

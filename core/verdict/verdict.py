@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from enum import StrEnum
 
 from .catalog import declared
-from .finding import Finding, Severity, finding
+from .finding_types import Finding, Severity, finding
 from .findings import TOTAL_OF_OPEN_OBJECTS
 from .method import Method, Procedure
 from .sentences import severity

@@ -22,7 +22,7 @@ from ...blender.write import reports
 from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...core import files, verdict
 from ...core.robots import FORMATS, ROBOT_SCALED, USD_UNIT_SCALE, RobotFormat, write
-from ...core.verdict.finding import EditRefusedError, FileError, Finding, finding, system_reason
+from ...core.verdict import EditRefusedError, FileError, Finding, finding, system_reason
 from .. import selection
 from ..findings import ROBOT_GEOMETRY_NOT_WRITTEN, ROBOT_NAMES_ALIKE
 from ..measure.copy import VIEW3D_MT_body_moments_copy

@@ -20,7 +20,7 @@ from ...blender.session.tracking import armatures, staleness, stamps
 from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
 from ...blender.write import properties, reports
 from ...core import density, verdict
-from ...core.verdict.finding import Finding, Severity, finding
+from ...core.verdict import Finding, Severity, finding
 from .. import findings, modal, selection
 
 AS_SET = "AS_SET"

@@ -13,8 +13,7 @@ from bpy.types import Context, Object, Operator
 from ... import core
 from ...blender import bodies, read, scene, session, write
 from ...blender.session.tracking import staleness
-from ...core.verdict import FLIPPED_FACES
-from ...core.verdict.finding import finding
+from ...core.verdict import FLIPPED_FACES, finding
 from .. import findings, selection
 
 KINDS = (

@@ -17,7 +17,7 @@ from bpy.types import Context, Object, Operator
 
 from ... import core
 from ...blender import bodies, scale, scene, session, settings, write
-from ...core.verdict.finding import EditRefusedError, Finding, finding
+from ...core.verdict import EditRefusedError, Finding, finding
 from .. import findings, modal, selection
 
 SHAPES = (

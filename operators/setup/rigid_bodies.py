@@ -12,7 +12,7 @@ from bpy.types import Context, Object, Operator
 
 from ...blender import read, scale, scene, session, write
 from ...blender.write import reports, translations
-from ...core.verdict.finding import EditRefusedError, Finding, finding
+from ...core.verdict import EditRefusedError, Finding, finding
 from .. import modal, selection
 from ..findings import NOT_A_RIGID_BODY, RIGID_BODY_CENTER_ELSEWHERE
 

@@ -11,7 +11,7 @@ from bpy.types import Context, Object, Operator
 from ... import core
 from ...blender import bodies, scene, session
 from ...blender.write import reports
-from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
+from ...core.verdict import EditRefusedError, Finding, MeasureError, finding
 from .. import findings, modal, selection
 
 

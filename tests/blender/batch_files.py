@@ -7,7 +7,7 @@ from pathlib import Path
 
 import bpy
 import numpy as np
-from body_moments.core.verdict.finding import finding
+from body_moments.core.verdict import finding
 
 from tests.records import valid
 

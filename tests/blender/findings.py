@@ -5,7 +5,7 @@
 from contextlib import contextmanager
 
 import pytest
-from body_moments.core.verdict.finding import MeasureError
+from body_moments.core.verdict import MeasureError
 
 
 def said(result):

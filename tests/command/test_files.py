@@ -21,7 +21,7 @@ from body_moments.command.files import suffixes
 from body_moments.command.findings import NO_SHAPES
 from body_moments.core.files import NOT_REGULAR
 from body_moments.core.streams.stl import BY_WORD
-from body_moments.core.verdict.finding import FileError
+from body_moments.core.verdict import FileError
 
 from tests.blender import batch_files as files
 from tests.blender.batch_files import codes, document, measured, reason, run, sentence

@@ -18,7 +18,7 @@ import numpy as np
 from body_moments.command.files import finite
 from body_moments.command.files.importers import import_mesh
 from body_moments.core.files.text_fields import NUMBER
-from body_moments.core.verdict.finding import FileError, finding
+from body_moments.core.verdict import FileError, finding
 
 from tests.blender import batch_files as files
 from tests.blender.batch_files import document, measured, reason, sentence

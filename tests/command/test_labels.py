@@ -4,6 +4,7 @@
 
 import json
 import struct
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -122,6 +123,8 @@ def test_extension_of_nifti_names_labels(tmp_path):
         (["--label", "7"], None, "no label 7; it has 0, 1, 2"),
         (["--label", "all"], "label,name\n1,Liver\n", "no label 2; it has 1"),
         (["--label", "all"], "Liver,Fat\n", "Line 1"),
+        (["--label", "all"], "label,name\n1,Liver\n1,Fat\n", "a label that no line before it has"),
+        (["--label", "all", "--label-table", "none.csv"], None, "No such file"),
         (["--label", "all"], "label,density\n1,heavy\n2,5\n", "Line 2"),
         (["--label", "all"], "label,name\n1,{}\n".format("x" * 200_000), "Line 2"),
         (["--label", "all"], "label,name,{}\n1,a,b\n".format("x" * 200_000), "Line 1"),
@@ -134,7 +137,10 @@ def test_labels_and_tables_that_do_not_fit_are_refused(tmp_path, options, table,
         options = [*options, "--label-table", tmp_path / "table.csv"]
     code, document = run(tmp_path, *save(tmp_path, labels()), *options)
     assert code == 1 and document["objects"] == []
-    assert part in document["errors"][0]["reason"]
+    (error,) = document["errors"]
+    assert part in error["reason"]
+    if "no label" not in part:  # such a sentence has the name
+        assert error["name"] == Path(options[-1]).name
 
 
 def test_threshold_on_labels_names_label_option(tmp_path):

@@ -12,7 +12,7 @@ import pytest
 pytest.importorskip("bpy")
 import bmesh
 import bpy
-from body_moments.core.verdict.finding import finding
+from body_moments.core.verdict import finding
 from mathutils import Matrix
 
 from tests.blender import batch_files as files

@@ -16,7 +16,7 @@ import bpy
 import numpy as np
 from body_moments.command.measure.run import Run
 from body_moments.core.numerics.rotations import rotation_matrix
-from body_moments.core.verdict.finding import finding
+from body_moments.core.verdict import finding
 from body_moments.operators import batch
 
 from tests.blender.batch_files import document, parsed

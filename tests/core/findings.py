@@ -7,8 +7,7 @@ from contextlib import contextmanager
 from importlib import import_module
 
 import pytest
-from body_moments.core.verdict import catalog
-from body_moments.core.verdict.finding import Code, Finding, MeasureError
+from body_moments.core.verdict import Code, Finding, MeasureError, catalog
 
 
 def declarations() -> dict[str, Code]:

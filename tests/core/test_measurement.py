@@ -10,7 +10,7 @@ from body_moments.core.measurement import DENSITY_FROM_MASS
 from body_moments.core.measurement.measurement import Measurement
 from body_moments.core.moments.moments import Measure, Moments
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.verdict.finding import finding
+from body_moments.core.verdict import finding
 
 from tests.core import bodies
 

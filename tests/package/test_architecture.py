@@ -13,7 +13,7 @@ MAY_KNOW_EACH_OTHER = ("mesh", "inertia", "papers")
 WITHOUT_WRITE = ("settings", "read", "bodies", "scene")  # These make findings and numbers only.
 # Blender is imported when it is needed: the package can be imported without it, and a script has to
 # be ready first.
-LATE = {"__init__.py", "core/verdict/finding.py", "operators/batch.py"}
+LATE = {"__init__.py", "core/verdict/finding_types.py", "operators/batch.py"}
 
 
 def imports(module: tuple[str, ...]) -> list[tuple[tuple[str, ...], int, bool, bool]]:

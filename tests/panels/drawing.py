@@ -10,7 +10,7 @@ from importlib import import_module
 from types import SimpleNamespace
 
 import bpy
-from body_moments.core.verdict.finding import finding
+from body_moments.core.verdict import finding
 
 LAYOUT = bpy.types.UILayout.bl_rna
 ICONS = LAYOUT.functions["label"].parameters["icon"].enum_items

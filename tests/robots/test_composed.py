@@ -9,7 +9,7 @@ import sys
 import pytest
 from body_moments.core.robots.audit import Auditor
 from body_moments.core.robots.read.descriptions import Roots, read_description
-from body_moments.core.verdict.finding import MeasureError
+from body_moments.core.verdict import MeasureError
 from pxr import Gf, Usd, UsdGeom, UsdPhysics, UsdUtils
 
 RIGHT = 8000.0 * 4.0 / 6.0  # of a cube with sides of 2 m

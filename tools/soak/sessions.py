@@ -23,7 +23,7 @@ from body_moments.blender.session.live import following
 from body_moments.blender.session.live import measuring as live
 from body_moments.blender.session.tracking import handlers, staleness
 from body_moments.blender.write import properties
-from body_moments.core.verdict.finding import MeasureError
+from body_moments.core.verdict import MeasureError
 
 from tests.blender.objects import add, arrays, measured, mesh_body
 

@@ -30,8 +30,14 @@ from ....core.measurement import (
 )
 from ....core.moments import KNOWN_ORDER, Measure, Moments, are_similarities, sum_moments
 from ....core.numerics import rotation_matrix, shortest_decimal
-from ....core.verdict import internal_error, open_body_caveats
-from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
+from ....core.verdict import (
+    Finding,
+    MeasureError,
+    ReadError,
+    finding,
+    internal_error,
+    open_body_caveats,
+)
 from ...read.assembly import (
     Member,
     MemberKind,

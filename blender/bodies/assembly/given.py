@@ -26,8 +26,7 @@ from ....core.measurement import (
 from ....core.moments import KNOWN_ORDER, placed_boxes
 from ....core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count
 from ....core.numerics import Array, NDArray, shortest_decimal
-from ....core.verdict import Method, Procedure
-from ....core.verdict.finding import Finding, ReadError, finding
+from ....core.verdict import Finding, Method, Procedure, ReadError, finding
 from ...read.fingerprint import matrix_hash
 from ...read.objects import locate
 from ...settings.given import GivenPart, is_point_mass

@@ -44,8 +44,16 @@ from ....core.moments import Measure, Moments, affine_matrices
 from ....core.numerics import Array, NDArray, polar_rotation
 from ....core.polyhedron import polyhedron_moments
 from ....core.solid.measure import SolidIntegrals
-from ....core.verdict import NEGLIGIBLE, Method, Procedure, Source
-from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
+from ....core.verdict import (
+    NEGLIGIBLE,
+    Finding,
+    MeasureError,
+    Method,
+    Procedure,
+    ReadError,
+    Source,
+    finding,
+)
 from ...read.findings import GRID_UNSUPPORTED, IS_LEVEL_SET, NO_SCALAR_GRID, OBJECT_UNREADABLE
 from ...read.tracking import tracking_paused
 from ...read.volume import VolumeReading, volume_reading

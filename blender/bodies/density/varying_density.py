@@ -38,8 +38,7 @@ from ....core.moments import KNOWN_ORDER, Moments, similarity_groups, sum_moment
 from ....core.numerics import Array, NDArray
 from ....core.polyhedron import polyhedron_moments
 from ....core.solid import ClosedParts, SolidIntegrals
-from ....core.verdict import NEGLIGIBLE, Procedure
-from ....core.verdict.finding import Finding, ReadError, finding, truncate_findings
+from ....core.verdict import NEGLIGIBLE, Finding, Procedure, ReadError, finding, truncate_findings
 from ...settings.density import DensityField, density_key, material_density
 from ...settings.findings import OBJECT_DENSITY_USED
 from ..findings import (

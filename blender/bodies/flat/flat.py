@@ -44,9 +44,18 @@ from ....core.moments import Measure, Moments, affine_matrices, monomial_count, 
 from ....core.numerics import Array, Index
 from ....core.nurbs import Curve, length_moments, planar_region, plane_moments
 from ....core.solid import UNCHECKED
-from ....core.verdict import NEGLIGIBLE, MeshHealth, Method, Procedure, Source
-from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
-from ....core.verdict.findings import NO_FACES
+from ....core.verdict import (
+    NEGLIGIBLE,
+    NO_FACES,
+    Finding,
+    MeasureError,
+    MeshHealth,
+    Method,
+    Procedure,
+    ReadError,
+    Source,
+    finding,
+)
 from ...read.findings import FLAT_UNSUITABLE, NOT_FILLED, RENDER_DIFFERS, SECTION_FILL
 from ...read.objects import read_lines
 from ...read.section import SectionReading, read_outline_curves, read_section

@@ -18,8 +18,7 @@ from mathutils import Matrix
 from ....core.bodies import DENSITY_DEFAULTED
 from ....core.inertia import TENSOR, PlainBody, add_bodies
 from ....core.measurement import digest, find_properties, table
-from ....core.verdict import internal_error, of_severity, sentence
-from ....core.verdict.finding import Finding, Severity, finding
+from ....core.verdict import Finding, Severity, finding, internal_error, of_severity, sentence
 from ...bodies.assembly.assembly import Assembly, MemberBody, assembly_measurement
 from ...bodies.findings import ASSEMBLY_MASS_GIVEN, MEMBERS_DENSITY_UNSET
 from ...bodies.stack import Measured

@@ -16,7 +16,7 @@ from bpy.types import Context, Object, PropertyGroup, Scene
 
 from ....core.bodies import DENSITY_DEFAULTED
 from ....core.measurement import VERSION
-from ....core.verdict.finding import EditRefusedError, Finding, finding
+from ....core.verdict import EditRefusedError, Finding, finding
 from ... import bodies, read
 from ...settings.density import default_density, unset_density
 from ...write import properties

@@ -34,7 +34,7 @@ from ...files import (
 from ...mesh import Surface
 from ...numerics import Array, Floats, Int64, Integers, NDArray, rotation_about
 from ...streams import StlFile
-from ...verdict.finding import FileError, finding, system_reason
+from ...verdict import FileError, finding, system_reason
 from ..findings import MESH_UNREADABLE
 from ..stated import MOST
 from .xml import MAX_DEPTH, Node, parse

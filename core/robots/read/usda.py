@@ -19,7 +19,7 @@ import numpy as np
 from ...files import parse_number
 from ...mesh import Surface
 from ...numerics import Array, NDArray, polar_rotation, rotation_about, rotation_matrix
-from ...verdict.finding import FileError, Finding, finding
+from ...verdict import FileError, Finding, finding
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER
 from ..model import Pose, Shape
 from ..stated import (

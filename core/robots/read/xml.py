@@ -18,7 +18,7 @@ import numpy as np
 
 from ...files import FILE_TOO_LARGE, parse_numbers, parse_xml, xml_parser
 from ...numerics import Array, NDArray
-from ...verdict.finding import FileError, Finding, finding
+from ...verdict import FileError, Finding, finding
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER
 from ..model import Shape
 from ..stated import Place, StatedLink, StatedShape

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from ...numerics import ArrayLike, quaternion
-from ...verdict.finding import Finding, finding
+from ...verdict import Finding, finding
 from ..findings import GLTF_NODE_MISSING, GLTF_UNIT_SCALE, ROBOT_SCALED
 from ..model import Inertial, Robot
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from ...verdict.finding import Finding, finding
+from ...verdict import Finding, finding
 from ..findings import JOINT_VALUES_LOST
 from ..model import Joint, Link, Pose, Robot
 from .shapes import with_masses

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from xml.etree.ElementTree import Element, SubElement
 
 from ...numerics import quaternion
-from ...verdict.finding import Finding, finding
+from ...verdict import Finding, finding
 from ..findings import MJCF_INERTIA_TOO_SMALL
 from ..model import Inertial, Joint, Link, Pose, Robot, Shape
 from ..stated import StatedInertial

@@ -14,7 +14,7 @@ from xml.etree.ElementTree import Element, SubElement
 import numpy as np
 
 from ...numerics import NDArray, quaternion
-from ...verdict.finding import Finding, finding
+from ...verdict import Finding, finding
 from ..findings import SDF_FRAMES_ADDED
 from ..model import Inertial, Joint, Link, Pose, Robot, Shape
 from ..stated import ENTRIES, StatedInertial

@@ -13,7 +13,7 @@ from math import sqrt
 import numpy as np
 
 from ...mesh import Surface
-from ...verdict.finding import Finding, finding
+from ...verdict import Finding, finding
 from ..findings import ROBOT_ELLIPSOID_AS_BOX, ROBOT_LINKS_BARE
 from ..model import Link, Pose, Robot, Shape
 from ..primitives import equal_inertia_shape, moments_of

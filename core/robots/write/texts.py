@@ -8,8 +8,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from ...mesh import Surface
-from ...verdict import sentence
-from ...verdict.finding import Finding, finding
+from ...verdict import Finding, finding, sentence
 from ..findings import JOINTS_ALL_FIXED, MJCF_INERTIA_TOO_SMALL, USD_INERTIA_TOO_SMALL
 from ..formats import FORMATS
 from ..model import Robot

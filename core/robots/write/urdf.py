@@ -16,7 +16,7 @@ from xml.etree.ElementTree import Element, SubElement
 import numpy as np
 
 from ...mesh import Surface
-from ...verdict.finding import Finding, finding
+from ...verdict import Finding, finding
 from ..findings import ROBOT_BASE_ADDED, URDF_EFFORT_UNKNOWN, URDF_ROOT_WITHOUT_MASS
 from ..model import FreeAxis, Inertial, Joint, Pose, Robot, Shape
 from ..stated import ENTRIES, StatedInertial

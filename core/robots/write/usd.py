@@ -18,7 +18,7 @@ import numpy as np
 
 from ...mesh import Surface
 from ...numerics import ArrayLike, NDArray, along_x, quaternion
-from ...verdict.finding import Finding, finding
+from ...verdict import Finding, finding
 from ..findings import USD_INERTIA_TOO_SMALL
 from ..model import FreeAxis, Inertial, Joint, Pose, Robot, Shape
 from ..stated import Description, StatedInertial, StatedLink

@@ -12,7 +12,7 @@ import pytest
 from body_moments.blender.bodies.assembly.assembly import measure_assembly
 from body_moments.blender.read.assembly import MemberKind
 from body_moments.blender.read.visibility import measurable_objects
-from body_moments.core.verdict.finding import MeasureError
+from body_moments.core.verdict import MeasureError
 from mathutils import Matrix
 
 from tests.blender.boxes import box, boxes_inertia, collection, empty

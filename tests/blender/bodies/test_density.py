@@ -15,7 +15,7 @@ from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.core.density.polynomial import parse_polynomial
 from body_moments.core.inertia.mass_properties import combine
-from body_moments.core.verdict.finding import MeasureError, finding
+from body_moments.core.verdict import MeasureError, finding
 
 from tests.blender import batch_files
 from tests.blender.findings import refused, said

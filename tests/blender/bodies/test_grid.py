@@ -12,7 +12,7 @@ from body_moments.blender.read.volume import volume_reading
 from body_moments.blender.session.tracking import staleness
 from body_moments.blender.write import properties
 from body_moments.core.bodies.grid import Samples, density_body
-from body_moments.core.verdict.finding import MeasureError, ReadError
+from body_moments.core.verdict import MeasureError, ReadError
 
 from tests.blender.findings import refused, said
 from tests.blender.grids import (

@@ -15,8 +15,7 @@ from body_moments.blender.bodies.findings import BODIES_OVERLAP
 from body_moments.blender.session import displayed
 from body_moments.blender.session.stored import outcome
 from body_moments.blender.write import properties
-from body_moments.core.verdict import sentences
-from body_moments.core.verdict.finding import Severity
+from body_moments.core.verdict import Severity, sentences
 
 from tests.blender.many_objects import KINDS, stored_on
 from tests.blender.objects import only

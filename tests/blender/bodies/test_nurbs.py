@@ -17,7 +17,7 @@ from body_moments.blender.settings.options import MeasureOptions
 from body_moments.core.measurement.record import record
 from body_moments.core.moments.exponents import monomials
 from body_moments.core.nurbs import Patch, blender_space, display_parameters, display_table
-from body_moments.core.verdict.method import Source
+from body_moments.core.verdict import Source
 
 from tests.blender.findings import refused, said
 from tests.blender.objects import add, measured, only, place

@@ -8,7 +8,7 @@ import pytest
 bpy = pytest.importorskip("bpy")
 from body_moments.blender.bodies.shape.shape import signed_in_turn, surface_shape_of
 from body_moments.core.shape.signatures import Signature, similarity
-from body_moments.core.verdict.finding import MeasureError
+from body_moments.core.verdict import MeasureError
 
 from tests.blender.many_objects import KINDS, shards
 from tests.close import close

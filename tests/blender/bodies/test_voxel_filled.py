@@ -10,7 +10,7 @@ from body_moments.blender.session.tracking import staleness
 from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.blender.write import properties
-from body_moments.core.verdict.finding import finding
+from body_moments.core.verdict import finding
 
 from tests.blender.findings import refused, said
 from tests.blender.grids import mesh_to_volume, vdb_grid, volume_object

@@ -13,7 +13,7 @@ from body_moments.blender.session.tracking import staleness
 from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.blender.write import properties
-from body_moments.core.verdict.finding import MeasureError
+from body_moments.core.verdict import MeasureError
 
 from tests.blender.batch_files import document
 from tests.blender.findings import refused, said

@@ -13,7 +13,7 @@ from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.bodies.mesh import object_hull
 from body_moments.blender.bodies.shape.shape import shape_of
 from body_moments.blender.settings.options import MeasureOptions
-from body_moments.core.verdict.finding import MeasureError
+from body_moments.core.verdict import MeasureError
 
 from tests.blender.flat_objects import regular, sheet, text
 from tests.blender.grids import vdb_grid, volume_object

@@ -12,8 +12,7 @@ bpy = pytest.importorskip("bpy")
 
 from body_moments.blender.read.objects import read_object
 from body_moments.blender.read.visibility import measurable, measurable_objects
-from body_moments.core.verdict.finding import MeasureError, Severity, finding
-from body_moments.core.verdict.sentences import severity
+from body_moments.core.verdict import MeasureError, Severity, finding, severity
 
 from tests.blender import findings
 from tests.blender.findings import said

@@ -12,7 +12,7 @@ import pytest
 pytest.importorskip("bpy")
 import numpy as np
 from body_moments.core.robots.read.meshes import read_mesh
-from body_moments.core.verdict.finding import FileError
+from body_moments.core.verdict import FileError
 
 from tests.blender.robot_truth import about, near, quaternion, text
 

@@ -11,7 +11,7 @@ import pytest
 pytest.importorskip("bpy")
 import numpy as np
 from body_moments.core.robots.read import descriptions
-from body_moments.core.verdict.finding import FileError
+from body_moments.core.verdict import FileError
 
 from tests.blender.robot_truth import about, check_repair, near, quaternion, random_inertial, read
 

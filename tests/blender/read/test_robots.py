@@ -18,7 +18,7 @@ from body_moments.core.robots.read import xml
 from body_moments.core.robots.read.descriptions import Roots, read_description
 from body_moments.core.robots.read.meshes import read_mesh
 from body_moments.core.streams.threemf import read_3mf
-from body_moments.core.verdict.finding import FileError
+from body_moments.core.verdict import FileError
 
 from tests.blender import batch_files
 from tests.close import close

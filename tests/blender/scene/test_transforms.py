@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.scene import changes, transforms
-from body_moments.core.verdict.finding import EditRefusedError
+from body_moments.core.verdict import EditRefusedError
 from mathutils import Quaternion
 
 from tests.blender.findings import refused

@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.session.character import weight as character
-from body_moments.core.verdict.finding import MeasureError
+from body_moments.core.verdict import MeasureError
 
 from tests.blender.box_character import HEIGHT, boxes, weight
 from tests.blender.figure import figure

@@ -11,7 +11,7 @@ from math import factorial
 import bpy
 import numpy as np
 import pytest
-from body_moments.core.verdict.finding import MeasureError, finding
+from body_moments.core.verdict import MeasureError, finding
 
 from tests.blender.flat_objects import sheet, text
 from tests.blender.moments import compute, settings

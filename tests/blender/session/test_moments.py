@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from body_moments.blender.session.tracking import staleness
 from body_moments.blender.session.tracking.stamps import Stale
-from body_moments.core.verdict.finding import MeasureError, finding
+from body_moments.core.verdict import MeasureError, finding
 
 from tests.blender import batch_files as files
 from tests.blender.moments import compute, settings

@@ -358,7 +358,7 @@ def test_storing_evaluates_no_modifier_again():
 )
 def test_numbers_that_a_person_has_overwritten_break_nothing(key, value):
     from body_moments.blender.write import text_report
-    from body_moments.core.verdict.finding import finding
+    from body_moments.core.verdict import finding
 
     from tests.panels.drawing import shown
 

@@ -14,7 +14,7 @@ from body_moments.core.files import replace_gltf_document, to_glb
 from body_moments.core.measurement import documents
 from body_moments.core.measurement.page import to_html
 from body_moments.core.robots.write import audit_report
-from body_moments.core.verdict.finding import finding
+from body_moments.core.verdict import finding
 
 from tests.blender import batch_files
 from tests.blender.boxes import box_mesh

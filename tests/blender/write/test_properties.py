@@ -10,7 +10,7 @@ pytest.importorskip("bpy")
 import bpy
 from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.write import properties
-from body_moments.core.verdict.finding import EditRefusedError, finding
+from body_moments.core.verdict import EditRefusedError, finding
 
 from tests.blender import batch_files as files
 

@@ -13,7 +13,7 @@ from body_moments.core.cad.surface_file import read_surfaces
 from body_moments.core.files.limits import Limits
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs import Patch, area_moments, measure_patches
-from body_moments.core.verdict.finding import FileError
+from body_moments.core.verdict import FileError
 from body_moments.tests.close import close
 from body_moments.tests.core.exact_splines import flux_moment, sphere, torus
 from body_moments.tests.core.iges_files import IgesFile, labels, surface_fields, unrolled

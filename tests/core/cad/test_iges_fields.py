@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from body_moments.core.cad.surface_file import read_surfaces
 from body_moments.core.nurbs.solid import measure_patches
-from body_moments.core.verdict.finding import FileError
+from body_moments.core.verdict import FileError
 
 from tests.close import close
 from tests.core.exact_splines import sphere, torus

@@ -11,7 +11,7 @@ from body_moments.core.cad.surface_file import SUFFIXES, read_surfaces
 from body_moments.core.files import NOT_REGULAR
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs import Patch, bezier_patches, measure_patches
-from body_moments.core.verdict.finding import FileError, finding
+from body_moments.core.verdict import FileError, finding
 from body_moments.tests.close import close
 from body_moments.tests.core.exact_splines import sphere, torus
 from body_moments.tests.core.iges_files import obj_text, unrolled

@@ -16,7 +16,7 @@ from body_moments.core.inertia import MassProperties
 from body_moments.core.mesh import Surface, convex_hull
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.robots.model import Pose, Shape
-from body_moments.core.verdict.finding import MeasureError
+from body_moments.core.verdict import MeasureError
 
 from tests.core import bodies
 from tests.core.steps import run

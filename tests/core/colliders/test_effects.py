@@ -16,7 +16,7 @@ import pytest
 from body_moments.core.colliders.effects import correct_masses, effect, uniform_masses
 from body_moments.core.inertia import combine
 from body_moments.core.robots import Pose, Shape, moments_of
-from body_moments.core.verdict.finding import MeasureError
+from body_moments.core.verdict import MeasureError
 
 
 def box(sides, place=(0.0, 0.0, 0.0), degrees=0.0):

@@ -10,14 +10,15 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+from body_moments.core.colliders.body_distances import distances
 from body_moments.core.colliders.convex_pieces import cut_into_pieces
-from body_moments.core.colliders.fits import Wanted, distances, make_colliders
+from body_moments.core.colliders.fits import Wanted, make_colliders
 from body_moments.core.inertia import MassProperties
 from body_moments.core.mesh import Surface, convex_hull
 from body_moments.core.numerics import spread_directions
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.robots import Pose, Shape, moments_of
-from body_moments.core.verdict.finding import MeasureError
+from body_moments.core.verdict import MeasureError
 
 from tests.core import bodies
 from tests.core.steps import run

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from body_moments.core.density.findings import POLYNOMIAL_BEYOND_NUMBERS, POLYNOMIAL_TOO_LONG
 from body_moments.core.density.polynomial import MAX_DEGREE, Polynomial, parse_polynomial
-from body_moments.core.verdict.finding import MeasureError
+from body_moments.core.verdict import MeasureError
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

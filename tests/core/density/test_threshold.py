@@ -12,7 +12,7 @@ import pytest
 from body_moments.core.density import threshold
 from body_moments.core.density.threshold import threshold_body
 from body_moments.core.moments.moments import monomials
-from body_moments.core.verdict.finding import MeasureError
+from body_moments.core.verdict import MeasureError
 
 from tests.close import close
 from tests.core.findings import refused

@@ -15,7 +15,7 @@ from body_moments.core.flat.polygon import (
     find_defects,
     orient_loops,
 )
-from body_moments.core.verdict.finding import MeasureError
+from body_moments.core.verdict import MeasureError
 from hypothesis import given
 
 from tests.close import close

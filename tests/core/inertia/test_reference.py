@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from body_moments.core.inertia import MassProperties, PlainBody, Reference, tensor_rows
 from body_moments.core.moments import Measure, Moments, monomials
-from body_moments.core.verdict.finding import QueryError
+from body_moments.core.verdict import QueryError
 
 from tests.close import close
 from tests.core.boxes import box

@@ -15,8 +15,7 @@ from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.measurement import documents, record
 from body_moments.core.measurement.measurement import Measurement
 from body_moments.core.moments.moments import Moments, monomials
-from body_moments.core.verdict.finding import finding
-from body_moments.core.verdict.method import Method, Procedure
+from body_moments.core.verdict import Method, Procedure, finding
 
 from tests.close import close
 

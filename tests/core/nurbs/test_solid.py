@@ -17,7 +17,7 @@ from body_moments.core.nurbs import (
     volume_moments,
 )
 from body_moments.core.nurbs.patch_topology import find_topology
-from body_moments.core.verdict.finding import Finding
+from body_moments.core.verdict import Finding
 from hypothesis import given
 
 from tests.close import close

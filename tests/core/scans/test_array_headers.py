@@ -10,7 +10,7 @@ import zipfile
 import numpy as np
 import pytest
 from body_moments.core.scans.formats import read_scan
-from body_moments.core.verdict.finding import FileError
+from body_moments.core.verdict import FileError
 
 from tests.core.scan_files import written
 

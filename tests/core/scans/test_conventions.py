@@ -11,7 +11,7 @@ import struct
 import numpy as np
 import pytest
 from body_moments.core.scans import count_labels, read_scan, sample_matrix
-from body_moments.core.verdict.finding import FileError
+from body_moments.core.verdict import FileError
 
 from tests.core.scan_files import nifti, nrrd
 

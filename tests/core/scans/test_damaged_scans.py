@@ -19,7 +19,7 @@ import numpy as np
 import pytest
 from body_moments.core.scans import scan as samples
 from body_moments.core.scans.formats import read_scan
-from body_moments.core.verdict.finding import FileError
+from body_moments.core.verdict import FileError
 from body_moments.tests.core.scan_files import nifti, nrrd, written
 
 pytestmark = pytest.mark.filterwarnings("ignore")  # NumPy's, of headers that it can still make out

@@ -13,7 +13,7 @@ import zipfile
 import numpy as np
 import pytest
 from body_moments.core.scans import SUFFIXES, Scan, read_raw, read_scan, sample_matrix, scan_suffix
-from body_moments.core.verdict.finding import FileError, finding
+from body_moments.core.verdict import FileError, finding
 from body_moments.tests.core.scan_files import NIFTI_CODES, NRRD_NAMES, nifti, nrrd, written
 
 from tests.close import close

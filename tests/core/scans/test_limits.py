@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 from body_moments.core.files.limits import Limits
 from body_moments.core.scans import read_raw, read_scan
-from body_moments.core.verdict.finding import FileError, MeasureError
+from body_moments.core.verdict import FileError, MeasureError
 from body_moments.tests.core.scan_files import nifti, nrrd, written
 
 VALUES = np.arange(60, dtype="u2").reshape(3, 4, 5)

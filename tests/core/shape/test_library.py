@@ -6,7 +6,7 @@ import os
 
 import pytest
 from body_moments.core.shape.library import read_library
-from body_moments.core.verdict.finding import FileError
+from body_moments.core.verdict import FileError
 
 
 def test_line_beyond_256_mebibytes_is_refused(tmp_path):

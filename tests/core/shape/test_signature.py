@@ -31,7 +31,7 @@ from body_moments.core.shape.signatures import (
     signatures,
     similarity,
 )
-from body_moments.core.verdict.finding import Finding
+from body_moments.core.verdict import Finding
 
 from tests.close import close
 from tests.core import bodies, shapes

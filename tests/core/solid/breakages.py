@@ -5,7 +5,7 @@
 import numpy as np
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.solid.measure import measure_solid
-from body_moments.core.verdict.sentences import severity
+from body_moments.core.verdict import severity
 
 from tests.core.bodies import (
     TOP,

@@ -11,7 +11,7 @@ import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.solid import self_intersection
 from body_moments.core.solid.measure import measure_solid
-from body_moments.core.verdict.health import Intersection
+from body_moments.core.verdict import Intersection
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -11,7 +11,7 @@ from body_moments.core.statics.balancing import (
     balance,
 )
 from body_moments.core.statics.gradient import area_gradient, volume_gradient
-from body_moments.core.verdict.finding import MeasureError
+from body_moments.core.verdict import MeasureError
 
 from tests.core import bodies
 from tests.core.findings import refused

@@ -14,20 +14,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 from body_moments.core.verdict import (
-    Method,
-    Procedure,
-    Source,
-    catalog,
-    least_trusted,
-    sentence,
-    truncate_list,
-)
-from body_moments.core.verdict.finding import (
     Finding,
     MeasureError,
+    Method,
+    Procedure,
     ReadError,
+    Source,
+    catalog,
     finding,
+    least_trusted,
+    sentence,
     truncate_findings,
+    truncate_list,
     unique,
 )
 

@@ -6,7 +6,7 @@ import traceback
 
 import pytest
 from body_moments.core.numerics.arrays import segment_starts
-from body_moments.core.verdict.finding import MeasureError, finding
+from body_moments.core.verdict import MeasureError, finding
 from body_moments.core.verdict.internal_error import finding_of
 
 

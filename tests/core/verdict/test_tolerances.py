@@ -7,7 +7,7 @@ import pytest
 from body_moments.core import Surface, measure_solid, polyhedron_moments
 from body_moments.core.numerics import clamped_space
 from body_moments.core.nurbs import Curve, Patch, length_moments, measure_patches, measure_sheet
-from body_moments.core.verdict.findings import TOO_LARGE, TOO_SMALL
+from body_moments.core.verdict import TOO_LARGE, TOO_SMALL
 from body_moments.core.wall import offset_solid
 
 from tests.core.bodies import box

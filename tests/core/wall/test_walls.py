@@ -10,7 +10,7 @@ import pytest
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.moments.moments import monomials
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.verdict.finding import MeasureError
+from body_moments.core.verdict import MeasureError
 from body_moments.core.wall.directions import offset_directions
 from body_moments.core.wall.walls import offset_solid, split_thickness
 from hypothesis import given

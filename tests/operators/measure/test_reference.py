@@ -11,7 +11,7 @@ from body_moments.blender.session.stored import reference
 from body_moments.blender.session.stored.reference import ReferenceChoice
 from body_moments.blender.session.tracking.staleness import stale_reason
 from body_moments.core.inertia.plain_body import tensor_rows
-from body_moments.core.verdict.finding import Finding
+from body_moments.core.verdict import Finding
 from mathutils import Euler
 
 from tests.blender.boxes import box, boxes_inertia, collection
