@@ -122,8 +122,11 @@ def _without_negative_parts(
         if one.is_negative:
             yield replace(one, hidden=one.hidden or "it is cut away from the other parts"), []
             continue
-        cutters = [part for part in placed if part.is_negative and part.item == one.item]
-        cutters = [part for part in cutters if not part.hidden]
+        cutters = [
+            part
+            for part in placed
+            if part.is_negative and part.item == one.item and not part.hidden
+        ]
         if one.hidden or not cutters:
             yield one, []
             continue

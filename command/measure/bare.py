@@ -109,7 +109,6 @@ class BareFile:
         )
 
     def store(self, contents: Contents) -> None:
-        """Refuse to store results."""
         if self.options.write:
             raise FileError(RESULTS_NOT_STORED, cause=NEEDS_BLEND)
 
@@ -123,7 +122,6 @@ class BareFile:
         )
 
     def files(self) -> list[str]:
-        """Return the files that Blender has read with it: none."""
         return []
 
     def _settings(self) -> Settings:

@@ -344,10 +344,8 @@ class Scene:
             return
         unset = density.unset_density(obj, measurement, bpy.context.scene)
         if unset is not None:
-            yield finding(
-                bodies.DENSITY_DEFAULTED,
-                density="1 kg/m" if unset == "linear_density" else "1000 kg/m³",
-            )
+            default = "1 kg/m" if unset == "linear_density" else "1000 kg/m³"
+            yield finding(bodies.DENSITY_DEFAULTED, density=default)
 
     def _fourier(
         self, chosen: list[tuple[str, bpy.types.Object]], contents: Contents
