@@ -310,7 +310,6 @@ def _correct(
     for name, prim in sorted(prims.items()):
         obj = bpy.data.objects[name]
         if prim.hidden is not None:
-            obj.hide_render = True
             hidden[name] = finding(FILE_HIDES, cause=prim.hidden)
         if prim.scheme is not None:
             findings[name] = (finding(USD_CAGE, scheme=prim.scheme),)

@@ -97,7 +97,6 @@ def import_3mf(path: str) -> Opened:
         cut = [finding(streams.NEGATIVE_PARTS_CUT, names=negative)] if negative else []
         notes[obj.name] = (*unread, *cut)
         if one.hidden:
-            obj.hide_render = True
             hidden[obj.name] = finding(FILE_HIDES, cause=one.hidden)
         obj.matrix_basis = Matrix(one.matrix)
         if (

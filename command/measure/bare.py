@@ -78,6 +78,7 @@ class BareFile:
     """
 
     has_saved = False
+    opened = ()
 
     def __init__(
         self,
@@ -120,9 +121,6 @@ class BareFile:
         return measure.robots.complete(
             document, contents.measured, self.options, wanted, is_opened=False
         )
-
-    def files(self) -> list[str]:
-        return []
 
     def _settings(self) -> Settings:
         options = self.options
