@@ -253,7 +253,7 @@ def test_vessel_with_real_walls_holds_liquid_within_them(wall):
 def test_cut_and_fill_of_a_slope():
     slope = add_slope()
     assert CUT_FILL(against="HEIGHT", height=1.0) == {"FINISHED"}
-    found = stored.cuts.cut_fill_of(slope, bpy.context.scene).found
+    found = memory.cut_fills[slope].found
     assert (found.cut.total, found.fill.total) == pytest.approx((0.25, 0.25))
     assert CUT_FILL(against="RIM") == {"FINISHED"}
     assert memory.cut_fills[slope].found.net == pytest.approx(0.0, abs=1e-12)
