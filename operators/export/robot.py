@@ -21,7 +21,7 @@ from ...blender import session
 from ...blender.write import reports
 from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...core import files, verdict
-from ...core.robots import FORMATS, ROBOT_SCALED, USD_UNIT_SCALE, RobotFormat, write
+from ...core.robots import FORMATS, ROBOT_SCALED, UNIT_SCALE, USD_SCALED, RobotFormat, write
 from ...core.verdict import EditRefusedError, FileError, Finding, finding, system_reason
 from .. import selection
 from ..findings import ROBOT_GEOMETRY_NOT_WRITTEN, ROBOT_NAMES_ALIKE
@@ -249,7 +249,7 @@ class UsdExport(GeometryExport):
         if scaled:
             findings.append(finding(ROBOT_SCALED, count=len(scaled), links=scaled))
         if made.unit != 1.0:
-            findings.append(finding(USD_UNIT_SCALE, scale=made.unit))
+            findings.append(finding(UNIT_SCALE, scale=made.unit, cause=USD_SCALED))
         remarks = list(map(verdict.sentence, findings))
         text = usd.write_over(robot, paths, "./" + geometry.name, made.unit, remarks)
         selection.write_file(path, [text])
