@@ -600,25 +600,33 @@ def count_alarms(audit: Audit, path: Path, roots: Roots, content: Path, codes: d
 
 HEAD = """# Faults Found, and Alarms
 
-The robots are those of [Published Robots, Audited](robots-audited.md) in URDF and MJCF. Each kind
-of fault is planted in up to three links of each URDF. These links have no alarm, and their
-inertial differs from that of their evenly filled geometry by less than 0.5 %. A fault is planted
-only if it changes the inertial by more than 2 %. It is found if the audit then gives an error or a
-warning. It is undone if the repair leads back to the right inertial within 2 %. The last five kinds
-concern several links, and are planted at most once in each URDF. Twins need no evenly filled
-geometry, and their faults are undone within 10 %. If the mass is not stated, it cannot be known. If
-two units explain the same numbers, such as kg·in² and lb·in², the likelier one is proposed. The
-command `python3 tests/project.py alarms` made this page.
+The robots are those of [Published Robots, Audited](robots-audited.md) in URDF and MJCF. The command
+`python3 tests/project.py alarms` puts faults into them, and made this page.
+
+Each kind of fault is put into up to three links of each URDF. These links have no alarm. Their
+inertial differs from that of their evenly filled geometry by less than 0.5 %. A fault is used only
+if it changes the inertial by more than 2 %.
+
+- *Planted* is the number of links with the fault.
+- *Found* is the number of links for which the audit then gives an error or a warning.
+- *Undone* is the number of links for which the repair leads back to the right inertial within 2 %.
+
+The last five kinds of faults concern several links. They are used at most once in each URDF. Twins
+need no evenly filled geometry, and their faults are undone within 10 %. If a fault removes the
+mass, no repair can find it again. If two units explain the same numbers, such as kg·in² and lb·in²,
+the audit proposes the likelier unit.
 
 | fault | planted | found | undone |
 |---|---|---|---|
 """
 ALARMS_HEAD = """
 The published files have {links} links, and {alarmed} of these links have an alarm. Other programs
-checked each alarm: trimesh measures the meshes, a linear program of SciPy shows that no masses
-within the hull have this center and inertia, MuJoCo reads MJCF, and NumPy takes the numbers from
-the XML. They share only the search of files with the audit. In {doubtful} links they do not confirm
-an alarm ({share:.2f} % of the links).
+checked each alarm. trimesh measures the meshes. A linear program of SciPy shows that no masses
+within the hull have this center and inertia. MuJoCo reads MJCF. NumPy takes the numbers from the
+XML. Only the search for files is the audit's own.
+
+An alarm is not confirmed if these programs disagree with the audit. This is the case for {doubtful}
+links ({share:.2f} % of the links).
 
 | alarm | links | confirmed |
 |---|---|---|

@@ -44,32 +44,35 @@ CONSUMERS = {
     "Pinocchio 4.1.0": (
         "pinocchio",
         ["pin==4.1.0"],
-        {"urdf": "", "mjcf": "places the root at the origin: compared in its frame"},
+        {"urdf": "", "mjcf": "the root is at the origin, so its frame is used to compare"},
     ),
     "Newton 1.8.0": (
         "newton",
         ["newton[importers]==1.8.0"],
-        {"urdf": "", "mjcf": "", "usd": "converts nothing by `metersPerUnit`"},
+        {"urdf": "", "mjcf": "", "usd": "`metersPerUnit` is not used"},
     ),
     "OpenSim 4.6": ("opensim", ["opensim==4.6"], {"osim": ""}),
     "Genesis 1.4.5": (
         "genesis",
         ["genesis-world==1.4.5", "torch"],
-        {"urdf": "every fifth file: it cuts up meshes", "mjcf": "every fifth file"},
+        {
+            "urdf": "every fifth file, because Genesis cuts the meshes into pieces",
+            "mjcf": "every fifth file",
+        },
     ),
     "PyBullet 3.2.7": (
         "pybullet",
         ["pybullet==3.2.7"],
         {
             "urdf": "with `URDF_USE_INERTIA_FROM_FILE`",
-            "mjcf": "inertia of the geoms, some masses and places off",
-            "sdf": "neither places nor inertia of the file",
+            "mjcf": "the inertia is that of the geoms, and some masses and places are wrong",
+            "sdf": "the places and the inertia of the file are not used",
         },
     ),
     "PyBullet 3.2.7, no flag": (
         "pybullet_default",
         ["pybullet==3.2.7"],
-        {"urdf": "inertia of the collider's bounding box"},
+        {"urdf": "the inertia is that of the collider's bounding box"},
     ),
     "libsdformat 12.3": ("libsdformat", [], {"sdf": ""}),
 }
@@ -87,29 +90,34 @@ PROBES = {
 }
 HEAD = """# Robots in the Programs That Read Them
 
-{count} random robots of 12 links are exported, with joints of all kinds and a mesh for each link.
-The options are the defaults, with and without *Merge Fixed Links*. The newest release of each
-program loads the files. The table shows how much total mass, center and inertia differ from the
-exact numbers: the largest relative difference over all files of a format. The difference of
-centers is divided by the radius of gyration, or by the distance from the origin if that is
-larger. The command `python3 tests/project.py consumers` made this page.
+{count} random robots of 12 links are exported. They have joints of all kinds, and a mesh for each
+link. The options are the defaults, with and without *Merge Fixed Links*. The newest release of each
+program loads the files. The command `python3 tests/project.py consumers` made this page.
 
-The remaining differences come from the programs, not from the files. Newton computes in single
-precision. The numbers of each body agree to 1e-6. But Newton's kinematics multiply quaternions and
-never normalize them, so after some joints their lengths are off by up to 1e-6. The effect is
-largest with its MJCF importer. If the same joint frames are multiplied in double precision, the
-places agree to 1e-6 of their distance. PyBullet turns a tensor to its axes step by step. If all
-products are below 1e-6 of the trace, one more step is the last one. Its moments agree to 3e-12, and
-its axes to 6e-7.
+The table compares total mass, center and inertia with the exact numbers. It shows the largest
+relative difference over all files of a format. The difference of two centers is divided by the
+radius of gyration. If the distance of the center from the origin is larger, it is divided by this
+distance.
+
+The remaining differences come from the programs, not from the files:
+
+- Newton computes in single precision, and the numbers of each body agree to 1e-6. But Newton
+  multiplies quaternions and never normalizes them. After some joints, their lengths are therefore
+  wrong by up to 1e-6. The effect is largest with Newton's MJCF importer. If the same joint frames
+  are multiplied in double precision, the places agree to 1e-6 of their distance.
+- PyBullet turns a tensor to its axes step by step. As soon as all products are below 1e-6 of the
+  trace, PyBullet makes only one more step. Its moments agree to 3e-12, and its axes to 6e-7.
 
 | program | format | files read | mass | center | inertia | remark |
 |---|---|---|---|---|---|---|
 {rows}
-The next table shows how readers of URDF load a link whose collider is a unit cube, with
+The next table shows how readers of URDF load a link whose collider is a unit cube. The table has a
+column for each of three inertials:
 
-- no inertial,
-- the moments 1, 2 and 3 kg·m²; the largest is too large by 1e-12 of itself, so that A + B < C,
-- the moments 1, 1 and 9 kg·m², which no body has:
+- no inertial;
+- the moments 1, 2 and 3 kg·m², but the largest moment is increased by a factor of 1 + 1e-12, so
+  that A + B < C;
+- the moments 1, 1 and 9 kg·m², which no body has.
 
 | program | no inertial | A + B < C by 1e-12 | 1, 1, 9 |
 |---|---|---|---|

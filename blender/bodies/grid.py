@@ -116,7 +116,7 @@ def _grid_body(reading: VolumeReading, options: GridOptions, settings: Settings)
 def _label(reading: VolumeReading, label: int, unit: float) -> Body:
     """Return the body of the voxels of a label, or for 0 of all labels but 0."""
     sums = sum_labels(reading.blocks)
-    chosen = [row for own, row in sums.items() if own == label or label == 0 != own]
+    chosen = [row for own, row in sums.items() if own and label in (0, own)]
     if not chosen:
         values = {"labels": [label], "others": sorted(sums.keys() - {0}), "remedy": "Label"}
         raise ReadError(LABEL_ABSENT, file=reading.grid, **values)

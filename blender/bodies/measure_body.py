@@ -38,11 +38,11 @@ def measure_body(
         point = read_point(request)
         if point is not None:
             measurement, body = point_measurement(point, request)
-            return Measured(measurement=measurement, reading=point, body=body)
+            return Measured(measurement, reading=point, body=body)
         kinds = (kind for kind in KINDS if request.settings.kind in kind.MEASURED_AS)
         found = ((kind, kind.read(request)) for kind in kinds)
         # The last kind raises MeasureError in place of returning None.
         kind, reading = next((kind, reading) for kind, reading in found if reading is not None)
         body = with_given(kind.body(reading, request), reading, request)
         measurement = measurement_of(reading, body, request)
-        return Measured(measurement=measurement, reading=reading, body=body)
+        return Measured(measurement, reading=reading, body=body)

@@ -115,7 +115,7 @@ class _Collector:
             return None
         matrix = obj.evaluated_get(self.depsgraph).matrix_world
         location, turn, _scale = matrix.decompose()
-        placed = world_matrices(obj)[0] if has_places(obj) else np.array(matrix)
+        placed = world_matrices(obj)[0] if has_places(obj) else np.array(matrix, np.float64)
         return Member(
             obj,
             shape,
@@ -180,10 +180,8 @@ class _Collector:
         alone.
         """
         try:
-            stack = measure_members(self.members, self.surfaces) if self.members else None
+            rows = measure_members(self.members, self.surfaces) if self.members else []
         except Exception as error:
             internal_error.finding_of(error)
-            stack = None
-        if stack is None:
-            return {}
-        return {member.obj: Measured(stack, i) for i, member in enumerate(stack.members)}
+            rows = []
+        return {row.member.obj: row for row in rows}

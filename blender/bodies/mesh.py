@@ -146,7 +146,7 @@ def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
         area=solid.area,
         method=Method(Procedure.UNION),
         findings=tuple(findings),
-        face_count=len(solid.repaired_surface.triangles) + len(solid.repaired_surface.quads),
+        face_count=solid.face_count,
         solids=((solid, np.eye(4)[None]),),
     )
 

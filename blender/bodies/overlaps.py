@@ -53,10 +53,7 @@ def overlap_caveats(
     operands = operands_of(objects)
     pairs = _overlapping_pairs(
         [obj for obj in objects if obj.name not in copies and obj not in operands],
-        lambda obj, limit: (
-            (obj in measured and measured[obj].closed_surface(limit))
-            or _closed_surface(obj, depsgraph, limit)
-        ),
+        lambda obj, limit: _closed_surface(obj, depsgraph, limit, measured.get(obj)),
     )
     if not pairs:
         return []
@@ -119,18 +116,26 @@ def _boxes_meet(first: Array, second: Array) -> Mask:
     return ~(apart > 0.0).any(axis=1)
 
 
-def _closed_surface(obj: Object, depsgraph: Depsgraph, limit: int) -> Surface | None:
+def _closed_surface(
+    obj: Object, depsgraph: Depsgraph, limit: int, measured: Measured | None
+) -> Surface | None:
     """Return the triangles of a closed object in the world, None if it is open or has more than
     `limit`.
     """
     try:
-        reading = read.objects.read_object(obj, depsgraph, edges=False)
+        reading = (
+            read.objects.read_object(obj, depsgraph, edges=False)
+            if measured is None or measured.reading.has_patches
+            else measured.reading
+        )
     except MeasureError:  # such as a grid of densities
         return None
     count = sum(part.surface.triangle_count * len(part.matrices) for part in reading.parts)
-    for part in reading.parts:
+    if not 0 < count <= limit:
+        return None
+    for part in [] if measured is not None and measured.is_faultless else reading.parts:
         boundary = BoundarySum()
         boundary.add(part.surface)
-        if count > limit or not boundary.is_zero:
+        if not boundary.is_zero:
             return None
     return reading.join()

@@ -8,15 +8,14 @@ measured alone.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
 
-from ...core.bodies import Reading
+from ...core.bodies import MeshBody, Part, Reading, to_si
 from ...core.inertia import MassProperties, has_certain_total
 from ...core.inertia.third_moment_frames import third_moment_frames
 from ...core.measurement import (
@@ -31,15 +30,13 @@ from ...core.measurement import (
 )
 from ...core.mesh import Surface
 from ...core.moments import Moments, are_similarities, are_singular, image
-from ...core.numerics import Array, Index, Mask, NDArray, rotation_matrix
+from ...core.numerics import Array, Index, NDArray, rotation_matrix
 from ...core.polyhedron import area_of_images
-from ...core.solid import SmallSolid, SolidIntegrals, SolidStack, measure_again
+from ...core.solid import SmallSolid, SolidStack, measure_again
 from ...core.verdict import Finding, Method, Procedure
 from ..read.fingerprint import transform_key
-from ..read.mesh import read_digest
 from ..settings.accepted import accepted_codes, with_acceptance
 
-PlacedSolids = Sequence[tuple[SolidIntegrals, Array]]
 METHODS = {verdict: Method(verdict) for verdict in Procedure}
 
 
@@ -59,161 +56,85 @@ class Member(NamedTuple):
     quaternion: tuple[float, ...]
 
 
-@dataclass(frozen=True, eq=False)
-class MeasuredStack:
-    """The measurements of many objects, in SI units and world axes; arrays have one row for each
-    object.
+class Measured:
+    """The measurement of one object, with its reading and its body.
 
-    `from_mass`: true if the density, kg/m³, follows from a given mass.
-    `stretch`: ratio of the object's volume to its shape's.
-    `rotation`, `location`: (n, 3, 3) and (n, 3), the object frames.
+    `stack`: the measurements of several objects, of which this is row `index`, or of one that was
+    measured alone. `members`, `shapes`: the objects of a stack, one of them this `member`, and the
+    solids that they show.
     """
 
+    stack: Any  # entries of a stack are lists and arrays
+    member: Member
     members: list[Member]
-    solids: SolidStack
-    from_mass: Mask
-    density: Array
-    volume: Moments
-    area: Moments
-    mass_properties: MassProperties
-    stretch: Array
-    rotation: Array
-    location: Array
-    fingerprints: list[str]
-    methods: list[Method]
-    findings: list[tuple[Finding, ...]]
+    shapes: SolidStack
 
-    def surface(self, i: int) -> Surface:
-        """Return the surface of one member, in its own coordinates."""
-        return self.solids.surfaces[self.members[i].shape]
-
-    def some(self, which: list[int]) -> MeasuredStack:
-        """Return the stack of the members with these indices."""
-        if len(which) == len(self.members):
-            return self
-        lists = "members", "fingerprints", "methods", "findings"
-        arrays = "density", "from_mass", "stretch", "rotation", "location"
-        return replace(
-            self,
-            **{name: [getattr(self, name)[i] for i in which] for name in lists},
-            **{name: getattr(self, name)[which] for name in arrays},
-            volume=self.volume.at(which),
-            area=self.area.at(which),
-            mass_properties=self.mass_properties.at(which),
-        )
-
-    @cached_property
-    def error_bounds(self) -> Array:
-        """(n, 2, 4) bounds by rounding, then by float32 coordinates, of volume, area, center and
-        inertia.
-        """
-        volume = self.volume
-        area = self.area
-        properties = self.mass_properties
-        rounding = properties.rounding_error
-        moved = properties.input_error
-        bounds = (
-            (
-                volume.rounding_error[:, 0],
-                area.rounding_error[:, 0],
-                rounding["center"],
-                rounding["inertia"],
-            ),
-            (volume.input_error[:, 0], area.input_error[:, 0], moved["center"], moved["inertia"]),
-        )
-        return np.array(bounds).transpose(2, 0, 1)
-
-    def measurement(self, i: int) -> Measurement:
-        """Return the measurement of one member."""
-        obj = self.members[i].obj
-        health = self.solids[self.members[i].shape].health
-        volume = self.volume.at(i)
-        density = self.density[i]
-        return build_measurement(
-            name=obj.name,
-            type=obj.type,
-            kind="solid",
-            method=self.methods[i],
-            density=float(density),
-            volume=volume,
-            area=self.area.at(i),
-            mass_properties=self.mass_properties.at(i),
-            mass_moments=(volume, float(density)),
-            health=replace(health, volume_spread=health.volume_spread * float(self.stretch[i])),
-            findings=self.findings[i],
-            rotation=self.rotation[i],
-            location=self.location[i],
-            fingerprint=self.fingerprints[i],
-            density_from=DENSITY_FROM_MASS if self.from_mass[i] else DENSITY_FROM_VALUE,
-        )
-
-
-class Measured:
-    """One object's measurement: a row of a stack, or alone with its reading and body."""
-
-    reading: Reading
-    body: Body
-
-    def __init__(self, stack: MeasuredStack | None = None, index: int = 0, **alone: Any):
+    def __init__(self, stack: Measurement, index: int | None = None, **known: Any):
         self.stack = stack
         self.index = index
-        self.__dict__.update(alone)
-
-    @cached_property
-    def measurement(self) -> Measurement:
-        assert self.stack is not None
-        return self.stack.measurement(self.index)
+        self.__dict__.update(known)
 
     @property
     def findings(self) -> tuple[Finding, ...]:
-        return self.stack.findings[self.index] if self.stack else self.measurement.findings
+        return self.stack.findings if self.index is None else self.stack.findings[self.index]
 
     @property
-    def mass_properties(self) -> MassProperties:
-        if self.stack is None:
-            return self.measurement.mass_properties
-        return self.stack.mass_properties.at(self.index)
+    def is_faultless(self) -> bool:
+        """True if the object's surface is known to be closed, without defective elements."""
+        if self.index is None:
+            return False
+        solid = self.shapes[self.member.shape]
+        return isinstance(solid, SmallSolid) and solid.method is Procedure.EXACT
 
     @property
-    def method(self) -> Method:
-        return self.stack.methods[self.index] if self.stack else self.measurement.method
+    def surface(self) -> Surface | None:
+        """The object's surface as it was read, None if it has several or none."""
+        if self.index is not None:
+            return self.shapes.surfaces[self.member.shape]
+        parts = self.reading.parts
+        return parts[0].surface if len(parts) == 1 else None
 
-    @property
-    def solids(self) -> PlacedSolids:
-        """The solids, each with (k, 4, 4) maps of its places to the world in m; none for other
-        bodies than meshes.
-        """
-        if self.stack is None:
-            return getattr(self.body, "solids", ())
-        member = self.stack.members[self.index]
-        matrix = member.matrix * np.array([[member.settings.unit]] * 3 + [[1.0]])
-        return [(self.stack.solids[member.shape], matrix[None])]
+    @cached_property
+    def measurement(self) -> Measurement:
+        if self.index is None:
+            return self.stack
+        row = self.stack.at(self.index)
+        solid = self.shapes[self.member.shape]
+        spread = solid.health.volume_spread * (row.volume / solid.volume.total)
+        return replace(row, health=replace(solid.health, volume_spread=spread))
 
-    def closed_surface(self, limit: int) -> Surface | None:
-        """Return the surface in the world if it is closed as it is, with `limit` triangles at most;
-        None if that is not known.
-        """
-        if self.stack is None:
-            return None
-        member = self.stack.members[self.index]
-        solid = self.stack.solids[member.shape]
-        surface = solid.given_surface
-        if solid.method is not Procedure.EXACT or not isinstance(solid, SmallSolid):
-            return None
-        if surface.triangle_count > limit:
-            return None
-        return surface.transform(member.matrix[:3, :3], member.matrix[:3, 3])
+    @cached_property
+    def body(self) -> Body:
+        row = self.measurement
+        member = self.member
+        solid = self.shapes[member.shape]
+        return MeshBody(
+            row.mass_moments[0],
+            row.area_moments,
+            row.health,
+            row.method,
+            row.findings,
+            face_count=solid.face_count,
+            solids=((solid, to_si(member.matrix[None], member.settings.unit)),),
+            threads=1,
+        )
 
-    def shape_digest(self, obj: bpy.types.Object) -> bytes | None:
-        """Return the digest of the object's surface; None if it is large or not the whole shape."""
-        if self.stack is not None:
-            return self.stack.surface(self.index).digest
-        return read_digest(obj, self.reading) if isinstance(self.reading, Reading) else None
+    @cached_property
+    def reading(self) -> Reading:
+        member = self.member
+        return Reading(
+            member.obj.name,
+            member.obj.type,
+            member.matrix,
+            self.stack.rotation[self.index],
+            np.array(member.location),
+            [Part(self.shapes.surfaces[member.shape], member.matrix[None])],
+        )
 
 
-def measure_members(members: list[Member], surfaces: list[Surface]) -> MeasuredStack | None:
-    """Return the stack of the members with certain volume and mass, or None; all members have the
-    same unit.
+def measure_members(members: list[Member], surfaces: list[Surface]) -> list[Measured]:
+    """Return the measurements of the members with certain volume and mass, as one stack; all
+    members have the same unit.
     """
     unit = members[0].settings.unit
     solids = measure_again(surfaces)
@@ -227,7 +148,7 @@ def measure_members(members: list[Member], surfaces: list[Surface]) -> MeasuredS
     matrices = matrices[usable]
     which = which[usable]
     if not members:
-        return None
+        return []
     matrices[:, :3] *= unit
     volume = image(own.at(which), matrices)
     area = _areas(solids, which, matrices)
@@ -244,7 +165,7 @@ def measure_members(members: list[Member], surfaces: list[Surface]) -> MeasuredS
         rows = rows[fixed.is_body]
         fixed = third_moment_frames(volume.at(rows))
     if not len(rows):
-        return None
+        return []
     if len(rows) < len(members):  # the others are refused by themselves
         members = _chosen(members, rows)
         which = which[rows]
@@ -253,30 +174,37 @@ def measure_members(members: list[Member], surfaces: list[Surface]) -> MeasuredS
         from_mass = from_mass[rows]
         volume, area = volume.at(rows), area.at(rows)
     rotation = rotation_matrix([member.quaternion for member in members])
-
     properties = MassProperties.of_stack(volume, density, rotation, fixed)
     geometry = np.ascontiguousarray(np.concatenate([volume.raw, area.raw], axis=1))
-    return MeasuredStack(
-        members,
-        solids,
-        from_mass,
-        density,
-        volume,
-        area,
-        properties,
-        volume.raw[:, 0] / own.raw[which, 0],
-        rotation,
-        np.array([member.location for member in members]) * unit,
-        [
-            fingerprint(numbers, transform_key(each.obj), each.settings.digest)
-            for numbers, each in zip(geometry, members)
-        ],
-        [METHODS[solids[member.shape].method] for member in members],
-        [
+    stack = build_measurement(
+        name=[member.obj.name for member in members],
+        type=[member.obj.type for member in members],
+        kind="solid",
+        method=[METHODS[solids[member.shape].method] for member in members],
+        density=density,
+        volume=volume,
+        area=area,
+        mass_properties=properties,
+        mass_moments=(volume, density),
+        health=None,
+        findings=[
             _findings(member.obj, solids[member.shape].findings + bounds)
             for member, bounds in zip(members, find_large_bounds(volume, area, properties))
         ],
+        rotation=rotation,
+        location=np.array([member.location for member in members]) * unit,
+        fingerprint=[
+            fingerprint(numbers, transform_key(each.obj), each.settings.digest)
+            for numbers, each in zip(geometry, members)
+        ],
+        density_from=[
+            DENSITY_FROM_MASS if is_given else DENSITY_FROM_VALUE for is_given in from_mass.tolist()
+        ],
     )
+    return [
+        Measured(stack, i, member=member, members=members, shapes=solids)
+        for i, member in enumerate(members)
+    ]
 
 
 def _findings(obj: bpy.types.Object, found: tuple[Finding, ...]) -> tuple[Finding, ...]:

@@ -18,7 +18,6 @@ import bpy
 import numpy as np
 from bpy.types import Depsgraph, Object
 
-from ...core.bodies import Reading
 from ...core.mesh import Surface
 from ...core.numerics import Array, NDArray
 from ...core.verdict import ReadError
@@ -189,11 +188,10 @@ def shape_digest(obj: Object, depsgraph: Depsgraph) -> bytes | None:
     return mesh_surface(mesh, edges=False).digest
 
 
-def read_digest(obj: Object, reading: Reading) -> bytes | None:
-    """Return the `shape_digest` of an object whose reading is fresh."""
-    if not _shows_one_mesh(obj) or len(reading.parts) != 1:
+def read_digest(obj: Object, surface: Surface | None) -> bytes | None:
+    """Return the `shape_digest` of an object whose only surface was just read."""
+    if surface is None or not _shows_one_mesh(obj):
         return None
-    surface = reading.parts[0].surface
     is_large = len(surface.triangles) + len(surface.quads) > MAX_DIGESTED_FACES
     return None if is_large else surface.digest
 

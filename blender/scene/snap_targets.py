@@ -134,16 +134,16 @@ def target_of(
     axes of equal moments, in whose plane the object's own axes may lie anywhere. Signs that third
     moments leave open follow the object's own axes.
     """
-    if measured.method.procedure == Procedure.OPEN:
+    if measured.measurement.method.procedure == Procedure.OPEN:
         raise EditRefusedError(OPEN_OBJECT)
     unit = meters_per_unit(context.scene)
-    body = measured.mass_properties
+    body = measured.measurement.mass_properties
     principal = body.principal
     if strict or (by_shape and not principal.is_unique and EQUAL_AXES[principal.symmetry]):
         # Measured alone, a body gets exact third moments if they are doubtful.
         own = (
             measured
-            if measured.stack is None
+            if measured.index is None
             else measure_body(obj, context.evaluated_depsgraph_get())
         )
         if strict:

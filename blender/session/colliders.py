@@ -15,7 +15,7 @@ from bpy.types import Context, Object
 from ...core import bodies, colliders, inertia, mesh, moments, numerics, robots, verdict
 from ...core.measurement import Measurement, digest, plain
 from .. import read, write
-from ..bodies.stack import Measured, PlacedSolids
+from ..bodies.stack import Measured
 from ..read.fingerprint import colliders_digest, scale_products
 from ..scale import meters_per_unit
 from ..scene import changes
@@ -58,13 +58,12 @@ def plan_colliders(
     """
     changes.require_storable_data(obj)
     measurement = measured.measurement
-    solids = measured.solids
-    surface = _surface(obj, measured, solids)
+    surface = _surface(obj, measured)
     stretch = scene.stretch_of(obj, measurement.rotation)
     if moments.are_singular(stretch[None])[0]:
         raise verdict.ReadError(read.findings.SCALE_ZERO_AXIS)
     body = measurement.in_object_frame()
-    key = _mesh_key(obj, measurement, solids)
+    key = _mesh_key(obj, measured)
     if key in known:
         return replace(known[key], obj=obj, fingerprint=measurement.fingerprint)
     if is_share:
@@ -101,13 +100,14 @@ def plan_colliders(
     return known[key]
 
 
-def _mesh_key(obj: Object, measurement: Measurement, solids: PlacedSolids) -> str:
+def _mesh_key(obj: Object, measured: Measured) -> str:
     """Return a key that is equal for objects with the same settings and meshes in the same places
     of their frames.
     """
+    measurement = measured.measurement
     parts = []
     to_frame = robots.Pose(measurement.location, measurement.rotation).inverse()
-    for solid, matrices in solids:
+    for solid, matrices in getattr(measured.body, "solids", ()):
         linear = to_frame.rotation @ matrices[:, :3, :3]
         places = matrices[:, :3, 3] @ to_frame.rotation.T + to_frame.position
         scale = np.abs(linear).max()
@@ -121,16 +121,10 @@ def _mesh_key(obj: Object, measurement: Measurement, solids: PlacedSolids) -> st
     return digest(settings + b"".join(np.ascontiguousarray(part).tobytes() for part in parts))
 
 
-def _surface(obj: Object, measured: Measured, solids: PlacedSolids) -> mesh.Surface:
+def _surface(obj: Object, measured: Measured) -> mesh.Surface:
     """Return the measured surface, repaired if it is a solid's, in the object's frame in m."""
     measurement = measured.measurement
-    if measured.stack is None:
-        pieces = [*measured.body.surfaces(measurement.kind == "shell")]
-    else:
-        pieces = [
-            solid.repaired_surface.transform(matrix[:3, :3], matrix[:3, 3])
-            for solid, (matrix,) in solids
-        ]
+    pieces = [*measured.body.surfaces(measurement.kind == "shell")]
     if not pieces:
         kind = obj.bl_rna.properties["type"].enum_items[obj.type].name
         raise verdict.ReadError(read.findings.OBJECT_WITHOUT_GEOMETRY, subject=obj.name, type=kind)

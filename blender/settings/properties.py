@@ -114,9 +114,9 @@ def _text(name: str, description: str, **special: Any) -> Any:
     return StringProperty(name=name, description=description, update=changed, **special)
 
 
-def _count(name: str, description: str, default: int, least: int) -> Any:
+def _count(name: str, description: str, default: int) -> Any:
     return IntProperty(
-        name=name, description=description, default=default, min=least, soft_max=20, update=changed
+        name=name, description=description, default=default, min=0, soft_max=20, update=changed
     )
 
 
@@ -276,11 +276,11 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         update=lambda settings, _context: _set_preset(settings),
         options={"SKIP_SAVE"},
     )
-    print_walls: _count("Walls", "Number of walls (perimeters)", 2, 1)
+    print_walls: _count("Walls", "Number of walls (perimeters)", 2)
     print_line_width: _millimeters("Line Width", "Width of one wall in mm", 0.42)
-    print_top_layers: _count("Top Layers", "Number of full layers below faces that face up", 4, 0)
+    print_top_layers: _count("Top Layers", "Number of full layers below faces that face up", 4)
     print_bottom_layers: _count(
-        "Bottom Layers", "Number of full layers above faces that face down", 4, 0
+        "Bottom Layers", "Number of full layers above faces that face down", 4
     )
     print_layer_height: _millimeters("Layer Height", "Height of one layer in mm", 0.2)
     print_infill: FloatProperty(

@@ -13,7 +13,7 @@ import json
 from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
 from math import isfinite
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import bpy
 
@@ -31,9 +31,6 @@ from ...core.verdict import (
     of_severity,
     sentence,
 )
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 DESCRIPTIONS = {
     "body_mass": "Mass in kg",
@@ -83,16 +80,16 @@ FRAMES = {  # by the type of the owner of results
     bpy.types.PoseBone: "the bone's rest frame (head and axes, unit scale)",
 }
 Owner = bpy.types.Object | bpy.types.Collection | bpy.types.PoseBone
-LENGTHS = {
-    "body_mass": 0,
-    "body_density": 0,
-    "body_volume": 0,
-    "body_area": 0,
-    "body_center_of_mass": 3,
-    "body_inertia": 6,
-    "body_principal_moments": 3,
-    "body_principal_axes": 4,
-    "body_error_bound": 8,
+FIELDS = {  # the fields of `PlainBody` that the properties hold, and the properties' lengths
+    "body_mass": ("mass", 0),
+    "body_density": ("density", 0),
+    "body_volume": ("volume", 0),
+    "body_area": ("area", 0),
+    "body_center_of_mass": ("center", 3),
+    "body_inertia": ("inertia", 6),
+    "body_principal_moments": ("moments", 3),
+    "body_principal_axes": ("axes", 4),
+    "body_error_bound": ("error_bound", 8),
 }
 # on an empty that shows a group: the names of its objects, one a line
 BALANCE_GROUP = "body_balance_group"
@@ -108,24 +105,46 @@ def store(obj: Owner, measurement: core.measurement.Measurement) -> None:
 
     Raises EditRefusedError if it cannot hold them.
     """
-    store_values(obj, values_of(measurement))
+    store_values(obj, next(values_of(measurement)))
 
 
-def values_of(measurement: core.measurement.Measurement) -> dict[str, Any]:
-    """Return the properties that hold a measurement."""
+def values_of(measurement: core.measurement.Measurement) -> Iterator[dict[str, Any]]:
+    """Yield the properties that hold a measurement, or each one of a stack."""
     body = measurement.in_object_frame()
     bound = measurement.error_bound
-    row = (
-        body.mass,
-        measurement.density,
-        measurement.volume,
-        measurement.area,
-        body.center.tolist(),
-        body.inertia[ROWS, COLUMNS].tolist(),
-        body.principal.moments.tolist(),
-        body.principal.quaternion.tolist(),
-        [float(source[name]) for source in (bound, bound["input"]) for name in BOUND_KEYS],
-    )
+    bounds = [source[name] for source in (bound, bound["input"]) for name in BOUND_KEYS]
+    columns = {
+        "body_mass": body.mass,
+        "body_density": measurement.density,
+        "body_volume": measurement.volume,
+        "body_area": measurement.area,
+        "body_center_of_mass": body.center,
+        "body_inertia": body.inertia[..., ROWS, COLUMNS],
+        "body_principal_moments": body.principal.moments,
+        "body_principal_axes": body.principal.quaternion,
+    }
+    numbers = [
+        column.tolist() if hasattr(column, "tolist") else column
+        for column in (*columns.values(), *bounds)
+    ]
+    texts = measurement.method, measurement.findings, measurement.fingerprint
+    is_stack = isinstance(measurement.findings, list)
+    known: dict[tuple[str, tuple[int, ...]], dict[str, Any]] = {}
+    for *row, method, found, mark in zip(*numbers, *texts) if is_stack else [(*numbers, *texts)]:
+        key = str(method), tuple(map(id, found))
+        if key not in known:  # most are alike
+            known[key] = {
+                "body_method": key[0],
+                "body_warnings": warning_lines(found),
+                "body_findings": findings_text(found),
+            }
+        values = dict(zip(columns, row)) | {"body_error_bound": row[len(columns) :]}
+        values |= known[key] | {"body_fingerprint": mark}
+        yield values if is_stack else values | _special_values(measurement)
+
+
+def _special_values(measurement: core.measurement.Measurement) -> dict[str, Any]:
+    """Return the properties of wires, prints, varying densities and B-spline patches."""
     values: dict[str, Any] = {
         key: getattr(measurement, key.removeprefix("body_")) for key in OPTIONAL
     }
@@ -135,53 +154,7 @@ def values_of(measurement: core.measurement.Measurement) -> dict[str, Any]:
     if measurement.printed is not None:
         values["body_material_volume"] = measurement.printed["material_volume"]
         values["body_price"] = measurement.printed.get("price")
-    values |= dict(zip(LENGTHS, row)) | _texts(
-        measurement.method, measurement.findings, measurement.fingerprint
-    )
     return {key: value for key, value in values.items() if value is not None}
-
-
-def values_of_stack(
-    body: core.inertia.MassProperties,
-    density: NDArray,
-    volume: NDArray,
-    area: NDArray,
-    error_bounds: NDArray,
-    texts: Iterable[tuple[Method, tuple[Finding, ...], str]],
-) -> Iterator[dict[str, Any]]:
-    """Yield the properties of n objects, each a solid of one density.
-
-    body: with a leading axis, in the object frames. density, volume, area: (n,) arrays.
-    error_bounds: (n, 2, 4) bounds of rounding and of float32 coordinates, in the order of
-    BOUND_KEYS. texts: the method, findings and fingerprint of each object.
-    """
-    columns = (
-        body.mass,
-        density,
-        volume,
-        area,
-        body.center,
-        body.inertia[:, ROWS, COLUMNS],
-        body.principal.moments,
-        body.principal.quaternion,
-        error_bounds.reshape(-1, 8),
-    )
-    rows = zip(*[column.tolist() for column in columns])
-    known: dict[tuple[str, tuple[int, ...]], dict[str, str]] = {}
-    for row, (method, found, mark) in zip(rows, texts):
-        key = str(method), tuple(map(id, found))
-        if key not in known:  # most are alike
-            known[key] = _texts(method, found, "")
-        yield dict(zip(LENGTHS, row)) | known[key] | {"body_fingerprint": mark}
-
-
-def _texts(method: Method, found: Iterable[Finding], mark: str) -> dict[str, str]:
-    return {
-        "body_method": str(method),
-        "body_warnings": warning_lines(found),
-        "body_findings": findings_text(found),
-        "body_fingerprint": mark,
-    }
 
 
 def store_values(obj: Owner, values: dict[str, Any]) -> None:
@@ -226,10 +199,13 @@ def store_scaled(
 
 def store_body(obj: Owner, body: PlainBody, fingerprint: str) -> None:
     """Replace the numbers of stored results, in the object frame; method and findings stay."""
-    *numbers, axes, bound = body
-    bounds = [source[name] for source in (bound, bound["input"]) for name in BOUND_KEYS]
-    turn = core.numerics.rotations.quaternion([list(axis) for axis in zip(*axes)]).tolist()
-    values = dict(zip(LENGTHS, (*numbers, turn, bounds))) | {
+    bound = body.error_bound
+    turn = core.numerics.rotations.quaternion([list(axis) for axis in zip(*body.axes)])
+    values = {key: getattr(body, field) for key, (field, _) in FIELDS.items()} | {
+        "body_principal_axes": turn.tolist(),
+        "body_error_bound": [
+            source[name] for source in (bound, bound["input"]) for name in BOUND_KEYS
+        ],
         "body_inertia_diagonal": body.inertia[:3],
         "body_inertia_products": body.inertia[3:],
         "body_fingerprint": fingerprint,
@@ -290,7 +266,6 @@ def retrigger_drivers(obj: Owner) -> None:
 
 
 def is_stored(obj: Owner) -> bool:
-    """Return whether the object has results."""
     return stored(obj) is not None
 
 
@@ -383,8 +358,8 @@ def stored(obj: Owner) -> PlainBody | None:
     """Return the stored results, in the object frame; None if one is missing or (except error
     bounds) not finite.
     """
-    values: list[Any] = []
-    for key, length in LENGTHS.items():
+    values: dict[str, Any] = {}
+    for key, (field, length) in FIELDS.items():
         value = obj.get(key)
         try:
             row = tuple(map(float, value)) if length else (float(value),)
@@ -392,7 +367,8 @@ def stored(obj: Owner) -> PlainBody | None:
             return None
         if len(row) != max(length, 1) or not (key == "body_error_bound" or all(map(isfinite, row))):
             return None
-        values.append(row if length else row[0])
-    *numbers, turn, bounds = values
+        values[field] = row if length else row[0]
+    bounds = values["error_bound"]
     rounding, inputs = (dict(zip(BOUND_KEYS, bounds[i : i + 4])) for i in (0, 4))
-    return PlainBody._make((*numbers, rotation_axes(turn), (rounding | {"input": inputs})))
+    values |= {"axes": rotation_axes(values["axes"]), "error_bound": rounding | {"input": inputs}}
+    return PlainBody(**values)

@@ -213,12 +213,7 @@ def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -
         health,
         Method(least_trusted(of_solids)),
         tuple(findings),
-        face_count=sum(
-            [
-                len(solid.repaired_surface.triangles) + len(solid.repaired_surface.quads)
-                for solid, _ in parts
-            ]
-        ),
+        face_count=sum([solid.face_count for solid, _ in parts]),
         solids=tuple(parts),
         threads=threads,
     )

@@ -27,7 +27,7 @@ from ..moments import (
     U,
     monomial_count,
 )
-from ..numerics import IDENTITY_3, Array, ArrayLike, NDArray
+from ..numerics import IDENTITY_3, Array, ArrayLike, NDArray, PerBody
 from ..polyhedron import MAX_TRIANGLES_EXACT_THIRD
 from ..solid.measure import SolidIntegrals, measure_solid
 from ..verdict import Finding, MeshHealth, Method, Procedure, ReadError, finding
@@ -67,15 +67,15 @@ def build_measurement(
     estimated: bool = False,
     **fields: Any,
 ) -> Measurement:
-    """Return a measurement with volume, area and bounds from the moments and properties; other
-    fields as given.
+    """Return a measurement, or a stack, with volume, area and bounds from the moments and
+    properties; other fields as given.
     """
     rounding = mass_properties.rounding_error
     moved = mass_properties.input_error
     known: dict[str, Any] = {"volume_moments": volume, "area_moments": area}
     return Measurement(
-        volume=float(volume.raw[0]),
-        area=float(area.raw[0]),
+        volume=volume.total,
+        area=area.total,
         mass_properties=mass_properties,
         error_bound={
             **_bounds(volume.rounding_error, area.rounding_error, rounding),
@@ -284,10 +284,11 @@ def _to_order(body: Body, settings: Settings, order: int) -> tuple[Moments | Non
     return None if _is_thin(body, settings) else volume, area or body.area
 
 
-def _bounds(volume: NDArray, area: NDArray, of_mass: dict[str, float]) -> dict[str, float]:
+def _bounds(volume: NDArray, area: NDArray, of_mass: dict[str, PerBody]) -> dict[str, PerBody]:
+    totals = [each[:, 0] if each.ndim > 1 else float(each[0]) for each in (volume, area)]
     return {
-        "volume": float(volume[0]),
-        "area": float(area[0]),
+        "volume": totals[0],
+        "area": totals[1],
         "center_of_mass": of_mass["center"],
         "inertia": of_mass["inertia"],
     }
@@ -382,7 +383,7 @@ def mass_properties(points: ArrayLike, triangles: ArrayLike, *, density: float) 
         solid.health,
         Method(solid.method),
         solid.findings,
-        face_count=len(surface.triangles),
+        face_count=solid.face_count,
         solid=solid,
     )
     place = {

@@ -10,6 +10,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
+import numpy as np
+
 from ..inertia import MassProperties
 from ..mesh import Surface
 from ..moments import Measure, Moments
@@ -79,7 +81,8 @@ class Body:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Measurement:
-    """One object in SI units and world axes.
+    """One object in SI units and world axes; in a stack, numbers have a leading axis, and texts,
+    methods, findings and sources of density are lists.
 
     kind: "solid", "shell", "printed" or "wire". method: the verdict and its source: polygons,
     B-spline patches measured instead of
@@ -127,6 +130,28 @@ class Measurement:
     higher_mass: Moments | None = None
     place_error: float = 0.0
     printed: dict[str, Any] | None = None
+
+    def at(self, which: int | list[int]) -> Measurement:
+        """Return one measurement of a stack, without its health, or a stack of some of them."""
+
+        def pick(value: Any) -> Any:
+            if isinstance(value, (Moments, MassProperties)):
+                return value.at(which)
+            if isinstance(value, dict):
+                return {name: pick(entry) for name, entry in value.items()}
+            if isinstance(value, tuple):
+                return tuple(map(pick, value))
+            if isinstance(value, list):
+                return [value[i] for i in which] if isinstance(which, list) else value[which]
+            if isinstance(value, np.ndarray):
+                return (
+                    value[which]
+                    if isinstance(which, list) or value.ndim > 1
+                    else float(value[which])
+                )
+            return value
+
+        return Measurement(**{name: pick(value) for name, value in vars(self).items()})
 
     def moments_of_mass(self, order: int) -> Moments | None:
         """Return the moments of the mass, kg, to an order; None if they are not known to that

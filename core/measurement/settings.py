@@ -55,8 +55,8 @@ class PrintSettings(NamedTuple):
         """Raise ReadError if nothing can be printed with these settings."""
         if not 0.0 <= self.infill <= 100.0:
             raise ReadError(PRINT_UNFIT, fault="its infill is not from 0 to 100 %")
-        lengths = min(self.walls, self.top, self.bottom) >= 0 < self.walls
-        if not (lengths and self.line_width > 0.0 and self.layer_height > 0.0 < self.spool):
+        is_counted = min(self.walls, self.top, self.bottom) >= 0
+        if not (is_counted and min(self.line_width, self.layer_height, self.spool) > 0.0):
             raise ReadError(PRINT_UNFIT, fault="a count, width, height or weight is not positive")
 
     def record(self) -> dict[str, Any]:

@@ -67,15 +67,15 @@ def read_label_table(path: Path, limits: Limits) -> dict[int, Label]:
         except (ValueError, IndexError, csv.Error) as error:
             raise _misread(number, line) from error
         if label in labels:
-            raise _misread(number, line)
+            raise _misread(number, line, "a label that no line before it has")
         labels[label] = entry
     if not labels:
         raise _misread(1, "")
     return labels
 
 
-def _misread(number: int, line: str) -> FileError:
-    return FileError(LINE_MISREAD, line=number, text=line[:MAX_TEXT], expected=_TABLE)
+def _misread(number: int, line: str, expected: str = _TABLE) -> FileError:
+    return FileError(LINE_MISREAD, line=number, text=line[:MAX_TEXT], expected=expected)
 
 
 def _columns(number: int, line: str) -> tuple[dict[str, int], str]:

@@ -102,6 +102,12 @@ class SolidIntegrals:
         """The repaired surface, whose signed sum is ``volume``."""
         return self.oriented.surface
 
+    @property
+    def face_count(self) -> int:
+        """The number of triangles and quads of the repaired surface."""
+        surface = self.repaired_surface
+        return len(surface.triangles) + len(surface.quads)
+
     def moments(
         self,
         order: int,

@@ -152,7 +152,7 @@ class SlicerProject:
         outer, inner = number("outer") or USUAL_LINE, number("inner") or USUAL_LINE
         walls = made.get("walls", 1.0)
         height = made.get("layer_height", math.inf)
-        if not (walls >= 1.0 and height > 0.0 and 0.0 <= infill <= 100.0):
+        if not (walls >= 0.0 and height > 0.0 and 0.0 <= infill <= 100.0):
             raise ValueError("a print setting is out of its range")
         for side in ("top", "bottom"):
             least = math.ceil((number(side + "_least") or 0.0) / height - LEAST_LAYER)
@@ -160,7 +160,8 @@ class SlicerProject:
                 made[side] = max(made[side], least)
         if "layer_height" in made:
             made["layer_height"] *= 1e-3
-        made["line_width"] = 1e-3 * (outer + (walls - 1.0) * inner) / walls
+        count = max(walls, 1.0)
+        made["line_width"] = 1e-3 * (outer + (count - 1.0) * inner) / count
         extruder = max(0, parse_whole(str(known.get("extruder", "1"))) - 1)
         densities = known.get("filament_density", ())
         if isinstance(densities, str):

@@ -24,5 +24,6 @@ WALL_MEASURED = note(
 )
 PRINT_UNFIT = error(
     "print_unfit",
-    "It cannot be printed like this: {fault:word}. See Kind: Printed in the panel Density.",
+    "It cannot be printed like this: {fault:word}. See Kind: Printed in the panel Density, or "
+    "--print.",
 )

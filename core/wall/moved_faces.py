@@ -10,8 +10,6 @@ are nearer to the surface than the faces moved do not belong to it; rays show it
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 
 from ..mesh import (
@@ -29,6 +27,7 @@ STEP = 1e-7  # relative to the size: places before and behind a piece
 NEARER = 1e-6  # relative to the moves, and a difference of directions
 MAX_PAIRS = 3_000_000  # pairs of triangles whose boxes overlap
 PAIRS_PER_BLOCK = 1 << 16
+MAX_DIVISIONS = 3_000_000  # tests of pieces of triangles against others that cross them
 RAYS = 12  # directions, and their opposites
 
 
@@ -75,18 +74,26 @@ def part_behind(
     pieces, owners = [corners[largest]], [largest]
     order = np.argsort(first, kind="stable")
     starts = np.flatnonzero(np.diff(first[order], prepend=-1))
+    work = 0
     for planes in np.split(order, starts[1:]) if len(order) else []:
         triangle = first[planes[0]]
-        cells = [corners[triangle]]
+        cells = corners[triangle][None]
         for plane in second[planes]:
-            cells = [
-                half
-                for cell in cells
-                for half in _halves(cell, (cell - corners[plane, 0]) @ units[plane], size)
-            ]
-        fans = [cell[[0, k, k + 1]] for cell in cells for k in range(1, len(cell) - 1)]
-        pieces.append(np.array(fans))
-        owners.append(np.full(len(fans), triangle))
+            count = len(cells)
+            work += count
+            if work > MAX_DIVISIONS:
+                return None
+            crossed = _find_met(
+                np.concatenate([cells, corners[plane][None]]),
+                units[np.repeat([triangle, plane], [count, 1])],
+                np.stack([np.arange(count), np.full(count, count)]),
+                ROUNDING * size,
+            )[1]
+            height = (cells[crossed] - corners[plane, 0]) @ units[plane]
+            height[np.abs(height) <= ROUNDING * size] = 0.0
+            cells = np.concatenate([cells[~crossed], _divide(cells[crossed], height)])
+        pieces.append(cells)
+        owners.append(np.full(len(cells), triangle))
     cells, owner = np.concatenate(pieces), np.concatenate(owners)
     middles, steps = cells.mean(axis=1), STEP * size * units[owner]
     sides = np.concatenate([middles + steps, middles - steps])
@@ -147,17 +154,23 @@ def _find_met(corners: Array, units: Array, pairs: Index, tolerance: float) -> M
     return np.stack([met, met & divided[0]])
 
 
-def _halves(cell: Array, height: Array, size: float) -> Iterator[Array]:
-    """Yield the parts of a convex polygon, (k, 3), above and below a plane."""
-    height[np.abs(height) <= ROUNDING * size] = 0.0
-    beyond = np.roll(height, -1)
-    crosses = height * beyond < 0.0
-    share = (height / np.where(crosses, height - beyond, 1.0))[:, None]
-    cuts = cell + share * (np.roll(cell, -1, axis=0) - cell)
-    points = np.stack([cell, cuts], axis=1).reshape(-1, 3)
-    for side in (height, -height):
-        if side.max() > 0.0:
-            yield points[np.column_stack([side >= 0.0, crosses]).ravel()]
+def _divide(cells: Array, height: Array) -> Array:
+    """Return the parts of triangles, (k, 3, 3), above and below a plane between their corners.
+
+    height: (k, 3), of the corners above the plane; at most one of a triangle is zero.
+    """
+    signs = np.sign(height)
+    lone = np.where(signs.sum(axis=1) > 0.0, -1.0, 1.0)
+    order = (np.argmax(signs == lone[:, None], axis=1)[:, None] + np.arange(3)) % 3
+    tip, left, right = np.take_along_axis(cells, order[..., None], 1).swapaxes(0, 1)
+    top, *ends = np.take_along_axis(height, order, 1).T
+    near, far = (
+        tip + (top / (top - end))[:, None] * (corner - tip)
+        for end, corner in zip(ends, (left, right))
+    )
+    parts = np.array([[tip, near, far], [near, left, right], [near, right, far]])
+    has_area = np.array([top != 0.0, ends[0] != 0.0, ends[1] != 0.0])
+    return parts.swapaxes(1, 2)[has_area]
 
 
 def _belong(

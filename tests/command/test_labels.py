@@ -2,15 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Label maps on the command line: a record for each label, with names, colors and densities."""
 
-import json
 import struct
+from pathlib import Path
 
 import numpy as np
 import pytest
-from body_moments.operators import batch
 
-from tests.blender.batch_files import codes, in_process
+from tests.blender.batch_files import codes
 from tests.close import close
+from tests.command.running import run
 from tests.core.scan_files import nifti, nrrd, written
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -22,12 +22,6 @@ def labels(dtype="i2"):
     values[10:30, 10:30, 4:10] = 1
     values[35:50, 20:40, 10:16] = 2
     return values
-
-
-def run(tmp_path, *words):
-    out = tmp_path / "out.json"
-    code = batch.main(in_process("measure", "--output", out, *words), channel=2, file_needed=True)
-    return code, json.loads(out.read_text(encoding="utf-8"))
 
 
 def save(tmp_path, values):
@@ -122,6 +116,8 @@ def test_extension_of_nifti_names_labels(tmp_path):
         (["--label", "7"], None, "no label 7; it has 0, 1, 2"),
         (["--label", "all"], "label,name\n1,Liver\n", "no label 2; it has 1"),
         (["--label", "all"], "Liver,Fat\n", "Line 1"),
+        (["--label", "all"], "label,name\n1,Liver\n1,Fat\n", "a label that no line before it has"),
+        (["--label", "all", "--label-table", "none.csv"], None, "No such file"),
         (["--label", "all"], "label,density\n1,heavy\n2,5\n", "Line 2"),
         (["--label", "all"], "label,name\n1,{}\n".format("x" * 200_000), "Line 2"),
         (["--label", "all"], "label,name,{}\n1,a,b\n".format("x" * 200_000), "Line 1"),
@@ -134,7 +130,10 @@ def test_labels_and_tables_that_do_not_fit_are_refused(tmp_path, options, table,
         options = [*options, "--label-table", tmp_path / "table.csv"]
     code, document = run(tmp_path, *save(tmp_path, labels()), *options)
     assert code == 1 and document["objects"] == []
-    assert part in document["errors"][0]["reason"]
+    (error,) = document["errors"]
+    assert part in error["reason"]
+    if "no label" not in part:  # such a sentence has the name
+        assert error["name"] == Path(options[-1]).name
 
 
 def test_threshold_on_labels_names_label_option(tmp_path):

@@ -413,6 +413,7 @@ BAMBU_SETTINGS = {
         ({}, 20.0, 1240.0, 3),
         ({"sparse_infill_density": "40%", "extruder": "2"}, 40.0, 1270.0, 3),
         ({"wall_loops": "1"}, 20.0, 1240.0, 1),
+        ({"wall_loops": "0"}, 20.0, 1240.0, 0),
     ],
 )
 def test_settings_of_bambu_and_orca_are_read(tmp_path, widths, wall, own, infill, density, walls):
@@ -420,8 +421,8 @@ def test_settings_of_bambu_and_orca_are_read(tmp_path, widths, wall, own, infill
     project = json.dumps(BAMBU_SETTINGS | widths)
     path = bambu(tmp_path / "a.3mf", INSIDE, "modifier_part", metadata, project)
     (block,) = document(path)["objects"]
-    if walls == 1:
-        wall = {1.4: 0.4, 1.35: 0.45}[wall]
+    if walls < 3:
+        wall = walls * {1.4: 0.4, 1.35: 0.45}[wall]
     assert block["kind"] == "printed"
     assert (block["print"]["infill"], block["print"]["walls"]) == (infill, walls)
     core = (40 - 2 * wall) * (20 - 2 * wall) * (24 - 1.8) * 1e-9
@@ -449,7 +450,6 @@ def test_vase_and_least_thickness_count(tmp_path, own, expected):
     [
         {"extruder": "x"},
         {"wall_loops": "two"},
-        {"wall_loops": "0"},
         {"sparse_infill_density": "120%"},
         {"layer_height": "0"},
     ],

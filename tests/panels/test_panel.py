@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 import pytest
 
+from tests.blender.grids import vdb_grid, volume_object
 from tests.blender.objects import add, arrays, measured, mesh_body, only
 from tests.panels.drawing import copied, findings_of, labels, shown, shows
 
@@ -67,6 +68,20 @@ def test_values_are_shown_with_units_and_copied_with_all_digits():
     assert float(copied(record, "kg")[0]) == obj["body_mass"]
     center = [float(text) for text in copied(record, "m")[1:4]]
     assert np.abs(np.array(center) - found.mass_properties.center).max() < 1e-12
+
+
+def test_absent_label_is_refused_beside_its_field(tmp_path):
+    values = np.zeros((8, 8, 8), np.float32)
+    values[1:3, 1:3, 1:3], values[4:7, 4:7, 4:7] = 1.0, 3.0
+    obj = volume_object(tmp_path / "map.vdb", vdb_grid(values))
+    only(obj)
+    assert ("prop", "grid_as") in shown() and ("prop", "label") not in shown()
+    for name, value, voxels in (("grid_as", "LABEL", 35), ("label", 3, 27), ("label", 7, 27)):
+        setattr(obj.body_moments, name, value)
+        bpy.ops.object.body_moments_measure()
+        assert ("prop", "label") in shown()
+        assert obj["body_volume"] == pytest.approx(voxels, rel=1e-9)
+    assert shows(shown(), "label_absent", file="density", labels=[7], others=[1, 3], remedy="Label")
 
 
 @pytest.mark.parametrize("frame", ["WORLD", "OBJECT"])

@@ -62,7 +62,7 @@ from ....core.verdict import OBJECT_SIZE, TOO_LARGE, Finding, Procedure, ReadErr
 from ...settings.options import MeasureOptions
 from ..measure_body import THREADS, measure_body
 from ..measure_object import measured_in_turn
-from ..stack import Measured, MeasuredStack
+from ..stack import Measured
 from .surface_distance import EXACT_DISTANCE
 
 EQUAL_AXES_ATOL = 1e-12  # cosine: harmonics about axes nearer to each other are equal
@@ -408,26 +408,27 @@ def signed_in_turn(
     outside a stack.
     """
     measured = measured_in_turn(objects, depsgraph, SURFACE_OPTIONS)
-    known: dict[MeasuredStack, list[Signature | None]] = {}
+    known: dict[Measurement, list[Signature | None]] = {}
 
     def signed(obj: bpy.types.Object) -> Signature | Shape:
         outcome = measured(obj)
-        if outcome.stack is None:
+        if outcome.index is None:
             return surface_shape(outcome)
         if outcome.stack not in known:
             known.clear()
-            known[outcome.stack] = stack_signatures(outcome.stack, order)
+            known[outcome.stack] = stack_signatures(outcome, order)
         return known[outcome.stack][outcome.index] or surface_shape_of(obj, depsgraph)
 
     return signed
 
 
-def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]:
-    """Return the signatures of a stack's members; None for repaired, distant and ill-conditioned
-    members.
+def stack_signatures(row: Measured, order: int) -> list[Signature | None]:
+    """Return the signatures of all members of a row's stack; None for repaired, distant and
+    ill-conditioned members.
     """
-    found: list[Signature | None] = [None] * len(stack.members)
-    linear = np.array([member.matrix[:3, :3] for member in stack.members])
+    members = row.members
+    found: list[Signature | None] = [None] * len(members)
+    linear = np.array([member.matrix[:3, :3] for member in members])
     is_even = are_similarities(linear)
     determinant = np.linalg.det(linear)
     # A body is a shape in its own coordinates, or the unevenly mapped shape of a single object.
@@ -435,8 +436,8 @@ def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]
     solids = []
     maps = []
     of_member = {}
-    for i, member in enumerate(stack.members):
-        solid = stack.solids.solids[member.shape]
+    for i, member in enumerate(members):
+        solid = row.shapes[member.shape]
         if not isinstance(solid, SmallSolid):
             continue
         key = (member.shape, -1 if is_even[i] else i)
@@ -448,11 +449,13 @@ def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]
     if not solids:
         return found
     of_bodies, scale = _signatures(solids, maps, order)
-    reach = np.finfo(np.float64).eps * np.abs(stack.mass_properties.center).max(axis=1)
+    center = row.stack.mass_properties.center
+    reach = np.finfo(np.float64).eps * np.abs(center).max(axis=1)
+    stretch = row.stack.volume / row.shapes.volume.total[[member.shape for member in members]]
     for i, body in of_member.items():
         own = of_bodies[body]
         mapped = 1.0 if is_even[i] else abs(determinant[i])
-        size = float(scale[body] * own.size * np.cbrt(stack.stretch[i] / mapped))
+        size = float(scale[body] * own.size * np.cbrt(stretch[i] / mapped))
         if own.error > MAX_DESCRIPTOR_ERROR or reach[i] > EXACT_DISTANCE / 2.0 * size:
             continue
         is_mirrored = bool(is_even[i] and determinant[i] < 0.0)

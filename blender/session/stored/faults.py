@@ -12,14 +12,12 @@ import numpy as np
 from bpy.types import Object
 
 from ....core import bodies, numerics, verdict
-from ....core.solid import SmallSolid
 from ...bodies.stack import Measured
 from .. import memory, tracking
 
 PAIRS = "boundary_edges", "non_manifold_edges", "inconsistent_edges"
 FACES = verdict.FLIPPED_FACES, "duplicate_faces", "degenerate_faces"
 MAX_DRAWN = 20000  # edges, and triangles, of an object
-OWN_PLACE = np.eye(4)
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,25 +39,15 @@ forget = memory.faults.forget
 def remember(obj: Object, measured: Measured) -> None:
     """Cache the faults of a freshly measured object, or drop them if it has none."""
     forget(obj)
-    place = OWN_PLACE
-    if measured.stack is None:
-        reading = measured.reading
-        if (
-            not isinstance(reading, bodies.Reading)
-            or len(reading.parts) != 1
-            or reading.is_singular
-        ):
-            return  # with several surfaces, the faulty one is unknown
-        (part,) = reading.parts
-        surface = part.surface
-        elements = measured.measurement.health.defective_elements
-        place = np.linalg.inv(reading.matrix) @ part.matrices[0]
-    else:
-        solid = measured.stack.solids[measured.stack.members[measured.index].shape]
-        if isinstance(solid, SmallSolid) and solid.method is verdict.Procedure.EXACT:
-            return
-        surface = measured.stack.surface(measured.index)
-        elements = solid.health.defective_elements
+    if measured.is_faultless:
+        return
+    reading = measured.reading
+    if not isinstance(reading, bodies.Reading) or len(reading.parts) != 1 or reading.is_singular:
+        return  # with several surfaces, the faulty one is unknown
+    (part,) = reading.parts
+    surface = part.surface
+    elements = measured.measurement.health.defective_elements
+    place = np.linalg.inv(reading.matrix) @ part.matrices[0]
     pairs, faces = (
         np.concatenate([getattr(elements, name) for name in names]) for names in (PAIRS, FACES)
     )

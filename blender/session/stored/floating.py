@@ -152,7 +152,7 @@ def read(
     def having(role: str) -> list[Object]:
         return [obj for obj in parts if obj.body_moments_tank.role == role]
 
-    masses = [parts[obj].mass_properties for obj in having("BODY")]
+    masses = [parts[obj].measurement.mass_properties for obj in having("BODY")]
     shares = np.array([each.mass for each in masses])
     mass = float(shares.sum())
     shares = shares / (mass or 1.0)

@@ -7,15 +7,17 @@ symmetries and sections.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import groupby, repeat
+from dataclasses import replace
+from itertools import groupby
 from typing import Any
 
 import numpy as np
 from bpy.types import Context, Object, Scene
 
 from .... import core
+from ....core.measurement import Measurement
 from ... import bodies, read, scale, settings
-from ...bodies.stack import Measured, MeasuredStack
+from ...bodies.stack import Measured
 from ...write import properties, section
 from .. import stored  # the sliders are imported when an object has them
 from ..tracking import armatures, staleness, stamps
@@ -35,28 +37,39 @@ def store_many(
     """
     for stack, run in groupby(measured, key=lambda item: item[1].stack):
         items = list(run)
-        which = [found.index for _, found in items if found.stack is not None]
-        rows = repeat({}) if stack is None else _values_of_stack(stack.some(which), scene)
-        for (obj, found), values in zip(items, rows):
+        for (obj, found), values in zip(items, properties.values_of(_noted(items, stack, scene))):
             try:
                 staleness.note_edits(obj, shapes.get(obj))
-                _store(obj, found, values, scene)
+                about = reference.stored_choice(obj)
+                properties.store_values(obj, values)
+                faults.remember(obj, found)
+                reference.follow(obj, scene, about)
+                if found.index is None:
+                    stored.sliders.remember(obj, found, scene)
             except Exception as error:
                 yield obj, error
             else:
                 yield obj, None
 
 
-def _store(obj: Object, found: Measured, values: dict[str, Any], scene: Scene) -> None:
-    """Write a measurement on the object; remember its faults, and the data for its sliders."""
-    about = reference.stored_choice(obj)
-    if found.stack is None:
-        values = properties.values_of(density.noted(obj, found.measurement, scene))
-    properties.store_values(obj, values)
-    faults.remember(obj, found)
-    reference.follow(obj, scene, about)
-    if found.stack is None:
-        stored.sliders.remember(obj, found, scene)
+def _noted(
+    items: Sequence[tuple[Object, Measured]], stack: Measurement, scene: Scene
+) -> Measurement:
+    """Return the objects' rows of a stack, with notes on unset densities."""
+    obj, first = items[0]
+    if first.index is None:
+        return density.noted(obj, stack, scene)
+    part: Any = stack
+    if len(items) < len(part.findings):
+        part = stack.at([found.index for _, found in items if found.index is not None])
+    findings = [
+        density.with_default_note(own, "density")
+        if source is core.measurement.DENSITY_FROM_VALUE
+        and settings.density.is_density_unset(obj.body_moments, scene)
+        else own
+        for (obj, _), own, source in zip(items, part.findings, part.density_from)
+    ]
+    return replace(part, findings=findings)
 
 
 def store_measured(
@@ -66,27 +79,12 @@ def store_measured(
     results.
     """
     measured = list(measured)
-    shapes = {obj: found.shape_digest(obj) for obj, found in measured if obj.mode == "OBJECT"}
+    shapes = {obj: read.mesh.read_digest(obj, found.surface) for obj, found in measured}
     outcomes = list(store_many(measured, context.scene, shapes))
     staleness.mark_up_to_date(
         context, [obj for obj, refusal in outcomes if refusal is None], shapes
     )
     return {obj: refusal for obj, refusal in outcomes if refusal is not None}
-
-
-def _values_of_stack(part: MeasuredStack, scene: Scene) -> Iterator[dict[str, Any]]:
-    findings = list(part.findings)
-    for i, (member, from_mass) in enumerate(zip(part.members, part.from_mass.tolist())):
-        if not from_mass and settings.density.is_density_unset(member.obj.body_moments, scene):
-            findings[i] = density.with_default_note(findings[i], "density")
-    return properties.values_of_stack(
-        part.mass_properties.in_frame(part.rotation, part.location),
-        part.density,
-        part.volume.raw[:, 0],
-        part.area.raw[:, 0],
-        part.error_bounds,
-        zip(part.methods, findings, part.fingerprints),
-    )
 
 
 def store_symmetry(

@@ -161,7 +161,7 @@ def check_stability(context: Context, obj: Object, measured: list[Object]) -> li
     depsgraph = context.evaluated_depsgraph_get()
     if write.properties.stored(obj) is None or staleness.stale_reason(obj, context.scene):
         result = bodies.measure_object.measured_in_turn([obj], depsgraph)(obj)
-        if result.method.procedure == verdict.Procedure.OPEN:
+        if result.measurement.method.procedure == verdict.Procedure.OPEN:
             raise verdict.EditRefusedError(findings.OPEN_OBJECT)
         for _, refusal in results.store_many([(obj, result)], context.scene):
             if refusal is not None:

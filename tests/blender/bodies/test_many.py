@@ -85,11 +85,11 @@ def assert_same(found, expected):
 
 
 def _is_stacked(found):
-    return not isinstance(found, Exception) and found.stack is not None
+    return not isinstance(found, Exception) and found.index is not None
 
 
 def _is_together(found):
-    return isinstance(found.stack.solids[found.stack.members[found.index].shape], SmallSolid)
+    return isinstance(found.shapes[found.member.shape], SmallSolid)
 
 
 def all_outcomes(objects, options=AS_SET):

@@ -11,7 +11,7 @@ from body_moments.core.mesh import Surface
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.solid import measure_solid
 from body_moments.core.verdict import MeasureError
-from body_moments.core.wall import find_core
+from body_moments.core.wall import find_core, moved_faces
 
 from tests.close import close
 
@@ -147,6 +147,35 @@ def test_wall_of_tube_is_solid_where_thin():
     points = np.vstack([outer.points, inner.points + [0.0, 0.0, 1.0]])
     faces = np.vstack([outer.triangles, inner.triangles[:, ::-1] + len(outer.points)])
     assert abs(core_volume(Surface.from_triangles(points, faces))) < 1e-9
+
+
+def dimpled(sides):
+    """Return a box of 20 · 20 · 4 with a pyramid of 3.5 cut into its bottom, and its outline's
+    area.
+    """
+    angles = 2.0 * np.pi * (np.arange(sides) + 0.5) / sides
+    square = 10.0 * np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)])
+    ring = 8.0 * np.column_stack([np.cos(angles), np.sin(angles)])
+    low = np.column_stack([np.vstack([square, ring]), np.full(sides + 4, -4.0)])
+    points = np.vstack([np.column_stack([square, np.zeros(4)]), low, [0.0, 0.0, -0.5]])
+    faces = [(0, 1, 2), (0, 2, 3)]
+    for i in range(4):
+        j = (i + 1) % 4
+        faces += [(i, i + 4, j + 4), (i, j + 4, j), (i + 4, 8 + j * sides // 4 % sides, j + 4)]
+    for i in range(sides):
+        j = (i + 1) % sides
+        faces += [(8 + j, 8 + i, len(points) - 1), (8 + i, 8 + j, 4 + i * 4 // sides)]
+    return Surface.from_triangles(points, faces), sides * 32.0 * np.sin(2.0 * np.pi / sides)
+
+
+def test_plane_that_many_faces_cross_has_exact_core(monkeypatch):
+    surface, area = dimpled(256)
+    # The pyramid's tip rises by a layer to 0.3; the core is between −3.2 and −0.8.
+    hollow = area * (3.5**3 - 1.1**3) / 3.5**2 / 3.0
+    assert close(core_volume(surface), (20.0 - 2 * WALL) ** 2 * 2.4 - hollow, 1e-9)
+    monkeypatch.setattr(moved_faces, "MAX_DIVISIONS", 1000)
+    with pytest.raises(MeasureError, match="too many faces near each other"):
+        find_core(surface, WALL, LAYERS, LAYERS)
 
 
 def eroded(grid, axis, reach):

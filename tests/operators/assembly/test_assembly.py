@@ -53,7 +53,7 @@ def test_the_total_is_stored_on_the_collection_and_drives(reported):
     bpy.context.view_layer.update()
     depsgraph = bpy.context.evaluated_depsgraph_get()
     assert close(bpy.data.objects["Driven"].evaluated_get(depsgraph).location[0], mass, 1e-6)
-    assert set(properties.LENGTHS) <= set(root.keys())
+    assert set(properties.FIELDS) <= set(root.keys())
     assert bpy.ops.object.body_moments_clear_assembly() == {"FINISHED"}
     assert not any(key in root for key in properties.DESCRIPTIONS)
     assert bpy.ops.object.body_moments_clear_assembly() == {"CANCELLED"}

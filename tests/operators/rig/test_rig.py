@@ -52,7 +52,7 @@ def test_bone_results_are_exact_in_rest_frame_at_any_pose():
         xx, yy, zz, xy, xz, yz = bone["body_inertia"].to_list()
         found = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
         assert np.abs(found - tensor).max() < 1e-5 * tensor.max()
-        assert bone["body_method"] == "exact" and set(properties.LENGTHS) <= set(bone.keys())
+        assert bone["body_method"] == "exact" and set(properties.FIELDS) <= set(bone.keys())
     assert close(
         armature["body_mass"],
         1000.0 * sum(np.prod(np.subtract(h, low)) for low, h in made.BOXES),
