@@ -15,7 +15,6 @@ pytest.importorskip("bpy")
 from body_moments.core.files import gltf_document, replace_gltf_document, to_glb
 from body_moments.core.robots.model import Link, Robot
 from body_moments.core.robots.write import mjcf, stl, text, usd
-from body_moments.core.verdict import finding
 
 from tests.blender.documents import of_box
 
