@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`audit`: comparison of the inertials in robot descriptions with the links' own geometry."""
 
-from __future__ import annotations
-
 import argparse
 import os
 import re
@@ -23,11 +21,12 @@ from ..core.robots import (
     Audit,
     Auditor,
     Expectation,
+    Roots,
+    audit_report,
+    read_description,
     repaired_copy,
 )
-from ..core.robots.read.descriptions import Roots, read_description
-from ..core.robots.write import audit_report
-from ..core.verdict import FileError, MeasureError, internal_error, system_reason
+from ..core.verdict import FileError, MeasureError, declared, internal_error, system_reason
 from . import audit_gate
 from .files import output
 from .options import option_types
@@ -136,9 +135,11 @@ def parse(argv: list[str]) -> argparse.Namespace:
         help="replace any file at --output and in --repair (only results)",
     )
     options = parser.parse_intermixed_args(argv)
-    unknown = audit_gate.unknown_codes(options.ignore)
-    if unknown:
-        parser.error("--ignore: no finding has the code {}".format(unknown[0]))
+    for code in options.ignore:
+        try:
+            declared(code)
+        except KeyError:
+            parser.error("--ignore: no finding has the code {}".format(code))
     options.names = dict(_find_files(options.files))
     options.root = [*options.root, *(path for path in options.files if path.is_dir())]
     if not options.names:

@@ -4,8 +4,6 @@
 knows.
 """
 
-from __future__ import annotations
-
 import json
 import os
 from argparse import Namespace
@@ -14,24 +12,12 @@ from pathlib import Path
 from typing import Any
 
 from ..core.files.whole_file import whole_file
-from ..core.robots.findings import AUDIT_TOTAL
-from ..core.robots.write import audit_report
-from ..core.verdict import Severity, declared
+from ..core.robots import AUDIT_TOTAL, audit_report
+from ..core.verdict import Severity
 
 SCHEMA = "body-moments-baseline/1"
 FAILING = {"error": (Severity.ERROR,), "warning": (Severity.ERROR, Severity.WARNING), "never": ()}
 Key = tuple[str, str, str]  # file, link and code
-
-
-def unknown_codes(codes: Iterable[str]) -> list[str]:
-    """Return the texts that are no code of a finding."""
-    unknown = []
-    for code in codes:
-        try:
-            declared(code)
-        except KeyError:
-            unknown.append(code)
-    return unknown
 
 
 def apply(document: dict[str, Any], options: Namespace) -> dict[str, Any]:

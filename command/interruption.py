@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Interruption of a run by signals, and progress messages of long reads."""
 
-from __future__ import annotations
-
 import signal
 import time
 from collections.abc import Callable, Iterator

@@ -4,8 +4,6 @@
 its boundary.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 from math import comb

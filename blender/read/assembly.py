@@ -41,8 +41,6 @@ SAMPLED = 64  # vertices that are compared to tell a copy
 
 
 class MemberKind(StrEnum):
-    """Kind of a member of an assembly."""
-
     COLLECTION = "COLLECTION"
     INSTANCE = "INSTANCE"
     EMPTY = "EMPTY"
@@ -100,14 +98,12 @@ def members_key(root: Member, fingerprints: Mapping[Object, str]) -> str:
         # an empty with children stores the results of its assembly
         if member.kind == MemberKind.POINT:
             settings = member.data.body_moments
-            keys.append(
-                GivenPart.from_settings(settings, 1.0).key
-                + repr(settings.mass)
-                + matrix_hash(member.data)
-            )
+            key = GivenPart.from_settings(settings, 1.0).key + repr(settings.mass)
         elif member.is_measured:
-            # moving leaves fingerprints unchanged
-            keys.append(fingerprints.get(member.data, "") + matrix_hash(member.data))
+            key = fingerprints.get(member.data, "")  # which moving leaves unchanged
+        else:
+            continue
+        keys.append(key + matrix_hash(member.data))
     return "\n".join(keys)
 
 
@@ -121,14 +117,8 @@ def structure_hash(root: Member) -> str:
         if member.kind in (MemberKind.COLLECTION, MemberKind.EMPTY):
             settings = settings_of(member.data)
             if settings.mass_from == "MASS":
-                key.append(
-                    repr(
-                        (
-                            shortest_decimal(settings.mass),
-                            GivenPart.from_settings(settings, 1.0).key,
-                        )
-                    )
-                )
+                given = GivenPart.from_settings(settings, 1.0).key
+                key.append(repr((shortest_decimal(settings.mass), given)))
         if member.matrix is not None:
             key.append(matrix_bytes(Matrix(member.matrix)).hex())
         keys.append("|".join(key))
@@ -144,10 +134,9 @@ class _Walk:
         self.operands = operands_of(objects) if inside else {}
         self.reasons = {} if inside else left_out_reasons(depsgraph.scene, depsgraph.view_layer)
         self.counted: dict[Object, str] = {}
-        self.of_parent: dict[Object, list[Object]] = {}  # `Object.children` searches all objects
+        self.of_parent: dict[Object | None, list[Object]] = {}  # `children` searches all objects
         for obj in bpy.data.objects:
-            if obj.parent is not None:
-                self.of_parent.setdefault(obj.parent, []).append(obj)
+            self.of_parent.setdefault(obj.parent, []).append(obj)
         self.given = [
             obj for obj in objects if is_assembly(obj) and settings_of(obj).mass_from == "MASS"
         ]
@@ -176,7 +165,6 @@ class _Walk:
         return Member(obj, MemberKind.EMPTY, (*own, *self.children(obj, depth)))
 
     def children(self, parent: Object, depth: int) -> list[Member]:
-        """Return the members of an object's children."""
         members: list[Member] = []
         for child in sorted(self.of_parent.get(parent, ()), key=by_name):
             if child.type == "EMPTY" and not shows_collection(child) and child in self.of_parent:
@@ -184,11 +172,9 @@ class _Walk:
                 continue
             of_child = self.object(child, parent.name, depth)
             below = self.children(child, depth)
-            members += (
-                [replace(of_child[0], members=(*of_child[0].members, *below))]
-                if of_child
-                else below
-            )
+            members += [
+                replace(member, members=(*member.members, *below)) for member in of_child
+            ] or below
         return members
 
     def object(self, obj: Object, place: str, depth: int) -> list[Member]:
@@ -199,11 +185,8 @@ class _Walk:
             return []
         kind = MemberKind.POINT if is_point_mass(obj) else MemberKind.OBJECT
         if obj in self.counted:
-            return [
-                Member(
-                    obj, kind, left_out=finding(MEMBER_COUNTED_BEFORE, assembly=self.counted[obj])
-                )
-            ]
+            before = finding(MEMBER_COUNTED_BEFORE, assembly=self.counted[obj])
+            return [Member(obj, kind, left_out=before)]
         self.counted[obj] = place
         reason = self._left_out(obj)
         if reason is not None and not (kind == MemberKind.POINT and reason.code == NOT_RENDERED):
@@ -252,24 +235,20 @@ def left_out_reasons(scene: Scene, view_layer: ViewLayer) -> dict[Object, Findin
         obj for layer in layers for obj in _rendered(layer.layer_collection) if not obj.hide_render
     }
     operands = operands_of(scene.objects)
-    reasons = {}
-    for obj in scene.objects:
-        if obj in operands and obj.display_type in {"WIRE", "BOUNDS"}:
-            reasons[obj] = finding(BOOLEAN_OPERAND)
-        elif obj not in rendered:
-            reasons[obj] = finding(NOT_RENDERED)
-    return reasons
+    helpers = {obj for obj in operands if obj.display_type in {"WIRE", "BOUNDS"}}
+    return {
+        obj: finding(BOOLEAN_OPERAND if obj in helpers else NOT_RENDERED)
+        for obj in scene.objects
+        if obj in helpers or obj not in rendered
+    }
 
 
 def operands_of(objects: Iterable[Object]) -> dict[Object, Object]:
     """Return the operands of objects' Boolean modifiers, each with the first object by name that
     uses it.
     """
-    operands: dict[Object, Object] = {}
-    for user in sorted(objects, key=by_name):
-        for operand in _operands(user):
-            operands.setdefault(operand, user)
-    return operands
+    users = sorted(objects, key=by_name, reverse=True)
+    return {operand: user for user in users for operand in _operands(user)}
 
 
 def total_caveats(objects: Collection[Object], view_layer: ViewLayer) -> list[Finding]:
@@ -280,22 +259,20 @@ def total_caveats(objects: Collection[Object], view_layer: ViewLayer) -> list[Fi
         return []
     objects = sorted(objects, key=by_name)
     operands = operands_of(objects)
-    cutters = [[obj.name, operands[obj].name] for obj in objects if obj in operands]
     rendered = set(_rendered(view_layer.layer_collection))
-    unseen = [
-        obj.name
-        for obj in objects
-        if obj not in operands
-        and (
-            obj.hide_render
-            or obj not in rendered
-            or obj.display_type in {"WIRE", "BOUNDS"}
-            or not obj.visible_get(view_layer=view_layer)
-        )
-    ]
     doubtful = {
-        "Boolean operands": cutters,
-        "Objects that are hidden, not rendered or displayed as wire or bounds": unseen,
+        "Boolean operands": [[obj.name, operands[obj].name] for obj in objects if obj in operands],
+        "Objects that are hidden, not rendered or displayed as wire or bounds": [
+            obj.name
+            for obj in objects
+            if obj not in operands
+            and (
+                obj.hide_render
+                or obj not in rendered
+                or obj.display_type in {"WIRE", "BOUNDS"}
+                or not obj.visible_get(view_layer=view_layer)
+            )
+        ],
     }
     return [
         *copies_caveats(objects),
@@ -318,32 +295,26 @@ def copies_in_place(objects: Iterable[Object]) -> list[str]:
     seen: dict[tuple, list[Object]] = {}
     copies = []
     for obj in objects:
-        if not shows_collection(obj) and (obj.data is None or obj.instance_type != "NONE"):
-            continue
-        others = seen.setdefault((obj.type, obj.matrix_world.copy().freeze()), [])
-        if any(_is_copy(obj, other) for other in others):
-            copies.append(obj.name)
-        others.append(obj)
+        if shows_collection(obj) or obj.data is not None and obj.instance_type == "NONE":
+            others = seen.setdefault((obj.type, obj.matrix_world.copy().freeze()), [])
+            copies += [obj.name] * any(_shape(obj) == _shape(other) for other in others)
+            others.append(obj)
     return copies
 
 
-def _is_copy(obj: Object, other: Object) -> bool:
-    """Return whether two objects of one type and place have equal boxes, modifiers and geometry, by
-    a sample of the vertices.
+def _shape(obj: Object) -> tuple:
+    """Return an object's box, modifiers and geometry, the latter as a sample of its vertices, which
+    are equal for a copy.
     """
-    if [*map(tuple, obj.bound_box)] != [*map(tuple, other.bound_box)]:
-        return False
-    kinds = [[modifier.type for modifier in one.modifiers] for one in (obj, other)]
-    if kinds[0] != kinds[1] or obj.instance_collection != other.instance_collection:
-        return False
-    if obj.data == other.data:
-        return True
-    if obj.type != "MESH" or len(obj.data.polygons) != len(other.data.polygons):
-        return False
-    first, second = obj.data.vertices, other.data.vertices
-    step = max(len(first) // SAMPLED, 1)
-    return len(first) == len(second) and all(
-        first[i].co == second[i].co for i in range(0, len(first), step)
+    is_mesh = obj.type == "MESH"
+    vertices = obj.data.vertices if is_mesh else ()
+    return (
+        [*map(tuple, obj.bound_box)],
+        [modifier.type for modifier in obj.modifiers],
+        obj.instance_collection,
+        len(vertices),
+        len(obj.data.polygons) if is_mesh else obj.data,
+        [vertices[i].co for i in range(0, len(vertices), max(len(vertices) // SAMPLED, 1))],
     )
 
 

@@ -31,20 +31,19 @@ class RestBones:
 
     @classmethod
     def read(cls, armature: Object) -> RestBones:
-        """Read the bones of an armature object."""
         place = float64_matrix(armature.matrix_world)
         bones = list(armature.data.bones)
         deforming = [bone for bone in bones if bone.use_deform]
         ends = np.array(
             [[bone.head_local[:], bone.tail_local[:]] for bone in deforming], np.float64
         ).reshape(-1, 2, 3)
-        frames = {}
-        for bone in bones:
-            turn = (armature.matrix_world @ bone.matrix_local).decompose()[1]
-            frames[bone.name] = (
-                rotation_matrix(turn),
+        frames = {
+            bone.name: (
+                rotation_matrix((armature.matrix_world @ bone.matrix_local).decompose()[1]),
                 (place @ float64_matrix(bone.matrix_local))[:3, 3],
             )
+            for bone in bones
+        }
         return cls(
             tuple(bone.name for bone in bones),
             tuple(bone.name for bone in deforming),
@@ -64,15 +63,11 @@ def vertex_weights(
     geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
     vertices = [] if geometry.mesh is None else geometry.mesh.vertices
     is_own = part.source_object_name in ("", obj.name) and len(vertices) == len(part.surface.points)
-    vertex = []
-    bone = []
-    weight = []
-    for index, one in enumerate(vertices if is_own else []):
-        for entry in one.groups:
-            if groups[entry.group] is not None:
-                vertex.append(index)
-                bone.append(groups[entry.group])
-                weight.append(entry.weight)
-    return VertexWeights(
-        np.array(vertex, np.intp), np.array(bone, np.intp), np.array(weight, np.float64)
-    )
+    entries = [
+        (index, groups[entry.group], entry.weight)
+        for index, one in enumerate(vertices if is_own else [])
+        for entry in one.groups
+        if groups[entry.group] is not None
+    ]
+    vertex, bone, weight = np.array(entries, np.float64).reshape(-1, 3).T
+    return VertexWeights(vertex.astype(np.intp), bone.astype(np.intp), weight)

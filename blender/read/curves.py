@@ -41,19 +41,15 @@ def read_curves(obj, depsgraph) -> tuple[list[Curve], list[Finding]]:
     """
     obj = obj.original
     geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its curves
-    shown = geometry.curves
-    evaluated = obj.evaluated_get(depsgraph)
-    findings = []
-    if shown is not None:
-        curves = list(_shown_curves(shown, obj.name))
+    ignored = []
+    if geometry.curves is not None:
+        curves = list(_shown_curves(geometry.curves, obj.name))
     else:
-        curves = list(_spline_curves(evaluated, depsgraph))
-        if spline_modifiers(obj)[1]:
-            findings.append(
-                finding(CURVE_MEASURED_WHOLE, ignored="the modifiers that work on its mesh")
-            )
-        if (obj.data.bevel_factor_start, obj.data.bevel_factor_end) != (0.0, 1.0):
-            findings.append(finding(CURVE_MEASURED_WHOLE, ignored="the start and end of its bevel"))
+        curves = list(_spline_curves(obj.evaluated_get(depsgraph), depsgraph))
+        is_partial = (obj.data.bevel_factor_start, obj.data.bevel_factor_end) != (0.0, 1.0)
+        ignored += ["the modifiers that work on its mesh"] * bool(spline_modifiers(obj)[1])
+        ignored += ["the start and end of its bevel"] * is_partial
+    findings = [finding(CURVE_MEASURED_WHOLE, ignored=part) for part in ignored]
     usable = [curve for curve in curves if curve is not None]
     if len(usable) < len(curves):
         findings.append(
@@ -150,16 +146,15 @@ def _spline_curves(evaluated, depsgraph) -> Iterator[Curve | None]:
     if is_deformed(evaluated):
         points = deform(evaluated, points, depsgraph)
     _require_finite(points, name)
-    start = 0
-    for spline, row in zip(splines, control_points):
+    ends = np.cumsum([len(row) for row in control_points])
+    for spline, row, moved in zip(splines, control_points, np.split(points, ends[:-1])):
         # Bézier splines have none and need none
         weights = weighted_points(spline)[:, 3].astype(np.float64)
         if spline.type == "NURBS" and not _has_known_knots(
             spline, _curve(*_kind(spline), row, weights)
         ):
             raise ReadError(UNKNOWN_KNOTS, subject=name)
-        yield _curve(*_kind(spline), points[start : start + len(row)], weights)
-        start += len(row)
+        yield _curve(*_kind(spline), moved, weights)
 
 
 def _has_known_knots(spline, curve: Curve | None) -> bool:

@@ -53,30 +53,24 @@ from .visibility import (
 def why_empty(obj, gathered: InstanceCollector, depsgraph) -> Finding:
     """Return the reason why the object shows no face."""
     vertices, edges = gathered.faceless
-    if obj.type == "META":
-        mother = _family(obj, depsgraph)[0]
-        if mother != obj:
-            return finding(METABALL_OF_FAMILY, object=mother.name)
+    mother = _family(obj, depsgraph)[0]
+    is_plain_surface = obj.type == "SURFACE" and obj.instance_type == "NONE" and obj.data.splines
+    if mother != obj:
+        return finding(METABALL_OF_FAMILY, object=mother.name)
     if gathered.vanished_count:
         return finding(SCALE_ZERO_AXIS)
+    cause = None
     if obj.type == "FONT" and not obj.data.body.strip():
-        return finding(NOTHING_TO_MEASURE, cause="the text is empty. Type a text")
-    if obj.type in {"CURVE", "FONT"} and not obj.modifiers:
-        return finding(NOTHING_TO_MEASURE, cause=LINES_ONLY)
-    if (
-        obj.type == "SURFACE"
-        and not obj.modifiers
-        and obj.instance_type == "NONE"
-        and obj.data.splines
-    ):
-        return finding(
-            NOTHING_TO_MEASURE,
-            cause=LINES_ONLY if vertices else NO_SPLINE_SURFACE,
-        )
-    if gathered.left_out:
-        return finding(ONLY_WITHOUT_SURFACE, kinds=_kinds(gathered.left_out))
-    if vertices:
-        return finding(ONLY_WITHOUT_SURFACE, kinds=_kinds({"vertices": vertices, "edges": edges}))
+        cause = "the text is empty. Type a text"
+    elif obj.type in {"CURVE", "FONT"} and not obj.modifiers:
+        cause = LINES_ONLY
+    elif is_plain_surface and not obj.modifiers:
+        cause = LINES_ONLY if vertices else NO_SPLINE_SURFACE
+    if cause is not None:
+        return finding(NOTHING_TO_MEASURE, cause=cause)
+    elements = {"vertices": vertices, "edges": edges} if vertices else {}
+    if gathered.left_out or elements:
+        return finding(ONLY_WITHOUT_SURFACE, kinds=_kinds(gathered.left_out or elements))
     if obj.instance_type == "COLLECTION":
         return finding(NOT_SHOWN, cause=NO_INSTANCES)
     if obj.type in SURFACE_TYPES and not shows_itself(obj, False):
@@ -97,22 +91,20 @@ def reading_findings(obj, gathered: InstanceCollector, depsgraph) -> Iterator[Fi
     for evaluated, splines in gathered.splines.items():
         for result in _spline_findings(evaluated, splines):
             yield attribute_to_source(result, evaluated.original.name, obj.name)
-    if obj.type == "META":
-        family_members = _family(obj, depsgraph)[1:]
-        if family_members:
-            yield finding(METABALL_FAMILY, objects=_names(family_members))
+    family_members = _family(obj, depsgraph)[1:]
+    if family_members:
+        yield finding(METABALL_FAMILY, objects=_names(family_members))
     for source in gathered.drawn:
         if source.type == "META" or (source.type in {"CURVE", "FONT"} and is_round(source)):
             yield attribute_to_source(finding(DRAWN_AS_POLYGONS), source.name, obj.name)
     yield from _mode_findings(obj)
     exact = {evaluated.original for evaluated, splines in gathered.splines.items() if splines}
-    for source in (obj, *[source for source in gathered.sources if source != obj]):
+    for source in dict.fromkeys((obj, *gathered.sources)):
         for result in _render_findings(source, depsgraph.scene, source in exact):
             yield attribute_to_source(result, source.name, obj.name)
     if gathered.collections:
         yield from _member_findings(gathered.collections)
-    if obj.modifiers:
-        yield from _node_errors(obj)
+    yield from _node_errors(obj)
     if gathered.vanished_count:
         yield finding(INSTANCES_VANISHED, count=gathered.vanished_count)
     if gathered.left_out:
@@ -170,7 +162,7 @@ def _node_errors(obj) -> Iterator[Finding]:
 
 
 def _family(obj, depsgraph) -> list:
-    families = metaball_families(depsgraph.view_layer)
+    families = metaball_families(depsgraph.view_layer) if obj.type == "META" else []
     return next((family for family in families if obj in family), [obj])
 
 
@@ -198,12 +190,14 @@ def _spline_findings(evaluated, splines) -> Iterator[Finding]:
         yield from splines.findings
         return
     meshed = spline_modifiers(evaluated.original)[1]
-    if meshed:
-        yield finding(DISPLAY_MESH_FOR_MODIFIERS, modifiers=_names(meshed))
-    elif nonpositive_weights(evaluated.data.splines):
-        yield finding(DISPLAY_MESH_MEASURED, cause="some control points have no positive weight")
-    else:
-        yield finding(DISPLAY_MESH_MEASURED, cause="its control points are unknown")
+    cause = "its control points are unknown"
+    if nonpositive_weights(evaluated.data.splines):
+        cause = "some control points have no positive weight"
+    yield (
+        finding(DISPLAY_MESH_FOR_MODIFIERS, modifiers=_names(meshed))
+        if meshed
+        else finding(DISPLAY_MESH_MEASURED, cause=cause)
+    )
 
 
 def _render_differences(obj, scene, exact: bool = False) -> Iterator[Finding]:
@@ -246,18 +240,17 @@ def _levels(modifier, render) -> tuple[int, int]:
     """Return a modifier's levels, steps or resolution in the viewport and in the render; (0, 0) if
     it has none.
     """
-    if modifier.type in {"SUBSURF", "MULTIRES"}:
-        here = modifier.levels
-        there = modifier.render_levels
-        if render.use_simplify:
-            here = min(here, render.simplify_subdivision)
-            there = min(there, render.simplify_subdivision_render)
-        return here, there
-    if modifier.type == "SCREW":
-        return modifier.steps, modifier.render_steps
-    if modifier.type == "OCEAN":
-        return modifier.viewport_resolution, modifier.resolution
-    return 0, 0
+    names = {
+        "SUBSURF": ("levels", "render_levels"),
+        "MULTIRES": ("levels", "render_levels"),
+        "SCREW": ("steps", "render_steps"),
+        "OCEAN": ("viewport_resolution", "resolution"),
+    }
+    here, there = (getattr(modifier, name) for name in names.get(modifier.type, ("type", "type")))
+    if render.use_simplify and modifier.type in {"SUBSURF", "MULTIRES"}:
+        here = min(here, render.simplify_subdivision)
+        there = min(there, render.simplify_subdivision_render)
+    return here, there
 
 
 def _names(items) -> list[str]:

@@ -110,9 +110,9 @@ def _moves_along(obj: bpy.types.Object) -> bool:
     if obj.type == "META" or len(obj.particle_systems):
         return False
     chosen = obj.body_moments
-    if chosen.mass_from != "DENSITY" or chosen.density_from not in {"POLYNOMIAL", "VOLUME"}:
-        return True
-    return chosen.density_from == "POLYNOMIAL" and chosen.density_frame == "OBJECT"
+    is_own = chosen.density_from == "POLYNOMIAL" and chosen.density_frame == "OBJECT"
+    varies = chosen.density_from in {"POLYNOMIAL", "VOLUME"} and not is_own
+    return chosen.mass_from != "DENSITY" or not varies
 
 
 def scale_hash(obj: bpy.types.Object) -> str:

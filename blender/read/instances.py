@@ -45,13 +45,13 @@ class InstanceCollector:
     """The collected surfaces with all their places, and the omitted objects.
 
     faceless: (vertices, edges) of the meshes without a face. left_out: number of elements without
-    surface, by a word for their kind. sources: the original objects that were read, without the
-    root. vanished_count: number of instances that are scaled to nothing. splines: the patches of
-    each evaluated surface object that was read, None if its display mesh is measured. drawn: the
+    surface, by a word for their kind. sources: the original objects that were read.
+    vanished_count: number of instances that are scaled to nothing. splines: the patches of each
+    evaluated surface object that was read, None if its display mesh is measured. drawn: the
     original objects whose own polygons were read. collections: the original collections that are
     instanced, as far as Blender's own list was not needed. materials, attribute, edges: requests
-    for the faces' materials, for the vertices' attribute of a name, and for the
-        edges at the corners.
+    for the faces' materials, for the vertices' attribute of a name, and for the edges at the
+    corners.
     """
 
     def __init__(
@@ -100,18 +100,15 @@ class InstanceCollector:
             if not len(part.surface.triangles) and not len(part.surface.quads):
                 continue
             matrices = np.concatenate(matrix_blocks)
-            finite = np.isfinite(matrices).all(axis=(1, 2))
-            if not finite.all():
+            total = len(matrices)
+            count = total - int(np.isfinite(matrices).all(axis=(1, 2)).sum())
+            if count:
                 raise ReadError(
-                    NON_FINITE_INSTANCES,
-                    subject=self.root.name,
-                    count=int((~finite).sum()),
-                    total=len(matrices),
+                    NON_FINITE_INSTANCES, subject=self.root.name, count=count, total=total
                 )
-            there = matrices[:, :3, :3].any(axis=(1, 2))
-            if len(matrices) > 1 and not there.all():
-                self.vanished_count += int((~there).sum())
-                matrices = matrices[there]
+            if total > 1:
+                matrices = matrices[matrices[:, :3, :3].any(axis=(1, 2))]
+            self.vanished_count += total - len(matrices)
             if len(matrices):
                 parts.append(replace(part, matrices=matrices))
         return parts
@@ -128,11 +125,10 @@ class InstanceCollector:
         }
         if original.instance_type in {"VERTS", "FACES"} or kinds & {"OBJECT", "COLLECTION"}:
             raise _NeedsInstanceList
-        if self._path:
-            if original.type == "META":
-                self.left_out["metaballs, which Blender cannot instance"] += len(matrices)
-                return
-            self.sources[original] = None
+        if self._path and original.type == "META":
+            self.left_out["metaballs, which Blender cannot instance"] += len(matrices)
+            return
+        self.sources[original] = None
         self._path.append(original)
         instanced = False
         if original.type in GEOMETRY_TYPES:
@@ -140,12 +136,9 @@ class InstanceCollector:
             instanced = self._add_instances(geometry, matrices)
             if shows_itself(original, instanced):
                 self._add_own_geometry(evaluated, geometry, matrices)
-        if (
-            not instanced
-            and original.instance_type == "COLLECTION"
-            and evaluated.instance_collection
-        ):
-            self._add_collection(evaluated.instance_collection, matrices)
+        collection = evaluated.instance_collection
+        if not instanced and original.instance_type == "COLLECTION" and collection:
+            self._add_collection(collection, matrices)
         self._path.pop()
 
     def _geometry(self, evaluated):
@@ -315,12 +308,13 @@ class InstanceCollector:
         self._parts[key][1].append(matrices)
 
     def _count_surfaceless(self, geometry, count: int) -> None:
-        if geometry.curves is not None and len(geometry.curves.curves):
-            self.left_out["curves without thickness"] += count * len(geometry.curves.curves)
-        if geometry.pointcloud is not None and len(geometry.pointcloud.points):
-            self.left_out["points"] += count * len(geometry.pointcloud.points)
-        if geometry.volume is not None:
-            self.left_out["volumes"] += count
+        curves, cloud = geometry.curves, geometry.pointcloud
+        numbers = {
+            "curves without thickness": 0 if curves is None else len(curves.curves),
+            "points": 0 if cloud is None else len(cloud.points),
+            "volumes": int(geometry.volume is not None),
+        }
+        self.left_out.update({kind: count * number for kind, number in numbers.items() if number})
 
 
 def _object_slots(owner) -> tuple:
@@ -338,14 +332,16 @@ def _slots(mesh, owner) -> tuple:
     """Return the original materials of an evaluated mesh in the order of slots, None for empty
     slots.
     """
-    slots = list(mesh.materials)
-    if owner is not None:
-        if not slots:  # a copy of an edit mesh has none of its own
-            slots = list(owner.original.data.materials)
-        for i, material in _object_slots(owner):
-            slots += [None] * (i + 1 - len(slots))
-            slots[i] = material
-    return tuple(material.original if material else None for material in slots)
+    if owner is None:
+        own = {}
+        slots = list(mesh.materials)
+    else:
+        own = dict(_object_slots(owner))
+        # a copy of an edit mesh has no slots of its own
+        slots = list(mesh.materials) or list(owner.original.data.materials)
+    slots += [None] * (max(own, default=-1) + 1 - len(slots))
+    shown = [own.get(i, material) for i, material in enumerate(slots)]
+    return tuple(material.original if material else None for material in shown)
 
 
 def shows_itself(obj, instanced: bool) -> bool:
@@ -360,14 +356,11 @@ def visible_objects(collection, switch: str = "hide_viewport") -> Iterator:
     """Yield the objects of a collection and its children, each once, unless the property `switch`
     disables them.
     """
-    visited = set()
+    found = {}
     pending = [collection]
     while pending:
         current = pending.pop()
-        if getattr(current, switch):
-            continue
-        for obj in current.objects:
-            if not getattr(obj, switch) and obj not in visited:
-                visited.add(obj)
-                yield obj
-        pending.extend(reversed(current.children))
+        if not getattr(current, switch):
+            found |= {obj: None for obj in current.objects if not getattr(obj, switch)}
+            pending.extend(reversed(current.children))
+    yield from found

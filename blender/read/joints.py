@@ -63,7 +63,7 @@ def constraint_connections(
         if constraint is None or not constraint.enabled or constraint.type not in CONSTRAINTS:
             continue
         sides = [constraint.object1, constraint.object2]
-        names = ["" if side is None else labels.get(side, "") for side in sides]
+        names = [labels.get(side, "") for side in sides]
         if not any(names):
             continue
         for index, side in enumerate(sides):
@@ -73,9 +73,7 @@ def constraint_connections(
         values, mimic, unusable = joint_values(holder)
         findings += unusable
         free = _freedom(constraint, values, unit)
-        connections.append(
-            Connection(holder.name_full, names[0], names[1], _pose(holder, unit), free, mimic)
-        )
+        connections.append(Connection(holder.name_full, *names, _pose(holder, unit), free, mimic))
     connections.sort(key=lambda one: one.name)
     return connections, [bases[name] for name in sorted(bases)], findings
 
@@ -168,19 +166,21 @@ def bone_freedom(
         float64_matrix(bone.id_data.matrix_world)[:3, :3]
         @ float64_matrix(bone.bone.matrix_local)[:3, :3]
     )
-    free = []
-    for index, axis in enumerate("xyz"):
-        lower, upper = slides.get(axis, (0.0, 0.0))
-        if lower < upper and not bone.lock_location[index]:
-            length = unit * float(np.linalg.norm(rest[:, index]))
-            free.append(
-                FreeAxis("translate", np.eye(3)[index], lower * length, upper * length, values)
-            )
-    for index, axis in reversed([*enumerate("xyz")]):
-        lower, upper = turns.get(axis, (-inf, inf))
-        if lower < upper and not bone.lock_rotation[index] and not getattr(bone, "lock_ik_" + axis):
-            free.append(FreeAxis("rotate", np.eye(3)[index], lower, upper, values))
-    return tuple(free)
+    lengths = (unit * np.linalg.norm(rest, axis=0)).tolist()
+    axes = [
+        ("translate", index, *(lengths[index] * end for end in slides[axis]))
+        for index, axis in enumerate("xyz")
+        if axis in slides and not bone.lock_location[index]
+    ] + [
+        ("rotate", index, *turns.get("xyz"[index], (-inf, inf)))
+        for index in (2, 1, 0)
+        if not bone.lock_rotation[index] and not getattr(bone, "lock_ik_" + "xyz"[index])
+    ]
+    return tuple(
+        FreeAxis(kind, np.eye(3)[index], lower, upper, values)
+        for kind, index, lower, upper in axes
+        if lower < upper
+    )
 
 
 def _bone_limits(bone: PoseBone, kind: str, *uses: str) -> dict[str, tuple[float, float]]:
@@ -189,9 +189,8 @@ def _bone_limits(bone: PoseBone, kind: str, *uses: str) -> dict[str, tuple[float
     """
     limits = {}
     for constraint in bone.constraints:
-        if constraint.type != kind or constraint.owner_space != "LOCAL" or not constraint.enabled:
-            continue
-        for axis in "xyz":
+        is_limit = constraint.type == kind and constraint.owner_space == "LOCAL"
+        for axis in "xyz" if is_limit and constraint.enabled else "":
             used = [getattr(constraint, use + axis) for use in uses]
             if any(used):
                 lower = getattr(constraint, "min_" + axis) if used[0] else -inf

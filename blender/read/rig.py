@@ -60,13 +60,13 @@ def skinned_objects(armature: Object, objects: Iterable[Object]) -> list[Object]
 def hanging_objects(armature: Object, skinned: Iterable[Object]) -> list[tuple[Object, str]]:
     """Return (object, bone) of measurable objects below bones, except those in `skinned`."""
     skinned = set(skinned)
-    found = []
-    for child in sorted(armature.children, key=lambda obj: obj.name):
-        if child.parent_type == "BONE" and child.parent_bone:
-            for obj in (child, *child.children_recursive):
-                if obj not in skinned and measurable(obj):
-                    found.append((obj, child.parent_bone))
-    return found
+    return [
+        (obj, child.parent_bone)
+        for child in sorted(armature.children, key=lambda obj: obj.name)
+        if child.parent_type == "BONE" and child.parent_bone
+        for obj in (child, *child.children_recursive)
+        if obj not in skinned and measurable(obj)
+    ]
 
 
 def held_objects(armature: Object, depsgraph: Depsgraph) -> list[tuple[Object, str]]:
@@ -103,24 +103,19 @@ def rig_hash(armature: Object, objects: Iterable[Object], scene: Scene) -> str:
     """Return a digest of the bones, the armature's scale and the objects' settings, but not of the
     meshes.
     """
-    keys = []
+    keys: list[object] = []
     for bone in armature.data.bones:
         settings = armature.pose.bones[bone.name].body_moments
-        given = {"MESH": None, "DENSITY": settings.density, "MASS": settings.mass}[
-            settings.mass_from
-        ]
+        kind = settings.mass_from
+        given = {"MESH": None, "DENSITY": settings.density, "MASS": settings.mass}[kind]
         rest = matrix_bytes(bone.matrix_local).hex()
-        keys.append(
-            repr(
-                (bone.name, bone.use_deform, round(bone.length, 7), rest, settings.mass_from, given)
-            )
-        )
-    for obj in objects:
-        keys.append(
-            repr((obj.name, obj.hide_render, settings_hash(obj, scene), len(obj.vertex_groups)))
-        )
-    keys.append(repr(list(armature.matrix_world.to_scale())))
-    return digest("\n".join(keys).encode())
+        keys.append((bone.name, bone.use_deform, round(bone.length, 7), rest, kind, given))
+    keys += [
+        (obj.name, obj.hide_render, settings_hash(obj, scene), len(obj.vertex_groups))
+        for obj in objects
+    ]
+    keys.append(list(armature.matrix_world.to_scale()))
+    return digest("\n".join(map(repr, keys)).encode())
 
 
 def rig_objects(armature: Object, objects: Iterable[Object]) -> list[Object]:

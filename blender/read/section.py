@@ -16,7 +16,7 @@ import numpy as np
 
 from ...core.bodies import DRAWN_AS_POLYGONS, Reading
 from ...core.flat import NO_SECTION_AREA
-from ...core.mesh import Surface
+from ...core.mesh import Surface, triangle_areas
 from ...core.numerics import Array, Index, Mask, NDArray, polar_rotation
 from ...core.nurbs import Curve
 from ...core.verdict import Finding, ReadError, finding
@@ -95,9 +95,8 @@ def read_outline_curves(obj, depsgraph) -> tuple[list[Curve], Array]:
     `matrix_world`.
     """
     obj = obj.original
-    place = locate(obj, depsgraph)
     curves = text_curves(obj, depsgraph) if obj.type == "FONT" else read_curves(obj, depsgraph)[0]
-    return curves, place.matrix
+    return curves, locate(obj, depsgraph).matrix
 
 
 def _section(
@@ -202,15 +201,8 @@ def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
         triangles = np.concatenate(fans)
         faces = np.arange(len(triangles))
         if filled is not None:
-            a, b, c = (
-                filled.points.astype(np.float64)[filled.all_triangles()[0][:, i]] for i in range(3)
-            )
-            ab, ac = b - a, c - a
-            drawn = float(
-                np.abs(ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]).sum()
-                / 2.0
-                * np.sqrt(facing @ facing)
-            )
+            areas = triangle_areas(filled.points.astype(np.float64), filled.all_triangles()[0])
+            drawn = float(areas.sum() * np.sqrt(facing @ facing))
     require_finite(obj, surface.points)
     more = {"loops": loops, "facing": facing, "drawn_area": drawn, "findings": findings}
     return _section(

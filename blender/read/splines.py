@@ -12,6 +12,7 @@ object read from a file are a picture of the file's faces, which `keep_faces` ke
 import hashlib
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import chain, takewhile
 
 import numpy as np
 from bpy.types import Curve
@@ -132,31 +133,22 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
         or not np.isfinite(points).all()
     ):
         return None
-    starts = np.cumsum([0] + [len(row) for row in control_points])
+    ends = np.cumsum([len(row) for row in control_points])[:-1]
     patches = []
     samples = []
-    left_out = 0
-    for spline, start, end in zip(splines, starts[:-1], starts[1:]):
+    for spline, moved, row in zip(splines, np.split(points, ends), control_points):
         # with v first, a patch's normal points as Blender's faces do
         v, u = (blender_space(*(getattr(spline, name + axis) for name in SPACE)) for axis in "vu")
-        if v is None or u is None:
-            left_out += 1
-            continue
-        spaces = (v, u)
-        shape = (spline.point_count_v, spline.point_count_u)
-        patches.append(
-            Patch(
-                spaces,
-                points[start:end].reshape(*shape, 3),
-                coordinates[start:end, 3].astype(np.float64).reshape(shape),
+        if v is not None and u is not None:
+            shape = (spline.point_count_v, spline.point_count_u)
+            weights = row[:, 3].astype(np.float64).reshape(shape)
+            patches.append(Patch((v, u), moved.reshape(*shape, 3), weights))
+            samples.append(
+                (
+                    display_table(v, display_parameters(v, spline.resolution_v)),
+                    display_table(u, display_parameters(u, spline.resolution_u)),
+                )
             )
-        )
-        samples.append(
-            tuple(
-                display_table(space, display_parameters(space, resolution))
-                for space, resolution in zip(spaces, (spline.resolution_v, spline.resolution_u))
-            )
-        )
     if not patches:
         return None
     largest = float(np.abs(points).max())
@@ -165,17 +157,18 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
         1.8 * largest + (2.0 * size if any(patch.weights is not None for patch in patches) else 0.0)
     )
     findings = []
+    left_out = len(splines) - len(patches)
     if left_out:
         findings.append(finding(SPLINES_LEFT_OUT, count=left_out, total=len(splines)))
+    proved: list[Patch] | None = patches
     if mesh is not None:
         proved = _verified(patches, samples, vertex_points(mesh), AGREEMENT_RTOL * largest)
-        if proved is None:
-            return None
-        if proved is not patches:
-            patches = proved
-            stored = stored + RECOVERY_RTOL * size
-            findings.append(finding(CONTROL_POINTS_RECOVERED))
-    return SplineReading(tuple(patches), stored, tuple(findings))
+    if proved is None:
+        return None
+    if proved is not patches:
+        stored = stored + RECOVERY_RTOL * size
+        findings.append(finding(CONTROL_POINTS_RECOVERED))
+    return SplineReading(tuple(proved), stored, tuple(findings))
 
 
 def nonpositive_weights(splines) -> int:
@@ -206,27 +199,18 @@ def _verified(
         piece.reshape(len(u), len(v), 3).swapaxes(0, 1).astype(np.float64)
         for piece, (v, u) in zip(np.split(shown, np.cumsum(counts)[:-1]), samples)
     ]
-    if all(
-        _agrees(patch, sample, piece, tolerance)
-        for patch, sample, piece in zip(patches, samples, pieces)
-    ):
+
+    def agree(candidates: list[Patch]) -> bool:
+        return len(candidates) == len(patches) and all(
+            np.abs(patch.apply_weights(*sample) - piece).max() <= tolerance
+            for patch, sample, piece in zip(candidates, samples, pieces)
+        )
+
+    if agree(patches):
         return patches
-    attempts = [
-        _interpolating_patch(patch, sample, piece)
-        for patch, sample, piece in zip(patches, samples, pieces)
-    ]
+    attempts = map(_interpolating_patch, patches, samples, pieces)
     solved = [patch for patch in attempts if patch is not None]
-    if len(solved) < len(attempts) or not all(
-        _agrees(*row, tolerance) for row in zip(solved, samples, pieces)
-    ):
-        return None
-    return solved
-
-
-def _agrees(
-    patch: Patch, sample: tuple[NDArray, NDArray], piece: NDArray, tolerance: float
-) -> bool:
-    return bool(np.abs(patch.apply_weights(*sample) - piece).max() <= tolerance)
+    return solved if agree(solved) else None
 
 
 def _interpolating_patch(
@@ -258,12 +242,13 @@ def spline_modifiers(obj) -> tuple[list, list]:
         for modifier in obj.modifiers
         if modifier.show_viewport and (obj.mode != "EDIT" or modifier.show_in_editmode)
     ]
-    last = 0
-    for number, modifier in enumerate(shown, 1):
-        if modifier.type in CONSTRUCTIVE:
-            break
-        if modifier.type in ALWAYS_ON_SPLINE or modifier.use_apply_on_spline:
-            last = number
+    first = takewhile(lambda modifier: modifier.type not in CONSTRUCTIVE, shown)
+    moving = [
+        number
+        for number, modifier in enumerate(first, 1)
+        if modifier.type in ALWAYS_ON_SPLINE or modifier.use_apply_on_spline
+    ]
+    last = max(moving, default=0)
     return shown[:last], shown[last:]
 
 
@@ -296,20 +281,19 @@ def _apply_shape_keys(evaluated, keys, points: NDArray) -> Array:
         return points  # their interpolation in time is left to the display mesh
     result = _block_points(keys.reference_key)
     for block in blocks:
-        if block == keys.reference_key or block.mute or block.value == 0.0:
-            continue
-        result += block.value * (_block_points(block) - _block_points(block.relative_key))
+        if block != keys.reference_key and not block.mute and block.value != 0.0:
+            result += block.value * (_block_points(block) - _block_points(block.relative_key))
     return result
 
 
 def _block_points(block) -> Array:
-    coordinates = []
-    for item in block.data:
-        if hasattr(item, "handle_left"):
-            coordinates += [item.handle_left[:], item.co[:], item.handle_right[:]]
-        else:
-            coordinates.append(item.co[:3])
-    return np.array(coordinates, np.float64).reshape(-1, 3)
+    coordinates = [
+        (item.handle_left[:], item.co[:], item.handle_right[:])
+        if hasattr(item, "handle_left")
+        else (item.co[:3],)
+        for item in block.data
+    ]
+    return np.array([*chain(*coordinates)], np.float64).reshape(-1, 3)
 
 
 def _apply_hook(evaluated, modifier, points: NDArray, depsgraph) -> Array:

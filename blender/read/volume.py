@@ -37,7 +37,7 @@ from .findings import (
 )
 from .objects import locate
 from .vdb import VdbGrid
-from .visibility import hidden_reason, why_not_evaluated
+from .visibility import evaluated_geometry, hidden_reason
 
 SCALARS = {"BOOLEAN", "MASK", "FLOAT", "DOUBLE", "INT", "INT64"}
 PREFERRED = "density"
@@ -108,16 +108,12 @@ def _volume(obj, depsgraph) -> tuple[bpy.types.Volume, bpy.types.GeometrySet] | 
     """
     if obj.type not in {"VOLUME", "MESH", "CURVE", "FONT", "SURFACE", "POINTCLOUD", "CURVES"}:
         return None
-    evaluated = obj.evaluated_get(depsgraph)
-    try:
-        geometry = evaluated.evaluated_geometry()
-    except (TypeError, RuntimeError):
-        raise ReadError(why_not_evaluated(obj, depsgraph), subject=obj.name) from None
-    if geometry.mesh is not None and len(geometry.mesh.polygons):
-        return None
+    geometry = evaluated_geometry(obj, depsgraph, obj)
+    data = obj.evaluated_get(depsgraph).data
     # An object's own volume lives as long as the object, that of a geometry set as long as the set.
-    volume = evaluated.data if isinstance(evaluated.data, bpy.types.Volume) else geometry.volume
-    if volume is None:
+    volume = data if isinstance(data, bpy.types.Volume) else geometry.volume
+    has_faces = geometry.mesh is not None and len(geometry.mesh.polygons)
+    if has_faces or volume is None:
         return None
     # A saved file turns an empty path into that of a folder.
     folder = os.path.isdir(bpy.path.abspath(volume.filepath, library=obj.data.library))
@@ -138,13 +134,13 @@ def _choose_grid(obj, volume: bpy.types.Volume, name: str, findings: list[Findin
     grids = {grid.name: grid for grid in volume.grids}
     if len(grids) < len(volume.grids):
         findings.append(finding(GRID_NAMES_REPEATED))
-    if name:
-        if name not in grids:
-            raise ReadError(GRID_MISSING, subject=obj.name, grid=name, grids=list(grids))
-        if grids[name].data_type not in SCALARS:
-            raise ReadError(GRID_UNSUPPORTED, fault=NO_SCALARS, subject=obj.name, grid=name)
-        return grids[name]
+    if name and name not in grids:
+        raise ReadError(GRID_MISSING, subject=obj.name, grid=name, grids=list(grids))
     scalars = {grid_name: grid for grid_name, grid in grids.items() if grid.data_type in SCALARS}
+    if name and name not in scalars:
+        raise ReadError(GRID_UNSUPPORTED, fault=NO_SCALARS, subject=obj.name, grid=name)
+    if name:
+        return scalars[name]
     if not scalars:
         raise ReadError(NO_SCALAR_GRID, subject=obj.name, grids=list(grids))
     chosen = scalars.get(PREFERRED) or next(iter(scalars.values()))

@@ -7,8 +7,6 @@ and fills it. Findings are shown by their sentences. Both are in the language of
 lengths in the scene's units.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any

@@ -9,7 +9,6 @@ fingerprint.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from math import degrees
 from typing import NamedTuple
 
@@ -128,65 +127,77 @@ def clear(obj: bpy.types.Object) -> bool:
     return True
 
 
-def text(name: str, section: StoredSection, outdated: str | None = None) -> str:
+def text(name: str, stored_section: StoredSection, outdated: str | None = None) -> str:
     """Return a report that a person reads, in SI units. outdated: the reason why the section no
     longer holds.
     """
-    return "\n".join(_lines(name, section, outdated)) + "\n"
-
-
-def _lines(name: str, stored_section: StoredSection, outdated: str | None) -> Iterator[str]:
     section = stored_section.section
-    plane = stored_section.section.plane
+    plane = section.plane
     size = section.area**0.5
-    x, y, normal = zip(*plane.axes)
-    yield "Section properties, SI units, world frame"
-    yield ""
-    yield name
-    if outdated:
-        yield report_line("Out of date", outdated)
-    outlines = "outer outlines {}, holes {}".format(section.outlines, section.holes)
-    yield report_line("Measured", "{}; {}".format(stored_section.description, outlines))
-    yield report_line("Area", report_number(section.area), "m²")
-    yield report_line("Perimeter", report_number(section.perimeter), "m")
-    yield report_line("Centroid", report_vector(section.center, size), "m")
-    axes = "normal {}, x {}, y {}".format(*(report_vector(axis, 1.0) for axis in (normal, x, y)))
-    yield report_line(
-        "Plane", "{}; x nearest to the object's {} axis".format(axes, plane.x_axis_name)
-    )
-    place = report_vector(section.centroid, size)
-    yield report_line("Centroid in plane", place, "m, from the foot of the object's origin")
-    yield report_line(
-        "Second moments", "about the centroid, along x and y of the plane, m⁴ (Ixy = +∫xy dA)"
-    )
-    for label, value in zip(("Ix", "Iy", "Ixy"), clean(section.second, section.polar)):
-        yield report_line("  " + label, report_number(value))
-    yield report_line(
-        "  Polar Jp", "{} = Ix + Iy; not the torsion constant".format(report_number(section.polar))
-    )
-    first, second = section.principal
+    x, y, normal = (report_vector(axis, 1.0) for axis in zip(*plane.axes))
+    first, second = map(report_number, section.principal)
     direction = "axis 1 at {}° from x towards y".format(report_number(degrees(section.angle)))
     if section.axes_undetermined:
         direction = "every axis through the centroid is principal"
-    moments = "I1 {}, I2 {} m⁴".format(report_number(first), report_number(second))
-    yield report_line("Principal", "{}; {}".format(moments, direction))
-    yield report_line("Radii of gyration", _labeled_values("i", section.radii), "m")
-    yield report_line(
-        "Section moduli", _labeled_values("W", section.moduli), "m³ (elastic, outermost corner)"
-    )
-    for label, bound in (
-        ("Rounding, at most", section.rounding_error),
-        ("float32 coordinates", section.input_error),
-    ):
-        yield report_line(
-            label,
-            "area {:.1e} m², perimeter {:.1e} m, centroid {:.1e} m, second moments {:.1e} "
-            "m⁴".format(*(rounded_up(bound[name]) for name in BOUND_KEYS)),
-        )
-    for finding in stored_section.findings:
-        yield report_line(
-            "Note" if severity(finding) == Severity.NOTE else "Warning", sentence(finding)
-        )
+    rows = [
+        *([("Out of date", outdated)] if outdated else []),
+        (
+            "Measured",
+            "{}; outer outlines {}, holes {}".format(
+                stored_section.description, section.outlines, section.holes
+            ),
+        ),
+        ("Area", report_number(section.area), "m²"),
+        ("Perimeter", report_number(section.perimeter), "m"),
+        ("Centroid", report_vector(section.center, size), "m"),
+        (
+            "Plane",
+            "normal {}, x {}, y {}; x nearest to the object's {} axis".format(
+                normal, x, y, plane.x_axis_name
+            ),
+        ),
+        (
+            "Centroid in plane",
+            report_vector(section.centroid, size),
+            "m, from the foot of the object's origin",
+        ),
+        (
+            "Second moments",
+            "about the centroid, along x and y of the plane, m⁴ (Ixy = +∫xy dA)",
+        ),
+        *(
+            ("  " + label, report_number(value))
+            for label, value in zip(("Ix", "Iy", "Ixy"), clean(section.second, section.polar))
+        ),
+        (
+            "  Polar Jp",
+            "{} = Ix + Iy; not the torsion constant".format(report_number(section.polar)),
+        ),
+        ("Principal", "I1 {}, I2 {} m⁴; {}".format(first, second, direction)),
+        ("Radii of gyration", _labeled_values("i", section.radii), "m"),
+        (
+            "Section moduli",
+            _labeled_values("W", section.moduli),
+            "m³ (elastic, outermost corner)",
+        ),
+        *(
+            (
+                label,
+                "area {:.1e} m², perimeter {:.1e} m, centroid {:.1e} m, second moments {:.1e} "
+                "m⁴".format(*(rounded_up(bound[name]) for name in BOUND_KEYS)),
+            )
+            for label, bound in (
+                ("Rounding, at most", section.rounding_error),
+                ("float32 coordinates", section.input_error),
+            )
+        ),
+        *(
+            ("Note" if severity(finding) == Severity.NOTE else "Warning", sentence(finding))
+            for finding in stored_section.findings
+        ),
+    ]
+    lines = ["Section properties, SI units, world frame", "", name]
+    return "\n".join([*lines, *(report_line(*row) for row in rows), ""])
 
 
 def _labeled_values(letter: str, values) -> str:

@@ -7,9 +7,8 @@ It is made from a document (`documents.document`); results stored on objects bec
 first.
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
+from itertools import starmap
 from math import sqrt
 from typing import Any
 
@@ -67,10 +66,10 @@ def text(file_document: dict[str, Any]) -> str:
     if file_document["file"]:
         lines.append("File: {}".format(file_document["file"]))
     for entry in file_document["objects"]:
-        lines += ["", entry["name"], *_body(entry, file_document["frame"])]
+        lines += ["", entry["name"], *starmap(report_line, _rows(entry, file_document["frame"]))]
     if len(file_document["objects"]) > 1:
         heading = "Total of {} objects, world frame".format(len(file_document["objects"]))
-        lines += ["", heading, *_body(file_document["total"], "world")]
+        lines += ["", heading, *starmap(report_line, _rows(file_document["total"], "world"))]
     for heading, entries in (
         ("Left out", file_document["left_out"]),
         ("Not measured", file_document["errors"]),
@@ -82,49 +81,52 @@ def text(file_document: dict[str, Any]) -> str:
     return "".join(measurement.visible(line) + "\n" for line in lines)
 
 
-def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
+def _rows(entry: dict[str, Any], frame: str) -> Iterator[tuple[str, ...]]:
+    """Yield the label, value and unit of each line about a record, as far as it has them."""
     if "method" in entry:
         walled = any(found["code"] == wall.WALL_MEASURED for found in entry.get("findings", ()))
         _, explanation = verdict.METHODS.get(
             verdict.method_key(verdict.Method.parse(entry["method"]), walled), ("", "")
         )
-        yield report_line("Verdict", ": ".join(filter(None, (entry["method"], explanation))))
-        counts = list(_counts(entry.get("health", {})))
-        if counts:
-            yield report_line("Found", ", ".join(counts))
-        yield report_line("Kind", "{}, {}".format(entry["kind"], entry["type"].lower()))
-    yield report_line("Mass", report_number(entry["mass"]), "kg")
-    if "length" in entry:
-        yield report_line("Length", report_number(entry["length"]), "m")
-        yield report_line("Linear density", report_number(entry["linear_density"]), "kg/m")
-    elif "density" in entry:
-        yield report_line("Density", report_number(entry["density"]), "kg/m³")
+        counts = ", ".join(_counts(entry.get("health", {})))
+        yield from (
+            ("Verdict", ": ".join(filter(None, (entry["method"], explanation)))),
+            *([("Found", counts)] if counts else []),
+            ("Kind", "{}, {}".format(entry["kind"], entry["type"].lower())),
+        )
+    for label, name, unit in (
+        ("Mass", "mass", "kg"),
+        ("Length", "length", "m"),
+        ("Linear density", "linear_density", "kg/m"),
+        ("Density", "density", "kg/m³"),
+    ):
+        if name in entry and (name != "density" or "length" not in entry):
+            yield label, report_number(entry[name]), unit
     if "density_from" in entry:
-        yield report_line("Density from", entry["density_from"])
-    yield report_line("Volume", report_number(entry["volume"]), "m³")
-    yield report_line("Surface area", report_number(entry["area"]), "m²")
+        yield "Density from", entry["density_from"]
+    yield from (
+        ("Volume", report_number(entry["volume"]), "m³"),
+        ("Surface area", report_number(entry["area"]), "m²"),
+    )
     if "display_mesh" in entry:
         display = entry["display_mesh"]
         volume = entry["volume"]
         share = 100.0 * display["difference"] / volume if volume else 0.0
-        yield report_line(
-            "Its display mesh", "{} m³, {:+.3g} %".format(report_number(display["volume"]), share)
-        )
+        shown = report_number(display["volume"])
+        yield "Its display mesh", "{} m³, {:+.3g} %".format(shown, share)
     if entry["center_of_mass"] is None or entry["inertia"] is None:
         return
     size = entry.get("length") or abs(entry["volume"] or 0.0) ** (1.0 / 3.0)
-    yield report_line(
-        "Center of mass", report_vector(entry["center_of_mass"], size), "m, {} frame".format(frame)
-    )
+    center = report_vector(entry["center_of_mass"], size)
+    yield "Center of mass", center, "m, {} frame".format(frame)
     yield from _principal(entry)
     yield from _tensor(entry["inertia"], frame)
     yield from _bounds(entry.get("error_bound", {}))
     for label, name in (("Warning", "warnings"), ("Note", "notes")):
-        for message in entry.get(name, []):
-            yield report_line(label, message)
+        yield from ((label, message) for message in entry.get(name, []))
 
 
-def _counts(health: dict[str, Any]) -> Iterable[str]:
+def _counts(health: dict[str, Any]) -> Iterator[str]:
     for name, (one, several) in verdict.HEALTH.items():
         count = health.get(name, 0)
         count = len(count) if isinstance(count, list) else count
@@ -132,34 +134,34 @@ def _counts(health: dict[str, Any]) -> Iterable[str]:
             yield "{} {}".format(count, one if count == 1 else several)
 
 
-def _principal(entry: dict[str, Any]) -> Iterable[str]:
+def _principal(entry: dict[str, Any]) -> Iterator[tuple[str, ...]]:
     moments = entry["principal_moments"]
     axes = entry.get("principal_axes")
     symmetry = ", {}".format(entry["symmetry"]) if entry.get("symmetry") else ""
-    yield report_line("Principal moments", "about the center of mass, kg·m²{}".format(symmetry))
+    yield "Principal moments", "about the center of mass, kg·m²{}".format(symmetry)
     for i, moment in enumerate(moments):
         along = "  along {}".format(report_vector([row[i] for row in axes])) if axes else ""
-        yield report_line("  I{}".format(i + 1), report_number(moment) + along)
+        yield "  I{}".format(i + 1), report_number(moment) + along
     if entry["mass"]:
         radii = [
             None if moment is None else sqrt(max(moment, 0.0) / entry["mass"]) for moment in moments
         ]
-        yield report_line("Radii of gyration", report_vector(radii), "m")
+        yield "Radii of gyration", report_vector(radii), "m"
 
 
-def _tensor(inertia: list[list[float]], frame: str) -> Iterable[str]:
+def _tensor(inertia: list[list[float]], frame: str) -> Iterator[tuple[str, ...]]:
     axes = "about the center of mass, {} axes".format(frame)
-    yield report_line("Inertia tensor", axes + ", kg·m² (entries: Ixy = −∫ρxy dV)")
+    yield "Inertia tensor", axes + ", kg·m² (entries: Ixy = −∫ρxy dV)"
     values = clean([inertia[i][j] for _, i, j in TENSOR])
     for row in (slice(0, 3), slice(3, 6)):
         cells = [
             "I{} {:<16}".format(name, report_number(value))
             for (name, *_), value in zip(TENSOR[row], values[row])
         ]
-        yield report_line("", "".join(cells).rstrip())
+        yield "", "".join(cells)
 
 
-def _bounds(bounds: dict[str, Any]) -> Iterable[str]:
+def _bounds(bounds: dict[str, Any]) -> Iterator[tuple[str, ...]]:
     for label, values in (
         ("Errors, estimated" if bounds.get("estimated") else "Rounding, at most", bounds),
         ("float32 coordinates", bounds.get("input", {})),
@@ -170,7 +172,7 @@ def _bounds(bounds: dict[str, Any]) -> Iterable[str]:
             if values.get(name) is not None
         ]
         if any(values.get(name) for name in BOUNDS):
-            yield report_line(label, ", ".join(parts))
+            yield label, ", ".join(parts)
 
 
 def _stored_record(obj: Any, stored: PlainBody, outdated: bool) -> dict[str, Any]:

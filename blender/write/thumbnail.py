@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A small picture of a body with its principal axes, drawn without a window or a graphics card."""
 
-from __future__ import annotations
-
 import base64
 import struct
 import zlib

@@ -9,8 +9,6 @@ English. The translations are `locale/*.po`, by the English text; only the file 
 language is read.
 """
 
-from __future__ import annotations
-
 import json
 import re
 import sys

@@ -5,8 +5,6 @@
 Blender's importer makes all curves linear between keys, and shows one layer of an object.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any
 

@@ -7,8 +7,6 @@ Files that Blender's importers accept silently are refused: a FIFO (it would blo
 without objects.
 """
 
-from __future__ import annotations
-
 import gzip
 import os
 import re
@@ -16,6 +14,7 @@ import sys
 import zlib
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from itertools import takewhile
 
 import bpy
 
@@ -52,36 +51,35 @@ _IMPORTERS: dict[str, Callable[[str], object]] = {
 }
 
 
-def open_file(path: str, frame: float | None = None) -> Opened:
-    """Open a file as the scene at a frame, by default the first of an imported file, and return the
-    findings about it. Raises FileError.
+def open_file(path: str | None, frame: float | None = None) -> Opened:
+    """Open a file, or take the open one without a path, as the scene at a frame, by default the
+    first of an imported file, and return the findings about it. Raises FileError.
     """
+    if path is None and open_name() and not bpy.data.filepath:
+        raise FileError(FILE_UNREADABLE, error="it is missing or incomplete")
+    kind = BLEND if path is None else suffixes.file_suffix(path)
     try:
-        return _opened(path, frame)
-    except OSError as error:  # Such as from a failing disk.
-        raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
-
-
-def _opened(path: str, frame: float | None) -> Opened:
-    kind = suffixes.file_suffix(path)
-    suffixes.check_file(path)
-    finite.check_numbers(path, kind)
-    absolute = os.path.abspath(path)
-    if kind == BLEND:  # it replaces the open scene
-        _open_blend(absolute)
+        if path is not None:
+            suffixes.check_file(path)
+            finite.check_numbers(path, kind)
+        if kind != BLEND:
+            return _imported(os.path.abspath(path or ""), kind, frame)
+        if path is not None:  # it replaces the open scene
+            _open_blend(os.path.abspath(path))
         return Opened() if frame is None else Opened(notes=placing.measure_at(frame))
-    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    try:
-        found = (
-            _ANIMATED[kind](absolute, frame) if kind in _ANIMATED else _IMPORTERS[kind](absolute)
-        )
     except AttributeError as error:
-        raise FileError(
-            FILE_UNREADABLE, error="it has no importer for {} files".format(kind)
-        ) from error
-    except RuntimeError as error:
+        fault = "it has no importer for {} files".format(kind)
+        raise FileError(FILE_UNREADABLE, error=fault) from error
+    except (OSError, RuntimeError) as error:  # such as from a failing disk
         raise FileError(FILE_UNREADABLE, error=reason(error)) from error
+
+
+def _imported(path: str, kind: str, frame: float | None) -> Opened:
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    found = _ANIMATED[kind](path, frame) if kind in _ANIMATED else _IMPORTERS[kind](path)
     opened = found if isinstance(found, Opened) else Opened()
+    for name in opened.hidden:
+        bpy.data.objects[name].hide_render = True
     if not bpy.context.scene.objects:
         raise FileError(
             opened.errors[0] if opened.errors else finding(FILE_WITHOUT_OBJECTS, content="objects")
@@ -95,9 +93,8 @@ def _open_blend(path: str) -> None:
         bpy.ops.wm.open_mainfile(filepath=path, load_ui=True, use_scripts=False)
     except RuntimeError as error:
         version = _saved_by(path)
-        is_readable = version is not None and _OLDEST <= version <= tuple(bpy.app.version[:2])
-        if version is None or is_readable:
-            raise FileError(FILE_UNREADABLE, error=reason(error)) from error
+        if version is None or _OLDEST <= version <= tuple(bpy.app.version[:2]):
+            raise
         values = {
             "blender": bpy.app.version_string,
             "version": "{}.{}".format(*version) if version > (0, 0) else "-",
@@ -158,14 +155,12 @@ def reason(error: Exception) -> str:
     return lines[0].removeprefix("Error: ").removeprefix("Python: ").rstrip(".")
 
 
-def requested_file() -> str | None:
-    """Return the .blend file that Blender was started with, None if there is none.
+def open_name() -> str | None:
+    """Return the name of the open file, else of the .blend file that Blender was started with, None
+    if there is none.
 
     Blender runs a command on its start-up scene if it cannot open the file.
     """
-    for word in sys.argv[1:]:
-        if word in ("-c", "--command", "--"):
-            return None
-        if _BLEND_WORD.search(word) and not word.startswith("-"):
-            return word
-    return None
+    own = takewhile(lambda word: word not in ("-c", "--command", "--"), sys.argv[1:])
+    named = (word for word in own if _BLEND_WORD.search(word) and not word.startswith("-"))
+    return bpy.data.filepath or next(named, None)

@@ -7,8 +7,6 @@ before: a wrong body would be measured as exact. Numbers that place no point may
 damage is left to Blender, which reports it.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable
 from contextlib import suppress
@@ -57,12 +55,11 @@ def _check_ascii_fbx(data: files.Data) -> None:
     for array in _FBX_ARRAY.finditer(data):
         is_named = data[max(0, array.start() - 100) : array.start()].rpartition(b"\n")[2].strip()
         numbers = None if is_named else _FBX_NUMBERS.match(data, array.end())
-        while numbers is not None:
-            word = _FBX_WORD.match(data, numbers.end())
-            fault = None if word is None else files.find_number_fault(word[0], True)
+        while numbers and (word := _FBX_WORD.match(data, numbers.end())):
+            fault = files.find_number_fault(word[0], True)
             if fault is not None:
                 files.refuse_line(data, numbers.end(), fault)
-            numbers = None if word is None else _FBX_NUMBERS.match(data, word.end())
+            numbers = _FBX_NUMBERS.match(data, word.end())
 
 
 def check_gltf(data: files.Data, path: str) -> None:
@@ -95,22 +92,19 @@ def _placing_accessors(document: dict[str, Any]) -> dict[int, str | None]:
     """Return the accessors that place points, each with its mesh's name: None for skins, animations
     and instances.
     """
-    found: dict[int, str | None] = {}
-    for number, mesh in enumerate(document.get("meshes", [])):
-        for primitive in mesh["primitives"]:
-            for attributes in (primitive["attributes"], *primitive.get("targets", ())):
-                if "POSITION" in attributes:
-                    found[attributes["POSITION"]] = mesh.get("name") or str(number)
+    found = {
+        attributes["POSITION"]: mesh.get("name") or str(number)
+        for number, mesh in enumerate(document.get("meshes", []))
+        for primitive in mesh["primitives"]
+        for attributes in (primitive["attributes"], *primitive.get("targets", ()))
+        if "POSITION" in attributes
+    }
     others = [skin.get("inverseBindMatrices") for skin in document.get("skins", [])]
     for animation in document.get("animations", []):
         others += [sampler[key] for sampler in animation["samplers"] for key in ("input", "output")]
     for node in document.get("nodes", []):
-        others += (
-            node.get("extensions", {})
-            .get("EXT_mesh_gpu_instancing", {})
-            .get("attributes", {})
-            .values()
-        )
+        instancing = node.get("extensions", {}).get("EXT_mesh_gpu_instancing", {})
+        others += instancing.get("attributes", {}).values()
     return found | {number: None for number in others if number is not None and number not in found}
 
 

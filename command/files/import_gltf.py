@@ -6,8 +6,6 @@ Blender's importer ignores KHR_node_visibility and MSFT_lod, drops the shear of 
 joints, and clamps the weights of morph targets. Its hook tells the object of each node.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from bisect import bisect_right
@@ -64,18 +62,15 @@ def import_gltf(path: str, frame: float | None) -> Opened:
         ) -> None:
             if obj.type == "MESH":
                 shown[obj.name] = _node_of(vnode, gltf)
+            nodes = gltf.data.nodes
             line = _line_of(vnode, gltf)
-            if any(
-                _extension(gltf.data.nodes[number], "KHR_node_visibility").get("visible") is False
-                for number in line
-            ):
-                hidden[obj.name] = finding(FILE_HIDES, cause="it is invisible")
-            elif any(
-                number in _extension(node, "MSFT_lod").get("ids", ())
-                for node in gltf.data.nodes
-                for number in line
-            ):
-                hidden[obj.name] = finding(FILE_HIDES, cause="it is a coarser level of detail")
+            coarse = {one for node in nodes for one in _extension(node, "MSFT_lod").get("ids", ())}
+            cause = "it is a coarser level of detail" if coarse & {*line} else None
+            shows = [_extension(nodes[number], "KHR_node_visibility") for number in line]
+            if any(extension.get("visible") is False for extension in shows):
+                cause = "it is invisible"
+            if cause is not None:
+                hidden[obj.name] = finding(FILE_HIDES, cause=cause)
 
     # The importer looks for extensions in add-ons of the preferences, of which it is one itself.
     is_known = ADD_ON in bpy.context.preferences.addons
@@ -92,8 +87,6 @@ def import_gltf(path: str, frame: float | None) -> Opened:
         raise FileError(FILE_UNREADABLE, error=_NO_DECODER.format(name)) from error
     finally:
         del module.glTF2ImportUserExtension
-    for name in hidden:
-        bpy.data.objects[name].hide_render = True
     notes = measure_at(frame)
     try:
         _correct(_Pose(GltfFile(map_file(path), path), shown_seconds() if notes else 0.0), shown)

@@ -6,8 +6,6 @@ Blender's importer makes polygons of round solids, drops the shear of a transfor
 visibility, purpose and subdivision. Its hook tells the object of each prim.
 """
 
-from __future__ import annotations
-
 import importlib
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
@@ -56,7 +54,7 @@ def import_usd(path: str, frame: float | None) -> references.Opened:
     prims, missing, start = _import(path, frame)
     members = [prim for prim in prims.values() if prim.is_member]
     has_instancer = any(prim.members is not None for prim in prims.values())
-    if members and (has_instancer or any(_is_special(prim) for prim in members)):
+    if members and (has_instancer or any(map(_is_special, members))):
         # All instances show the same objects; objects of their own can be hidden, sheared and
         # reported.
         bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
@@ -173,6 +171,7 @@ class _Stage:
         prims |= {objects[block].name: prim for prim, block in pairs if block in objects}
         names = {prim.GetPath(): name for name, prim in prims.items()}
         facts = {name: self._facts(prim, names) for name, prim in prims.items()}
+        # Baking changes the stage, so that the facts are read before.
         moving = self._moving_points()
         return {
             name: fact._replace(points=moving.get(prims[name].GetPath()))
@@ -183,24 +182,23 @@ class _Stage:
         """Return the points of skinned and animated meshes by their paths, in their own
         coordinates.
         """
-        meshes = [prim for prim in self._stage.Traverse() if prim.IsA(self._geom.Mesh)]
-        bound = [
+        points = {
+            prim: self._geom.Mesh(prim).GetPointsAttr()
+            for prim in self._stage.Traverse()
+            if prim.IsA(self._geom.Mesh)
+        }
+        bound = {
             prim
-            for prim in meshes
+            for prim in points
             if self._skel.BindingAPI(prim).GetJointIndicesAttr().HasAuthoredValue()
             or self._skel.BindingAPI(prim).GetBlendShapesAttr().HasAuthoredValue()
-        ]
-        moving = bound + [
-            prim for prim in meshes if self._geom.Mesh(prim).GetPointsAttr().GetNumTimeSamples() > 1
-        ]
+        }
+        moving = {prim for prim in points if points[prim].GetNumTimeSamples() > 1}
         if bound:
             # Blender's modifiers may read the other layers again.
             self._stage.SetEditTarget(self._stage.GetSessionLayer())
             self._skel.BakeSkinning(self._stage.Traverse())
-        return {
-            prim.GetPath(): np.array(self._geom.Mesh(prim).GetPointsAttr().Get(self._time))
-            for prim in moving
-        }
+        return {prim.GetPath(): np.array(points[prim].Get(self._time)) for prim in bound | moving}
 
     def unread(self, blocks: Mapping[str, list[bpy.types.ID]]) -> list[str]:
         """Return the paths and types of visible shapes that Blender's importer leaves out."""
@@ -270,8 +268,7 @@ class _Stage:
             return
         local = np.array(self._places.ComputeRelativeTransform(prim, root)[0]).T
         if prim.IsA(self._geom.PointInstancer):
-            for path, matrices in self._members(prim):
-                yield path, local @ matrices
+            yield from ((path, local @ matrices) for path, matrices in self._members(prim))
             return
         if prim.IsA(self._geom.Gprim):
             yield prim.GetPath(), local[None]
@@ -313,7 +310,6 @@ def _correct(
     for name, prim in sorted(prims.items()):
         obj = bpy.data.objects[name]
         if prim.hidden is not None:
-            obj.hide_render = True
             hidden[name] = finding(FILE_HIDES, cause=prim.hidden)
         if prim.scheme is not None:
             findings[name] = (finding(USD_CAGE, scheme=prim.scheme),)
@@ -340,30 +336,24 @@ def _correct(
             findings[name] = tuple(dict.fromkeys(about))
         elif prim.hidden is None and not prim.is_member:
             obj = bpy.data.objects[name]
-            if not any(collection in _rendered() for collection in obj.users_collection):
-                bpy.context.scene.collection.objects.link(obj)
+            top = bpy.context.scene.collection
+            if _rendered(top).isdisjoint(obj.users_collection):
+                top.objects.link(obj)
             obj.hide_render = False
     bpy.context.view_layer.update()
     return references.Opened(missing, notes, findings, hidden)
 
 
-def _rendered() -> set[bpy.types.Collection]:
-    waiting = [bpy.context.scene.collection]
-    found = set()
-    while waiting:
-        collection = waiting.pop()
-        if not (collection.hide_render or collection.hide_viewport):
-            found.add(collection)
-            waiting += collection.children
-    return found
+def _rendered(collection: bpy.types.Collection) -> set[bpy.types.Collection]:
+    """Return a collection and those in it, as far as they are rendered and shown."""
+    if collection.hide_render or collection.hide_viewport:
+        return set()
+    return {collection}.union(*map(_rendered, collection.children))
 
 
 def _show_members(name: str, prim: _Prim) -> None:
     """Replace an instancer by an empty that shows the shapes of its prototypes in their places."""
     old = bpy.data.objects[name]
-    is_hidden = old.hide_render
-    homes = [*old.users_collection]
-    bpy.data.objects.remove(old)
     collection = bpy.data.collections.new(name)
     for member, matrices in (prim.members or {}).items():
         copy = bpy.data.objects[member].copy()
@@ -373,27 +363,30 @@ def _show_members(name: str, prim: _Prim) -> None:
         collection.objects.link(copy)
     obj = bpy.data.objects.new(name, None)
     obj.instance_type, obj.instance_collection = "COLLECTION", collection
-    obj.hide_render = is_hidden
-    for home in homes:
-        home.objects.link(obj)
+    _take_place(obj, old)
     placing.place_objects({name: prim.place})
 
 
 def _replace(obj: Object, data: bpy.types.Curve) -> None:
     """Replace an object by one with other data of another type, in its place and under its name."""
-    name = obj.name
-    new = bpy.data.objects.new(name, data)
+    new = bpy.data.objects.new(obj.name, data)
     for slot in obj.data.materials if not data.materials else ():
         data.materials.append(slot)
     new.parent = obj.parent
     new.matrix_parent_inverse = obj.matrix_parent_inverse
     new.matrix_basis = obj.matrix_basis
-    new.hide_render = obj.hide_render
     for constraint in obj.constraints:
         new.constraints.copy(constraint)
-    for collection in obj.users_collection:
-        collection.objects.link(new)
     for child in obj.children:
         child.parent = new
-    bpy.data.objects.remove(obj)
+    _take_place(new, obj)
+
+
+def _take_place(new: Object, old: Object) -> None:
+    """Give an object the name, the collections and the visibility of one that it replaces."""
+    name = old.name
+    new.hide_render = old.hide_render
+    for collection in old.users_collection:
+        collection.objects.link(new)
+    bpy.data.objects.remove(old)
     new.name = name

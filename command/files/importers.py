@@ -5,8 +5,6 @@
 Blender has none for .3mf and IGES; that of .obj leaves out ``surf``.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from dataclasses import replace
@@ -18,7 +16,7 @@ from mathutils import Matrix
 from numpy.typing import NDArray
 
 from ...blender import bodies, scene
-from ...blender.settings.properties import set_print
+from ...blender.settings.prints import set_print
 from ...core import cad, files, polyhedron, streams, verdict
 from ...core.mesh import Surface
 from ...core.solid import UNCHECKED, measure_solid
@@ -89,21 +87,16 @@ def import_3mf(path: str) -> Opened:
             meshes[one.key] = _mesh(one)
         obj = bpy.data.objects.new(one.name, meshes[one.key])
         bpy.context.scene.collection.objects.link(obj)
-        remarks = []
-        if one.print_settings is None:
-            remarks.append(finding(UNCHECKED, subject=PRINT_SETTINGS))
-        else:
-            found = dict(one.print_settings)
-            if found:
-                obj.body_moments.kind = "PRINTED"
-            if "density" in found:
-                obj.body_moments.density = found.pop("density")
-            set_print(obj.body_moments, found)
-        if negative:
-            remarks.append(finding(streams.NEGATIVE_PARTS_CUT, names=negative))
-        notes[obj.name] = tuple(remarks)
+        found = dict(one.print_settings or ())
+        if found:
+            obj.body_moments.kind = "PRINTED"
+        if "density" in found:
+            obj.body_moments.density = found.pop("density")
+        set_print(obj.body_moments, found)
+        unread = [finding(UNCHECKED, subject=PRINT_SETTINGS)] * (one.print_settings is None)
+        cut = [finding(streams.NEGATIVE_PARTS_CUT, names=negative)] if negative else []
+        notes[obj.name] = (*unread, *cut)
         if one.hidden:
-            obj.hide_render = True
             hidden[obj.name] = finding(FILE_HIDES, cause=one.hidden)
         obj.matrix_basis = Matrix(one.matrix)
         if (
@@ -128,8 +121,11 @@ def _without_negative_parts(
         if one.is_negative:
             yield replace(one, hidden=one.hidden or "it is cut away from the other parts"), []
             continue
-        cutters = [part for part in placed if part.is_negative and part.item == one.item]
-        cutters = [part for part in cutters if not part.hidden]
+        cutters = [
+            part
+            for part in placed
+            if part.is_negative and part.item == one.item and not part.hidden
+        ]
         if one.hidden or not cutters:
             yield one, []
             continue

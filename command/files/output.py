@@ -8,8 +8,6 @@ one for the result, and descriptor 1 becomes the standard error until the proces
 print what it has buffered at any time.
 """
 
-from __future__ import annotations
-
 import csv
 import os
 import re
@@ -23,7 +21,6 @@ from typing import Any, NoReturn
 
 from ...core import measurement, robots, verdict
 from ...core.files.whole_file import whole_file
-from ...core.robots.write.marker import is_audit, is_ours
 from ..options import arguments, option_types
 
 _STDOUT = {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}  # its descriptor may not be 1 any more
@@ -121,13 +118,13 @@ def is_result(path: Path) -> bool:
     """Return whether a file is a result, a journal or a list of ours. Raises OSError."""
     with open(path, "rb") as file:
         head = file.read(_HEAD)
-    return (
-        bool(_BEGINNING.match(head))
-        or is_ours(head)
-        or is_audit(head)
-        or _is_table(head)
-        or _is_spectrum(path)
-    )
+    if _BEGINNING.match(head) or robots.is_ours(head) or robots.is_audit(head):
+        return True
+    columns = head.split(b"\n", 1)[0].rstrip(b"\r").decode("utf-8", "replace").split(",")
+    with suppress(zipfile.BadZipFile), zipfile.ZipFile(path) as arrays:
+        return {*arrays.namelist()} in (_SPECTRUM, _FLAT_SPECTRUM)
+    own = _COLUMNS[:-_LAST], _COLUMNS[-_LAST:]
+    return (columns[: len(own[0])], columns[-_LAST:]) == own
 
 
 def guard(force: bool) -> Callable[[Path], None]:
@@ -142,20 +139,6 @@ def guard(force: bool) -> Callable[[Path], None]:
             )
 
     return check
-
-
-def _is_table(head: bytes) -> bool:
-    columns = head.split(b"\n", 1)[0].rstrip(b"\r").decode("utf-8", "replace").split(",")
-    return (
-        columns[: len(_COLUMNS) - _LAST] == _COLUMNS[:-_LAST]
-        and columns[-_LAST:] == _COLUMNS[-_LAST:]
-    )
-
-
-def _is_spectrum(path: Path) -> bool:
-    with suppress(zipfile.BadZipFile), zipfile.ZipFile(path) as arrays:
-        return {*arrays.namelist()} in (_SPECTRUM, _FLAT_SPECTRUM)
-    return False
 
 
 def check_targets(
@@ -191,7 +174,8 @@ def _find_refusal(target: Path, read: Sequence[str | Path], force: bool) -> str:
         return "no file can be written in {}. Use another folder".format(folder)
     if target.exists() and any(os.path.exists(path) and target.samefile(path) for path in read):
         return "{} is a file that is read. Use another name".format(target)
-    if not (force or is_replaceable(target)):
-        lost = "{} is not a result of body_moments and would be lost. Use another name, or --force"
-        return lost.format(target)
+    try:
+        guard(force)(target)
+    except FileExistsError as error:
+        return "{}. Use another name, or --force".format(error)
     return ""

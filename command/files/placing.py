@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Objects of a file, brought to the frame to measure and to the places that the file states."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 
@@ -60,25 +58,22 @@ def is_at(obj: bpy.types.Object, place: Array) -> bool:
 def place_objects(places: Mapping[str, Array]) -> None:
     """Give objects their (4, 4) places, and move those to them that stand elsewhere."""
     bpy.context.view_layer.update()
-    wrong = []
+    objects = bpy.data.objects
     for name, place in places.items():
-        obj = bpy.data.objects[name]
-        set_places(obj, place)
-        if not is_at(obj, place):
-            wrong.append(obj)
+        set_places(objects[name], place)
+    wrong = [objects[name] for name, place in places.items() if not is_at(objects[name], place)]
     if not wrong:
         return
-    anchor = bpy.data.objects.new(ANCHOR, None)
+    anchor = objects.new(ANCHOR, None)
     bpy.context.scene.collection.objects.link(anchor)
     # The objects below move with them.
     moved = {*wrong, *(child for parent in wrong for child in parent.children_recursive)}
-    for obj in moved:
-        if obj.name in places:
-            obj.constraints.clear()
-            obj.animation_data_clear()
-            obj.parent = anchor
-            obj.matrix_basis = Matrix()
-            obj.matrix_parent_inverse = Matrix(places[obj.name])  # unlike channels, it holds shear
+    for obj in (obj for obj in moved if obj.name in places):
+        obj.constraints.clear()
+        obj.animation_data_clear()
+        obj.parent = anchor
+        obj.matrix_basis = Matrix()
+        obj.matrix_parent_inverse = Matrix(places[obj.name])  # unlike channels, it holds shear
     bpy.context.view_layer.update()
 
 

@@ -4,8 +4,6 @@
 prints.
 """
 
-from __future__ import annotations
-
 import os
 import re
 import sys
@@ -65,11 +63,12 @@ def reported_references(import_file: Callable[[], object]) -> tuple[Finding, ...
             text = printed.read()
             with open(2, "wb", closefd=False) as again:
                 again.write(text)
-    names = set()  # each a file, with the path of a prim that is missing in it
-    for report in _REPORT.findall(text.decode("utf-8", "replace")):
-        asset = _ASSET.search(report)
-        names.add("".join(part or "" for part in asset.groups()) if asset else report)
-    return (finding(MISSING_REFERENCES, names=sorted(names)),) if names else ()
+    # each a file, with the path of a prim that is missing in it
+    reports = {
+        "".join(_ASSET.search(report).groups("")) if _ASSET.search(report) else report
+        for report in _REPORT.findall(text.decode("utf-8", "replace"))
+    }
+    return (finding(MISSING_REFERENCES, names=sorted(reports)),) if reports else ()
 
 
 def missing_links() -> Iterator[Finding]:
@@ -90,18 +89,11 @@ def _cache_paths() -> Iterator[str]:
     """Yield the files that modifiers of the scene's objects read their points from."""
     for obj in bpy.context.scene.objects:
         for modifier in obj.modifiers:
-            if not modifier.show_viewport:
-                continue
-            if modifier.type == "MESH_CACHE" and modifier.filepath:
+            cache = getattr(modifier, "cache_file", None)
+            if modifier.show_viewport and modifier.type == "MESH_CACHE" and modifier.filepath:
                 yield bpy.path.abspath(modifier.filepath, library=obj.library)
-            elif (
-                modifier.type == "MESH_SEQUENCE_CACHE"
-                and modifier.cache_file
-                and not modifier.cache_file.is_sequence
-            ):
-                yield bpy.path.abspath(
-                    modifier.cache_file.filepath, library=modifier.cache_file.library
-                )
+            elif modifier.show_viewport and cache and not cache.is_sequence:
+                yield bpy.path.abspath(cache.filepath, library=cache.library)
 
 
 def blocked_scripts() -> Iterator[Finding]:
@@ -110,13 +102,16 @@ def blocked_scripts() -> Iterator[Finding]:
     """
     if not bpy.app.autoexec_fail:
         return
-    drivers = [
-        driver for _, driver in _drivers() if not driver.is_valid and driver.type == "SCRIPTED"
-    ]
-    if drivers:
-        yield finding(DRIVER_BLOCKED, drivers=sorted({driver.expression for driver in drivers}))
-    else:
-        yield finding(SCRIPT_BLOCKED, script=bpy.app.autoexec_fail_message)
+    drivers = {
+        driver.expression
+        for _, driver in _drivers()
+        if not driver.is_valid and driver.type == "SCRIPTED"
+    }
+    yield (
+        finding(DRIVER_BLOCKED, drivers=sorted(drivers))
+        if drivers
+        else finding(SCRIPT_BLOCKED, script=bpy.app.autoexec_fail_message)
+    )
 
 
 def scripts_of_open_file() -> Iterator[Finding]:
@@ -148,10 +143,8 @@ def _drivers(embedded: bool = False) -> Iterator[tuple[str, bpy.types.Driver]]:
     """Yield the drivers of all data-blocks with their owners' names, also of embedded node trees if
     requested.
     """
-    for prop in bpy.data.bl_rna.properties:
-        if prop.type != "COLLECTION":
-            continue
-        for item in getattr(bpy.data, prop.identifier):
-            for owner in (item, getattr(item, "node_tree", None) if embedded else None):
-                for curve in getattr(getattr(owner, "animation_data", None), "drivers", ()):
-                    yield item.name_full, curve.driver
+    kinds = [prop.identifier for prop in bpy.data.bl_rna.properties if prop.type == "COLLECTION"]
+    for item in (item for kind in kinds for item in getattr(bpy.data, kind)):
+        for owner in (item, getattr(item, "node_tree", None) if embedded else None):
+            for curve in getattr(getattr(owner, "animation_data", None), "drivers", ()):
+                yield item.name_full, curve.driver

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -23,13 +23,21 @@ from ..supervisor.listing import COPY_SUFFIX
 from .files import reason
 
 _PACKED = (b"\x28\xb5\x2f\xfd", b"\x1f\x8b")  # start of a .blend compressed with zstd or gzip
+_METADATA = (
+    "body_mass",
+    "body_volume",
+    "body_area",
+    "body_center_of_mass",
+    "body_principal_moments",
+    "body_method",
+)
 _WITH_GEOMETRY = {"MESH", "CURVE", "SURFACE", "META", "FONT", "VOLUME"}
 
 
 @dataclass
 class Place:
-    """A .blend file that is going to take results: its path without symbolic links, and a digest of
-    its content.
+    """A .blend file that is going to take results: its path without symbolic links, a digest of its
+    content, and whether it is compressed.
 
     Its size and time may not change if two programs save within one tick of a file system's clock,
     hence the digest.
@@ -37,6 +45,7 @@ class Place:
 
     path: Path
     digest: bytes
+    is_packed: bool
 
     @classmethod
     def of_file(cls, path: str) -> Place:
@@ -46,63 +55,46 @@ class Place:
         """
         real = Path(os.path.realpath(path))
         try:
-            return cls(real, _digest(real))
+            with open(real, "rb") as file:
+                is_packed = file.read(4).startswith(_PACKED)
+                file.seek(0)
+                return cls(real, hashlib.file_digest(file, "blake2b").digest(), is_packed)
         except OSError as error:
-            raise FileError(
-                write.findings.FILE_NOT_WRITTEN, file=real.name, error=reason(error)
-            ) from error
+            values = {"file": real.name, "error": reason(error)}
+            raise FileError(write.findings.FILE_NOT_WRITTEN, **values) from error
 
     def save(self) -> None:
         """Save the open scene, whole or not at all.
 
         FileError if this fails, or the file has changed meanwhile.
         """
-        try:
-            # the folder alone decides whether a file can be replaced
-            if not os.access(self.path, os.W_OK):
-                raise OSError("it is gone, or read-only")
-            with open(self.path, "rb") as file:
-                packed = file.read(4).startswith(_PACKED)
-            with partial_file(self.path) as partial:
-                _save_as(partial, compress=packed)
-                if _digest(self.path) != self.digest:
-                    raise FileError(
-                        RESULTS_NOT_STORED,
-                        cause=(
-                            "another program has saved the file since it was opened. "
-                            "Measure it again"
-                        ),
-                    )
-                replace(partial, self.path)
-        except (RuntimeError, OSError) as error:
-            raise FileError(
-                write.findings.FILE_NOT_WRITTEN, file=self.path.name, error=reason(error)
-            ) from error
+        _save(self.path, self._check, compress=self.is_packed)
+
+    def _check(self) -> None:
+        # the folder alone decides whether a file can be replaced
+        if not os.access(self.path, os.W_OK):
+            raise OSError("it is gone, or read-only")
+        if Place.of_file(str(self.path)) != self:
+            cause = "another program has saved the file since it was opened. Measure it again"
+            raise FileError(RESULTS_NOT_STORED, cause=cause)
 
 
-def _digest(path: Path) -> bytes:
-    with open(path, "rb") as file:
-        return hashlib.file_digest(file, "blake2b").digest()
-
-
-def _save_as(path: Path, **options: bool) -> None:
-    bpy.ops.wm.save_as_mainfile(
-        filepath=str(path), copy=True, relative_remap=False, check_existing=False, **options
-    )
-
-
-def save_copy(path: str) -> None:
-    """Save the open scene beside its file, as NAME.body_moments.blend. Raises FileError."""
-    target = Path(os.path.realpath(path))
-    target = target.with_name(target.stem + COPY_SUFFIX)
+def _save(target: Path, check: Callable[[], None] = lambda: None, **options: bool) -> None:
+    """Save the open scene, whole or not at all; check: raises an error if the target must stay."""
     try:
         with partial_file(target) as partial:
-            _save_as(partial)
+            bpy.ops.wm.save_as_mainfile(
+                filepath=str(partial),
+                copy=True,
+                relative_remap=False,
+                check_existing=False,
+                **options,
+            )
+            check()
             replace(partial, target)
     except (RuntimeError, OSError) as error:
-        raise FileError(
-            write.findings.FILE_NOT_WRITTEN, file=target.name, error=reason(error)
-        ) from error
+        values = {"file": target.name, "error": reason(error)}
+        raise FileError(write.findings.FILE_NOT_WRITTEN, **values) from error
 
 
 def write_assets(
@@ -117,7 +109,8 @@ def write_assets(
     for root in stored:
         _store(root.asset_data, measured[root])
     if where == "copy" and stored:
-        save_copy(path)
+        target = Path(os.path.realpath(path))
+        _save(target.with_name(target.stem + COPY_SUFFIX))
     return where == "file" and bool(stored), [*_without_numbers({*measured})]
 
 
@@ -125,29 +118,23 @@ def _store(data: bpy.types.AssetMetaData, measurement: Measurement) -> None:
     """Store a measurement as metadata, of an object in its own frame, of a collection in the
     scene's.
     """
-    properties = measurement.in_object_frame()
-    data["body_mass"] = float(properties.mass)
-    data["body_volume"] = float(measurement.volume)
-    data["body_area"] = float(measurement.area)
-    data["body_center_of_mass"] = [float(value) for value in properties.center]
-    data["body_principal_moments"] = [float(value) for value in properties.principal.moments]
-    data["body_method"] = str(measurement.method)
+    values = next(write.properties.values_of(measurement))
+    for key in _METADATA:
+        data[key] = values[key]
 
 
 def _without_numbers(known: set[read.assembly.Root]) -> Iterator[Finding]:
     """Yield a finding if assets of the open file have geometry and were not measured."""
-    geometry = (bpy.data.meshes, bpy.data.curves, bpy.data.metaballs, bpy.data.volumes)
-    roots = [
-        one
-        for one in (*bpy.data.objects, *bpy.data.collections)
-        if one not in known and _has_geometry(one)
-    ]
-    assets = (
-        one
-        for one in (*roots, *(data for group in geometry for data in group))
-        if one.asset_data is not None
+    data = bpy.data
+    geometry = (*data.meshes, *data.curves, *data.metaballs, *data.volumes)
+    roots = (
+        one for one in (*data.objects, *data.collections) if one not in known and _has_geometry(one)
     )
-    names = sorted(one.name for one in assets if one.library is None)
+    names = sorted(
+        one.name
+        for one in (*roots, *geometry)
+        if one.asset_data is not None and one.library is None
+    )
     if names:
         yield finding(ASSETS_NOT_MEASURED, names=names)
 

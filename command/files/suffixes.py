@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Kinds of files by their suffixes, and checks of a file before anything reads it."""
 
-from __future__ import annotations
-
 import zipfile
 from pathlib import Path
 
@@ -29,13 +27,11 @@ def check_file(path: str) -> None:
     files.check_regular(path)
     try:
         with open(path, "rb") as file:
-            is_empty = not file.read(1)
+            if not file.read(1):
+                raise verdict.FileError(files.FILE_UNREADABLE, error="it is empty")
     except OSError as error:
-        raise verdict.FileError(
-            files.FILE_UNREADABLE, error=verdict.system_reason(error)
-        ) from error
-    if is_empty:
-        raise verdict.FileError(files.FILE_UNREADABLE, error="it is empty")
+        reason = verdict.system_reason(error)
+        raise verdict.FileError(files.FILE_UNREADABLE, error=reason) from error
     if kind == ".usdz":
         _check_usdz(Path(path))
 

@@ -7,23 +7,22 @@ An array, a scan, and a mesh that is read in blocks are one body, named after th
 may have several.
 """
 
-from __future__ import annotations
-
 import os
 from argparse import Namespace
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
+from itertools import chain, count
 from typing import Any, TypeVar
 
 from ...blender.session.findings import NO_SUCH_NAME
-from ...blender.write.thumbnail import thumbnail
 from ...core import cad, floating, robots, streams, verdict
 from ...core.bodies import (
     DENSITY_DEFAULTED,
     SHAPE_OF_GRID,
     ArrayOptions,
+    Reading,
     about_file,
     body_of_mesh,
     measure_array,
@@ -50,9 +49,7 @@ from ..findings import (
 )
 from ..options import arguments, checks
 from ..supervisor import listing, processes
-from .cuts import cut_entries, is_open_sheet
-from .entries import Contents, failure
-from .floating import floating_entry
+from .entries import Contents, cut_entries, failure, floating_entry, is_open_sheet, picture
 
 BYTES_PER_FACE = 500  # approximate memory for reading and measuring a mesh
 # Least bytes for each face: a file's size limits its faces.
@@ -70,6 +67,7 @@ _NOT_OF_STREAMS = (
 
 
 Named = TypeVar("Named", streams.FileMesh, cad.SurfaceBody)
+T = TypeVar("T")
 
 
 class BareFile:
@@ -80,6 +78,7 @@ class BareFile:
     """
 
     has_saved = False
+    opened = ()
 
     def __init__(
         self,
@@ -111,7 +110,6 @@ class BareFile:
         )
 
     def store(self, contents: Contents) -> None:
-        """Refuse to store results."""
         if self.options.write:
             raise FileError(RESULTS_NOT_STORED, cause=NEEDS_BLEND)
 
@@ -123,10 +121,6 @@ class BareFile:
         return measure.robots.complete(
             document, contents.measured, self.options, wanted, is_opened=False
         )
-
-    def files(self) -> list[str]:
-        """Return the files that Blender has read with it: none."""
-        return []
 
     def _settings(self) -> Settings:
         options = self.options
@@ -150,16 +144,15 @@ class BareFile:
             findings.append(finding(DENSITY_DEFAULTED, density="1000 kg/m³"))
         return settings, findings
 
-    def _chosen(self, names: Iterable[str], contents: Contents) -> list[str]:
-        """Return the requested names; each that does not exist is an error."""
-        names = [*names]
-        wanted = names if self.options.object is None else [*dict.fromkeys(self.options.object)]
+    def _chosen(self, bodies: dict[str, T], contents: Contents) -> Iterator[tuple[str, T]]:
+        """Return the requested bodies and their names; each name that none has is an error."""
+        wanted = dict.fromkeys(bodies if self.options.object is None else self.options.object)
         contents.errors += [
             failure(other, finding(NO_SUCH_NAME, kind="object", name=other))
             for other in wanted
-            if other not in names
+            if other not in bodies
         ]
-        return [name for name in names if name in wanted]
+        return ((name, body) for name, body in bodies.items() if name in wanted)
 
     def _measure_whole(self, contents: Contents) -> None:
         is_scan = self._is_scan
@@ -167,25 +160,27 @@ class BareFile:
         if is_scan and self.options.label is not None:
             self._measure_labels(name, contents)
             return
-        is_chosen = self._chosen([name], contents)
+        chosen = [*self._chosen({name: None}, contents)]
         if is_scan and self.options.fourier:
             contents.errors.append(failure(None, finding(FOURIER_OBJECT_COUNT, count=0)))
-        if not is_chosen:
+        if not chosen:
             return
-        count = self._progress(self._path, "samples" if is_scan else "faces")
+        progress = self._progress(self._path, "samples" if is_scan else "faces")
         measurement = (
-            measure_array(self._path, name, self._array_options(), self._settings(), count)
+            measure_array(self._path, name, self._array_options(), self._settings(), progress)
             if is_scan
-            else self._measure_stream(name, count)
+            else self._measure_stream(name, progress)
         )
         requested = [more for more in ("pose", "signature") if getattr(self.options, more)]
-        shapeless = checks.unused(requested)
-        if is_scan:
-            shapeless = [finding(SHAPE_OF_GRID)] * bool(requested)
-        floats = ["float"] if self.options.float else []
-        more = dict.fromkeys([*requested, *["thumbnail"] * bool(self.options.thumbnails)])
-        more |= dict.fromkeys(["floating"] * len(floats))
-        self._add(contents, measurement, [*shapeless, *checks.unused(floats)], more)
+        shapeless = [finding(SHAPE_OF_GRID)] * bool(requested)
+        shapeless = shapeless if is_scan else checks.unused(requested)
+        floats = ["float"] * bool(self.options.float)
+        more = (
+            *requested,
+            *["thumbnail"] * bool(self.options.thumbnails),
+            *["floating"] * len(floats),
+        )
+        self._add(contents, measurement, [*shapeless, *checks.unused(floats)], dict.fromkeys(more))
 
     def _measure_labels(self, name: str, contents: Contents) -> None:
         options = self.options
@@ -210,12 +205,10 @@ class BareFile:
         findings = [one for one in findings if one.code not in (UNIT_ASSUMED, OPTIONS_UNUSED)]
         requested = ("spline_order", "density_scale", "pose", "signature", "fourier")
         findings += checks.unused(one for one in requested if getattr(options, one))
-        chosen = self._chosen([one.name for one, _ in measured], contents)
-        for one, more in measured:
+        for _, (one, more) in self._chosen({pair[0].name: pair for pair in measured}, contents):
             density = table.get(more["label"]["value"], Label()).density
             own = [each for each in findings if density is None or each.code != DENSITY_DEFAULTED]
-            if one.name in chosen:
-                self._add(contents, one, own, more)
+            self._add(contents, one, own, more)
 
     def _array_options(self) -> ArrayOptions:
         taken = {
@@ -247,15 +240,10 @@ class BareFile:
         settings, findings = self._mesh_settings()
         settings = replace(settings, unit=file.unit or settings.unit)
         findings += [finding(cad.FACES_NOT_READ, count=file.unread)] * bool(file.unread)
-        bodies = _with_own_names(file.bodies)
-        chosen = self._chosen([body.name for body in bodies], contents)
-        for body in bodies:
-            if body.name in chosen:
-                try:
-                    measured = measure_faces(body.name, body.patches, body.rounding, settings)
-                    self._add(contents, measured, (*findings, *file.notes), {})
-                except MeasureError as refusal:
-                    contents.errors.append(failure(body.name, refusal.finding))
+        for name, body in self._chosen(_with_own_names(file.bodies), contents):
+            with contents.attempt(name):
+                measured = measure_faces(name, body.patches, body.rounding, settings)
+                self._add(contents, measured, (*findings, *file.notes), {})
 
     def _measure_meshes(self, contents: Contents) -> None:
         try:
@@ -268,53 +256,43 @@ class BareFile:
             raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
         if not meshes:
             raise FileError(FILE_WITHOUT_OBJECTS, content="objects")
-        meshes = _with_own_names(meshes)
         settings, findings = self._mesh_settings()
-        chosen = self._chosen([mesh.name for mesh in meshes], contents)
-        for mesh in meshes:
-            if mesh.name not in chosen:
-                continue
-            try:
-                reading = read_mesh(mesh, upright)
-                try:
-                    body = body_of_mesh(reading, settings)
-                    measurement = measure_reading(reading, body, settings)
-                    sheet = []
-                except MeasureError as refusal:
-                    if not is_open_sheet(refusal, self.options):
-                        raise
-                    thickness = self.options.thickness or DEFAULT_THICKNESS
-                    shell = replace(settings, kind="shell", thickness=thickness)
-                    body = body_of_mesh(reading, shell)
-                    measurement = measure_reading(reading, body, shell)
-                    sheet = [finding(MEASURED_AS_SHELL)]
-                more, of_liquid = {}, ()
-                if self.options.float:
-                    of_mass = measurement.mass_properties
-                    settled = partial(
-                        floating.settle,
-                        [body],
-                        of_mass.mass,
-                        of_mass.center,
-                        self.options.float,
-                        UP,
-                        center_error=measurement.center_bounds,
-                    )
-                    more, of_liquid = floating_entry(settled, measurement, self.options, contents)
-                if self.options.thumbnails:
-                    surface = reading.join()
-                    properties = measurement.mass_properties
-                    points = surface.points * settings.unit
-                    triangles = surface.all_triangles()[0]
-                    more["thumbnail"] = thumbnail(
-                        points, triangles, properties.center, properties.principal.axes
-                    )
-                cuts, of_cuts = cut_entries(measurement, body, self.options, contents)
-                self._add(
-                    contents, measurement, (*findings, *sheet, *of_liquid, *of_cuts), more | cuts
-                )
-            except MeasureError as refusal:
-                contents.errors.append(failure(mesh.name, refusal.finding))
+        for name, mesh in self._chosen(_with_own_names(meshes), contents):
+            with contents.attempt(name):
+                self._measure_mesh(read_mesh(mesh, upright), settings, findings, contents)
+
+    def _measure_mesh(
+        self, reading: Reading, settings: Settings, findings: list[Finding], contents: Contents
+    ) -> None:
+        sheet = []
+        try:
+            body = body_of_mesh(reading, settings)
+            measurement = measure_reading(reading, body, settings)
+        except MeasureError as refusal:
+            if not is_open_sheet(refusal, self.options):
+                raise
+            thickness = self.options.thickness or DEFAULT_THICKNESS
+            shell = replace(settings, kind="shell", thickness=thickness)
+            body = body_of_mesh(reading, shell)
+            measurement = measure_reading(reading, body, shell)
+            sheet = [finding(MEASURED_AS_SHELL)]
+        more, of_liquid = {}, ()
+        if self.options.float:
+            of_mass = measurement.mass_properties
+            settled = partial(
+                floating.settle,
+                [body],
+                of_mass.mass,
+                of_mass.center,
+                self.options.float,
+                UP,
+                center_error=measurement.center_bounds,
+            )
+            more, of_liquid = floating_entry(settled, measurement, self.options, contents)
+        if self.options.thumbnails:
+            more["thumbnail"] = picture(reading.join(), measurement, settings.unit)
+        cuts, of_cuts = cut_entries(measurement, body, self.options, contents)
+        self._add(contents, measurement, (*findings, *sheet, *of_liquid, *of_cuts), more | cuts)
 
     def _add(
         self,
@@ -334,18 +312,15 @@ class BareFile:
         contents.measured.append((measurement.name, None, measurement))
 
 
-def _with_own_names(meshes: Sequence[Named]) -> list[Named]:
-    """Return meshes or bodies, later ones of a name with numbers behind it, as in Blender."""
-    names: set[str] = set()
-    named = []
+def _with_own_names(meshes: Iterable[Named]) -> dict[str, Named]:
+    """Return meshes or bodies by name, later ones of a name with numbers behind it, as in
+    Blender.
+    """
+    named: dict[str, Named] = {}
     for mesh in meshes:
-        name = mesh.name
-        count = 0
-        while name in names:
-            count += 1
-            name = "{}.{:03d}".format(mesh.name, count)
-        names.add(name)
-        named.append(replace(mesh, name=name))
+        numbered = ("{}.{:03d}".format(mesh.name, number) for number in count(1))
+        name = next(name for name in chain([mesh.name], numbered) if name not in named)
+        named[name] = replace(mesh, name=name)
     return named
 
 

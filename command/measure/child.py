@@ -4,8 +4,6 @@
 documents.
 """
 
-from __future__ import annotations
-
 import io
 import json
 import os

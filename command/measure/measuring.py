@@ -6,15 +6,12 @@ Omitted objects come with the reasons, and unknown names as errors. Bodies are m
 one by one, with their shapes; flat shapes, Fourier transforms and pictures alone.
 """
 
-from __future__ import annotations
-
 from argparse import Namespace
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 import bpy
-import numpy as np
 
 from ...blender import read, session, write
 from ...blender.bodies import fourier, stack
@@ -22,10 +19,8 @@ from ...blender.bodies.flat import flat, flat_shape
 from ...blender.bodies.measure_object import measure_object, measured_in_turn
 from ...blender.bodies.shape.shape import NoShapeError, shape_of
 from ...blender.read import assembly, visibility
-from ...blender.scale import meters_per_unit
 from ...blender.settings.given import shows_collection
 from ...blender.settings.options import MeasureOptions
-from ...blender.write.thumbnail import thumbnail
 from ...core import bodies, files, verdict
 from ...core.measurement import Measurement, flat_record
 from ...core.moments import flusser_invariants, hu_invariants, normalize
@@ -33,7 +28,7 @@ from ...core.verdict import Finding, MeasureError, QueryError, finding
 from ..files.output import guard
 from ..findings import NO_SHAPES, NOTHING_MEASURED, NOTHING_RENDERED, SIGNATURE_OF_DISPLAY_MESH
 from ..options import checks, option_types
-from .entries import failure
+from .entries import failure, picture
 
 LEAST_ORDER = 2  # moments to this order are always computed
 HU_ORDER = 3  # order for Hu's invariants
@@ -47,14 +42,9 @@ def measured_together(
 
     That is the case if an object needs settings or results of its own besides mass properties.
     """
-    if options.order is not None or options.pose or options.signature:
-        return None
-    if (
-        options.threshold is not None
-        or options.label is not None
-        or options.polynomial is not None
-        or options.density_from is not None
-    ):
+    own = ("order", "threshold", "label", "polynomial", "density_from")
+    is_alone = options.pose or options.signature
+    if is_alone or any(getattr(options, name) is not None for name in own):
         return None
     return measured_in_turn(objects, bpy.context.evaluated_depsgraph_get(), measure_options)
 
@@ -87,27 +77,14 @@ def measure_shape(
     return shape.measurement, more, findings
 
 
-def thumbnail_of(obj: bpy.types.Object, measurement: Measurement, unit: float | None) -> str | None:
-    """Return the picture of a measured object, or None if it shows no faces.
-
-    unit: meters per unit, else the scene's.
-    """
+def thumbnail_of(obj: bpy.types.Object, measurement: Measurement, unit: float) -> str | None:
+    """Return the picture of a measured object, or None if it shows no faces. unit: in meters."""
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    unit = unit or meters_per_unit(depsgraph.scene)
     try:
         surface = read.objects.read_object(obj, depsgraph, edges=False).join()
     except MeasureError:  # such as a grid of densities
         return None
-    triangles = surface.all_triangles()[0]
-    if not len(triangles):
-        return None
-    properties = measurement.mass_properties
-    return thumbnail(
-        surface.points.astype(np.float64) * unit,
-        triangles,
-        properties.center,
-        properties.principal.axes,
-    )
+    return picture(surface, measurement, unit)
 
 
 def write_transform(
@@ -118,15 +95,14 @@ def write_transform(
     Raises MeasureError and OSError.
     """
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    if options.flat:
-        unit = measure_options.unit_scale
-        under_way = fourier.flat_transform(
-            obj, depsgraph, options.waves, frame=options.frame, unit=unit
-        )
-    else:
-        under_way = fourier.object_transform(
+    unit = measure_options.unit_scale
+    under_way = (
+        fourier.flat_transform(obj, depsgraph, options.waves, frame=options.frame, unit=unit)
+        if options.flat
+        else fourier.object_transform(
             obj, depsgraph, measure_options, options.waves, frame=options.frame
         )
+    )
     for _ in under_way.steps():
         pass
     transform, findings = under_way.result()
@@ -156,11 +132,9 @@ def record_of_flat(
     try:
         region = flat.flat_region(obj, depsgraph, selected=False, unit=unit)
         moments = region.moments(max(order or 0, LEAST_ORDER))
-        more |= (
-            {"signature": flat_shape.flat_shape_of(obj, depsgraph, unit).signature().as_record()}
-            if options.signature
-            else {}
-        )
+        if options.signature:
+            shape = flat_shape.flat_shape_of(obj, depsgraph, unit)
+            more["signature"] = shape.signature().as_record()
         if order is not None and order >= HU_ORDER:
             normalized = normalize(moments)
             invariants = [*hu_invariants(normalized), *flusser_invariants(normalized)]
@@ -216,16 +190,17 @@ def objects_to_measure(
             if obj in candidates
         ]
         return chosen, left_out, []
-    chosen, errors = [], []
-    for name in names:
-        matches = [(label, obj) for obj, label in labels.items() if label == name]
-        matches = matches or [(label, obj) for obj, label in labels.items() if obj.name == name]
-        chosen += [pair for pair in matches if pair not in chosen]
-        if not matches:
-            errors.append(
-                failure(name, finding(session.findings.NO_SUCH_NAME, kind="object", name=name))
-            )
-    return chosen, [], errors
+    by_name = {
+        name: [(label, obj) for obj, label in labels.items() if label == name]
+        or [(label, obj) for obj, label in labels.items() if obj.name == name]
+        for name in names
+    }
+    errors = [
+        failure(name, finding(session.findings.NO_SUCH_NAME, kind="object", name=name))
+        for name, matches in by_name.items()
+        if not matches
+    ]
+    return [*dict.fromkeys(pair for pairs in by_name.values() for pair in pairs)], [], errors
 
 
 def _excluded(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> set[bpy.types.Object]:
@@ -243,13 +218,13 @@ def _excluded(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> set[bpy.typ
 def other_scenes(scene: bpy.types.Scene) -> Iterator[Finding]:
     """Yield a finding if a file has measurable objects outside its open scene."""
     here = {*scene.objects}
-    other_scenes = [
+    others = [
         other.name
         for other in bpy.data.scenes
         if any(visibility.measurable(obj) for obj in {*other.objects} - here)
     ]
-    if other_scenes:
-        yield finding(files.OTHERS_LEFT_OUT, kind="scene", name=scene.name, others=other_scenes)
+    if others:
+        yield finding(files.OTHERS_LEFT_OUT, kind="scene", name=scene.name, others=others)
 
 
 def set_density(obj: bpy.types.Object, options: Namespace) -> None:
@@ -259,25 +234,23 @@ def set_density(obj: bpy.types.Object, options: Namespace) -> None:
 
     The object's settings change in memory. Only --write saves them, together with the results.
     """
-    settings = obj.body_moments
+    source, name = option_types.split_source(options.density_from or "")
+    chosen: dict[str, Any] = {}
     if options.threshold is not None and obj.type == "VOLUME":
-        settings.grid_as = "THRESHOLD"
-        settings.threshold = options.threshold
+        chosen |= {"grid_as": "THRESHOLD", "threshold": options.threshold}
     if options.label is not None and obj.type == "VOLUME":
-        settings.grid_as = "LABEL"
-        settings.label = 0 if options.label == "all" else options.label
+        chosen |= {"grid_as": "LABEL", "label": 0 if options.label == "all" else options.label}
     if options.polynomial is not None:
-        settings.mass_from = "DENSITY"
-        settings.density_from = "POLYNOMIAL"
-        settings.density_polynomial = options.polynomial
-    elif options.density_from is not None:
-        source, name = option_types.split_source(options.density_from)
-        settings.mass_from = "DENSITY"
-        settings.density_from = source.upper()
-        if source == "attribute":
-            settings.density_attribute = name
-        elif source == "volume":
-            volume = bpy.context.scene.objects.get(name)
-            if volume is None or volume.type != "VOLUME":
-                raise QueryError(session.findings.NO_SUCH_NAME, kind="Volume object", name=name)
-            settings.density_volume = volume
+        source = "polynomial"
+        chosen["density_polynomial"] = options.polynomial
+    if source:
+        chosen |= {"mass_from": "DENSITY", "density_from": source.upper()}
+    if source == "attribute":
+        chosen["density_attribute"] = name
+    if source == "volume":
+        volume = bpy.context.scene.objects.get(name)
+        if volume is None or volume.type != "VOLUME":
+            raise QueryError(session.findings.NO_SUCH_NAME, kind="Volume object", name=name)
+        chosen["density_volume"] = volume
+    for key, value in chosen.items():
+        setattr(obj.body_moments, key, value)

@@ -4,8 +4,6 @@
 storage of results.
 """
 
-from __future__ import annotations
-
 import os
 from argparse import Namespace
 from collections.abc import Callable, Iterator, Sequence
@@ -18,7 +16,6 @@ from ...blender import read, session, write
 from ...blender.bodies import cuts, overlaps, stack
 from ...blender.bodies.flat.flat import NO_BODY
 from ...blender.bodies.measure_body import measure_body
-from ...blender.scale import meters_per_unit
 from ...blender.session.stored import floating
 from ...blender.session.tracking.staleness import mark_up_to_date
 from ...blender.settings import density, given
@@ -27,12 +24,11 @@ from ...blender.settings.options import MeasureOptions
 from ...blender.write.properties import store
 from ...core import bodies, cad, mesh, verdict
 from ...core.cuts import CutFill
-from ...core.files import FILE_UNREADABLE
 from ...core.floating import Flotation
 from ...core.measurement import Measurement, record
 from ...core.verdict import FileError, Finding, MeasureError, QueryError, finding, system_reason
-from ..files import placing, references, saving, suffixes
-from ..files.files import newer_version, open_file, requested_file
+from ..files import references, saving, suffixes
+from ..files.files import newer_version, open_file, open_name
 from ..findings import (
     FOURIER_OBJECT_COUNT,
     MEASURED_AS_SHELL,
@@ -44,9 +40,7 @@ from ..findings import (
 from ..options.checks import body_findings, density_of, file_findings, is_unitless
 from ..supervisor.listing import BLEND
 from . import combined, robots
-from .cuts import cut_entries, is_open_sheet
-from .entries import Contents, failure
-from .floating import floating_entry
+from .entries import Contents, cut_entries, failure, floating_entry, is_open_sheet
 from .measuring import (
     measure_shape,
     measured_together,
@@ -58,13 +52,6 @@ from .measuring import (
     why_nothing,
     write_transform,
 )
-
-
-def open_name() -> str | None:
-    """Return the name of the open file, or of the file that Blender was started with and could not
-    open.
-    """
-    return bpy.data.filepath or requested_file()
 
 
 def measure_options(options: Namespace, threads: int) -> MeasureOptions:
@@ -85,8 +72,7 @@ def measure_options(options: Namespace, threads: int) -> MeasureOptions:
 class Scene:
     """The file at a path, once it is open, or the open file if there is no path.
 
-    has_opened, has_saved: whether the file has become the open scene, and whether it was saved in
-    place.
+    has_saved: whether the file was saved in place. opened: the files that Blender has read with it.
     """
 
     def __init__(self, path: str | None, options: Namespace, threads: int) -> None:
@@ -94,14 +80,16 @@ class Scene:
         self._wanted = measure_options(options, threads)
         self._combined = combined.Combined()
         self._afloat: dict[bpy.types.Object, list[bpy.types.Object]] = {}
-        self._is_open = self.has_opened = self.has_saved = False
+        self._is_open = self.has_saved = False
+        self.opened: Sequence[str] = ()
 
     def measure(self, contents: Contents) -> None:
         """Open the file and measure its objects. Raises MeasureError."""
         path, options = self._path, self.options
         self._place = self._place_of_results()
-        opened = self._open()
+        opened = open_file(path, options.at_frame)
         self._is_open = True
+        self.opened = bpy.utils.blend_paths(absolute=True, packed=False)
         # Not set in the scene, whose unit scale is a float32 with limits.
         self._wanted = replace(
             self._wanted, unit_scale=(options.unit_scale or 1.0) if is_unitless(path) else None
@@ -118,13 +106,13 @@ class Scene:
             (label, one.method) for label, _, one in contents.measured
         )
         if options.object is None:  # A user who names objects knows what their total means.
-            contents.caveats += read.assembly.total_caveats(
-                [obj for _, obj, _ in contents.measured], bpy.context.view_layer
+            objects = [obj for _, obj, _ in contents.measured]
+            depsgraph = bpy.context.evaluated_depsgraph_get()
+            contents.caveats += (
+                *read.assembly.total_caveats(objects, bpy.context.view_layer),
+                *overlaps.overlap_caveats(objects, depsgraph),
+                *other_scenes(bpy.context.scene),
             )
-            contents.caveats += overlaps.overlap_caveats(
-                [obj for _, obj, _ in contents.measured], bpy.context.evaluated_depsgraph_get()
-            )
-            contents.caveats += other_scenes(bpy.context.scene)
             self._combined = combined.measure_combined(
                 self._wanted, contents, options.asset_metadata is not None
             )
@@ -166,10 +154,6 @@ class Scene:
         return robots.complete(
             document, contents.measured, self.options, self._wanted, is_opened=self._is_open
         )
-
-    def files(self) -> list[str]:
-        """Return the files that Blender has read with the open file."""
-        return bpy.utils.blend_paths(absolute=True, packed=False) if self.has_opened else []
 
     def _place_of_results(self) -> saving.Place | None:
         """Return the .blend file in which results will be saved, None if there is none.
@@ -270,22 +254,17 @@ class Scene:
             *(*measurement.findings, *of_shape, *findings),
             *(*self._default_density(obj, measurement), *body_findings(self.options, measurement)),
         )
-        moved = read.places.place_error(obj) * (
-            self._wanted.unit_scale or meters_per_unit(bpy.context.scene)
-        )
+        moved = read.places.place_error(obj) * self._wanted.meters_per_unit(bpy.context.scene)
         named = replace(measurement, name=label, findings=findings, place_error=moved)
-        colliders = (
-            session.colliders.collider_record(obj, measurement, bpy.context)
-            if given.COLLIDERS in obj
-            else None
-        )
-        more |= {} if colliders is None else {"colliders": colliders}
-        if any(getattr(self.options, name) is not None for name in ("below", "against", "float")):
-            entries, of_body = self._body_entries(obj, named, wanted, contents)
-            more |= entries
-            named = replace(named, findings=(*named.findings, *of_body))
+        if given.COLLIDERS in obj:
+            colliders = session.colliders.collider_record(obj, measurement, bpy.context)
+            more |= {} if colliders is None else {"colliders": colliders}
+        entries, of_body = self._body_entries(obj, named, wanted, contents)
+        more |= entries
+        named = replace(named, findings=(*named.findings, *of_body))
         if self.options.thumbnails:
-            more["thumbnail"] = thumbnail_of(obj, measurement, self._wanted.unit_scale)
+            unit = self._wanted.meters_per_unit(bpy.context.scene)
+            more["thumbnail"] = thumbnail_of(obj, measurement, unit)
         entry = record.record(named, self.options.frame, order, surface, more, self.options.about)
         contents.objects.append(entry)
         contents.measured.append((label, obj, measurement))
@@ -300,7 +279,6 @@ class Scene:
         """Return the entries of cuts and of floating, if requested, and findings about them."""
         scene = bpy.context.scene
         depsgraph = bpy.context.evaluated_depsgraph_get()
-        unit = wanted.unit_scale or meters_per_unit(scene)
         entries: dict[str, Any] = {}
         findings: tuple[Finding, ...] = ()
 
@@ -308,7 +286,7 @@ class Scene:
             other = scene.objects.get(name)
             if other is None:
                 raise QueryError(session.findings.NO_SUCH_NAME, kind="object", name=name)
-            return cuts.cut_fill_against(other, surface, depsgraph, unit)
+            return cuts.cut_fill_against(other, surface, depsgraph, wanted.meters_per_unit(scene))
 
         if self.options.below is not None or self.options.against is not None:
             body = measure_body(obj, depsgraph, wanted).body
@@ -317,7 +295,7 @@ class Scene:
             )
         if obj in self._afloat:
             entry, of_liquid = self._floating(self._afloat[obj], measurement, contents)
-            entries, findings = entries | entry, (*findings, *of_liquid)
+            return entries | entry, (*findings, *of_liquid)
         return entries, findings
 
     def _float_assemblies(self, contents: Contents) -> None:
@@ -364,28 +342,8 @@ class Scene:
             return
         unset = density.unset_density(obj, measurement, bpy.context.scene)
         if unset is not None:
-            yield finding(
-                bodies.DENSITY_DEFAULTED,
-                density="1 kg/m" if unset == "linear_density" else "1000 kg/m³",
-            )
-
-    def _open(self) -> references.Opened:
-        """Open the path, if there is one, and return the findings.
-
-        FileError if Blender has not loaded its file.
-        """
-        if self._path is not None:
-            opened = open_file(self._path, self.options.at_frame)
-            self.has_opened = True
-            return opened
-        if open_name() and not bpy.data.filepath:
-            raise FileError(FILE_UNREADABLE, error="it is missing or incomplete")
-        frame = self.options.at_frame
-        return (
-            references.Opened()
-            if frame is None
-            else references.Opened(notes=placing.measure_at(frame))
-        )
+            default = "1 kg/m" if unset == "linear_density" else "1000 kg/m³"
+            yield finding(bodies.DENSITY_DEFAULTED, density=default)
 
     def _fourier(
         self, chosen: list[tuple[str, bpy.types.Object]], contents: Contents
@@ -405,11 +363,8 @@ class Scene:
         except MeasureError as refusal:
             yield failure(label, _unavailable("Fourier transform", refusal))
         except OSError as error:
-            file = str(self.options.fourier)
-            yield failure(
-                label,
-                finding(write.findings.FILE_NOT_WRITTEN, file=file, error=system_reason(error)),
-            )
+            values = {"file": str(self.options.fourier), "error": system_reason(error)}
+            yield failure(label, finding(write.findings.FILE_NOT_WRITTEN, **values))
         except Exception as error:
             yield contents.internal(label, error)
 

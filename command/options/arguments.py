@@ -6,15 +6,13 @@ Standard library only: the process that supervises others may have neither numpy
 Options that need these are checked in `checks.py`, by the process that measures.
 """
 
-from __future__ import annotations
-
 import argparse
 import functools
 import os
 import pkgutil
 import re
 import tomllib
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -59,53 +57,90 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
     parser = measure_parser()
     options = parser.parse_intermixed_args(join_negative_values(name_frames(argv)))
     options.words = argv
-    has_files = bool(options.files or options.manifest)
     options.resume |= options.retry_failed
-    if file_needed and not has_files:
-        fail("a FILE is needed")
     if options.format in robots.FORMATS:
-        if len(options.files) > 1:
-            fail(ONE_FILE.format(options.format))
         options.frame = "object"  # frame of the links
-        given = [
-            name
-            for name in ("kind", "thickness", "wall", "overlap")
-            if getattr(options, name) is not None
-        ]
-        if options.links == "bone" and given:
-            fail("--links bone takes what the bones' settings say, and no --{}".format(given[0]))
-        binary = robots.FORMATS[options.format].binary_suffixes
-        if options.output is not None and options.output.suffix.lower() in binary:
-            fail(
-                "argument --output: {} is written as text. Use .gltf, .usd or .usda".format(
-                    options.format
-                )
-            )
     if options.surface_moments and options.order is None:
         options.order = DEFAULT_ORDER
-    if options.no_supervisor or not has_files:
-        for name in ("jobs", "memory_mb", "timeout", "blender", "resume"):
-            if getattr(options, name):
-                option = name.replace("_", "-")
-                fail(
-                    "argument --{}: applies to FILEs that are measured by other processes".format(
-                        option
-                    )
-                )
-    if options.part is not None and options.manifest is None:
-        fail("argument --part: needs the --manifest whose part it is")
-    if options.at_frame is not None and (options.write or options.asset_metadata):
-        fail("argument --at-frame: a file keeps only results at its own frame")
-    if options.resume and options.output is None:
-        fail("argument --resume: needs the --output of the run to go on with")
-    if options.gz is not None and options.float is None:
-        fail("argument --gz: needs --float LIQUID")
-    _check_fourier(options)
-    _check_labels(options)
-    axes = [axis for axis, _ in options.positions or ()]
-    if len(set(axes)) < len(axes):
-        fail("--positions names an axis twice: {}".format(", ".join(axes)))
+    for is_wrong, reason in (*_rules(options, file_needed), *_fourier_rules(options)):
+        if is_wrong:
+            fail(reason)
     return options
+
+
+def _rules(options: argparse.Namespace, file_needed: bool) -> Iterator[tuple[bool, str]]:
+    """Yield whether options exclude each other, and the reason."""
+    has_files = bool(options.files or options.manifest)
+    yield file_needed and not has_files, "a FILE is needed"
+    robot = robots.FORMATS.get(options.format)
+    if robot is not None:
+        yield len(options.files) > 1, ONE_FILE.format(options.format)
+        bone = "--links bone takes what the bones' settings say, and no --{}"
+        for name in ("kind", "thickness", "wall", "overlap"):
+            is_given = getattr(options, name) is not None
+            yield options.links == "bone" and is_given, bone.format(name)
+        text = "argument --output: {} is written as text. Use .gltf, .usd or .usda"
+        suffix = "" if options.output is None else options.output.suffix.lower()
+        yield suffix in robot.binary_suffixes, text.format(options.format)
+    for name in ("jobs", "memory_mb", "timeout", "blender", "resume"):
+        text = "argument --{}: applies to FILEs that are measured by other processes"
+        is_alone = options.no_supervisor or not has_files
+        yield is_alone and bool(getattr(options, name)), text.format(name.replace("_", "-"))
+    is_stored = options.write or options.asset_metadata
+    axes = [axis for axis, _ in options.positions or ()]
+    yield from (
+        (
+            options.part is not None and options.manifest is None,
+            "argument --part: needs the --manifest whose part it is",
+        ),
+        (
+            options.at_frame is not None and is_stored,
+            "argument --at-frame: a file keeps only results at its own frame",
+        ),
+        (
+            options.resume and options.output is None,
+            "argument --resume: needs the --output of the run to go on with",
+        ),
+        (
+            options.gz is not None and options.float is None,
+            "argument --gz: needs --float LIQUID",
+        ),
+        (
+            options.label is not None and options.threshold is not None,
+            "arguments --label and --threshold exclude each other",
+        ),
+        (
+            options.label_table is not None and options.label is None,
+            "argument --label-table: needs --label N or --label all",
+        ),
+        (
+            len({*axes}) < len(axes),
+            "--positions names an axis twice: {}".format(", ".join(axes)),
+        ),
+    )
+
+
+def _fourier_rules(options: argparse.Namespace) -> Iterator[tuple[bool, str]]:
+    if options.fourier is None:
+        for name in ("q", "grid", "qmax"):
+            is_given = getattr(options, name) is not None
+            yield is_given, "argument --{}: needs --fourier OUT.npz".format(name)
+        return
+    paths = [path for path in (options.fourier, options.output, options.q) if path is not None]
+    files = [*map(os.path.realpath, paths)]
+    twice = [path for path, file in zip(paths, files) if files.count(file) > 1]
+    yield from (
+        (
+            (options.q is None) == (options.grid is None),
+            "argument --fourier: needs either --q Q.npy, or --grid N and --qmax Q",
+        ),
+        (
+            (options.grid is None) != (options.qmax is None),
+            "arguments --grid and --qmax must be used together",
+        ),
+        (len(options.files) > 1 or len(options.object or ()) > 1, ONE_OBJECT),
+        (bool(twice), "argument --fourier: {} is used twice".format(*twice[:1] or [""])),
+    )
 
 
 def fail(reason: str) -> NoReturn:
@@ -150,7 +185,6 @@ def _as_json(value: Any) -> Any:
 
 @functools.cache
 def version() -> str:
-    """Return the add-on's version."""
     manifest = pkgutil.get_data(_ROOT, "blender_manifest.toml")
     return tomllib.loads(manifest.decode())["version"] if manifest else ""
 
@@ -164,39 +198,6 @@ def files_of_options(
     positions = (path for _, path in options.positions or ())
     named = options.q, options.label_table
     return [path for path in (*files, opened, *named, *positions) if path]
-
-
-def _check_labels(options: argparse.Namespace) -> None:
-    if options.label is not None and options.threshold is not None:
-        fail("arguments --label and --threshold exclude each other")
-    if options.label_table is not None and options.label is None:
-        fail("argument --label-table: needs --label N or --label all")
-
-
-def _check_fourier(options: argparse.Namespace) -> None:
-    target = options.fourier
-    if target is None:
-        for name in ("q", "grid", "qmax"):
-            if getattr(options, name) is not None:
-                fail("argument --{}: needs --fourier OUT.npz".format(name))
-        return
-    if (options.q is None) == (options.grid is None):
-        fail("argument --fourier: needs either --q Q.npy, or --grid N and --qmax Q")
-    if (options.grid is None) != (options.qmax is None):
-        fail("arguments --grid and --qmax must be used together")
-    if len(options.files) > 1 or len(options.object or ()) > 1:
-        fail(ONE_OBJECT)
-    for first, second in (
-        (target, options.q),
-        (target, options.output),
-        (options.output, options.q),
-    ):
-        if (
-            first is not None
-            and second is not None
-            and os.path.realpath(first) == os.path.realpath(second)
-        ):
-            fail("argument --fourier: {} is used twice".format(first))
 
 
 def name_frames(argv: list[str]) -> list[str]:

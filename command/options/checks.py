@@ -6,8 +6,6 @@ and unused options.
 A failed check ends like wrong usage, with SystemExit(2) and a message.
 """
 
-from __future__ import annotations
-
 from argparse import Namespace
 from collections.abc import Iterable, Iterator
 from dataclasses import replace

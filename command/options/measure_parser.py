@@ -7,8 +7,6 @@ They are a public contract; unknown options end with exit code 2.
 Standard library only, as the process that supervises others may have neither numpy nor Blender.
 """
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 
@@ -36,7 +34,6 @@ exit code: 0 all measured, 1 something is listed under errors or the result cann
 
 
 def measure_parser() -> Parser:
-    """Return the parser of `measure`."""
     parser = Parser(
         prog="body_moments",
         usage="body_moments measure [options] [FILE ...]",

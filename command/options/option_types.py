@@ -5,11 +5,11 @@
 Standard library only.
 """
 
-from __future__ import annotations
-
 import math
 from argparse import ArgumentTypeError
 from collections.abc import Callable
+from contextlib import suppress
+from typing import TypeVar
 
 from ...core import density, files, robots
 from ...core.measurement import PrintSettings, documents
@@ -22,6 +22,7 @@ MAX_SPLINE_ORDER = 16
 MAX_FRAME = 1_048_574  # Blender's limit
 MIN_HEEL_STEP = 0.1  # degrees
 MAX_GRID = 256  # frequencies along an axis: its arrays take a few gigabytes
+T = TypeVar("T")
 ABOUT = ("center", "origin", "world")
 # by source: True if a name follows
 _NAMED = {
@@ -46,69 +47,75 @@ def command(text: str) -> str:
     return text
 
 
+def _checked(
+    read: Callable[[str], T], what: str, holds: Callable[[T], bool] = lambda _: True
+) -> Callable[[str], T]:
+    """Return a function that parses a text; ArgumentTypeError unless it is `what`: read without a
+    ValueError, and `holds`.
+    """
+
+    def parse(text: str) -> T:
+        with suppress(ValueError):
+            value = read(text)
+            if holds(value):
+                return value
+        raise ArgumentTypeError("{!r} is not {}".format(text, what))
+
+    return parse
+
+
 def _float(text: str) -> float:
-    """Return the number, or NaN for other text."""
-    try:
-        return files.parse_number(text.strip())
-    except ValueError:
-        return math.nan
+    return files.parse_number(text.strip())
+
+
+def _floats(text: str) -> tuple[float, ...]:
+    return tuple(map(_float, text.split(",")))
+
+
+def _whole(text: str) -> int:
+    return files.parse_whole(text.strip())
 
 
 def _bounded(name: str, least: int, most: int) -> Callable[[str], int]:
-    """Return a function that parses a whole number within limits. name: the number, as messages
-    name it.
-    """
-
-    def parse(text: str) -> int:
-        try:
-            value = files.parse_whole(text.strip())
-        except ValueError:
-            value = least - 1
-        if not least <= value <= most:
-            raise ArgumentTypeError("{!r} is not {} from {} to {}".format(text, name, least, most))
-        return value
-
-    return parse
+    """Return a function that parses a whole number within limits, called `name` in messages."""
+    what = "{} from {} to {}".format(name, least, most)
+    return _checked(_whole, what, lambda value: least <= value <= most)
 
 
 order = _bounded("an order", 0, MAX_ORDER)
 spline_order = _bounded("an order", 1, MAX_SPLINE_ORDER)
 frequencies = _bounded("a number of frequencies", 2, MAX_GRID)
 count = _bounded("a whole number", 1, 10**9 - 1)
-
-
-def positive(text: str) -> float:
-    """Return a positive number."""
-    value = _float(text)
-    if not (0.0 < value < math.inf):
-        raise ArgumentTypeError("{!r} is not a positive number".format(text))
-    return value
-
-
-def number(text: str) -> float:
-    """Return a finite number."""
-    value = _float(text)
-    if not math.isfinite(value):
-        raise ArgumentTypeError("{!r} is not a finite number".format(text))
-    return value
-
-
-def scene_frame(text: str) -> float:
-    """Return a frame of a scene, which need not be whole."""
-    value = _float(text)
-    if not abs(value) <= MAX_FRAME:
-        raise ArgumentTypeError(
-            "{!r} is not a frame from {} to {}".format(text, -MAX_FRAME, MAX_FRAME)
-        )
-    return value
-
-
-def triple(text: str) -> tuple[float, ...]:
-    """Return three finite numbers."""
-    values = tuple(map(_float, text.split(",")))
-    if len(values) != 3 or not all(map(math.isfinite, values)):
-        raise ArgumentTypeError("{!r} is not three numbers X,Y,Z".format(text))
-    return values
+positive = _checked(_float, "a positive number", lambda value: 0.0 < value < math.inf)
+number = _checked(_float, "a finite number", math.isfinite)
+scene_frame = _checked(  # need not be whole
+    _float,
+    "a frame from {} to {}".format(-MAX_FRAME, MAX_FRAME),
+    lambda value: abs(value) <= MAX_FRAME,
+)
+triple = _checked(
+    _floats,
+    "three numbers X,Y,Z",
+    lambda values: len(values) == 3 and all(map(math.isfinite, values)),
+)
+spacing = _checked(
+    _floats,
+    "three positive numbers X,Y,Z",
+    lambda values: len(values) == 3 and all(0.0 < value < math.inf for value in values),
+)
+label = _checked(lambda text: text if text == "all" else _whole(text), "a whole number or all")
+# A sample's axis, and the file of positions along it.
+positions = _checked(
+    lambda text: text.partition("=")[::2],
+    "x=FILE.npy, y=FILE.npy or z=FILE.npy",
+    lambda pair: pair[0] in ("x", "y", "z") and pair[1] != "",
+)
+format_name = _checked(str, "one of " + ", ".join(FORMATS), FORMATS.__contains__)
+source = _checked(
+    str,
+    "value, materials, attribute:NAME or volume:NAME",
+    lambda text: _NAMED.get(split_source(text)[0]) is bool(split_source(text)[1]),
+)
 
 
 _PRINT_DEFAULTS = PrintSettings()._asdict()
@@ -127,37 +134,6 @@ def print_settings(text: str) -> tuple[tuple[str, float], ...]:
             raise ArgumentTypeError(message.format(part, names))
         pairs.append((name, int(value) if is_count else number(value)))
     return tuple(pairs)
-
-
-def label(text: str) -> int | str:
-    """Return the number of a label, or “all”."""
-    try:
-        return text if text == "all" else files.parse_whole(text.strip())
-    except ValueError:
-        raise ArgumentTypeError("{!r} is not a whole number or all".format(text)) from None
-
-
-def spacing(text: str) -> tuple[float, ...]:
-    """Return three positive numbers."""
-    values = triple(text)
-    if min(values) <= 0.0:
-        raise ArgumentTypeError("{!r} is not three positive numbers X,Y,Z".format(text))
-    return values
-
-
-def positions(text: str) -> tuple[str, str]:
-    """Return AXIS=FILE, the positions of samples along x, y or z, as a pair."""
-    axis, _, path = text.partition("=")
-    if axis not in ("x", "y", "z") or not path:
-        raise ArgumentTypeError("{!r} is not x=FILE.npy, y=FILE.npy or z=FILE.npy".format(text))
-    return axis, path
-
-
-def format_name(text: str) -> str:
-    """Return the name of a format of results."""
-    if text not in FORMATS:
-        raise ArgumentTypeError("{!r} is not one of {}".format(text, ", ".join(FORMATS)))
-    return text
 
 
 def about(text: str) -> str | tuple[float, ...]:
@@ -179,59 +155,45 @@ def split_source(text: str) -> tuple[str, str]:
     return source, name
 
 
-def source(text: str) -> str:
-    """Return `value`, `materials`, `attribute:NAME` or `volume:NAME`; raise ArgumentTypeError for
-    other texts.
-    """
-    word, name = split_source(text)
-    if _NAMED.get(word) is not bool(name):
-        raise ArgumentTypeError(
-            "{!r} is not value, materials, attribute:NAME or volume:NAME".format(text)
-        )
-    return text
-
-
 def liquid(text: str) -> float:
     """Return the density of a liquid, kg/m³, from its name or as a number."""
     liquids = {name: one for name, one in density.BY_NAME.items() if one.category == "Liquids"}
-    for name, material in liquids.items():
-        if text.casefold() in (name.casefold(), name.partition(",")[0].casefold()):
-            return material.density
-    value = _float(text)
-    if not (1e-3 <= value <= 1e6):
-        names = "; ".join(liquids)
-        raise ArgumentTypeError(
-            f"{text!r} is neither a density from 1e-3 to 1e6 nor one of {names}"
-        )
-    return value
+    densities = {
+        alias.casefold(): material.density
+        for name, material in liquids.items()
+        for alias in (name, name.partition(",")[0])
+    }
+    return _checked(
+        lambda text: densities.get(text.casefold()) or _float(text),
+        "a density from 1e-3 to 1e6, nor one of " + "; ".join(liquids),
+        lambda value: 1e-3 <= value <= 1e6,
+    )(text)
 
 
 def heel_angles(text: str) -> tuple[float, ...]:
     """Return the angles of A:B:STEP, in degrees."""
-    parts = [*map(_float, text.split(":"))]
-    if len(parts) == 3 and all(map(math.isfinite, parts)):
-        first, last, step = parts
-        if -180.0 <= first <= last <= 180.0 and step >= MIN_HEEL_STEP:
-            count = math.floor((last - first) / step + 1e-9) + 1
-            return tuple(first + i * step for i in range(count))
-    raise ArgumentTypeError(
-        "{!r} is not A:B:STEP, angles from -180 to 180 in steps of at least {}".format(
-            text, MIN_HEEL_STEP
-        )
-    )
+    what = "A:B:STEP, angles from -180 to 180 in steps of at least {}".format(MIN_HEEL_STEP)
+    first, last, step = _checked(
+        lambda text: tuple(map(_float, text.split(":"))),
+        what,
+        lambda parts: (
+            len(parts) == 3
+            and -180.0 <= parts[0] <= parts[1] <= 180.0
+            and MIN_HEEL_STEP <= parts[2] < math.inf
+        ),
+    )(text)
+    count = math.floor((last - first) / step + 1e-9) + 1
+    return tuple(first + i * step for i in range(count))
 
 
-def file_range(text: str) -> tuple[int, int | None]:
-    """Return A and B of A:B, the files from number A up to B - 1, counted from 0; 0 and None if
-    left out.
-    """
-    begin, colon, end = text.partition(":")
-    if not colon or not all(
-        part.isascii() and (part.isdecimal() or not part) for part in (begin, end)
-    ):
-        raise ArgumentTypeError("{!r} is not A:B, two whole numbers".format(text))
-    first = int(begin or 0)
-    last = int(end) if end else None
-    if last is not None and last < first:
-        raise ArgumentTypeError("{!r} ends before it begins".format(text))
-    return first, last
+def _ends(text: str) -> tuple[int, int | None]:
+    begin, end = text.split(":")
+    return _whole(begin or "0"), _whole(end) if end else None
+
+
+# The files from number A up to B - 1, counted from 0; 0 and None if left out.
+file_range = _checked(
+    _ends,
+    "A:B, two whole numbers, of which B is no smaller",
+    lambda ends: 0 <= ends[0] <= (ends[0] if ends[1] is None else ends[1]),
+)

@@ -5,8 +5,6 @@
 Standard library only.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator
 from typing import Any
@@ -66,14 +64,15 @@ def _bodies(document: dict[str, Any]) -> dict[str, dict[str, Any]]:
     """Return a document's records by name: objects, assemblies, flat shapes, and bones with their
     armatures.
     """
-    found = {entry["name"]: entry for entry in document["objects"]}
-    found |= {
-        "assembly {}".format(entry["name"]): entry for entry in document.get("assemblies", ())
-    }
-    found |= {"flat {}".format(entry["name"]): entry for entry in document.get("flat", ())}
-    bones = document.get("bones", ())
-    return found | {
-        "bone {} of {}".format(entry["name"], entry["armature"]): entry for entry in bones
+    return {
+        name.format_map(entry): entry
+        for name, kind in (
+            ("{name}", "objects"),
+            ("assembly {name}", "assemblies"),
+            ("flat {name}", "flat"),
+            ("bone {name} of {armature}", "bones"),
+        )
+        for entry in document.get(kind, ())
     }
 
 
@@ -115,36 +114,38 @@ def _values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
         for name in _SCALARS
         if name in entry
     }
-    if not align:
-        found |= _moments(entry.get("moments") or {})
     center = entry["center_of_mass"]
     inertia = entry["inertia"]
-    gyration = radius_of_gyration(entry) or 0.0
-    about = None if align else entry.get("inertia_about")
-    if about is not None:
-        distance = math.dist(*(map(_number, point) for point in (about["point"], center)))
-        found |= _tensor("inertia_about", about["inertia"], _bound_about(entry, distance))
-    if align:
+    about = entry.get("inertia_about")
+    if not align:
+        found |= _moments(entry.get("moments") or {})
+        if about is not None:
+            distance = math.dist(*(map(_number, point) for point in (about["point"], center)))
+            found |= _tensor("inertia_about", about["inertia"], _bound_about(entry, distance))
+    else:
         rows, inertia = (
             [[*map(_number, row)] for row in of] for of in (entry["pose"]["matrix"][:3], inertia)
         )
-        shift = [row[3] for row in rows]
+        center = [sum(a * _number(b) for a, b in zip(row, center)) + row[3] for row in rows]
         rows = [row[:3] for row in rows]
-        center = [
-            sum(a * _number(b) for a, b in zip(row, center)) + s for row, s in zip(rows, shift)
-        ]
         inertia = _product(_product(rows, inertia), [list(column) for column in zip(*rows)])
-    bound = _bound(entry, "center_of_mass")
-    found |= {
-        "center_of_mass[{}]".format(axis): (value, gyration, bound)
-        for axis, value in zip("xyz", center)
-    }
     bound = _bound(entry, "inertia")
-    found |= _tensor("inertia", inertia, bound)
-    largest = _largest(sum(inertia, []))
-    for number, value in enumerate(entry["principal_moments"]):
-        found["principal_moments[{}]".format(number + 1)] = (value, largest, bound)
-    return found
+    return (
+        found
+        | _named(
+            "center_of_mass",
+            zip("xyz", center),
+            radius_of_gyration(entry) or 0.0,
+            _bound(entry, "center_of_mass"),
+        )
+        | _tensor("inertia", inertia, bound)
+        | _named(
+            "principal_moments",
+            zip("123", entry["principal_moments"]),
+            _largest(sum(inertia, [])),
+            bound,
+        )
+    )
 
 
 def _flat_values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
@@ -153,43 +154,35 @@ def _flat_values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
     found: dict[str, Number] = {"area": (area, area or 0.0, bound_of(entry, "area") or 0.0)}
     for one in entry.get("invariants", ()):
         size = math.hypot(one["real"] or 0.0, one["imaginary"] or 0.0)
+        bound = (one["error"] or 0.0) + (one["input"] or 0.0)
         for part in ("real", "imaginary"):
-            found["{} {}".format(one["name"], part)] = (
-                one[part],
-                size,
-                (one["error"] or 0.0) + (one["input"] or 0.0),
-            )
+            found["{} {}".format(one["name"], part)] = (one[part], size, bound)
     if align:
         return found
     second = entry["second_moments"]
     square = (second["xx"] or 0.0) + (second["yy"] or 0.0)
     gyration = math.sqrt(max(square / area, 0.0)) if area else 0.0
     bound = bound_of(entry, "centroid") or 0.0
-    found |= {
-        "centroid[{}]".format(axis): (value, gyration, bound)
-        for axis, value in zip("xyz", entry["centroid"])
-    }
+    found |= _named("centroid", zip("xyz", entry["centroid"]), gyration, bound)
     # The axes are known to that accuracy at best.
     turned = found["area"][2] / area if area else 0.0
     for name in ("x", "y", "normal"):
-        found |= {
-            "plane.{}[{}]".format(name, axis): (value, 1.0, turned)
-            for axis, value in zip("xyz", entry["plane"][name])
-        }
-    largest = _largest(second.values())
+        found |= _named("plane." + name, zip("xyz", entry["plane"][name]), 1.0, turned)
     bound = bound_of(entry, "second_moments") or 0.0
-    found |= {
-        "second_moments[{}]".format(name): (value, largest, bound) for name, value in second.items()
-    }
+    found |= _named("second_moments", second.items(), _largest(second.values()), bound)
     return found | _moments(entry.get("moments") or {})
 
 
+def _named(
+    name: str, values: Iterable[tuple[str, float | None]], size: float, bound: float
+) -> dict[str, Number]:
+    """Return the components of a vector or a tensor by their names."""
+    return {"{}[{}]".format(name, key): (value, size, bound) for key, value in values}
+
+
 def _tensor(name: str, rows: Matrix, bound: float) -> dict[str, Number]:
-    largest = _largest(sum(rows, []))
-    pairs = [(i, j) for i in range(3) for j in range(i, 3)]
-    return {
-        "{}[{}{}]".format(name, "xyz"[i], "xyz"[j]): (rows[i][j], largest, bound) for i, j in pairs
-    }
+    pairs = [("xyz"[i] + "xyz"[j], rows[i][j]) for i in range(3) for j in range(i, 3)]
+    return _named(name, pairs, _largest(sum(rows, [])), bound)
 
 
 def _largest(values: Iterable[float | None]) -> float:
@@ -203,23 +196,21 @@ def _number(value: float | None) -> float:
 def _moments(moments: dict[str, Any]) -> dict[str, Number]:
     found: dict[str, Number] = {}
     for domain in (name for name in _DOMAINS if name in moments):
-        values = moments[domain]
         bounds = [moments.get(part, {}).get(domain, {}) for part in ("error", "input")]
-        largest: dict[int, float] = {}
-        for powers, value in values.items():
-            largest[_degree(powers)] = max(largest.get(_degree(powers), 0.0), abs(value or 0.0))
-        for powers, value in values.items():
-            bound = sum(one.get(powers) or 0.0 for one in bounds)
-            found["moments.{}[{}]".format(domain, powers)] = (
-                value,
-                largest[_degree(powers)],
-                bound,
-            )
+        degrees: dict[int, dict[str, float | None]] = {}
+        for powers, value in moments[domain].items():
+            degrees.setdefault(sum(map(int, powers.split(","))), {})[powers] = value
+        for values in degrees.values():
+            size = _largest(values.values())
+            found |= {
+                "moments.{}[{}]".format(domain, powers): (
+                    value,
+                    size,
+                    sum(of.get(powers) or 0.0 for of in bounds),
+                )
+                for powers, value in values.items()
+            }
     return found
-
-
-def _degree(powers: str) -> int:
-    return sum(map(int, powers.split(",")))
 
 
 def _product(first: Matrix, second: Matrix) -> Matrix:
@@ -228,11 +219,7 @@ def _product(first: Matrix, second: Matrix) -> Matrix:
 
 def _bound(entry: dict[str, Any], name: str) -> float:
     # A given value has no bound, and does not differ.
-    if name in (
-        "mass",
-        "density",
-        "linear_density",
-    ):
+    if name in ("mass", "density", "linear_density"):
         measure = "volume" if entry["volume"] else "area"
         size = entry[measure]
         return _bound(entry, measure) / abs(size) * abs(entry[name] or 0.0) if size else 0.0

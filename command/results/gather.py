@@ -6,8 +6,6 @@
 Results are files of `measure` as json or jsonl, and journals. Standard library only.
 """
 
-from __future__ import annotations
-
 import argparse
 import os
 from collections import Counter

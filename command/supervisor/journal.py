@@ -51,7 +51,6 @@ class Entry:
 
     @property
     def status(self) -> str:
-        """The status of the file's document."""
         return self.head["status"]
 
     def reason_to_measure(
@@ -65,27 +64,21 @@ class Entry:
         is none.
         """
         changed = {name for name in key if self.head["key"].get(name) != key[name]}
-        if "options" in changed:
-            names = [
-                name
-                for name in (self.options | options)
-                if self.options.get(name) != options.get(name)
-            ]
-            return ": ".join(
-                ["made with other options", *([" ".join(sorted(names))] if names else [])]
-            )
-        if changed & {"addon", "blender"}:
-            return "made by another version"
-        if changed:
-            return "changed"
-        if retry_failed and self.status != "ok":
-            return "failed"
-        if self.status in _LIMITED and self.head["limits"] != limits:
-            return "ended by other limits"
-        if self.is_damaged:
-            return "damaged in the journal"
-        is_same = all(state(name) == before for name, before in self.head["reads"].items())
-        return None if is_same else "whose references have changed"
+        own = self.options
+        names = sorted(name for name in own | options if own.get(name) != options.get(name))
+        other_options = ": ".join(filter(None, ["made with other options", " ".join(names)]))
+        reasons = {
+            other_options: "options" in changed,
+            "made by another version": changed & {"addon", "blender"},
+            "changed": changed,
+            "failed": retry_failed and self.status != "ok",
+            "ended by other limits": self.status in _LIMITED and self.head["limits"] != limits,
+            "damaged in the journal": self.is_damaged,
+            "whose references have changed": any(
+                state(name) != before for name, before in self.head["reads"].items()
+            ),
+        }
+        return next((reason for reason, holds in reasons.items() if holds), None)
 
 
 class Journal:
@@ -98,20 +91,20 @@ class Journal:
         self.entries: dict[str, Entry] = {}
         self._file = open(path, "a+b")  # noqa: SIM115
         self._file.seek(0)
-        end, self._torn = 0, False
+        self._end, self._torn = 0, False
         for line in self._file:
             # torn, damaged or foreign
             with suppress(ValueError, KeyError, TypeError, AttributeError, RecursionError):
                 record = json.loads(line)
-                self._add(record, end, len(line), **_read_back(record["document"]))
-            end += len(line)
+                self._add(record, len(line), **_read_back(record["document"]))
+            self._end += len(line)
             self._torn = not line.endswith(b"\n")
         self._synced = time.monotonic()
 
-    def _add(self, record: dict[str, Any], offset: int, length: int, **read_back: Any) -> None:
+    def _add(self, record: dict[str, Any], length: int, **read_back: Any) -> None:
         head = {name: record[name] for name in ("key", "status", "limits", "reads")}
         if record["schema"] == SCHEMA:
-            self.entries[head["key"]["path"]] = Entry(head, offset, length, **read_back)
+            self.entries[head["key"]["path"]] = Entry(head, self._end, length, **read_back)
 
     def append(self, head: dict[str, Any], document: bytes) -> None:
         """Append the line of a finished file.
@@ -121,13 +114,11 @@ class Journal:
         """
         record = {"schema": SCHEMA} | head
         line = json.dumps(record)[:-1].encode() + b', "document": ' + document.strip() + b"}\n"
-        offset = self._file.seek(0, os.SEEK_END)
-        if self._torn:
-            offset += self._file.write(b"\n")
-            self._torn = False
+        self._end = self._file.seek(0, os.SEEK_END) + self._file.write(b"\n" * self._torn)
+        self._torn = False
         self._file.write(line)
         self._file.flush()
-        self._add(record, offset, len(line))
+        self._add(record, len(line))
         if time.monotonic() > self._synced + _SYNC:
             os.fsync(self._file.fileno())
             self._synced = time.monotonic()

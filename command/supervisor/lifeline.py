@@ -6,8 +6,6 @@ The child ends when the supervisor ends for any reason. On Linux the system itse
 Blender hangs on a file. Elsewhere a thread waits for the end of the pipe.
 """
 
-from __future__ import annotations
-
 import ctypes
 import json
 import os
@@ -17,6 +15,7 @@ import sys
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
+from pathlib import Path
 from typing import Any
 
 MARK = b"\x1e"  # Begins an answer; other lines are output of Blender.
@@ -44,14 +43,13 @@ class Lifeline:
     def __init__(self, channel: int) -> None:
         self._channel = channel
         self._waiting: queue.SimpleQueue[bytes] = queue.SimpleQueue()
-        with suppress(OSError), open("/proc/self/oom_score_adj", "w") as file:
-            file.write("500")  # if memory runs out, this process goes first, not its supervisor
+        with suppress(OSError):  # if memory runs out, this process goes first, not its supervisor
+            Path("/proc/self/oom_score_adj").write_text("500")
         if hasattr(signal, "SIGKILL"):
             end_with_parent(signal.SIGKILL)
         ThreadPoolExecutor().submit(self._listen)
 
     def messages(self) -> Iterator[dict[str, Any]]:
-        """Yield the supervisor's messages."""
         while True:
             yield json.loads(self._waiting.get())
 

@@ -7,8 +7,6 @@ A manifest is a text of JSON lines: {"schema": "body-moments-manifest/1", "files
 parts, which are then as even as possible. A name may hold any character, a line break too.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import re

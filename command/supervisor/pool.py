@@ -133,7 +133,6 @@ class Pool:
         shutil.rmtree(self._work, ignore_errors=True)
 
     def add(self, tasks: Iterable[str]) -> None:
-        """Queue more tasks."""
         self._tasks.extend(tasks)
 
     @property
@@ -166,12 +165,8 @@ class Pool:
     def _pause(self) -> float:
         now = time.monotonic()
         deadlines = [child.deadline - now for child in self._children]
-        watch = (
-            [_WATCH]
-            if self._limits.memory and any(child.task is not None for child in self._children)
-            else []
-        )
-        return max(0.001, min([_STEP, *deadlines, *watch]))
+        is_watched = self._limits.memory and any(child.task for child in self._children)
+        return max(0.001, min([_STEP, *deadlines, *[_WATCH] * bool(is_watched)]))
 
     def _refill(self) -> None:
         idle = [child for child in self._children if child.task is None]
@@ -230,23 +225,27 @@ class Pool:
             return []
         if "usage" in head:
             raise SetupError(head["usage"])
+        task = child.task
         if "ready" in head:
             self.about = head["ready"]
             child.ready, self._failed_starts = True, 0
             self._give(child)
-            return []
-        task = child.task
-        if task is None:
-            return []
-        if "note" in head:
+        elif "note" in head and task is not None:
             self.notes.append((task, head["note"]))
-            return []
-        child.task = None
-        attempts, seconds = self._attempts.pop(task, (0, 0.0))
+        elif task is not None:
+            outcome = self._outcome(child, "answered", head=head, data=data)
+            child.task = None
+            self._give(child)
+            return [outcome]
+        return []
+
+    def _outcome(self, child: _Child, status: str, **more: Any) -> TaskOutcome:
+        """Return the outcome of a child's task, which has one attempt more now."""
+        assert child.task is not None
+        attempts, seconds = self._attempts.pop(child.task, (0, 0.0))
         seconds += time.monotonic() - child.started
         said = self._stderr_tail(child)
-        self._give(child)
-        return [TaskOutcome(task, "answered", attempts + 1, seconds, head, data, said=said)]
+        return TaskOutcome(child.task, status, attempts + 1, seconds, said=said, **more)
 
     def _give(self, child: _Child) -> None:
         child.deadline = float("inf")
@@ -261,30 +260,22 @@ class Pool:
     def _ended(self, child: _Child) -> list[TaskOutcome]:
         processes.kill([child.process])  # Its descendants, too.
         self._children.remove(child)
+        how = processes.how_it_ended(child.process.returncode)
         said = self._stderr_tail(child)
+        task = child.task
+        outcome = self._outcome(child, child.doomed or "crashed", how=how) if task else None
         self._close(child)
         if not child.ready:
             self._failed_starts += 1
             if self._failed_starts >= MAX_FAILED_STARTS:
-                raise ChildError(
-                    " ".join(said.split()) or processes.how_it_ended(child.process.returncode)
-                )
+                raise ChildError(" ".join(said.split()) or how)
+        if task is None or outcome is None:
             return []
-        if child.task is None:
+        if outcome.attempts < ATTEMPTS:
+            self._attempts[task] = outcome.attempts, outcome.seconds
+            self._again.append(task)
             return []
-        attempts, seconds = self._attempts.pop(child.task, (0, 0.0))
-        attempts = attempts + 1
-        seconds = seconds + time.monotonic() - child.started
-        if attempts < ATTEMPTS:
-            self._attempts[child.task] = attempts, seconds
-            self._again.append(child.task)
-            return []
-        how = processes.how_it_ended(child.process.returncode)
-        return [
-            TaskOutcome(
-                child.task, child.doomed or "crashed", attempts, seconds, how=how, said=said
-            )
-        ]
+        return [outcome]
 
     def _watch(self) -> None:
         """End children that have passed their deadline or use too much memory."""

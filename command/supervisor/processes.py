@@ -4,8 +4,6 @@
 window.
 """
 
-from __future__ import annotations
-
 import ctypes
 import importlib.util
 import os
@@ -117,40 +115,22 @@ def how_it_ended(code: int | None) -> str:
     try:
         return signal.Signals(-code).name
     except ValueError:
-        return (
-            "exit code {:#x}".format(code & 0xFFFFFFFF)
-            if code > 255
-            else "exit code {}".format(code)
-        )
+        return "exit code " + ("{:#x}".format(code & 0xFFFFFFFF) if code > 255 else str(code))
 
 
 def memory_of(pid: int) -> int | None:
     """Return the bytes of a process's own memory, without mapped files, or None if unknown."""
     if _WINDOWS:
         return _memory_on_windows(pid)
-    try:
-        with open("/proc/{}/status".format(pid), "rb") as file:
-            status = file.read()
-    except OSError:
-        return None if sys.platform.startswith("linux") else _memory_by_tool(pid)
-    total, known = 0, False
-    for line in status.splitlines():
-        if line.startswith((b"RssAnon:", b"RssShmem:", b"VmSwap:")):
-            total = total + 1024 * int(line.split()[1])
-            known = True
-    return total if known else None
-
-
-def _memory_by_tool(pid: int) -> int | None:
-    """Return the resident bytes of a process according to `ps`, a tool of macOS and BSD, or None if
-    unknown.
-    """
-    words = ["ps", "-o", "rss=", "-p", str(pid)]
-    try:
-        answer = subprocess.run(words, capture_output=True, timeout=_TOOL).stdout
-        return 1024 * int(answer)
-    except (OSError, ValueError, subprocess.SubprocessError):
-        return None
+    with suppress(OSError, ValueError, subprocess.SubprocessError):
+        if not sys.platform.startswith("linux"):  # a tool of macOS and BSD tells resident bytes
+            words = ["ps", "-o", "rss=", "-p", str(pid)]
+            return 1024 * int(subprocess.run(words, capture_output=True, timeout=_TOOL).stdout)
+        status = Path("/proc/{}/status".format(pid)).read_bytes().splitlines()
+        kinds = (b"RssAnon:", b"RssShmem:", b"VmSwap:")
+        sizes = [1024 * int(line.split()[1]) for line in status if line.startswith(kinds)]
+        return sum(sizes) if sizes else None
+    return None
 
 
 def memory_of_machine() -> int | None:
@@ -172,7 +152,6 @@ def memory_share(count: int = 1) -> int | None:
 
 
 def cores() -> int:
-    """Return the number of processors that this process may use."""
     try:
         return len(os.sched_getaffinity(0))
     except AttributeError:
@@ -253,18 +232,12 @@ def _memory_on_windows(pid: int) -> int | None:
     with suppress(OSError, AttributeError):
         library = _library()
         library.OpenProcess.restype = ctypes.c_void_p
-        process = library.OpenProcess(_QUERY, False, pid)
-        if not process:
-            return None
+        process = ctypes.c_void_p(library.OpenProcess(_QUERY, False, pid))
         counters = _Counters(cb=ctypes.sizeof(_Counters))
-        try:
-            size = ctypes.c_uint32(counters.cb)
-            if library.K32GetProcessMemoryInfo(
-                ctypes.c_void_p(process), ctypes.byref(counters), size
-            ):
-                return counters.PrivateUsage
-        finally:
-            library.CloseHandle(ctypes.c_void_p(process))
+        size = ctypes.c_uint32(counters.cb)
+        is_known = library.K32GetProcessMemoryInfo(process, ctypes.byref(counters), size)
+        library.CloseHandle(process)
+        return counters.PrivateUsage if is_known else None
     return None
 
 

@@ -3,13 +3,13 @@
 
 from typing import Any
 
+from .body_distances import distances as distances
+from .body_distances import hull_of as hull_of
 from .effects import correct_masses as correct_masses
 from .effects import correct_vertices as correct_vertices
 from .effects import effect as effect
 from .effects import uniform_masses as uniform_masses
 from .fits import Wanted as Wanted
-from .fits import distances as distances
-from .fits import hull_of as hull_of
 from .fits import make_colliders as make_colliders
 
 __all__ = []

@@ -1,49 +1,34 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The smallest simple shapes around a body, and the simplest collider within given distances.
+"""The smallest simple shapes around a body, and the simplest collider within given distances."""
 
-The largest distances between a body and its colliders come from samples of both surfaces, with
-their bound.
-"""
-
-from collections.abc import Generator, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from collections.abc import Generator
+from dataclasses import dataclass
+from functools import cached_property
 from itertools import combinations
 from math import inf, pi
 
 import numpy as np
 
 from ..inertia import MassProperties
-from ..mesh import Bvh, ConvexHull, Surface, convex_hull, normals, tree_of_all, triangle_areas
-from ..numerics import NEXT_AXIS, Array, NDArray, spread_directions
-from ..polyhedron import volume_and_center
+from ..mesh import ConvexHull, Surface, convex_hull, normals, tree_of_all, triangle_areas
+from ..numerics import Array, NDArray
 from ..robots import Inertial, Pose, Shape, equal_inertia_shape, primitive_moments
-from .convex_pieces import cut_into_pieces, distances_from_triangles
+from .body_distances import (
+    COARSE_STEPS,
+    STEPS,
+    distances,
+    farthest_outside,
+    hull_of,
+    hull_volume,
+    outer_samples,
+)
+from .convex_pieces import cut_into_pieces
 
 AXES_CORNERS = 96  # The faces and edges of such a hull give the directions of boxes.
-MOST_CONVEX_FACES = 400  # Larger surfaces are not tested for being their own hull.
-HULL_RTOL = 1e-8  # relative to the size: distances that count as none
 BALL_RTOL = 1e-12  # points outside a ball by less are on it
 SIMPLE = ("sphere", "box", "capsule", "cylinder", "hull")  # tried in this order, before pieces
 EQUAL = "equal_"
-# sides of triangles between samples, over the extent of what is sampled
-STEPS = 24
-COARSE_STEPS = 6
-MOST_SAMPLES = 20_000
-# of the polyhedra in round shapes
-ROUND_POINTS = 400
-RING_POINTS = 96
-END = np.array([0.0, 0.0, 0.5])
-BALL_SAG = 0.012  # relative to the radius: the greatest depth of their faces in a ball
-CONVEX_RTOL = 1e-9  # share of the volume that a convex body lacks in its hull
-PAIRS_PER_BLOCK = 1 << 20
-INSIDE_RTOL = 1e-9  # relative to the size
-SLIVER_RTOL = 1e-9  # relative to the size: width of faces that count as none
-TINY = float(np.finfo(np.float64).tiny)
-# relative to the size: reach of the first searches for the body around a place
-ON_BODY_RTOL = 1e-10
-NEAR_BODY = 0.02
 MERGING_SHARE = 0.95  # of the work that is completed when pieces are merged
 
 
@@ -107,33 +92,6 @@ def make_colliders(
     return [_hull_shape(hull) for hull in hulls]
 
 
-def hull_of(surface: Surface) -> ConvexHull:
-    """Return the convex hull of a closed surface: its own triangles if it has few and is convex."""
-    points = np.asarray(surface.points, np.float64)
-    triangles = surface.all_triangles()[0].astype(np.intp)
-    # Each corner is used, and only once, as on a sphere.
-    if len(triangles) == 2 * len(points) - 4 and len(triangles) <= MOST_CONVEX_FACES:
-        start = triangles.ravel()
-        end = triangles[:, NEXT_AXIS].ravel()
-        side = start * len(points) + end
-        order = np.argsort(side)
-        place = np.searchsorted(side[order], end * len(points) + start)
-        across = order[np.minimum(place, len(order) - 1)]
-        gap = HULL_RTOL * float(np.ptp(points, axis=0).max())
-        if (start[across] == end).all() and (end[across] == start).all():
-            hull = ConvexHull(
-                points,
-                np.arange(len(points)),
-                triangles,
-                (across // 3).reshape(-1, 3),
-                is_flat=False,
-                gap=gap,
-            )
-            if _heights(points, hull).max() <= gap:
-                return hull
-    return convex_hull(points)
-
-
 def _merge_within(
     hulls: list[ConvexHull], surface: Surface, wanted: Wanted
 ) -> Generator[float, None, list[ConvexHull]]:
@@ -159,9 +117,9 @@ def _merge_within(
             yield MERGING_SHARE
             _, i, j, merged = trials.pop(0)
             if all(
-                _farthest_outside(tree, places - tree.origin, size, wanted.outward) < inf
+                farthest_outside(tree, places - tree.origin, size, wanted.outward) < inf
                 for fineness in (COARSE_STEPS, STEPS)
-                for places in (_outer_samples([merged], size, fineness)[0],)
+                for places in (outer_samples([merged], size, fineness)[0],)
             ):
                 break
         else:
@@ -186,7 +144,6 @@ class _Fits:
 
     @cached_property
     def box(self) -> Shape:
-        """The smallest box."""
         is_simple = len(self.points) <= AXES_CORNERS
         return _smallest_box(
             self.hull if is_simple else convex_hull(self.points, max_corners=AXES_CORNERS), self
@@ -315,205 +272,3 @@ def _ball_through(points: Array) -> tuple[Array, float]:
     legs = points[1:] - points[0]
     offset = np.linalg.lstsq(2.0 * legs, (legs**2).sum(axis=1), rcond=None)[0]
     return points[0] + offset, float(np.linalg.norm(points - points[0] - offset, axis=1).max())
-
-
-def distances(
-    surface: Surface, shapes: Sequence[Shape], hull: ConvexHull | None = None, enough: float = inf
-) -> tuple[float, float, float]:
-    """Return the largest distance of the colliders from the body, outward, and of the body from
-    them, inward, in m.
-
-    surface: closed and outward. hull: its hull, if that is known. enough: outward distances above
-    it may be too small. The third number bounds by how much others may be too small. The distance
-    from a convex body is largest at a corner, so that only others are sampled.
-    """
-    hull = hull or hull_of(surface)
-    triangles = surface.all_triangles()[0].astype(np.intp)
-    points = np.asarray(surface.points, np.float64)
-    size = float(np.ptp(hull.points, axis=0).max())
-    solids, sags = zip(*(_polyhedron(shape) for shape in shapes))
-    samples, step = (
-        (hull.points, 0.0) if len(solids) == 1 else _samples(points, triangles, size / STEPS)
-    )
-    nearest = np.full(len(samples), np.inf)
-    for shape, solid in zip(shapes, solids):
-        rest = np.flatnonzero(nearest > 0.0)
-        near = _distances_from_shape(samples[rest], shape, solid, nearest[rest], size)
-        nearest[rest] = np.minimum(nearest[rest], near)
-    inward = float(nearest.max(initial=0.0))
-    corners = np.concatenate([solid.points for solid in solids])
-    outward = float(_heights(corners, hull).max())
-    if outward <= enough:
-        outward = float(
-            _distances_from_hull(corners, hull, np.full(len(corners), np.inf), size).max()
-        )
-    is_convex = hull_volume(hull) - volume_and_center(surface)[0] <= CONVEX_RTOL * hull_volume(hull)
-    if is_convex or outward > enough:
-        return max(outward, 0.0), inward, step + max(sags)
-    tree = tree_of_all(surface.points, surface.all_triangles()[0])
-    own_step = 0.0
-    for fineness in (COARSE_STEPS, STEPS) if enough < inf else (STEPS,):
-        places, own_step = _outer_samples(solids, size, fineness)
-        outward = max(outward, _farthest_outside(tree, places - tree.origin, size, enough))
-        if outward > enough:
-            break
-    return outward, inward, max(step, own_step) + max(sags)
-
-
-def _farthest_outside(tree: Bvh, places: Array, size: float, enough: float) -> float:
-    """Return the largest distance of places outside a body from it; inf if it is above `enough`.
-
-    Most places are on the body or near to it, and short searches leave few for the long one.
-    """
-    farthest = 0.0
-    component = np.zeros(len(places), np.intp)
-    for step, within in enumerate((ON_BODY_RTOL * size, min(NEAR_BODY * size, enough), enough)):
-        distance = tree.distances(places, component[: len(places)], within)
-        farthest = float(distance[distance < inf].max(initial=farthest))
-        places = places[distance == inf]
-        if step == 0:
-            winding, sure = tree.winding_numbers(
-                places, component[: len(places)], INSIDE_RTOL * size
-            )
-            places = places[~((winding != 0) & sure)]
-    return inf if len(places) else farthest
-
-
-def _outer_samples(solids: Sequence[ConvexHull], size: float, fineness: int) -> tuple[Array, float]:
-    """Return places on the surface of the union of solids, and the bound of their distances as of
-    `_samples`.
-    """
-    kept, steps = [], []
-    for solid in solids:
-        reach = max(size, float(np.ptp(solid.points, axis=0).max()))
-        places, step = _samples(solid.points, solid.triangles, reach / fineness)
-        steps.append(step)
-        for other in solids:
-            if other is not solid:
-                places = places[_heights(places, other).max(axis=1) >= -INSIDE_RTOL * size]
-        kept.append(places)
-    return np.concatenate(kept), max(steps)
-
-
-def hull_volume(hull: ConvexHull) -> float:
-    """Return the volume of a hull."""
-    return volume_and_center(Surface.from_triangles(hull.points, hull.triangles))[0]
-
-
-@lru_cache
-def _unit(kind: str) -> ConvexHull:
-    """Return a box, ball, cylinder or capsule whose sides, radius and length are 1."""
-    points = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
-    if kind != "box":
-        turn = np.linspace(0.0, 2.0 * pi, RING_POINTS, endpoint=False)
-        ring = np.stack([np.cos(turn), np.sin(turn), np.zeros_like(turn)], axis=1)
-        points = ring if kind == "cylinder" else spread_directions(ROUND_POINTS)
-    if kind in ("cylinder", "capsule"):
-        points = np.concatenate([points + END, points - END])
-    return convex_hull(points, 1e-9)
-
-
-def _polyhedron(shape: Shape) -> tuple[ConvexHull, float]:
-    """Return a shape as a convex polyhedron in the link's frame, and the depth by which that lies
-    in a round shape.
-    """
-    if shape.surface is not None:
-        points = shape.pose.apply(shape.surface.points * shape.size)
-        return hull_of(Surface(points, shape.surface.all_triangles()[0])), 0.0
-    hull = _unit("sphere" if shape.kind == "ellipsoid" else shape.kind)
-    size = shape.size
-    if shape.kind == "capsule":  # the ends move apart, and no face changes
-        ends = np.where((hull.indices < ROUND_POINTS)[:, None], END, -END)
-        points = size[0] * (hull.points - ends) + size[1] * ends
-    else:
-        points = hull.points * (size if shape.kind != "cylinder" else (size[0], size[0], size[1]))
-    return replace(
-        hull, points=shape.pose.apply(points)
-    ), 0.0 if shape.kind == "box" else BALL_SAG * max(size)
-
-
-def _face_normals(hull: ConvexHull) -> Array:
-    """Return the (m, 3) unit normals of a hull's faces; those of faces without area are zero, and
-    of slivers, whose normals are rounding.
-    """
-    normal = normals(hull.points, hull.triangles)
-    double = np.linalg.norm(normal, axis=1)
-    corners = hull.points[hull.triangles]
-    longest = np.linalg.norm(corners - corners[:, [1, 2, 0]], axis=2).max(axis=1)
-    least = SLIVER_RTOL * np.ptp(hull.points, axis=0).max() * longest
-    return np.where((double > least)[:, None], normal / np.maximum(double, TINY)[:, None], 0.0)
-
-
-def _heights(points: Array, hull: ConvexHull) -> Array:
-    """Return (n, m) signed distances of points from the planes of a hull's faces; -inf from faces
-    without area.
-    """
-    normal = _face_normals(hull)
-    at = np.einsum("ij,ij->i", normal, hull.points[hull.triangles[:, 0]])
-    return points @ normal.T - np.where(normal.any(axis=1), at, np.inf)
-
-
-def _distances_from_shape(
-    points: NDArray, shape: Shape, solid: ConvexHull, nearest: NDArray, size: float
-) -> Array:
-    """Return the distances of points from a shape as `_distances_from_hull` does; exact for round
-    shapes, too.
-    """
-    if shape.kind in ("mesh", "ellipsoid"):
-        return _distances_from_hull(points, solid, nearest, size)
-    place = np.abs((points - shape.pose.position) @ shape.pose.rotation)
-    if shape.kind == "cylinder":
-        place = np.stack([np.hypot(place[:, 0], place[:, 1]), place[:, 2]], axis=1)
-    length = shape.size[-1] / 2.0
-    core, radius = {
-        "box": (np.array(shape.size) / 2.0, 0.0),
-        "sphere": (np.zeros(3), shape.size[0]),
-        "capsule": (np.array([0.0, 0.0, length]), shape.size[0]),
-        "cylinder": (np.array([shape.size[0], length]), 0.0),
-    }[shape.kind]
-    return np.maximum(np.linalg.norm(np.maximum(place - core, 0.0), axis=1) - radius, 0.0)
-
-
-def _distances_from_hull(points: NDArray, hull: ConvexHull, nearest: NDArray, size: float) -> Array:
-    """Return the distances of points from a hull, 0 inside; those above `nearest` may be too
-    small.
-    """
-    distance = np.zeros(len(points))
-    normal = _face_normals(hull)
-    rows = max(1, PAIRS_PER_BLOCK // len(hull.triangles))
-    for begin in range(0, len(points), rows):
-        part = points[begin : begin + rows]
-        heights = _heights(part, hull)
-        face = heights.argmax(axis=1)
-        height = heights[np.arange(len(part)), face]
-        distance[begin : begin + rows] = np.where(height > INSIDE_RTOL * size, height, 0.0)
-        # The largest height is a lower bound, and the distance if its foot is on the hull.
-        farther = np.flatnonzero(
-            (height > INSIDE_RTOL * size) & (height < nearest[begin : begin + rows])
-        )
-        feet = part[farther] - height[farther, None] * normal[face[farther]]
-        farther = farther[_heights(feet, hull).max(axis=1, initial=-np.inf) > INSIDE_RTOL * size]
-        distance[begin + farther] = distances_from_triangles(
-            part[farther], hull.points[hull.triangles]
-        )
-    return distance
-
-
-def _samples(points: NDArray, triangles: NDArray, step: float) -> tuple[Array, float]:
-    """Return places on triangles, a step apart or more, and a bound of any other place's distance
-    from the nearest.
-
-    A place in a triangle is at most 1/√3 of its longest side from the nearest corner.
-    """
-    corners = points[triangles]
-    longest = np.linalg.norm(corners - corners[:, [1, 2, 0]], axis=2).max(axis=1)
-    parts = np.maximum(np.ceil(longest / step), 1.0).astype(int)
-    while (count := int(((parts + 1) * (parts + 2) // 2).sum())) > MOST_SAMPLES and parts.max() > 1:
-        step *= max(1.2, (count / MOST_SAMPLES) ** 0.5)
-        parts = np.maximum(np.ceil(longest / step), 1.0).astype(int)
-    places = [points[np.unique(triangles)]]
-    for number in np.unique(parts[parts > 1]).tolist():
-        i, j = np.nonzero(np.add.outer(np.arange(number + 1), np.arange(number + 1)) <= number)
-        shares = np.stack([i, j, number - i - j], axis=1) / number
-        places.append((shares @ corners[parts == number]).reshape(-1, 3))
-    return np.concatenate(places), float((longest / parts).max() / 3.0**0.5)

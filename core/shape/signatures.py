@@ -26,7 +26,6 @@ the imaginary parts; `zernike` the |A_nm| in the disc about the centroid that ju
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import combinations, combinations_with_replacement
 from math import hypot, log, pi, sqrt, tanh
 
@@ -106,10 +105,10 @@ class Signature:
             result = cls(
                 float(record["size"]), invariants, zernike, fourier, chirality, dimension=dimension
             )
-            couplings = len(_flat_pairs()) + len(_flat_triples())
+            couplings = len(FLAT_PAIRS) + len(FLAT_TRIPLES)
             lengths = {
-                2: (INVARIANT_ORDER // 2 - 1 + couplings, int(_is_chiral().sum())),
-                3: (2 + len(_pairs()) + len(_even_triples()), len(_chiral_triples())),
+                2: (INVARIANT_ORDER // 2 - 1 + couplings, int(IS_CHIRAL.sum())),
+                3: (2 + len(PAIRS) + len(EVEN_TRIPLES), len(CHIRAL_TRIPLES)),
             }[dimension]
         except (KeyError, TypeError, ValueError, OverflowError) as error:
             raise FileError(SIGNATURE_INVALID, fault="was not written by --signature") from error
@@ -228,9 +227,9 @@ def _numbers(
         volume = zernike[0, 0].real[0] * 4.0 * pi / 3.0
         power = radial_power(zernike, FREQUENCIES)[0] / volume**2
     scalars = [harmonic[n, 0].real[0] for n in (4, 6)]
-    products = [np.add.reduce((harmonic[a].conj() * harmonic[b]).real) for a, b in _pairs()]
-    invariants = np.array(scalars + products + _couplings(harmonic, _even_triples()))
-    chirality = np.array(_couplings(harmonic, _chiral_triples()))
+    products = [np.add.reduce((harmonic[a].conj() * harmonic[b]).real) for a, b in PAIRS]
+    invariants = np.array(scalars + products + _couplings(harmonic, EVEN_TRIPLES))
+    chirality = np.array(_couplings(harmonic, CHIRAL_TRIPLES))
     return invariants, descriptors(zernike), power, chirality, error
 
 
@@ -269,13 +268,9 @@ def similarity(a: Signature, b: Signature) -> Likeness:
     if a.dimension != b.dimension:
         return Likeness(1.0, b.size / a.size, 0.0, None)
     n = min(len(a.zernike), len(b.zernike))
-    shape = sqrt(
-        (
-            _relative_difference(a.zernike[:n], b.zernike[:n]) ** 2
-            + _relative_difference(a.invariants, b.invariants) ** 2
-        )
-        / 2.0
-    )
+    of_zernike = _relative_difference(a.zernike[:n], b.zernike[:n])
+    of_invariants = _relative_difference(a.invariants, b.invariants)
+    shape = sqrt((of_zernike**2 + of_invariants**2) / 2.0)
     same = np.linalg.norm(a.chirality - b.chirality)
     opposite = np.linalg.norm(a.chirality + b.chirality)
     hand = max(np.linalg.norm(a.chirality), np.linalg.norm(b.chirality))
@@ -303,38 +298,12 @@ def _multiplets(order: int) -> list[Key]:
     return [(n, l) for n, l in degrees(order) if l and n > 1]
 
 
-@lru_cache
-def _pairs() -> list[tuple[Key, Key]]:
-    return [
-        (a, b)
-        for a, b in combinations_with_replacement(_multiplets(INVARIANT_ORDER), 2)
-        if a[1] == b[1]
-    ]
-
-
-@lru_cache
-def _even_triples() -> list[tuple[Key, Key, Key]]:
-    triples = combinations_with_replacement(_multiplets(COUPLED_ORDER), 3)
-    return [t for t in triples if _can_couple(t) and sum(l for _, l in t) % 2 == 0]
-
-
-@lru_cache
-def _chiral_triples() -> list[tuple[Key, Key, Key]]:
-    """Return triples of three different multiplets: with two alike, an odd coupling is zero."""
-    return [
-        t
-        for t in combinations(_multiplets(CHIRAL_ORDER), 3)
-        if _can_couple(t) and sum(l for _, l in t) % 2
-    ]
-
-
 def _can_couple(triple: tuple[Key, Key, Key]) -> bool:
     """Return whether three multiplets have a scalar: their degrees are the sides of a triangle."""
     a, b, c = sorted(l for _, l in triple)
     return c <= a + b
 
 
-@lru_cache
 def _turning(order: int) -> list[Key]:
     """Return (p, q) of the complex moments of order 2 to `order` that a rotation changes; first
     moments are zero.
@@ -342,37 +311,36 @@ def _turning(order: int) -> list[Key]:
     return [(n - q, q) for n in range(2, order + 1) for q in range((n + 1) // 2)]
 
 
-@lru_cache
-def _flat_pairs() -> list[tuple[Key, Key]]:
-    return [
-        pair
-        for pair in combinations_with_replacement(_turning(INVARIANT_ORDER), 2)
-        if _sum(pair, 1) == 0
-    ]
-
-
-@lru_cache
-def _flat_triples() -> list[tuple[Key, Key, Key]]:
-    """Return triples of moments: two, and a third with p - q equal to the sum of theirs."""
-    pairs = combinations_with_replacement(_turning(COUPLED_ORDER), 2)
-    return [
-        (a, b, d) for a, b in pairs for d in _turning(INVARIANT_ORDER) if _sum((a, b, d), 2) == 0
-    ]
-
-
-def _sum(keys: tuple[Key, ...], plus: int) -> int:
-    """Return the sum of p - q over the first `plus` moments, minus the sum over all later
-    moments.
-    """
-    return sum((p - q) * (1 if i < plus else -1) for i, (p, q) in enumerate(keys))
-
-
-@lru_cache
-def _is_chiral() -> Mask:
-    """Return the mask of couplings that have an imaginary part: all but the squares of one
-    moment.
-    """
-    return np.array([a != b for a, b in _flat_pairs()] + [True] * len(_flat_triples()))
+PAIRS = [
+    (a, b)
+    for a, b in combinations_with_replacement(_multiplets(INVARIANT_ORDER), 2)
+    if a[1] == b[1]
+]
+EVEN_TRIPLES = [
+    triple
+    for triple in combinations_with_replacement(_multiplets(COUPLED_ORDER), 3)
+    if _can_couple(triple) and sum(l for _, l in triple) % 2 == 0
+]
+# Of three different multiplets: with two alike, an odd coupling is zero.
+CHIRAL_TRIPLES = [
+    triple
+    for triple in combinations(_multiplets(CHIRAL_ORDER), 3)
+    if _can_couple(triple) and sum(l for _, l in triple) % 2
+]
+FLAT_PAIRS = [
+    (a, b)
+    for a, b in combinations_with_replacement(_turning(INVARIANT_ORDER), 2)
+    if a[0] - a[1] == b[0] - b[1]
+]
+# Two moments, and a third with p - q equal to the sum of theirs.
+FLAT_TRIPLES = [
+    (a, b, d)
+    for a, b in combinations_with_replacement(_turning(COUPLED_ORDER), 2)
+    for d in _turning(INVARIANT_ORDER)
+    if a[0] - a[1] + b[0] - b[1] == d[0] - d[1]
+]
+# True for couplings that have an imaginary part: all but the squares of one moment.
+IS_CHIRAL: Mask = np.array([a != b for a, b in FLAT_PAIRS] + [True] * len(FLAT_TRIPLES))
 
 
 def flat_signature(moments: Moments, radius: float) -> Signature:
@@ -391,8 +359,8 @@ def flat_signature(moments: Moments, radius: float) -> Signature:
     scaled = Moments(low.raw / size**degree / moments.total, low.about, low.measure)
     c = {key: entry.value for key, entry in complex_moments(scaled).items()}
     couplings: NDArray[np.complex128] = np.array(
-        [c[a] * c[b].conjugate() for a, b in _flat_pairs()]
-        + [c[a] * c[b] * c[d].conjugate() for a, b, d in _flat_triples()]
+        [c[a] * c[b].conjugate() for a, b in FLAT_PAIRS]
+        + [c[a] * c[b] * c[d].conjugate() for a, b, d in FLAT_TRIPLES]
     )
     scalars = [c[p, p].real for p in range(2, INVARIANT_ORDER // 2 + 1)]
     zernike = np.abs(disc_zernike(moments, radius))
@@ -404,7 +372,7 @@ def flat_signature(moments: Moments, radius: float) -> Signature:
         np.concatenate([scalars, couplings.real]),
         zernike,
         np.empty(0),
-        couplings.imag[_is_chiral()],
+        couplings.imag[IS_CHIRAL],
         error,
         dimension=2,
     )
