@@ -21,10 +21,11 @@ from ..core.robots import (
     Audit,
     Auditor,
     Expectation,
+    Roots,
+    audit_report,
+    read_description,
     repaired_copy,
 )
-from ..core.robots.read.descriptions import Roots, read_description
-from ..core.robots.write import audit_report
 from ..core.verdict import FileError, MeasureError, declared, internal_error, system_reason
 from . import audit_gate
 from .files import output

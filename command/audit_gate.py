@@ -12,8 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from ..core.files.whole_file import whole_file
-from ..core.robots.findings import AUDIT_TOTAL
-from ..core.robots.write import audit_report
+from ..core.robots import AUDIT_TOTAL, audit_report
 from ..core.verdict import Severity
 
 SCHEMA = "body-moments-baseline/1"

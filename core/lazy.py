@@ -14,7 +14,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-_IMPORT = re.compile(r"^from \.(\w*) import (\([^)]*\)|.*)$", re.MULTILINE)
+_IMPORT = re.compile(r"^from \.([\w.]*) import (\([^)]*\)|.*)$", re.MULTILINE)
 _NAME = re.compile(r"(\w+) as \w+")
 _PUBLIC = re.compile(r"^__all__ = \[([^]]*)\]", re.MULTILINE)
 

@@ -41,8 +41,6 @@ SAMPLED = 64  # vertices that are compared to tell a copy
 
 
 class MemberKind(StrEnum):
-    """Kind of a member of an assembly."""
-
     COLLECTION = "COLLECTION"
     INSTANCE = "INSTANCE"
     EMPTY = "EMPTY"
@@ -167,7 +165,6 @@ class _Walk:
         return Member(obj, MemberKind.EMPTY, (*own, *self.children(obj, depth)))
 
     def children(self, parent: Object, depth: int) -> list[Member]:
-        """Return the members of an object's children."""
         members: list[Member] = []
         for child in sorted(self.of_parent.get(parent, ()), key=by_name):
             if child.type == "EMPTY" and not shows_collection(child) and child in self.of_parent:

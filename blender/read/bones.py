@@ -31,7 +31,6 @@ class RestBones:
 
     @classmethod
     def read(cls, armature: Object) -> RestBones:
-        """Read the bones of an armature object."""
         place = float64_matrix(armature.matrix_world)
         bones = list(armature.data.bones)
         deforming = [bone for bone in bones if bone.use_deform]

@@ -29,7 +29,6 @@ def set_places(obj: Object, matrices: Array) -> None:
 
 
 def has_places(obj: Object) -> bool:
-    """Return whether the object's file states its places."""
     return KEY in obj
 
 

@@ -266,7 +266,6 @@ def retrigger_drivers(obj: Owner) -> None:
 
 
 def is_stored(obj: Owner) -> bool:
-    """Return whether the object has results."""
     return stored(obj) is not None
 
 

@@ -269,7 +269,6 @@ def _plain_number(value: float, decimals: int, separator: str) -> str:
 
 
 def report_line(label: str, value: str, unit: str = "") -> str:
-    """Return a line of a report."""
     return "{}{:<{}}{} {}".format(INDENT, label, REPORT_WIDTH, value, unit).rstrip()
 
 

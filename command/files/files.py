@@ -78,6 +78,8 @@ def _imported(path: str, kind: str, frame: float | None) -> Opened:
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     found = _ANIMATED[kind](path, frame) if kind in _ANIMATED else _IMPORTERS[kind](path)
     opened = found if isinstance(found, Opened) else Opened()
+    for name in opened.hidden:
+        bpy.data.objects[name].hide_render = True
     if not bpy.context.scene.objects:
         raise FileError(
             opened.errors[0] if opened.errors else finding(FILE_WITHOUT_OBJECTS, content="objects")

@@ -28,7 +28,7 @@ _SAME_POINT = 1e-6  # relative to the largest coordinate; larger than the roundi
 
 def import_fbx(path: str, frame: float | None) -> Opened:
     """Import an .fbx file at a frame, by default its first: each object at the place that the file
-    states; hidden objects and coarser levels of detail are not rendered.
+    states; hidden objects and coarser levels of detail are reported.
 
     Raise RuntimeError, and AttributeError without an importer.
     """
@@ -59,8 +59,6 @@ def import_fbx(path: str, frame: float | None) -> Opened:
         notes = (*notes, finding(PLACES_UNCHECKED, cause=cause))
     hidden = dict.fromkeys(unseen, finding(FILE_HIDES, cause="it is invisible"))
     hidden |= dict.fromkeys(coarse, finding(FILE_HIDES, cause="it is a coarser level of detail"))
-    for name in hidden:
-        bpy.data.objects[name].hide_render = True
     return Opened(notes=notes, by_object=findings, hidden=hidden)
 
 

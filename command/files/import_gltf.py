@@ -87,8 +87,6 @@ def import_gltf(path: str, frame: float | None) -> Opened:
         raise FileError(FILE_UNREADABLE, error=_NO_DECODER.format(name)) from error
     finally:
         del module.glTF2ImportUserExtension
-    for name in hidden:
-        bpy.data.objects[name].hide_render = True
     notes = measure_at(frame)
     try:
         _correct(_Pose(GltfFile(map_file(path), path), shown_seconds() if notes else 0.0), shown)

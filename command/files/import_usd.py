@@ -310,7 +310,6 @@ def _correct(
     for name, prim in sorted(prims.items()):
         obj = bpy.data.objects[name]
         if prim.hidden is not None:
-            obj.hide_render = True
             hidden[name] = finding(FILE_HIDES, cause=prim.hidden)
         if prim.scheme is not None:
             findings[name] = (finding(USD_CAGE, scheme=prim.scheme),)
@@ -337,22 +336,19 @@ def _correct(
             findings[name] = tuple(dict.fromkeys(about))
         elif prim.hidden is None and not prim.is_member:
             obj = bpy.data.objects[name]
-            if not any(collection in _rendered() for collection in obj.users_collection):
-                bpy.context.scene.collection.objects.link(obj)
+            top = bpy.context.scene.collection
+            if _rendered(top).isdisjoint(obj.users_collection):
+                top.objects.link(obj)
             obj.hide_render = False
     bpy.context.view_layer.update()
     return references.Opened(missing, notes, findings, hidden)
 
 
-def _rendered() -> set[bpy.types.Collection]:
-    waiting = [bpy.context.scene.collection]
-    found = set()
-    while waiting:
-        collection = waiting.pop()
-        if not (collection.hide_render or collection.hide_viewport):
-            found.add(collection)
-            waiting += collection.children
-    return found
+def _rendered(collection: bpy.types.Collection) -> set[bpy.types.Collection]:
+    """Return a collection and those in it, as far as they are rendered and shown."""
+    if collection.hide_render or collection.hide_viewport:
+        return set()
+    return {collection}.union(*map(_rendered, collection.children))
 
 
 def _show_members(name: str, prim: _Prim) -> None:

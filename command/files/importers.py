@@ -16,7 +16,7 @@ from mathutils import Matrix
 from numpy.typing import NDArray
 
 from ...blender import bodies, scene
-from ...blender.settings.properties import set_print
+from ...blender.settings.prints import set_print
 from ...core import cad, files, polyhedron, streams, verdict
 from ...core.mesh import Surface
 from ...core.solid import UNCHECKED, measure_solid
@@ -97,7 +97,6 @@ def import_3mf(path: str) -> Opened:
         cut = [finding(streams.NEGATIVE_PARTS_CUT, names=negative)] if negative else []
         notes[obj.name] = (*unread, *cut)
         if one.hidden:
-            obj.hide_render = True
             hidden[obj.name] = finding(FILE_HIDES, cause=one.hidden)
         obj.matrix_basis = Matrix(one.matrix)
         if (
@@ -122,8 +121,11 @@ def _without_negative_parts(
         if one.is_negative:
             yield replace(one, hidden=one.hidden or "it is cut away from the other parts"), []
             continue
-        cutters = [part for part in placed if part.is_negative and part.item == one.item]
-        cutters = [part for part in cutters if not part.hidden]
+        cutters = [
+            part
+            for part in placed
+            if part.is_negative and part.item == one.item and not part.hidden
+        ]
         if one.hidden or not cutters:
             yield one, []
             continue

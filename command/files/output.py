@@ -21,7 +21,6 @@ from typing import Any, NoReturn
 
 from ...core import measurement, robots, verdict
 from ...core.files.whole_file import whole_file
-from ...core.robots.write.marker import is_audit, is_ours
 from ..options import arguments, option_types
 
 _STDOUT = {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}  # its descriptor may not be 1 any more
@@ -119,7 +118,7 @@ def is_result(path: Path) -> bool:
     """Return whether a file is a result, a journal or a list of ours. Raises OSError."""
     with open(path, "rb") as file:
         head = file.read(_HEAD)
-    if _BEGINNING.match(head) or is_ours(head) or is_audit(head):
+    if _BEGINNING.match(head) or robots.is_ours(head) or robots.is_audit(head):
         return True
     columns = head.split(b"\n", 1)[0].rstrip(b"\r").decode("utf-8", "replace").split(",")
     with suppress(zipfile.BadZipFile), zipfile.ZipFile(path) as arrays:

@@ -118,7 +118,7 @@ def _store(data: bpy.types.AssetMetaData, measurement: Measurement) -> None:
     """Store a measurement as metadata, of an object in its own frame, of a collection in the
     scene's.
     """
-    values = write.properties.values_of(measurement)
+    values = next(write.properties.values_of(measurement))
     for key in _METADATA:
         data[key] = values[key]
 

@@ -78,6 +78,7 @@ class BareFile:
     """
 
     has_saved = False
+    opened = ()
 
     def __init__(
         self,
@@ -109,7 +110,6 @@ class BareFile:
         )
 
     def store(self, contents: Contents) -> None:
-        """Refuse to store results."""
         if self.options.write:
             raise FileError(RESULTS_NOT_STORED, cause=NEEDS_BLEND)
 
@@ -121,10 +121,6 @@ class BareFile:
         return measure.robots.complete(
             document, contents.measured, self.options, wanted, is_opened=False
         )
-
-    def files(self) -> list[str]:
-        """Return the files that Blender has read with it: none."""
-        return []
 
     def _settings(self) -> Settings:
         options = self.options

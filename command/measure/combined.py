@@ -66,7 +66,6 @@ class Combined:
         return {name: entries for name, entries in found.items() if entries}
 
     def store(self, contents: Contents) -> None:
-        """Store the results on their assemblies and rigs."""
         for assembly in self.assemblies:
             with contents.attempt(assembly.measurement.name):
                 stored.assembly.store(bpy.context, assembly)

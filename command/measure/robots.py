@@ -26,10 +26,16 @@ from ...blender.session.robots import (
 from ...blender.settings.options import MeasureOptions
 from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...core.measurement import Measurement, print_message
-from ...core.robots import FORMATS, Robot, robot_name
-from ...core.robots.write.joints import merge_fixed
-from ...core.robots.write.shapes import with_primitives, without_collision
-from ...core.robots.write.texts import robot_text, with_geometry
+from ...core.robots import (
+    FORMATS,
+    Robot,
+    merge_fixed,
+    robot_name,
+    robot_text,
+    with_geometry,
+    with_primitives,
+    without_collision,
+)
 from ...core.verdict import MeasureError, Severity, finding, sentence, severity, system_reason
 from ..files.output import is_stream
 from .entries import failure

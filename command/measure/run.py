@@ -9,7 +9,7 @@ traceback, too.
 import os
 import sys
 from argparse import Namespace
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -50,7 +50,7 @@ class Run:
     documents: list[dict[str, Any]] = field(default_factory=list)
     internal_errors: int = 0
     has_saved: bool = field(init=False)
-    opened: list[str] = field(init=False)
+    opened: Sequence[str] = field(init=False)
 
     def measure(self) -> None:
         """Measure every named file, or else the open file, and add their documents."""
@@ -86,7 +86,7 @@ class Run:
         except Exception as error:
             contents.errors.append(self.internal_error(None, error))
         self.has_saved = source.has_saved
-        self.opened = source.files()
+        self.opened = source.opened
         for one in contents.errors:
             where = [text for text in (file, one["name"]) if text]
             print_message(*where, one["reason"])

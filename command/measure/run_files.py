@@ -97,9 +97,8 @@ def _blender(options: Namespace) -> str | None:
     the bpy module.
     """
     bpy = sys.modules.get("bpy")
-    if options.blender is not None or bpy is None or bpy.app.module:
-        return options.blender
-    return bpy.app.binary_path
+    own = None if bpy is None or bpy.app.module else bpy.app.binary_path
+    return own if options.blender is None else options.blender
 
 
 class _Places:
@@ -137,15 +136,11 @@ class _Places:
                         "--force".format(path)
                     )
         except BlockingIOError:
-            arguments.fail(
-                "argument --output: another run is writing {}. Use another name, or wait".format(
-                    target
-                )
-            )
+            text = "argument --output: another run is writing {}. Use another name, or wait"
+            arguments.fail(text.format(target))
         except OSError as error:  # Such as a name that is too long with the suffix.
-            arguments.fail(
-                "argument --output: {}: {}".format(error.filename or target, system_reason(error))
-            )
+            text = "argument --output: {}: {}"
+            arguments.fail(text.format(error.filename or target, system_reason(error)))
 
     def set_aside(self) -> None:
         """Keep files of an earlier run as .old. Raises OSError."""
@@ -205,10 +200,8 @@ class _Supervised:
             self._places.restore()
         if len(self._paths) == 1 and is_written is not False:
             self._places.journal.unlink()  # there is nothing to go on with
-        if self._faults:
-            return 70
         failed = failed and not self._options.errors_exit_0
-        return 1 if failed or not is_written else 0
+        return 70 if self._faults else int(failed or not is_written)
 
     def _measure(self, pool: Pool, journal: Journal) -> None:
         blender = pool.about["blender"]
@@ -220,23 +213,21 @@ class _Supervised:
         limits = {"seconds": self._limits.seconds, "memory": self._limits.memory}
         known = []
         if self._options.resume:
-            entries = {path: journal.entries.get(path) for path in self.tasks}
-            keys = {path: ({"path": path} | state(path) | common) for path in self.tasks}
+            entries = journal.entries
             given = arguments.run_of(self._options)["options"]
             retried = self._options.retry_failed
             reasons = {
-                path: entry.reason_to_measure(keys[path], given, limits, retried)
-                if entry
+                path: entries[path].reason_to_measure(
+                    {"path": path} | state(path) | common, given, limits, retried
+                )
+                if path in entries
                 else "not recorded"
-                for path, entry in entries.items()
+                for path in self.tasks
             }
-            missing = [path for path, reason in reasons.items() if reason is not None]
-            self.done = len(self.tasks) - len(missing)
-            known = [
-                entry.status for path, entry in entries.items() if entry and reasons[path] is None
-            ]
+            known = [entries[path].status for path, reason in reasons.items() if reason is None]
+            self.done = len(known)
             _report_reuse(reasons)
-            pool.add(missing)
+            pool.add(path for path, reason in reasons.items() if reason is not None)
         progress = Progress(len(self.tasks), known)
         while not pool.is_done:
             for outcome in pool.step():
@@ -272,19 +263,21 @@ class _Supervised:
                 return json.loads(outcome.data)["status"], None, outcome.data
             outcome.status = "crashed"
             outcome.how = "no answer"
-        if outcome.status == "timeout":
-            reason = finding(findings.FILE_TIMED_OUT, seconds=self._limits.seconds)
-        elif outcome.status == "memory":
-            assert self._limits.memory is not None
-            reason = finding(findings.FILE_TOOK_MEMORY, megabytes=self._limits.memory / 1e6)
-        else:
-            reason = finding(findings.FILE_CRASHED, how=outcome.how, count=outcome.attempts)
-        values = {
-            "blender": blender,
-            "frame": self._options.frame,
-            "run": arguments.run_of(self._options),
-        }
-        document = failed_document(outcome.task, str(reason), outcome.status, **values)
+        reason = {
+            "timeout": finding(findings.FILE_TIMED_OUT, seconds=self._limits.seconds),
+            "memory": finding(
+                findings.FILE_TOOK_MEMORY, megabytes=(self._limits.memory or 0) / 1e6
+            ),
+            "crashed": finding(findings.FILE_CRASHED, how=outcome.how, count=outcome.attempts),
+        }[outcome.status]
+        document = failed_document(
+            outcome.task,
+            str(reason),
+            outcome.status,
+            blender=blender,
+            frame=self._options.frame,
+            run=arguments.run_of(self._options),
+        )
         return outcome.status, reason, json.dumps(document).encode()
 
     def _report(self, outcome: TaskOutcome, reason: Finding | None) -> None:
@@ -296,11 +289,11 @@ class _Supervised:
         self._faults += faults
         if reason is not None:
             print_message(outcome.task, reason)
-            return
-        lines = outcome.said.splitlines(keepends=True)
-        sys.stderr.write(
-            "".join(line for line in lines if faults or line.startswith(PROGRAM + ": "))
-        )
+        else:
+            lines = outcome.said.splitlines(keepends=True)
+            sys.stderr.writelines(
+                line for line in lines if faults or line.startswith(PROGRAM + ": ")
+            )
 
 
 @dataclass

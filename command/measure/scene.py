@@ -72,7 +72,7 @@ def measure_options(options: Namespace, threads: int) -> MeasureOptions:
 class Scene:
     """The file at a path, once it is open, or the open file if there is no path.
 
-    has_saved: whether the file was saved in place.
+    has_saved: whether the file was saved in place. opened: the files that Blender has read with it.
     """
 
     def __init__(self, path: str | None, options: Namespace, threads: int) -> None:
@@ -81,6 +81,7 @@ class Scene:
         self._combined = combined.Combined()
         self._afloat: dict[bpy.types.Object, list[bpy.types.Object]] = {}
         self._is_open = self.has_saved = False
+        self.opened: Sequence[str] = ()
 
     def measure(self, contents: Contents) -> None:
         """Open the file and measure its objects. Raises MeasureError."""
@@ -88,6 +89,7 @@ class Scene:
         self._place = self._place_of_results()
         opened = open_file(path, options.at_frame)
         self._is_open = True
+        self.opened = bpy.utils.blend_paths(absolute=True, packed=False)
         # Not set in the scene, whose unit scale is a float32 with limits.
         self._wanted = replace(
             self._wanted, unit_scale=(options.unit_scale or 1.0) if is_unitless(path) else None
@@ -152,10 +154,6 @@ class Scene:
         return robots.complete(
             document, contents.measured, self.options, self._wanted, is_opened=self._is_open
         )
-
-    def files(self) -> list[str]:
-        """Return the files that Blender has read with the open file."""
-        return bpy.utils.blend_paths(absolute=True, packed=False) if self._is_open else []
 
     def _place_of_results(self) -> saving.Place | None:
         """Return the .blend file in which results will be saved, None if there is none.
@@ -344,10 +342,8 @@ class Scene:
             return
         unset = density.unset_density(obj, measurement, bpy.context.scene)
         if unset is not None:
-            yield finding(
-                bodies.DENSITY_DEFAULTED,
-                density="1 kg/m" if unset == "linear_density" else "1000 kg/m³",
-            )
+            default = "1 kg/m" if unset == "linear_density" else "1000 kg/m³"
+            yield finding(bodies.DENSITY_DEFAULTED, density=default)
 
     def _fourier(
         self, chosen: list[tuple[str, bpy.types.Object]], contents: Contents

@@ -185,7 +185,6 @@ def _as_json(value: Any) -> Any:
 
 @functools.cache
 def version() -> str:
-    """Return the add-on's version."""
     manifest = pkgutil.get_data(_ROOT, "blender_manifest.toml")
     return tomllib.loads(manifest.decode())["version"] if manifest else ""
 

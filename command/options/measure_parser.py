@@ -34,7 +34,6 @@ exit code: 0 all measured, 1 something is listed under errors or the result cann
 
 
 def measure_parser() -> Parser:
-    """Return the parser of `measure`."""
     parser = Parser(
         prog="body_moments",
         usage="body_moments measure [options] [FILE ...]",

@@ -51,7 +51,6 @@ class Entry:
 
     @property
     def status(self) -> str:
-        """The status of the file's document."""
         return self.head["status"]
 
     def reason_to_measure(

@@ -50,7 +50,6 @@ class Lifeline:
         ThreadPoolExecutor().submit(self._listen)
 
     def messages(self) -> Iterator[dict[str, Any]]:
-        """Yield the supervisor's messages."""
         while True:
             yield json.loads(self._waiting.get())
 

@@ -133,7 +133,6 @@ class Pool:
         shutil.rmtree(self._work, ignore_errors=True)
 
     def add(self, tasks: Iterable[str]) -> None:
-        """Queue more tasks."""
         self._tasks.extend(tasks)
 
     @property

@@ -152,7 +152,6 @@ def memory_share(count: int = 1) -> int | None:
 
 
 def cores() -> int:
-    """Return the number of processors that this process may use."""
     try:
         return len(os.sched_getaffinity(0))
     except AttributeError:

@@ -25,7 +25,6 @@ class Progress:
         self._due = self._began + PERIOD
 
     def count_file(self, status: str) -> None:
-        """Count one finished file."""
         self.counts[status] += 1
 
     def show(self) -> None:
@@ -47,7 +46,6 @@ class Progress:
         print_message(text)
 
     def finish(self) -> None:
-        """Print the totals of the run."""
         if self._total > 1:
             everything = (self._known + self.counts).most_common()
             counts = ", ".join("{} {}".format(number, status) for status, number in everything)

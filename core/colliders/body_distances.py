@@ -144,7 +144,6 @@ def outer_samples(solids: Sequence[ConvexHull], size: float, fineness: int) -> t
 
 
 def hull_volume(hull: ConvexHull) -> float:
-    """Return the volume of a hull."""
     return volume_and_center(Surface.from_triangles(hull.points, hull.triangles))[0]
 
 

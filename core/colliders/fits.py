@@ -144,7 +144,6 @@ class _Fits:
 
     @cached_property
     def box(self) -> Shape:
-        """The smallest box."""
         is_simple = len(self.points) <= AXES_CORNERS
         return _smallest_box(
             self.hull if is_simple else convex_hull(self.points, max_corners=AXES_CORNERS), self

@@ -6,11 +6,13 @@ from typing import Any
 from .audit import Audit as Audit
 from .audit import Auditor as Auditor
 from .audit import repaired_copy as repaired_copy
+from .findings import AUDIT_TOTAL as AUDIT_TOTAL
 from .findings import DESCRIPTION_UNKNOWN as DESCRIPTION_UNKNOWN
 from .findings import JOINT_VALUE_UNUSABLE as JOINT_VALUE_UNUSABLE
 from .findings import ROBOT_SCALED as ROBOT_SCALED
 from .findings import ROBOT_WITHOUT_LINKS as ROBOT_WITHOUT_LINKS
-from .findings import USD_UNIT_SCALE as USD_UNIT_SCALE
+from .findings import UNIT_SCALE as UNIT_SCALE
+from .findings import USD_SCALED as USD_SCALED
 from .formats import AUDITED_SUFFIXES as AUDITED_SUFFIXES
 from .formats import FORMATS as FORMATS
 from .formats import RobotFormat as RobotFormat
@@ -33,7 +35,17 @@ from .model import ratio as ratio
 from .primitives import equal_inertia_shape as equal_inertia_shape
 from .primitives import moments_of as moments_of
 from .primitives import primitive_moments as primitive_moments
+from .read.descriptions import Roots as Roots
+from .read.descriptions import read_description as read_description
 from .totals import Expectation as Expectation
+from .write import audit_report as audit_report
+from .write.joints import merge_fixed as merge_fixed
+from .write.marker import is_audit as is_audit
+from .write.marker import is_ours as is_ours
+from .write.shapes import with_primitives as with_primitives
+from .write.shapes import without_collision as without_collision
+from .write.texts import robot_text as robot_text
+from .write.texts import with_geometry as with_geometry
 
 __all__ = []
 

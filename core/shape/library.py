@@ -43,8 +43,6 @@ UNDECIDED_HANDEDNESS = (Similarity.COPY_OR_MIRROR, Similarity.SCALED_COPY_OR_MIR
 
 @dataclass(frozen=True, eq=False)
 class Entry:
-    """One body of a library."""
-
     name: str
     file: str
     signature: Signature

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fixtures of the tests that need Blender."""
 
+import os
+
 import pytest
 from body_moments.operators import batch
 
@@ -9,13 +11,22 @@ from tests.in_blender import reported  # noqa: F401
 
 
 @pytest.fixture
-def main(tmp_path, capfd):
+def main(tmp_path_factory, capfd):
     """The command line in this process: words to exit code, output and errors."""
 
     def run(*words):
-        with open(tmp_path / "standard output", "wb+") as out:
-            code = batch.main(list(map(str, words)), channel=out.fileno())
+        from tests.blender.batch_files import in_process  # needs Blender
+
+        kept = os.dup(1)
+        with open(tmp_path_factory.mktemp("main") / "standard output", "wb+") as out:
+            try:
+                code = batch.main(in_process(*words), channel=out.fileno())
+            finally:
+                os.dup2(kept, 1)
+                os.close(kept)
             out.seek(0)
-            return code, out.read().decode(), capfd.readouterr().err
+            said = capfd.readouterr().err
+            assert "Traceback" not in said, said
+            return code, out.read().decode(), said
 
     return run

@@ -5,7 +5,6 @@ them.
 """
 
 import gzip
-import json
 
 import numpy as np
 import pytest
@@ -15,15 +14,10 @@ from body_moments.operators import batch
 
 from tests.blender.batch_files import codes, in_process, sentence
 from tests.close import close
+from tests.command.running import run
 from tests.core.scan_files import nifti, nrrd, written
 
 pytestmark = pytest.mark.usefixtures("scene")
-
-
-def run(tmp_path, *words):
-    out = tmp_path / "out.json"
-    code = batch.main(in_process("measure", "--output", out, *words), channel=2, file_needed=True)
-    return code, json.loads(out.read_text(encoding="utf-8"))
 
 
 def box(dtype="f4", value=1.0):

@@ -20,33 +20,12 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 from body_moments.core.measurement.plain_text import visible
-from body_moments.operators import batch
 
 from tests.blender import batch_files as files
 from tests.command.processes import BLENDER, SCRIPT, in_blender, process
 from tests.core.scan_files import written
 
 pytestmark = pytest.mark.usefixtures("scene")
-
-
-@pytest.fixture
-def main(capfd, tmp_path):
-    """The command line in this process: its exit code, what it wrote, and what it said."""
-
-    def run(*words):
-        kept = os.dup(1)
-        with open(tmp_path / "standard output", "wb+") as out:
-            try:
-                code = batch.main(files.in_process(*words), channel=out.fileno())
-            finally:
-                os.dup2(kept, 1)
-                os.close(kept)
-            out.seek(0)
-            said = capfd.readouterr().err
-            assert "Traceback" not in said, said
-            return code, out.read().decode(), said
-
-    return run
 
 
 def array(values, **more) -> bytes:

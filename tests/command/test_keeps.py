@@ -15,29 +15,11 @@ pytest.importorskip("bpy")
 from body_moments.command.files import output
 from body_moments.command.measure import measuring
 from body_moments.core.measurement import documents
-from body_moments.operators import batch
 
 from tests.blender import batch_files as files
 
 pytestmark = pytest.mark.usefixtures("scene")
 WAVES = ("--grid", "2", "--qmax", "1")
-
-
-@pytest.fixture
-def main(capfd):
-    """The command line in this process: its exit code, and what it said of it."""
-
-    def run(*words):
-        with open(os.devnull, "wb") as nowhere:
-            kept = os.dup(1)
-            try:
-                code = batch.main(files.in_process("measure", *words), channel=nowhere.fileno())
-            finally:
-                os.dup2(kept, 1)
-                os.close(kept)
-        return code, capfd.readouterr().err
-
-    return run
 
 
 @pytest.fixture
@@ -62,7 +44,9 @@ def test_foreign_file_is_kept_before_measuring(tmp_path, main, no_measuring, opt
     part = files.box_file(tmp_path / "part.stl")
     target = tmp_path / "target"
     target.write_bytes(content)
-    code, said = main(part, option, target, *(WAVES if option == "--fourier" else ["--flat"]))
+    code, _, said = main(
+        "measure", part, option, target, *(WAVES if option == "--fourier" else ["--flat"])
+    )
     assert code == 2 and str(target) in said and "--force" in said
     assert target.read_bytes() == content
 
@@ -73,7 +57,7 @@ def test_foreign_arrays_are_kept(tmp_path, main, no_measuring):
     np.savez(target, q=1, F=2, error=3, input=4, method=5, frame=6, mine=7)
     kept = target.read_bytes()
     for words in (("--fourier", target, *WAVES), ("--output", target)):
-        assert main(part, *words)[0] == 2 and target.read_bytes() == kept
+        assert main("measure", part, *words)[0] == 2 and target.read_bytes() == kept
 
 
 def test_force_replaces_a_foreign_file(tmp_path, main):
@@ -81,7 +65,7 @@ def test_force_replaces_a_foreign_file(tmp_path, main):
     target, arrays = tmp_path / "out.json", tmp_path / "out.npz"
     target.write_text("old")
     arrays.write_text("old")
-    code, _ = main(part, "--force", "--output", target, "--fourier", arrays, *WAVES)
+    code, *_ = main("measure", part, "--force", "--output", target, "--fourier", arrays, *WAVES)
     assert (
         code == 0
         and json.loads(target.read_text())["objects"]
@@ -101,11 +85,11 @@ def test_older_results_are_replaced_and_keep_their_mode(tmp_path, main):
         (part, "--format", "csv"),
         (part, "--format", "csv", "--order", "1", "--pose"),
     ):
-        assert main(*words, "--output", target)[0] == 0
+        assert main("measure", *words, "--output", target)[0] == 0
         before = target.read_bytes()
-    assert main(part, "--output", target)[0] == 0 and target.read_bytes() != before
+    assert main("measure", part, "--output", target)[0] == 0 and target.read_bytes() != before
     for _ in range(2):
-        assert main(part, "--fourier", arrays, *WAVES)[0] == 0
+        assert main("measure", part, "--fourier", arrays, *WAVES)[0] == 0
     if os.name == "posix":
         assert target.stat().st_mode & 0o777 == 0o600
     assert sorted(path.name for path in tmp_path.iterdir()) == ["out", "out.npz", "part.stl"]
@@ -117,8 +101,13 @@ def test_force_keeps_inputs(tmp_path, main, no_measuring, option):
     kept = Path(files.box_file(part)).read_bytes()
     os.link(part, link)
     for target in (part, link):
-        code, said = main(
-            "--force", part, option, target, *(WAVES if option == "--fourier" else ["--flat"])
+        code, _, said = main(
+            "measure",
+            "--force",
+            part,
+            option,
+            target,
+            *(WAVES if option == "--fourier" else ["--flat"]),
         )
         assert (
             code == 2
@@ -140,7 +129,9 @@ def test_file_appearing_meanwhile_is_kept(tmp_path, main, monkeypatch, option):
         return real(*rest)
 
     files.measure_with(monkeypatch, measure)
-    code, said = main(part, option, target, *(WAVES if option == "--fourier" else ["--flat"]))
+    code, _, said = main(
+        "measure", part, option, target, *(WAVES if option == "--fourier" else ["--flat"])
+    )
     assert code == 1 and target.read_text() == "somebody's" and str(target) in said
     assert sorted(path.name for path in tmp_path.iterdir()) == ["out.npz", "part.stl"]
 
@@ -168,5 +159,5 @@ def test_unreadable_file_is_not_replaced(tmp_path, main, no_measuring, monkeypat
         raise OSError(5, "Input/output error")
 
     monkeypatch.setattr(output, "open", fail, raising=False)
-    code, said = main(part, "--output", target)
+    code, _, said = main("measure", part, "--output", target)
     assert code == 2 and "out: Input/output error" in said and target.read_text() == "mine"

@@ -2,16 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Label maps on the command line: a record for each label, with names, colors and densities."""
 
-import json
 import struct
 from pathlib import Path
 
 import numpy as np
 import pytest
-from body_moments.operators import batch
 
-from tests.blender.batch_files import codes, in_process
+from tests.blender.batch_files import codes
 from tests.close import close
+from tests.command.running import run
 from tests.core.scan_files import nifti, nrrd, written
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -23,12 +22,6 @@ def labels(dtype="i2"):
     values[10:30, 10:30, 4:10] = 1
     values[35:50, 20:40, 10:16] = 2
     return values
-
-
-def run(tmp_path, *words):
-    out = tmp_path / "out.json"
-    code = batch.main(in_process("measure", "--output", out, *words), channel=2, file_needed=True)
-    return code, json.loads(out.read_text(encoding="utf-8"))
 
 
 def save(tmp_path, values):

@@ -12,11 +12,11 @@ from body_moments.command.findings import NEEDS_BLEND
 from body_moments.command.measure import bare
 from body_moments.command.supervisor import processes
 from body_moments.core.streams.stl import BY_COUNT, BY_WORD
-from body_moments.operators import batch
 
-from tests.blender.batch_files import codes, in_process, sentence
+from tests.blender.batch_files import codes, sentence
 from tests.close import close
 from tests.command.processes import script
+from tests.command.running import run
 from tests.core.bodies import inverted, soup, torus, without
 from tests.core.mesh_files import ply, stl, stl_text, write_large_torus
 from tests.records import valid
@@ -26,16 +26,6 @@ pytestmark = pytest.mark.usefixtures("scene")
 MEMORY_MB = 300  # The limit of a child, with Blender in it.
 
 FORMS = {"part.stl": stl, "part text.stl": stl_text, "part.ply": lambda part: ply(*part)}
-
-
-def run(tmp_path, *words):
-    out = tmp_path / "out.json"
-    code = batch.main(
-        in_process("measure", "--force", "--output", out, *words), channel=2, file_needed=True
-    )
-    document = json.loads(out.read_text(encoding="utf-8"))
-    assert valid(document)
-    return code, document
 
 
 def part(scale=0.1):
