@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 import zlib
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeAlias, TypeVar
 
@@ -33,10 +33,11 @@ from ..nurbs import (
     patches_size,
     reverse_curves,
 )
-from ..verdict import FileError, finding
+from ..verdict import FileError, MeasureError, finding
 from .findings import (
     CURVES_LEFT_OUT,
     SURFACE_DAMAGED,
+    SURFACE_TRIMMED,
     SURFACE_UNSUPPORTED,
     SURFACES_HIDDEN,
 )
@@ -60,7 +61,7 @@ from .surfaces import (
     is_storable,
     placed_surface,
 )
-from .trimmed import Boundary, first_region, trimmed_faces, within
+from .trimmed import face_within, flat_region, lifted, patch_sides
 
 TURNING = 3.0  # the norm of a matrix (3, 3) of ones
 MATRIX = 124
@@ -140,6 +141,16 @@ CURVES = {100, 102, 104, 106, 110, 112, 116, 126, 130}  # Curves and points, whi
 PARAMETER_CURVE = 142
 Value = TypeVar("Value")
 Pair: TypeAlias = tuple[Value, Value]
+
+
+@dataclass(frozen=True, eq=False)
+class Boundary:
+    """A closed boundary of a face: its curves in space, and in the surface's parameters; None if
+    they are unknown.
+    """
+
+    curves: list[Curve] | None
+    parameters: list[Curve] | None = None
 
 
 class IgesReader:
@@ -346,11 +357,11 @@ class IgesReader:
             entry = self._entry(pointer, PARAMETER_CURVE)
         except (ValueError, LookupError):
             return Boundary(None, None)
-        _, surface, by_parameters, in_space, preferred = integers(self._text.fields(entry), 5)
+        _, surface, by_parameters, in_space = integers(self._text.fields(entry), 4)
         if surface != base.number:
             return Boundary(None, None)
         space = self._curves.read(in_space, matrix @ self._matrix(entry))
-        return Boundary(space, self._curves.read(by_parameters, None), preferred == 1)
+        return Boundary(space, self._curves.read(by_parameters, None))
 
     def _bounded(self, entry: Entry, matrix: NDArray) -> list[Face]:
         """Return the faces of a surface within boundaries (141), the first of which is the outer
@@ -427,26 +438,23 @@ class IgesReader:
         of_edges = self._curves.rounding
         self._curves.rounding = 0.0
         if base.type in (PLANE, PLANE_SURFACE):
-            loops = [boundary.curves for boundary in boundaries] if has_outer else []
-            normal = self._plane_normal(base, matrix)
-            faces: list[Face] = [first_region([loops], normal, of_edges)]
+            loops = _loops(boundaries if has_outer else [Boundary(None)], None)
+            faces: list[Face] = [flat_region(loops, self._plane_normal(base, matrix), of_edges)]
         elif base.type in ANALYTIC:
             quadric, moved, tilt, has_seam = self._quadric(base, matrix)
             degrees = np.diag([TURN / 360.0, TURN / 360.0 if quadric.minor else 1.0, 1.0, 1.0])
-            faces = within(
-                quadric,
-                [
-                    Boundary(one.curves, [curve.transform(degrees) for curve in one.parameters])
-                    if one.parameters and has_seam
-                    else Boundary(one.curves)
-                    for one in boundaries
-                ],
-                rounding=self._rounding,
-            )
+            in_degrees = [
+                replace(
+                    one, parameters=[curve.transform(degrees) for curve in one.parameters or ()]
+                )
+                for one in boundaries
+            ]
+            loops = _loops(in_degrees, quadric if has_seam else None)
+            faces = [face_within(quadric, loops, self._rounding)]
             # A turn moves a sphere along itself, and a torus or a cylinder as it is long.
             reach = quadric.radius if quadric.minor or quadric.slope else 0.0
             if not quadric.minor:
-                points = np.concatenate([face.points.reshape(-1, 3) for face in faces])
+                points = faces[0].points.reshape(-1, 3)
                 reach += float(np.abs(quadric.project(points)[:, 1]).max())
             self._rounding = max(self._rounding, moved + (tilt + turning) * reach)
         elif base.type in SWEPT:
@@ -455,18 +463,10 @@ class IgesReader:
             self._rounding = max(self._rounding, moved)
             surface = surface.transform(matrix)
             # Parameters of other surfaces than splines are those of no exact form.
-            in_space = [replace(one, parameters=None) if one.curves else one for one in boundaries]
-            domain = surface.spaces[0].domain, surface.spaces[1].domain
-            faces = trimmed_faces(
-                surface,
-                domain,
-                bezier_surface(surface, (None, None), False),
-                in_space,
-                has_outer,
-                self._rounding,
-                quadric and quadric.transform(matrix),
-                lifts=False,
-            )
+            whole = quadric.transform(matrix) if quadric else None
+            patches = bezier_surface(surface, (None, None), False)
+            in_space = [replace(one, parameters=None) for one in boundaries]
+            faces = _trimmed_faces(whole, patches, in_space, has_outer, self._rounding)
         elif base.type != SURFACE:
             raise SurfaceRefusedError(
                 SURFACE_UNSUPPORTED, base=NAMES.get(base.type, str(base.type))
@@ -477,15 +477,8 @@ class IgesReader:
             surface = placed_surface(knots, orders, points, weights, matrix)
             reach = float(lengths(surface.points - matrix[:3, 3]).max())
             rounding = self._note_rounding(fields, surface, matrix) + turning * reach
-            faces = trimmed_faces(
-                surface,
-                domain,
-                bezier_surface(surface, domain, False),
-                boundaries,
-                has_outer,
-                rounding,
-                None,
-            )
+            patches = bezier_surface(surface, domain, False)
+            faces = _trimmed_faces(surface, patches, boundaries, has_outer, rounding)
         if any(isinstance(face, FlatFace) for face in faces):
             # Its plane is that of its edges; other edges only part one surface from another.
             self._rounding = max(self._rounding, of_edges)
@@ -592,6 +585,54 @@ class IgesReader:
         return np.linalg.solve(matrix[:3, :3].T, numbers(fields[:3])) * np.sign(
             np.linalg.det(matrix[:3, :3])
         )
+
+
+def _loops(boundaries: Sequence[Boundary], surface: Patch | Quadric | None) -> list[list[Curve]]:
+    """Return the curves of boundaries in space, through points of the surface of their parameters
+    if they are known in these alone; SurfaceRefusedError if they are not known at all.
+    """
+    loops = [
+        one.curves or (lifted(surface, one.parameters) if surface and one.parameters else [])
+        for one in boundaries
+    ]
+    if not all(loops):
+        raise SurfaceRefusedError(SURFACE_TRIMMED)
+    return loops
+
+
+def _trimmed_faces(
+    surface: Patch | Quadric | None,
+    patches: Sequence[Patch],
+    boundaries: Sequence[Boundary],
+    has_outer: bool,
+    rounding: float,
+) -> list[Face]:
+    """Return the faces of a surface within boundaries.
+
+    surface: of the boundaries' parameters, or the quadric that the patch is a part of. patches: the
+    used part of the surface, in one piece unless it may be torn. has_outer: False if the outer
+    boundary is that of the patch. rounding: largest effect of the file's decimals on a point.
+    """
+    if not boundaries:
+        return [*patches]
+    if len(patches) > 1:
+        raise SurfaceRefusedError(SURFACE_TRIMMED)
+    (patch,) = patches
+    around, seams = patch_sides(patch)
+    outer = [] if has_outer else [around]
+    choices: list[tuple[Patch | Quadric, Sequence[Boundary]]] = [(patch, boundaries)]
+    if isinstance(surface, Quadric):
+        choices.insert(0, (surface, boundaries))
+    elif surface and all(one.curves and one.parameters for one in boundaries):
+        choices.append((patch, [replace(one, curves=None) for one in boundaries]))
+    faults = []
+    for base, some in choices:
+        try:
+            # A face that goes beyond a seam of its surface has this seam among its boundaries.
+            return [face_within(base, [*outer, *_loops(some, surface)], rounding, seams)]
+        except MeasureError as error:
+            faults.append(error)
+    raise faults[0]
 
 
 def _join_curves(parts: Sequence[list[Curve] | None]) -> list[Curve] | None:

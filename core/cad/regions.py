@@ -16,12 +16,24 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..numerics import Array, NDArray, spread_directions
-from ..nurbs import Curve, Quadric, SplineChart, TrimmedFace, reverse_curves, sample_pieces
-from .findings import SURFACE_DAMAGED, SURFACE_TRIMMED
-from .surfaces import SurfaceRefusedError
+from ..nurbs import (
+    Curve,
+    Patch,
+    Quadric,
+    SplineChart,
+    TrimmedFace,
+    close_pairs,
+    patches_size,
+    reverse_curves,
+    sample_pieces,
+)
+from ..verdict import WELDING_RTOL
+from .findings import SURFACE_TRIMMED
+from .surfaces import SurfaceRefusedError, refuse
 
 CLEAR_RTOL = 1e-3  # relative to the size: a point so far from loops is on one side of them
 SEAM_RTOL = 1e-6  # relative to the size: curves so near run along each other
+TRIM_RTOL = 1e-7  # float32 rounding: distance of parameters from the domain, relative to it
 MISS_RTOL = 1e-3  # relative to the size: a curve beyond this distance is not on the surface
 POLE_RTOL = 1e-9  # relative to the size: the slope by the angle at a pole
 MIN_CLEARANCE = (
@@ -63,20 +75,23 @@ def curved_region(
     loops: Sequence[Sequence[Curve]],
     rounding: float,
     beyond: NDArray | None,
-) -> TrimmedFace:
-    """Return the region of a surface within loops; SurfaceRefusedError if they bound none.
+) -> TrimmedFace | Patch:
+    """Return the region of a surface within loops, the patch itself if they follow its boundary;
+    SurfaceRefusedError if they bound none.
 
     beyond: (n, 3) points outside of the region; None if loops run with the region on their left.
     """
     curves = [curve for loop in loops for curve in loop]
-    box = np.concatenate([curve.points for curve in curves])
-    size = float(np.linalg.norm(np.ptp(box, axis=0)))
+    box = np.concatenate([np.zeros((0, 3)), *(curve.points for curve in curves)])
+    size = float(np.linalg.norm(np.ptp(box, axis=0))) if curves else 0.0
     near = SEAM_RTOL * size + 4.0 * rounding
     curves = [one for one in curves if np.ptp(one.points, axis=0).max() > near]
     counts = np.cumsum([len(curve.space.spans) for curve in curves])
     pieces = np.split(sample_pieces(curves), counts[:-1]) if curves else []
     samples = [row.reshape(-1, 3) for row in pieces]
     kept, seams = _without_seams(samples, near)
+    if not (kept or chart.is_closed):
+        raise SurfaceRefusedError(SURFACE_TRIMMED)
     chains = _chains(samples, kept, MISS_RTOL * size + 4.0 * rounding)
     if isinstance(chart, Quadric) and chart.is_closed and not chart.radius:
         chart = _away_from_poles(chart, samples, kept)
@@ -89,7 +104,7 @@ def curved_region(
         tracks.append(track)
         deviation = max(deviation, distance)
     if deviation > MISS_RTOL * size + 10.0 * rounding:
-        raise SurfaceRefusedError(SURFACE_DAMAGED, fault="an edge that misses its surface")
+        raise refuse("an edge that misses its surface")
     turns = np.array([track.turns for track in tracks]).reshape(-1, 2)
     if turns.any(axis=0).all():
         raise SurfaceRefusedError(SURFACE_TRIMMED)
@@ -100,6 +115,8 @@ def curved_region(
         apart = np.linalg.norm(beyond[:, None] - around, axis=2).min(axis=1, initial=np.inf)
         beyond = beyond[apart > CLEAR_RTOL * size]
     tracks, base, whole = _oriented(chart, tracks, axis, witness, beyond, size)
+    if isinstance(chart, SplineChart) and _follow_sides(chart, tracks, rounding):
+        return chart.patch
     lines = np.concatenate([np.zeros((0, 2, 2)), *(track.lines for track in tracks), *whole])
     return TrimmedFace(
         chart,
@@ -112,45 +129,53 @@ def curved_region(
     )
 
 
+def _follow_sides(chart: SplineChart, tracks: Sequence[Track], rounding: float) -> bool:
+    """Return whether loops run along the boundary of a patch."""
+    if not tracks:
+        return True
+    places = np.concatenate([track.pieces.reshape(-1, 2) for track in tracks])
+    ends = np.array([space.domain for space in chart.patch.spaces])
+    away = np.abs(places[:, :, None] - ends) / np.ptp(ends, axis=1)[:, None]
+    away[:, np.array(chart.periods) > 0.0] = np.inf
+    axis, end = np.divmod(away.reshape(-1, 4).argmin(axis=1), 2)
+    on_side = places.copy()
+    np.put_along_axis(on_side, axis[:, None], ends[axis, end][:, None], axis=1)
+    apart = np.subtract(*(chart.evaluate(*row.T)[0] for row in (places, on_side)))
+    tolerance = WELDING_RTOL * patches_size([chart.patch]) + 4.0 * rounding
+    return bool(np.linalg.norm(apart, axis=0).max() <= tolerance)
+
+
 def _without_seams(samples: Sequence[NDArray], near: float) -> tuple[list[int], list[int]]:
     """Return the indices of curves that no other curve runs backward, and of one of each pair of
     others.
     """
-    kept, seams = [], []
     ends = np.array([row[[0, -1]] for row in samples]).reshape(-1, 2, 3)
-    left = np.ones(len(samples), bool)
-    for k, row in enumerate(samples):
-        if not left[k]:
-            continue
-        left[k] = False
-        near_ends = left & (np.abs(ends - ends[k, ::-1]).max(axis=(1, 2)) <= near)
-        for j in np.flatnonzero(near_ends).tolist():
-            if len(samples[j]) == len(row) and np.abs(samples[j] - row[::-1]).max() <= near:
-                left[j] = False
-                seams.append(k)
-                break
-        else:
-            kept.append(k)
-    return kept, seams
+    keys = np.concatenate([ends.sum(axis=1), np.abs(ends[:, 0] - ends[:, 1])], axis=1)
+    kept = dict.fromkeys(range(len(samples)))
+    seams = []
+    for k, j in sorted(zip(*map(np.ndarray.tolist, close_pairs(keys, 2.0 * near)))):
+        is_open = k in kept and j in kept and len(samples[k]) == len(samples[j])
+        if is_open and np.abs(samples[j] - samples[k][::-1]).max() <= near:
+            del kept[k], kept[j]
+            seams.append(k)
+    return list(kept), seams
 
 
 def _chains(samples: Sequence[NDArray], kept: Sequence[int], near: float) -> list[list[int]]:
     """Return closed loops of curves, each of which begins where the one before ends."""
-    left = list(kept)
+    begins, ends = np.array([samples[k][[0, -1]] for k in kept]).reshape(-1, 2, 3).swapaxes(0, 1)
+    left = np.ones(len(kept), bool)
     chains = []
-    while left:
-        chain = [left.pop(0)]
+    while left.any():
+        chain = [int(left.argmax())]
         # An edge may be shorter than the tolerance.
-        while True:
-            ends = [chain[0], *left]
-            gaps = [np.linalg.norm(samples[chain[-1]][-1] - samples[k][0]) for k in ends]
-            nearest = int(np.argmin(gaps))
-            if gaps[nearest] > near:
-                raise SurfaceRefusedError(SURFACE_DAMAGED, fault="a loop that does not close")
-            if nearest == 0:
-                break
-            chain.append(left.pop(nearest - 1))
-        chains.append(chain)
+        while left[chain[0]]:
+            gaps = np.where(left, np.linalg.norm(begins - ends[chain[-1]], axis=1), np.inf)
+            chain.append(int(gaps.argmin()))
+            if gaps[chain[-1]] > near:
+                raise refuse("a loop that does not close")
+            left[chain[-1]] = False
+        chains.append([kept[k] for k in chain[:-1]])
     return chains
 
 

@@ -26,8 +26,8 @@ from ..verdict import WELDING_RTOL, FileError, finding
 from .findings import SURFACE_DAMAGED, SURFACES_HIDDEN
 from .iges_entities import MAX_DEPTH
 from .part21 import Part21, Reference
-from .step_shapes import MISSING, EntityError, Shapes, blame, refuse
-from .surfaces import Refusals, SurfaceBody, SurfaceFile
+from .step_shapes import MISSING, EntityError, Shapes, blame
+from .surfaces import Refusals, SurfaceBody, SurfaceFile, refuse
 
 SOLIDS = (
     "MANIFOLD_SOLID_BREP",
@@ -373,7 +373,7 @@ class StepReader:
         self._uses.clear()
         for one in values[1]:
             with self._noting(one):
-                faces += self._face(one, outward)
+                faces.append(self._face(one, outward))
         single = [self._edges[edge] for edge, uses in self._uses.items() if uses == 1]
         if name == "CLOSED_SHELL" and self._is_whole and single:
             middles = np.array([curves[len(curves) // 2].samples(2)[1] for curves in single])
@@ -383,7 +383,7 @@ class StepReader:
                     raise refuse("a face that is missing")
         return faces
 
-    def _face(self, number: int, outward: bool) -> list[Face]:
+    def _face(self, number: int, outward: bool) -> Face:
         _, (_, bounds, surface, same, *_) = self._shapes.pick(
             number, ("ADVANCED_FACE", "FACE_SURFACE")
         )
@@ -392,8 +392,8 @@ class StepReader:
             _, (_, loop, ahead) = self._shapes.pick(bound, ("FACE_OUTER_BOUND", "FACE_BOUND"))
             with blame(loop):
                 loops.append(self._loop(loop, ahead == same))
-        faces = self._shapes.faces(surface, [loop for loop in loops if loop])
-        return [face if same == outward else face.reverse_orientation() for face in faces]
+        face = self._shapes.face(surface, [loop for loop in loops if loop])
+        return face if same == outward else face.reverse_orientation()
 
     def _loop(self, number: int, is_ahead: bool) -> list[Curve]:
         """Return the curves of a loop, end to end; none for a vertex."""

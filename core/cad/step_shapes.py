@@ -32,8 +32,8 @@ from .iges_entities import MAX_ARC, MAX_DEPTH
 from .iges_sweeps import TURN, join_pieces, revolve, revolved_quadric, rule
 from .part21 import Part21, Reference
 from .regions import MISS_RTOL
-from .surfaces import SurfaceRefusedError, bezier_surface, placed_surface
-from .trimmed import Boundary, faces_away, flat_region, within
+from .surfaces import SurfaceRefusedError, bezier_surface, placed_surface, refuse
+from .trimmed import face_within, flat_region
 
 UNCERTAINTIES = 20.0  # A vertex may be so many uncertainties of the file from its curve.
 SAMPLES = 257  # points of a spline where the search for the parameters of vertices begins
@@ -64,11 +64,6 @@ def blame(number: int) -> Iterator[None]:
         is_missing = isinstance(error, KeyError) and isinstance(error.args[0], Reference)
         fault = MISSING if is_missing else "numbers that are missing or not possible"
         raise EntityError(number, SURFACE_DAMAGED, {"fault": fault}) from error
-
-
-def refuse(fault: str) -> SurfaceRefusedError:
-    """Return the refusal of an entity for a fault."""
-    return SurfaceRefusedError(SURFACE_DAMAGED, fault=fault)
 
 
 class Shapes:
@@ -184,20 +179,15 @@ class Shapes:
             curves[k] = replace(curves[k], points=points)
         return curves
 
-    def faces(self, number: int, loops: list[list[Curve]]) -> Sequence[Face]:
-        """Return the faces of a surface within loops, with its normal."""
+    def face(self, number: int, loops: list[list[Curve]]) -> Face:
+        """Return the face of a surface within loops, with its normal."""
         surface = self.surface(number, loops)
         if isinstance(surface, np.ndarray):
-            return [flat_region(loops, surface)]
-        is_turned = False
-        if isinstance(surface, tuple):
-            surface, is_turned = surface
-            loops = [reverse_curves(loop) for loop in loops] if is_turned else loops
-        faces = within(surface, [Boundary(loop, None) for loop in loops], rounding=self.gap)
-        return [face.reverse_orientation() for face in faces] if is_turned else faces
+            return flat_region(loops, surface)
+        return face_within(surface, loops, self.gap)
 
     def surface(self, number: int, loops: list[list[Curve]]) -> Any:
-        """Return a plane's normal, a patch, or a quadric, alone or with True if it faces inward."""
+        """Return a plane's normal, a patch, or a quadric."""
         name, values = self.pick(number, (*_SURFACES, "RECTANGULAR_TRIMMED_SURFACE"))
         with self._nested():
             if name in _SURFACES:
@@ -383,8 +373,8 @@ def _cone(shapes: Shapes, _: Any, values: list[Any], loops: list[list[Curve]]) -
 
 
 def _torus(shapes: Shapes, parts: Any, values: list[Any], loops: list[list[Curve]]) -> Any:
-    """Return a torus. Where its tube crosses the axis: the part where its boundary is, and True if
-    this is the inner one, which faces inward.
+    """Return a torus, or the part where its boundary is if its tube crosses the axis; the inner
+    one faces inward.
     """
     torus = _quadric_of(3)(shapes, parts, values, loops)
     inner = replace(torus, radius=-torus.radius)
@@ -398,7 +388,7 @@ def _torus(shapes: Shapes, parts: Any, values: list[Any], loops: list[list[Curve
             for one in (torus, inner)
         ]
         is_inner = apart[1] < apart[0]
-    return (inner, True) if is_inner else torus
+    return inner.reverse_orientation() if is_inner else torus
 
 
 def _offset(shapes: Shapes, _: Any, values: list[Any], loops: list[list[Curve]]) -> Any:
@@ -457,10 +447,8 @@ def _revolution(shapes: Shapes, _: Any, values: list[Any], loops: list[list[Curv
     is_flat = np.abs(spokes - np.outer(along, widest)).max() < 1e-9 * np.linalg.norm(widest)
     if is_flat and along.min() < -1e-9:
         raise refuse("a curve that crosses the axis it turns about")
-    # The angle is the first parameter.
-    swept = revolve(profile, begin, axis, 0.0, TURN).reverse_orientation()
-    quadric = revolved_quadric(profile, begin, axis)
-    return swept if quadric is None else (quadric, faces_away(quadric, swept))
+    swept = revolved_quadric(profile, begin, axis) or revolve(profile, begin, axis, 0.0, TURN)
+    return swept.reverse_orientation()  # The angle is the first parameter.
 
 
 _SPLINES = (

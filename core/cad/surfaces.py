@@ -81,6 +81,11 @@ class SurfaceRefusedError(MeasureError):
     """A surface that cannot be kept: a finding without the surface's kind and name."""
 
 
+def refuse(fault: str) -> SurfaceRefusedError:
+    """Return the refusal of a surface or another entity for a fault."""
+    return SurfaceRefusedError(SURFACE_DAMAGED, fault=fault)
+
+
 @dataclass
 class Refusals:
     """Surfaces that could not be kept, gathered by reason and kind."""

@@ -3,6 +3,7 @@
 
 from typing import Any
 
+from .bezier import halves as halves
 from .blender_knots import bezier_curves as bezier_curves
 from .blender_knots import bezier_patches as bezier_patches
 from .blender_knots import bezier_space as bezier_space
@@ -40,6 +41,8 @@ from .splines import patches_size as patches_size
 from .splines import reverse_curves as reverse_curves
 from .tracked_solid import TrackedSolid as TrackedSolid
 from .trimmed_face import TrimmedFace as TrimmedFace
+from .trimmed_face import bezier_nets as bezier_nets
+from .trimmed_face import evaluate_nets as evaluate_nets
 from .trimmed_face import sample_pieces as sample_pieces
 
 __all__ = [

@@ -82,16 +82,16 @@ def find_topology(patches: Sequence[Face], tolerance: float) -> PatchTopology:
     around_patches = [patch.sides for patch in patches]
     curves = [curve for around in around_patches for curve, _ in around]
     owner = np.repeat(np.arange(len(patches)), list(map(len, around_patches)))
-    forward = np.array([ahead for around in around_patches for _, ahead in around])
+    forward = np.array([ahead for around in around_patches for _, ahead in around], bool)
     number_of = np.arange(len(curves))
-    sides = join_sides(curves, owner, forward, tolerance)
+    sides = join_sides(curves, owner, forward, len(patches), tolerance)
     pieces = cut_open_sides(curves, sides, tolerance)
     if pieces:
         counts = np.array(list(map(len, pieces)))
         cut_owner = np.repeat(owner, counts)
         cut_forward = np.repeat(forward, counts)
         cut_curves = [curve for row in pieces for curve in row]
-        cut_sides = join_sides(cut_curves, cut_owner, cut_forward, tolerance)
+        cut_sides = join_sides(cut_curves, cut_owner, cut_forward, len(patches), tolerance)
         if cut_sides.open_length < sides.open_length - tolerance:
             curves = cut_curves
             owner = cut_owner

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -17,7 +17,8 @@ TURN = 2.0 * math.pi
 
 @dataclass(frozen=True, eq=False)
 class Quadric:
-    """A whole surface of revolution of a line or a circle; its normal points away from them.
+    """A whole surface of revolution of a line or a circle; its normal points away from them, or
+    toward them if the frame is left-handed.
 
     frame: (4, 4), third axis: that of the surface. radius: of a cylinder, of a cone at the origin,
     or from a torus' axis to its tube; 0 for a sphere. minor: radius of a sphere or a tube, 0 for a
@@ -62,7 +63,11 @@ class Quadric:
 
     def transform(self, matrix: NDArray) -> Quadric:
         """Return the image of the surface under a (4, 4) affine map."""
-        return Quadric(np.asarray(matrix) @ self.frame, self.radius, self.minor, self.slope)
+        return replace(self, frame=np.asarray(matrix) @ self.frame)
+
+    def reverse_orientation(self) -> Quadric:
+        """Return the same surface facing the other way, its angle running backward."""
+        return replace(self, frame=self.frame @ np.diag([1.0, -1.0, 1.0, 1.0]))
 
     def evaluate(self, u: NDArray, v: NDArray, most: int = 1) -> list[Array]:
         """Return (3, ...) points at coordinates, derivatives by u and v, and if most = 2 by uu, uv

@@ -58,17 +58,19 @@ class Sides:
     non_manifold: int
 
 
-def join_sides(curves: Sequence[Curve], owner: Index, forward: Mask, tolerance: float) -> Sides:
+def join_sides(
+    curves: Sequence[Curve], owner: Index, forward: Mask, patches: int, tolerance: float
+) -> Sides:
     """Find the sides that coincide. owner: (n,) patch of each side; forward: (n,) whether the patch
-    is on its left.
+    is on its left. patches: their number; a closed surface has no side.
     """
     count = max([SAMPLES_PER_SIDE] + [2 * len(curve.space.spans) + 1 for curve in curves])
-    points = np.array([curve.uniform(count) for curve in curves])
+    points = np.array([curve.uniform(count) for curve in curves]).reshape(-1, count, 3)
     length = np.linalg.norm(np.diff(points, axis=1), axis=2).sum(axis=1)
     free = np.linalg.norm(points - points[:, :1], axis=2).max(axis=1) > tolerance
     coincident = _coincident_sides(curves, points, np.flatnonzero(free), tolerance)
     times = np.bincount(np.array([side for _, i, j, _ in coincident for side in (i, j)], np.intp))
-    pairs, turned = _pair_sides(coincident, times, points, owner, forward)
+    pairs, turned = _pair_sides(coincident, times, points, owner, forward, patches)
     gap, left, right, same = np.array(pairs, np.float64).reshape(-1, 4).T
     left = left.astype(np.intp)
     right = right.astype(np.intp)
@@ -176,6 +178,7 @@ def _pair_sides(
     points: NDArray,
     owner: Index,
     forward: Mask,
+    count: int,
 ) -> tuple[list[tuple[float, int, int, bool]], Mask]:
     """Return the joined pairs, and a (patches,) mask of the ones to turn. times: number of pairs
     with each side.
@@ -185,7 +188,6 @@ def _pair_sides(
     no patch is turned needlessly. Among equal pairs the sharpest angle comes first; patches that
     lie on each other come last.
     """
-    count = int(owner.max()) + 1
     part = list(range(count))
     odd = [False] * count
     size = [1] * count
@@ -200,8 +202,9 @@ def _pair_sides(
     pairs = []
     used = np.zeros(len(owner), bool)
     middles = points.mean(axis=1)
-    sums = np.add.reduceat(middles, np.flatnonzero(np.diff(owner, prepend=-1)), axis=0)
-    arms = (sums / np.bincount(owner)[:, None])[owner] - middles
+    sums = np.zeros((count, 3))
+    np.add.at(sums, owner, middles)
+    arms = (sums[owner] / np.bincount(owner)[owner, None]) - middles
     arms /= np.maximum(np.linalg.norm(arms, axis=1), 1e-300)[:, None]
 
     def angle(pair: tuple[float, int, int, bool]) -> float:

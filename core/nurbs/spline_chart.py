@@ -137,9 +137,10 @@ class SplineChart:
         return _solve(along, across, velocity.T, np.stack([dot(away, one) for one in second]))
 
     def _nearest_samples(self, points: NDArray) -> Array:
-        spaces = self.patch.spaces
-        rows = [space.uniform_parameters(SAMPLES_PER_SPAN) for space in spaces]
-        grid = self.patch.samples(SAMPLES_PER_SPAN).reshape(-1, 3)
+        ends = [space.uniform_parameters(SAMPLES_PER_SPAN) for space in self.patch.spaces]
+        # Not at the ends: from a pole no step leads to another meridian.
+        rows = [(row[1:] + row[:-1]) / 2.0 for row in ends]
+        grid = self.patch.evaluate_grid(*rows).reshape(-1, 3)
         step = max(1, POINTS_PER_BLOCK // len(grid))
         nearest = np.concatenate(
             [

@@ -29,6 +29,7 @@ import numpy as np
 
 from ..moments.moments import Measure, Moments, U, monomials
 from ..numerics import Array, Index, NDArray, SplineSpace, cross, gauss_legendre
+from ..verdict import WELDING_RTOL
 from .bezier import ROUNDING, VOLUME_RTOL
 from .patch_moments import AREA_RTOL, area_slope, area_terms, flux_terms, sheet_terms
 from .quadric import Quadric
@@ -144,10 +145,14 @@ class TrimmedFace:
 
     @property
     def uneven(self) -> float:
-        """A bound of the volume that the edges' distance from the surface leaves uncertain: true
-        edges of surfaces that touch there are as far off as the root of distance times size.
+        """A bound of the volume that the edges' distance from the surface leaves uncertain.
+
+        Surfaces meet beside edges near them, at most at the root of distance times size if they
+        touch there. Of edges farther off, either the edges or the surfaces may be right.
         """
-        return self.deviation * self.perimeter * float(np.sqrt(self.deviation * self._size))
+        is_near = self.deviation <= WELDING_RTOL * self._size
+        lever = np.sqrt(self.deviation * self._size) if is_near else self._size / 2.0
+        return self.deviation * self.perimeter * float(lever)
 
     @property
     def _size(self) -> float:
@@ -455,7 +460,7 @@ class TrimmedFace:
             track = self.tracks[part[:, None], left] * (1.0 - share)
             track += self.tracks[part[:, None], left + 1] * share
             nets, origin = self._nets
-            on_curve = _evaluate(nets[part], steps, origin)
+            on_curve = evaluate_nets(nets[part], steps, origin)
             points, velocity = (row.reshape(3, -1).T for row in on_curve)
             place = self.chart.project(points, track.reshape(-1, 2))
             slope = self.chart.follow(points, velocity, place)
@@ -509,10 +514,10 @@ def sample_pieces(curves: Sequence[Curve]) -> Array:
     """Return (c, SAMPLES, 3) points of the Bézier pieces of curves."""
     nets, origin = bezier_nets(curves)
     at = np.broadcast_to(np.linspace(0.0, 1.0, SAMPLES), (len(nets), SAMPLES))
-    return np.moveaxis(_evaluate(nets, at, origin)[0], 0, -1)
+    return np.moveaxis(evaluate_nets(nets, at, origin)[0], 0, -1)
 
 
-def _evaluate(nets: NDArray, at: NDArray, origin: NDArray) -> tuple[Array, Array]:
+def evaluate_nets(nets: NDArray, at: NDArray, origin: NDArray) -> tuple[Array, Array]:
     """Return (3, n, m) points and velocities of Bézier curves (n, order, 4), at (n, m) parameters
     from 0 to 1.
     """

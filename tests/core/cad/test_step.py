@@ -199,6 +199,16 @@ def test_step_part_with_another_entity_measures_the_same(tmp_path, kind):
     assert error <= 1e-9 * truth or kind == "ends off their curve"
 
 
+def test_bound_covers_both_readings_of_edges_beside_a_surface(tmp_path):
+    text, count = re.subn(r"(CYLINDRICAL_SURFACE\('',#\d+,)5\.", r"\g<1>5.001", TEXTS["cylinder"])
+    (body,) = read(tmp_path, text).bodies
+    volume = measure_patches(body.patches, stored=body.rounding).volume
+    bound = (volume.rounding_error + volume.input_error)[0]
+    assert count == 1 and bound < 2e-3 * volume.total
+    for radius in (5.0, 5.001):
+        assert abs(volume.total - 20.0 * PI * radius**2) <= bound
+
+
 def test_torus_across_its_axis_is_the_part_that_the_file_names(tmp_path):
     sphere = r"SPHERICAL_SURFACE\('',(#\d+),5\.\)"
     for way, radius in (("T", 2.0), ("F", -2.0)):  # the outer part, and the inner one
