@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Registration of the modules of a subpackage, such as `operators`.
 
-A module has tables: CLASSES in the order of registration; POINTERS, groups of settings by Blender's
-type and the name of their property; MENUS, Blender's menus with functions that draw in them. The
-rest is done by functions `register`, which follows the tables, and `unregister`, which precedes
-them.
+The classes that a module defines are registered in their order, then those that it makes, its
+CLASSES. The idname of an operator follows from the name of its class, and its tooltip is the
+docstring. Further tables are POINTERS, groups of settings by Blender's type and the name of their
+property, and MENUS, Blender's menus with functions that draw in them. The rest is done by functions
+`register`, which follows the tables, and `unregister`, which precedes them.
 """
 
 from collections.abc import Iterable
@@ -15,6 +16,7 @@ from types import ModuleType
 
 import bpy
 from bpy.props import PointerProperty
+from bpy.types import Operator, bpy_struct
 
 
 def register_modules(package: str, names: Iterable[str]) -> None:
@@ -35,9 +37,25 @@ def unregister_modules(package: str, names: Iterable[str]) -> None:
         _unregister(import_module("." + name, package))
 
 
+def classes_of(module: ModuleType) -> list[type]:
+    """Return the classes that a module registers, in their order."""
+    defined = [
+        value
+        for value in vars(module).values()
+        if isinstance(value, type)
+        and issubclass(value, bpy_struct)
+        and value.__module__ == module.__name__
+    ]
+    return list(dict.fromkeys((*defined, *getattr(module, "CLASSES", ()))))
+
+
 def _register(module: ModuleType) -> None:
     with ExitStack() as undo:
-        for cls in getattr(module, "CLASSES", ()):
+        for cls in classes_of(module):
+            if issubclass(cls, Operator) and "bl_idname" not in vars(cls):
+                category, name = cls.__name__.split("_OT_")
+                cls.bl_idname = "{:s}.{:s}".format(category.lower(), name)
+                cls.bl_description = " ".join(cls.__doc__.split())
             bpy.utils.register_class(cls)
             undo.callback(bpy.utils.unregister_class, cls)
         for (owner, name), group in getattr(module, "POINTERS", {}).items():
@@ -58,5 +76,5 @@ def _unregister(module: ModuleType) -> None:
         menu.remove(draw)
     for owner, name in getattr(module, "POINTERS", {}):
         delattr(owner, name)
-    for cls in reversed(getattr(module, "CLASSES", ())):
+    for cls in reversed(classes_of(module)):
         bpy.utils.unregister_class(cls)

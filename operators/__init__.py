@@ -12,7 +12,7 @@ MODULES = (
         "measure." + name
         for name in ("measure_selected", "moments", "select_faults", "copy", "library", "fourier")
     ),
-    *("snap.frames", "snap.sculpt_balance", "snap.make_it_stand"),
+    *("snap.frames", "snap.balance"),
     *("statics", "floating", "cuts"),
     *("export." + name for name in ("robot", "audit")),
     "rig",

@@ -9,12 +9,11 @@ from pathlib import Path
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
-from bpy.types import Context, Event, Operator
+from bpy.types import Context, Operator
+from bpy_extras.io_utils import ExportHelper
 from mathutils import Matrix
 
-from ..blender import bodies, read, scale, scene, session
-from ..blender.settings.assembly import Root, active_assembly, is_assembly
-from ..blender.write import properties, reports
+from ..blender import bodies, read, scale, scene, session, settings, write
 from ..core.verdict import EditRefusedError, MeasureError, Procedure, Severity, of_severity
 from . import modal, selection
 from .findings import NO_ACTIVE_ASSEMBLY
@@ -35,12 +34,12 @@ TARGET = EnumProperty(
 )
 
 
-def target_of(context: Context, target: str) -> Root:
+def target_of(context: Context, target: str) -> settings.assembly.Root:
     """Return the assembly that an operator works on; raise MeasureError if there is none."""
     if target == "OF_OBJECT":
-        return active_assembly(context)
+        return settings.assembly.active_assembly(context)
     data = context.collection if target == "COLLECTION" else context.object
-    if data is None or target == "OBJECT" and not is_assembly(data):
+    if data is None or target == "OBJECT" and not settings.assembly.is_assembly(data):
         raise MeasureError(NO_ACTIVE_ASSEMBLY)
     return data
 
@@ -54,7 +53,6 @@ def measured_assembly(context: Context, target: str) -> "bodies.Assembly":
 class OBJECT_OT_body_moments_measure_assembly(modal.ModalSteps, Operator):
     """Measure all members of a collection or all children of an empty, and store the total"""
 
-    bl_idname = "object.body_moments_measure_assembly"
     bl_label = "Measure Assembly"
     MAX_AT_ONCE = selection.MAX_OBJECTS_WITHOUT_REDRAW
 
@@ -64,7 +62,7 @@ class OBJECT_OT_body_moments_measure_assembly(modal.ModalSteps, Operator):
         """Prepare the steps that measure the members; return the number of objects to measure."""
         depsgraph = context.evaluated_depsgraph_get()
         data = target_of(context, self.target)
-        properties.require_storable(data)
+        write.properties.require_storable(data)
         self._member = read.assembly.members_of(data, depsgraph)
         self._results: bodies.Results = {}
         self._steps = bodies.measure_members(self._member, depsgraph, self._results)
@@ -73,26 +71,26 @@ class OBJECT_OT_body_moments_measure_assembly(modal.ModalSteps, Operator):
     def _finish(self, context: Context) -> set[str]:
         assembly = bodies.assemble(self._member, self._results, context.evaluated_depsgraph_get())
         failures = session.stored.assembly.store(context, assembly)
-        findings = [*of_severity(assembly.measurement.findings, Severity.WARNING, Severity.ERROR)]
+        measurement = assembly.measurement
         done = [
-            reports.phrase(
+            write.reports.phrase(
                 "{assembly}: {mass:.7g} kg from {count} object",
                 "{assembly}: {mass:.7g} kg from {count} objects",
-                assembly=assembly.measurement.name,
+                assembly=measurement.name,
                 count=sum(part.measurement is not None for part in assembly.root.walk()),
-                mass=assembly.measurement.mass_properties.mass,
+                mass=measurement.mass_properties.mass,
             )
         ]
         if failures:
             names = [name for name, _ in failures]
-            done.append(reports.phrase("Results not stored on {names}.", names=names))
-        return selection.report(self, *done, *reports.first(findings))
+            done.append(write.reports.phrase("Results not stored on {names}.", names=names))
+        findings = of_severity(measurement.findings, Severity.WARNING, Severity.ERROR)
+        return selection.report(self, *done, *findings)
 
 
 class OBJECT_OT_body_moments_clear_assembly(Operator):
     """Remove the stored results of the assembly. Settings and results of members are kept"""
 
-    bl_idname = "object.body_moments_clear_assembly"
     bl_label = "Clear Assembly Results"
     bl_options = {"REGISTER", "UNDO"}
 
@@ -100,21 +98,13 @@ class OBJECT_OT_body_moments_clear_assembly(Operator):
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
-        return report_cleared(
-            self, context, session.stored.assembly.clear(target_of(context, self.target))
-        )
+        return report_cleared(self, session.stored.assembly.clear(target_of(context, self.target)))
 
 
-def report_cleared(operator: Operator, context: Context, is_cleared: bool) -> set[str]:
+def report_cleared(operator: Operator, is_cleared: bool) -> set[str]:
     """Report that results were removed, or that there were none; return the result of `execute`."""
-    texts = ("Removed the results of {count} object", "Removed the results of {count} objects")
-    done = (
-        reports.phrase(*texts, count=1)
-        if is_cleared
-        else reports.phrase("The selected objects have no results")
-    )
-    selection.report(operator, done)
-    return {"FINISHED"} if is_cleared else {"CANCELLED"}
+    text = "Removed the results of {count} object" if is_cleared else selection.NO_RESULTS
+    return selection.finish(operator, [write.reports.phrase(text, count=1)], is_changed=is_cleared)
 
 
 # ID property of an empty: the collection or empty whose frame it shows
@@ -140,7 +130,6 @@ class _SnapToAssembly:
 class VIEW3D_OT_body_moments_cursor_to_assembly(_SnapToAssembly, Operator):
     """Move the 3D cursor to the center of mass of the assembly"""
 
-    bl_idname = "view3d.body_moments_cursor_to_assembly"
     bl_label = "Cursor to Center of Assembly"
 
     rotate: BoolProperty(
@@ -153,7 +142,7 @@ class VIEW3D_OT_body_moments_cursor_to_assembly(_SnapToAssembly, Operator):
             turn_cursor(
                 context.scene.cursor, assembly.measurement.mass_properties.principal.axes.tolist()
             )
-        return reports.phrase(
+        return write.reports.phrase(
             "Moved the 3D cursor to the center of mass of “{assembly}”",
             assembly=assembly.measurement.name,
         )
@@ -162,7 +151,6 @@ class VIEW3D_OT_body_moments_cursor_to_assembly(_SnapToAssembly, Operator):
 class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
     """Add or move an empty at the assembly's center of mass, along its principal axes"""
 
-    bl_idname = "object.body_moments_assembly_empty"
     bl_label = "Add Empty at Assembly"
 
     def _place(self, context: Context, assembly: "bodies.Assembly", center: list[float]) -> str:
@@ -184,55 +172,43 @@ class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
         frame = Matrix(body.principal.axes.tolist()).to_4x4()
         frame.translation = center
         empty.matrix_world = frame
-        return reports.phrase(
+        return write.reports.phrase(
             "Placed an empty at the principal frame of “{assembly}”", assembly=root.name
         )
 
 
 class OBJECT_OT_body_moments_assembly_origin(_SnapToAssembly, Operator):
-    """Put the origin of the assembly at its center of mass."""
+    """Put the origin of the assembly at its center of mass: the offset of a collection's instances,
+    or the empty, whose children stay where they are
+    """
 
-    bl_idname = "object.body_moments_assembly_origin"
     bl_label = "Origin to Center of Assembly"
-    bl_description = (
-        "Put the origin of the assembly at its center of mass: the offset of a collection's "
-        "instances, or the empty, "
-        "whose children stay where they are"
-    )
 
     def _place(self, context: Context, assembly: "bodies.Assembly", center: list[float]) -> str:
         root = assembly.root.member.data
         if isinstance(root, bpy.types.Collection):
             scene.changes.require_editable(root)
             root.instance_offset = center
-            return reports.phrase(
+            return write.reports.phrase(
                 "Instances of “{assembly}” are placed by its center of mass", assembly=root.name
             )
         scene.move_parent(context, root, center)
-        if properties.is_stored(root):
+        if write.properties.is_stored(root):
             session.stored.assembly.store(context, measured_assembly(context, "OBJECT"))
-        return reports.phrase(
+        return write.reports.phrase(
             "Moved “{assembly}” to the center of mass; its children stay", assembly=root.name
         )
 
 
-class OBJECT_OT_body_moments_export_bill(Operator):
+class OBJECT_OT_body_moments_export_bill(Operator, ExportHelper):
     """Write masses, centers and inertia of an assembly's members as a table (.csv), in SI units"""
 
-    bl_idname = "object.body_moments_export_bill"
     bl_label = "Export Bill of Masses"
     bl_options = {"REGISTER"}
+    filename_ext = ".csv"
 
     target: TARGET
-    filepath: StringProperty(name="File Path", description="File to write", subtype="FILE_PATH")
-    check_existing: BoolProperty(name="Check Existing", default=True, options={"HIDDEN"})
     filter_glob: StringProperty(default="*.csv", options={"HIDDEN"})
-
-    def invoke(self, context: Context, event: Event) -> set[str]:
-        return selection.ask_for_table(self, context)
-
-    def check(self, _context: Context) -> bool:
-        return selection.ensure_suffix(self, ".csv")
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
@@ -246,14 +222,6 @@ class OBJECT_OT_body_moments_export_bill(Operator):
             "Wrote the masses of {count} member to “{file}”",
             "Wrote the masses of {count} members to “{file}”",
         )
-        return selection.report(self, reports.phrase(*texts, count=len(lines) - 2, file=path.name))
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_measure_assembly,
-    OBJECT_OT_body_moments_clear_assembly,
-    VIEW3D_OT_body_moments_cursor_to_assembly,
-    OBJECT_OT_body_moments_assembly_empty,
-    OBJECT_OT_body_moments_assembly_origin,
-    OBJECT_OT_body_moments_export_bill,
-)
+        return selection.report(
+            self, write.reports.phrase(*texts, count=len(lines) - 2, file=path.name)
+        )

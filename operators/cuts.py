@@ -2,30 +2,26 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Levels of liquids in vessels, and cut and fill of surfaces."""
 
-from collections.abc import Callable
-
 from bpy.props import EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Event, Object, Operator
 
-from ..blender.read.visibility import measurable
-from ..blender.scale import meters_per_unit
-from ..blender.session import memory, selected, stored
-from ..blender.write import reports
-from ..core.verdict import MeasureError
+from ..blender import scale, write
+from ..blender.session import memory, stored
 from . import selection
 
 
-class OnSubject(selection.OnSelectionInObjectMode):
-    """Base of operators on the object that the panel is about, after a dialog."""
-
-    execute: Callable[[Context], set[str]]
+class InObjectMode(selection.OnSubject):
+    """Base of operators on the object that the panel is about, in Object Mode."""
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        obj = selected.subject(context)
-        return super().poll(context) and (
-            (obj is not None and measurable(obj)) or reports.unavailable(cls, "Select a mesh")
-        )
+        return selection.poll_object_mode(cls, context) and super().poll(context)
+
+
+class WithDialog(InObjectMode):
+    """Base of operators on the object that the panel is about, after a dialog."""
+
+    NEEDED = "Select a mesh"
 
     def invoke(self, context: Context, _event: Event) -> set[str]:
         if context.window is None:
@@ -33,15 +29,12 @@ class OnSubject(selection.OnSelectionInObjectMode):
         return context.window_manager.invoke_props_dialog(self)
 
 
-class OBJECT_OT_body_moments_level(OnSubject, Operator):
-    """Compute the level of a liquid in the active object, or its contents up to a level."""
+class OBJECT_OT_body_moments_level(WithDialog, Operator):
+    """Compute the level of a volume or mass of liquid in the active vessel, or its contents up to a
+    level. The vessel may have a cavity, be open upward, or be one surface with a rim
+    """
 
-    bl_idname = "object.body_moments_level"
     bl_label = "Level"
-    bl_description = (
-        "Compute the level of a volume or mass of liquid in the active vessel, or its contents up "
-        "to a level. The vessel may have a cavity, be open upward, or be one surface with a rim"
-    )
 
     by: EnumProperty(
         name="Given",
@@ -79,33 +72,23 @@ class OBJECT_OT_body_moments_level(OnSubject, Operator):
     )
 
     def draw(self, _context: Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        layout.prop(self, "by")
-        layout.prop(self, self.by.lower())
-        layout.prop(self, "density")
+        selection.draw_properties(self, "by", self.by.lower(), "density")
 
-    def execute(self, context: Context) -> set[str]:
-        obj = selected.require_subject(context)
-        unit = meters_per_unit(context.scene)
+    def _change(self, context: Context, obj: Object) -> set[str]:
+        unit = scale.meters_per_unit(context.scene)
         amounts = {
             "VOLUME": self.volume * unit**3,
             "MASS": self.mass,
             "LEVEL": self.level * unit,
         }
-        try:
-            stored.cuts.fill_vessel(context, obj, self.by, amounts[self.by], self.density)
-        except MeasureError as error:
-            return selection.refuse(self, reports.failure(obj.name, error))
-        return selection.report(self, reports.phrase("Filled “{object}”", object=obj.name))
+        stored.cuts.fill_vessel(context, obj, self.by, amounts[self.by], self.density)
+        return selection.report(self, write.reports.phrase("Filled “{object}”", object=obj.name))
 
 
-class OBJECT_OT_body_moments_show_level(selection.OnSelectionInObjectMode, Operator):
-    """Add the surface of the liquid, or the table of its levels, as a mesh."""
+class OBJECT_OT_body_moments_show_level(InObjectMode, Operator):
+    """Add the liquid's surface, or the curve of volume and level, as a mesh object"""
 
-    bl_idname = "object.body_moments_show_level"
     bl_label = "Show Level"
-    bl_description = "Add the liquid's surface, or the curve of volume and level, as a mesh object"
 
     what: EnumProperty(
         name="Mesh",
@@ -116,16 +99,13 @@ class OBJECT_OT_body_moments_show_level(selection.OnSelectionInObjectMode, Opera
         ),
     )
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        obj = selected.subject(context)
-        return super().poll(context) and (
-            (obj is not None and obj in memory.levels)
-            or reports.unavailable(cls, "Compute a level first")
-        )
+    NEEDED = "Compute a level first"
 
-    def execute(self, context: Context) -> set[str]:
-        obj = selected.require_subject(context)
+    @classmethod
+    def suits(cls, obj: Object) -> bool:
+        return obj in memory.levels
+
+    def _change(self, context: Context, obj: Object) -> set[str]:
         level = stored.cuts.level_of(obj, context.scene)
         if level is None:
             return selection.refuse(self, "“{object}” has changed. Press Level", object=obj.name)
@@ -134,18 +114,15 @@ class OBJECT_OT_body_moments_show_level(selection.OnSelectionInObjectMode, Opera
             return selection.refuse(self, text, object=obj.name)
         add = stored.cuts.add_surface if self.what == "SURFACE" else stored.cuts.add_table
         added: Object = add(context, obj, level)
-        return selection.report(self, reports.phrase("Added “{object}”", object=added.name))
+        return selection.report(self, write.reports.phrase("Added “{object}”", object=added.name))
 
 
-class OBJECT_OT_body_moments_cut_fill(OnSubject, Operator):
-    """Measure the volumes of the active surface above and below a plane or another surface."""
+class OBJECT_OT_body_moments_cut_fill(WithDialog, Operator):
+    """Measure the volumes of the active open surface above and below a height, the plane through
+    its rim, or another object's plane or surface
+    """
 
-    bl_idname = "object.body_moments_cut_fill"
     bl_label = "Cut and Fill"
-    bl_description = (
-        "Measure the volumes of the active open surface above and below a height, the plane "
-        "through its rim, or another object's plane or surface"
-    )
 
     against: EnumProperty(
         name="Against",
@@ -162,27 +139,13 @@ class OBJECT_OT_body_moments_cut_fill(OnSubject, Operator):
     other: StringProperty(name="Object", description="Name of the object to compare with")
 
     def draw(self, context: Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        layout.prop(self, "against")
-        if self.against == "HEIGHT":
-            layout.prop(self, "height")
-        elif self.against == "OBJECT":
-            layout.prop_search(self, "other", context.scene, "objects")
+        height = ("height",) if self.against == "HEIGHT" else ()
+        column = selection.draw_properties(self, "against", *height)
+        if self.against == "OBJECT":
+            column.prop_search(self, "other", context.scene, "objects")
 
-    def execute(self, context: Context) -> set[str]:
-        obj = selected.require_subject(context)
-        height = self.height * meters_per_unit(context.scene)
-        try:
-            known = stored.cuts.measure_cut_fill(context, obj, self.against, height, self.other)
-        except MeasureError as error:
-            return selection.refuse(self, reports.failure(obj.name, error))
-        text = reports.phrase("Compared “{object}”", object=obj.name)
+    def _change(self, context: Context, obj: Object) -> set[str]:
+        height = self.height * scale.meters_per_unit(context.scene)
+        known = stored.cuts.measure_cut_fill(context, obj, self.against, height, self.other)
+        text = write.reports.phrase("Compared “{object}”", object=obj.name)
         return selection.report(self, text, *known.findings)
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_level,
-    OBJECT_OT_body_moments_show_level,
-    OBJECT_OT_body_moments_cut_fill,
-)

@@ -5,7 +5,7 @@
 from bpy.props import BoolProperty, FloatProperty, IntProperty
 from bpy.types import Context, Object, Operator
 
-from ..blender import session, write
+from ..blender import session
 from ..core.verdict import Finding
 from . import selection
 
@@ -28,27 +28,23 @@ class OnFloating(selection.OnSelectionInObjectMode):
             )
         }
         notes: list[Finding] = []
-
-        def run(root: Object) -> bool:
-            return act(bodies[root], notes)
-
-        changed, failures = selection.apply_to_all([*bodies], run)
-        text = write.reports.phrase(*done, count=len(changed))
-        idle = write.reports.phrase("already at rest")
-        return selection.summarize(
-            self, len(changed), len(bodies), text, failures, notes, idle, "Nothing selected floats"
+        return selection.change_all(
+            self,
+            [*bodies],
+            lambda root: act(bodies[root], notes),
+            done,
+            "already at rest",
+            notes,
+            "Nothing selected floats",
         )
 
 
 class OBJECT_OT_body_moments_float(OnFloating, Operator):
-    """Move and turn the selected objects to where they rest in a liquid."""
+    """Move and turn the selected objects, with their children, to where they come to rest in the
+    scene's liquid, from where they are
+    """
 
-    bl_idname = "object.body_moments_float"
     bl_label = "Float"
-    bl_description = (
-        "Move and turn the selected objects, with their children, to where they come to rest in "
-        "the scene's liquid, from where they are"
-    )
 
     position: IntProperty(
         name="Position",
@@ -68,14 +64,11 @@ class OBJECT_OT_body_moments_float(OnFloating, Operator):
 
 
 class OBJECT_OT_body_moments_float_positions(OnFloating, Operator):
-    """Find all positions in which the selected objects rest in a liquid."""
+    """Find the positions in which the selected objects rest in the scene's liquid, from 26 starts,
+    and list them. Nothing moves
+    """
 
-    bl_idname = "object.body_moments_float_positions"
     bl_label = "Find Positions"
-    bl_description = (
-        "Find the positions in which the selected objects rest in the scene's liquid, from 26 "
-        "starts, and list them. Nothing moves"
-    )
 
     def execute(self, context: Context) -> set[str]:
         def find(members: tuple[Object, ...], _notes: list[Finding]) -> bool:
@@ -86,14 +79,11 @@ class OBJECT_OT_body_moments_float_positions(OnFloating, Operator):
 
 
 class OBJECT_OT_body_moments_righting_arms(OnFloating, Operator):
-    """Compute the righting arms of the selected objects over angles of heel."""
+    """Compute the righting arms GZ of the selected objects over angles of heel from where they
+    rest, and the range of stability. Nothing moves
+    """
 
-    bl_idname = "object.body_moments_righting_arms"
     bl_label = "Righting Arms"
-    bl_description = (
-        "Compute the righting arms GZ of the selected objects over angles of heel from where they "
-        "rest, and the range of stability. Nothing moves"
-    )
 
     last: FloatProperty(
         name="Largest Heel",
@@ -138,10 +128,3 @@ class OBJECT_OT_body_moments_righting_arms(OnFloating, Operator):
             "Computed righting arms of {count} bodies",
         )
         return self.for_each_body(context, heel, texts)
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_float,
-    OBJECT_OT_body_moments_float_positions,
-    OBJECT_OT_body_moments_righting_arms,
-)

@@ -16,7 +16,6 @@ FIRST_PAGE = "README.md"  # in every zip, beside the add-on's code
 class WM_OT_body_moments_manual(Operator):
     """Open the manual"""
 
-    bl_idname = "wm.body_moments_manual"
     bl_label = "Body Moments Manual"
 
     def execute(self, context: Context) -> set[str]:
@@ -34,6 +33,3 @@ class WM_OT_body_moments_manual(Operator):
             area.spaces.active.text = text
             area.spaces.active.show_word_wrap = True
         return {"FINISHED"}
-
-
-CLASSES = (WM_OT_body_moments_manual,)

@@ -19,16 +19,12 @@ from bpy.props import (
     IntVectorProperty,
     StringProperty,
 )
-from bpy.types import Context, Object, Operator, OperatorFileListElement, UILayout
+from bpy.types import Context, Object, Operator, OperatorFileListElement
 from bpy_extras.io_utils import ImportHelper
 
 from .. import core
-from ..blender import read, scene
-from ..blender.scale import meters_per_unit
-from ..blender.write import reports
-from ..blender.write.findings import FILE_NOT_WRITTEN
-from ..core.scans import SAMPLE_TYPES, SUFFIXES
-from ..core.verdict import FileError, Finding, MeasureError
+from ..blender import read, scale, scene, write
+from ..core import scans, verdict
 from . import selection
 from .findings import FILE_EXISTS
 
@@ -46,10 +42,11 @@ def _positions(name: str) -> Any:
 class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, ImportHelper):
     """Import a scan or array of densities as a Volume object. A .vdb file is written beside it"""
 
-    bl_idname = "object.body_moments_import_scan"
     bl_label = "Import Scan"
 
-    filter_glob: StringProperty(default=";".join("*" + end for end in SUFFIXES), options={"HIDDEN"})
+    filter_glob: StringProperty(
+        default=";".join("*" + end for end in scans.SUFFIXES), options={"HIDDEN"}
+    )
     use_spacing: BoolProperty(
         name="Set Spacing",
         description="Use the spacing below instead of the file's",
@@ -90,7 +87,7 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
     raw_type: EnumProperty(
         name="Raw Type",
         description="Sample type of a .raw file",
-        items=[(name, name, "") for name in SAMPLE_TYPES],
+        items=[(name, name, "") for name in scans.SAMPLE_TYPES],
         default="uint8",
     )
     raw_big_endian: BoolProperty(
@@ -107,11 +104,13 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
             return selection.refuse(self, "This Python has no openvdb module. Use Blender.")
         try:
             findings = self._import(context, module, path)
-        except MeasureError as error:
+        except verdict.MeasureError as error:
             return selection.refuse(self, error.about(path.name))
-        return reports.report(self, *findings)
+        return write.reports.report(self, *findings)
 
-    def _import(self, context: Context, module: ModuleType, path: Path) -> list[Finding | str]:
+    def _import(
+        self, context: Context, module: ModuleType, path: Path
+    ) -> list[verdict.Finding | str]:
         """Make the object, and return findings and texts about the steps and decisions."""
         limits = replace(core.files.limits.file_limits(), allow_outside=self.allow_outside)
         raw = (self.raw_shape, self.raw_type, self.raw_big_endian) if all(self.raw_shape) else None
@@ -121,20 +120,20 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
         placed = scene.read_placed(path, limits, raw, spacing, files, self.position_unit)
         target = placed.target
         if target.exists() and not self.overwrite:
-            raise FileError(FILE_EXISTS, file=target.name)
-        unit = meters_per_unit(context.scene)
+            raise verdict.FileError(FILE_EXISTS, file=target.name)
+        unit = scale.meters_per_unit(context.scene)
         try:
             low = scene.write_volume(module, placed, unit)
         except (OSError, RuntimeError) as error:  # OpenVDB's own errors are RuntimeErrors
-            raise FileError(
-                FILE_NOT_WRITTEN,
+            raise verdict.FileError(
+                write.findings.FILE_NOT_WRITTEN,
                 file=target.name,
                 error=getattr(error, "strerror", None) or str(error),
             ) from error
         obj = scene.add_volume(context, placed)
         samples = list(placed.scan.samples.shape)
         texts = [
-            reports.phrase(
+            write.reports.phrase(
                 "Imported {samples:size} samples as “{file}”", samples=samples, file=target.name
             )
         ]
@@ -144,11 +143,13 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
                 "{axes} are in their "
                 "places."
             )
-            texts.append(reports.phrase(text, axes=sorted(files)))
+            texts.append(write.reports.phrase(text, axes=sorted(files)))
         if low < 0.0:
             obj.body_moments.values_from = "TABLE"
             texts.append(
-                reports.phrase("Negative values are taken as CT numbers, by the transfer table.")
+                write.reports.phrase(
+                    "Negative values are taken as CT numbers, by the transfer table."
+                )
             )
         return [*texts, *placed.findings]
 
@@ -156,7 +157,6 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
 class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, ImportHelper):
     """Import the solids of STEP and IGES files, and the surfaces of .obj files with surf"""
 
-    bl_idname = "object.body_moments_import_surfaces"
     bl_label = "Import CAD"
 
     filter_glob: StringProperty(default="*.step;*.stp;*.igs;*.iges;*.obj", options={"HIDDEN"})
@@ -173,18 +173,16 @@ class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, I
     )
 
     def draw(self, _context: Context) -> None:
-        layout: UILayout = self.layout
-        layout.use_property_split = True
-        layout.prop(self, "unit")
+        selection.draw_properties(self, "unit")
 
     def execute(self, context: Context) -> set[str]:
         made: list[Object] = []
-        parts: list[Finding | str] = []
-        refusals: list[MeasureError] = []
+        parts: list[verdict.Finding | str] = []
+        refusals: list[verdict.MeasureError] = []
         for path in self._paths():
             try:
                 objects, found = self._import(context, path)
-            except MeasureError as error:
+            except verdict.MeasureError as error:
                 refusals.append(error.about(path.name))
             else:
                 made += objects
@@ -192,14 +190,16 @@ class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, I
         if not made:
             if not refusals:
                 return selection.refuse(self, selection.NO_FILE)
-            reports.report(self, *map(reports.refusal, refusals))
+            write.reports.report(self, *map(write.reports.refusal, refusals))
             return {"CANCELLED"}
         context.view_layer.update()  # it takes in the new objects
         visible = [obj for obj in made if obj.name in context.view_layer.objects]
         if visible:
             selection.select_only(context, visible, visible[0])
-        for part in [*parts, *(reports.failure(error.subject, error) for error in refusals)]:
-            reports.report(self, part)  # one line each: a refused file does not undo the others
+        for part in [*parts, *(write.reports.failure(error.subject, error) for error in refusals)]:
+            write.reports.report(
+                self, part
+            )  # one line each: a refused file does not undo the others
         return {"FINISHED"}
 
     def _paths(self) -> list[Path]:
@@ -209,7 +209,9 @@ class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, I
         path = Path(bpy.path.abspath(self.filepath))
         return [] if path.is_dir() else [path]
 
-    def _import(self, context: Context, path: Path) -> tuple[list[Object], list[Finding | str]]:
+    def _import(
+        self, context: Context, path: Path
+    ) -> tuple[list[Object], list[verdict.Finding | str]]:
         """Return the objects of a file, and findings about the steps and decisions."""
         found = scene.import_surfaces(path, core.files.limits.file_limits(), self.unit, context)
         texts = (
@@ -218,11 +220,5 @@ class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, I
         )
         if not found.order:
             texts = "Imported {count} solid from {file}.", "Imported {count} solids from {file}."
-        done = reports.phrase(*texts, count=found.patches, order=found.order, file=path.name)
+        done = write.reports.phrase(*texts, count=found.patches, order=found.order, file=path.name)
         return found.objects, [done, *found.findings]
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_import_scan,
-    OBJECT_OT_body_moments_import_surfaces,
-)

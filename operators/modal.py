@@ -11,8 +11,7 @@ from time import perf_counter
 
 from bpy.types import Context, Event
 
-from ..blender.settings.preferences import copy_defaults
-from ..blender.write import reports
+from ..blender import settings, write
 from .selection import reporting
 
 # Seconds of work between two of the window's events: the time that the window itself takes, within
@@ -61,7 +60,7 @@ class ModalSteps:
             self._show_progress(context, 0)
             self._returned_at = perf_counter()
             return {"RUNNING_MODAL"}
-        with reports.progress(self._count) as step:
+        with write.reports.progress(self._count) as step:
             for done in self._steps:
                 step(done)
         return self._finish(context)
@@ -69,7 +68,7 @@ class ModalSteps:
     def _advance(self, context: Context, event: Event) -> set[str]:
         if event.type == "ESC":
             self._stop_modal(context)
-            reports.report(self, reports.phrase(self.CANCELED))
+            write.reports.report(self, write.reports.phrase(self.CANCELED))
             return {"CANCELLED"}
         if event.type != "TIMER":
             return {"RUNNING_MODAL"}
@@ -90,7 +89,7 @@ class ModalSteps:
     def _show_progress(self, context: Context, done: float) -> None:
         context.window_manager.progress_update(done)
         share = done / self._count if self._count else 1.0
-        context.workspace.status_text_set(reports.phrase(self.PROGRESS, share=share))
+        context.workspace.status_text_set(write.reports.phrase(self.PROGRESS, share=share))
 
     def _stop_modal(self, context: Context) -> None:
         self._steps.close()
@@ -113,7 +112,7 @@ class ModalDialog(ModalSteps):
         return context.window_manager.invoke_props_dialog(self)
 
     def execute(self, context: Context) -> set[str]:
-        copy_defaults(context.scene)
+        settings.preferences.copy_defaults(context.scene)
         # The redo panel executes this instance again, which must not become modal.
         in_window = self._is_interactive
         self._is_interactive = False

@@ -8,8 +8,7 @@ from time import perf_counter
 from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 from bpy.types import Context, Event, Operator, Scene, UILayout
 
-from ..blender import session
-from ..blender.write import reports
+from ..blender import session, write
 from ..core.verdict import MeasureError, Severity
 from . import modal, rig, selection
 
@@ -65,7 +64,7 @@ class KeyedFlight(modal.ModalDialog, rig.OnArmature):
     def invoke(self, context: Context, event: Event) -> set[str]:
         if context.window is not None:
             self._is_found = False
-            with suppress(MeasureError, reports.Refused):  # reported when the keys are made
+            with suppress(MeasureError, write.reports.Refused):  # reported when the keys are made
                 self._look(context)
         return super().invoke(context, event)
 
@@ -86,9 +85,7 @@ class KeyedFlight(modal.ModalDialog, rig.OnArmature):
         self._is_found = True
 
     def draw(self, context: Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        layout.prop(self, "use_contacts")
+        layout = selection.draw_properties(self, "use_contacts")
         column = layout.column(align=True)
         column.enabled = not self.use_contacts
         if self._is_found or not self.use_contacts:
@@ -107,7 +104,7 @@ class KeyedFlight(modal.ModalDialog, rig.OnArmature):
         if not self.use_contacts:
             flight = self.take_off, self.landing
             if self.landing < self.take_off + 2:
-                raise reports.Refused(EMPTY_FLIGHT)
+                raise write.reports.Refused(EMPTY_FLIGHT)
             frames = range(self.take_off - self.lead, self.landing + self.blend + 1)
         followed = session.CharacterMotion(context, frames)
         followed.find_carrier(context, self.bone, self.TURNS, self.use_layer)
@@ -122,7 +119,7 @@ class KeyedFlight(modal.ModalDialog, rig.OnArmature):
         self._show_found(followed)
         followed.key(context, self.TURNS, self.anyway)
         values = {"name": followed.armature.name, "start": followed.first, "end": followed.landing}
-        texts = [reports.phrase(self.DONE, off=followed.deviation, **values)]
+        texts = [write.reports.phrase(self.DONE, off=followed.deviation, **values)]
         level = Severity.NOTE
         if followed.landing != followed.last:
             text = "The landing moves from frame {old} to {new}, as the fall takes {count} frames"
@@ -131,14 +128,14 @@ class KeyedFlight(modal.ModalDialog, rig.OnArmature):
                 "new": followed.landing,
                 "count": followed.landing - followed.first,
             }
-            texts.append(reports.phrase(text, **values))
+            texts.append(write.reports.phrase(text, **values))
         if followed.off > 0.0:
             text = "The center is off by up to {off}: constraints hold parts in the world"
-            texts.append(reports.phrase(text, off=reports.distance(followed.off)))
+            texts.append(write.reports.phrase(text, off=write.reports.distance(followed.off)))
             level = Severity.WARNING
         if followed.is_lost:
             text = "The momentum changes by more than 1%, most at frame {frame}"
-            texts.append(reports.phrase(text, frame=round(followed.worst, 1)))
+            texts.append(write.reports.phrase(text, frame=round(followed.worst, 1)))
             level = Severity.WARNING
         return selection.report(self, *texts, level=level)
 
@@ -146,7 +143,6 @@ class KeyedFlight(modal.ModalDialog, rig.OnArmature):
 class POSE_OT_body_moments_parabola(KeyedFlight, Operator):
     """Key the root for a free fall of the center of mass from take-off to landing; poses stay"""
 
-    bl_idname = "pose.body_moments_parabola"
     bl_label = "Put on Parabola"
     DONE = "The center of “{name}” falls freely from frame {start} to {end}"
     OWN = ("keep",)
@@ -169,7 +165,6 @@ class POSE_OT_body_moments_parabola(KeyedFlight, Operator):
 class POSE_OT_body_moments_keep_spin(KeyedFlight, Operator):
     """Turn the root so that angular momentum stays that of take-off: a tucked body spins faster"""
 
-    bl_idname = "pose.body_moments_keep_spin"
     bl_label = "Keep Spin"
     DONE = "“{name}” keeps its angular momentum within {off:percent} from frame {start} to {end}"
     TURNS = True
@@ -216,14 +211,14 @@ class KeyedPath(modal.ModalSteps, rig.OnArmature):
             "{spans}"
         )
         return selection.report(
-            self, reports.phrase(text, empty=empty.name, count=len(followed.centers), spans=spans)
+            self,
+            write.reports.phrase(text, empty=empty.name, count=len(followed.centers), spans=spans),
         )
 
 
 class POSE_OT_body_moments_bake_curves(KeyedPath, Operator):
     """Key the character's momentum and balance on an empty, and list momentum from nothing"""
 
-    bl_idname = "pose.body_moments_bake_curves"
     bl_label = "Bake Curves"
     CURVES = True
 
@@ -231,13 +226,4 @@ class POSE_OT_body_moments_bake_curves(KeyedPath, Operator):
 class POSE_OT_body_moments_trace(KeyedPath, Operator):
     """Key the path of the center of mass on an empty, and draw it beside the arcs of free fall"""
 
-    bl_idname = "pose.body_moments_trace"
     bl_label = "Trace"
-
-
-CLASSES = (
-    POSE_OT_body_moments_parabola,
-    POSE_OT_body_moments_keep_spin,
-    POSE_OT_body_moments_bake_curves,
-    POSE_OT_body_moments_trace,
-)

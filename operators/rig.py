@@ -7,12 +7,9 @@ and balance.
 from bpy.props import EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Operator
 
-from ..blender import bodies, read, scene, session
-from ..blender.bodies.findings import BONE_PARTS_IMPOSSIBLE
-from ..blender.read.tracking import tracking_paused
+from ..blender import bodies, read, scene, session, write
 from ..blender.session.selected import armature_of
 from ..blender.session.tracking.armatures import stands_for_meshes
-from ..blender.write import reports
 from ..core.verdict import Severity, of_severity
 from . import assembly, selection
 
@@ -27,7 +24,7 @@ class OnArmature:
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return armature_of(context) is not None or reports.unavailable(
+        return armature_of(context) is not None or write.reports.unavailable(
             cls, "No armature is selected, or several are. Select one."
         )
 
@@ -40,20 +37,21 @@ class InPoseMode:
     @classmethod
     def poll(cls, context: Context) -> bool:
         is_posed = context.object is not None and stands_for_meshes(context.object)
-        return is_posed or reports.unavailable(cls, "Select an armature, and switch to Pose Mode")
+        return is_posed or write.reports.unavailable(
+            cls, "Select an armature, and switch to Pose Mode"
+        )
 
 
 class OBJECT_OT_body_moments_measure_bones(OnArmature, Operator):
     """Measure each bone's part of the selected armature at rest; store it on the pose bone"""
 
-    bl_idname = "object.body_moments_measure_bones"
     bl_label = "Measure Bones"
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
         rig = bodies.measure_rig(context, read.rig.require_armature(armature_of(context)))
         failures = session.stored.results.store_rig(rig)
-        done = reports.phrase(
+        done = write.reports.phrase(
             "{armature}: {mass:.7g} kg in the parts of {count} bone",
             "{armature}: {mass:.7g} kg in the parts of {count} bones",
             armature=rig.armature.name,
@@ -61,73 +59,64 @@ class OBJECT_OT_body_moments_measure_bones(OnArmature, Operator):
             mass=rig.measurement.mass_properties.mass,
         )
         findings = of_severity(rig.measurement.findings, *NOTABLE)
-        findings += [reports.failure(name, reason) for name, reason in failures]
-        return selection.report(self, done, *reports.first(findings))
+        findings += [write.reports.failure(name, reason) for name, reason in failures]
+        return selection.report(self, done, *findings)
 
 
 class OBJECT_OT_body_moments_clear_bones(OnArmature, Operator):
     """Remove the stored results of the selected armature and its bones. Settings are kept"""
 
-    bl_idname = "object.body_moments_clear_bones"
     bl_label = "Clear Results of Bones"
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
-        return assembly.report_cleared(
-            self, context, session.stored.results.clear_rig(armature_of(context))
-        )
+        return assembly.report_cleared(self, session.stored.results.clear_rig(armature_of(context)))
 
 
 class OBJECT_OT_body_moments_physics_rig(OnArmature, Operator):
-    """Create rigid bodies with the exact masses of the bones' parts, joined at the bones."""
+    """Create a rigid body for the part of each bone, in rest pose, with its exact mass, its origin
+    at its center of mass and its axes along its principal axes, and a joint at each bone. One
+    created before is replaced
+    """
 
-    bl_idname = "object.body_moments_physics_rig"
     bl_label = "Create Physics Rig"
-    bl_description = (
-        "Create a rigid body for the part of each bone, in rest pose, with its exact mass, its "
-        "origin at its center of "
-        "mass and its axes along its principal axes, and a joint at each bone. One created before "
-        "is replaced"
-    )
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
         rig = bodies.measure_rig(context, read.rig.require_armature(armature_of(context)))
-        with tracking_paused():
+        with read.tracking.tracking_paused():
             count, joints = scene.create_physics_rig(context, rig)
-        missing = [
-            found for found in rig.measurement.findings if found.code == BONE_PARTS_IMPOSSIBLE
-        ]
-        done = reports.phrase(
-            "Rigid bodies created: {count}, joints: {joints}", count=count, joints=joints
+        text = "Rigid bodies created: {count}, joints: {joints}"
+        return selection.report(
+            self,
+            write.reports.phrase(text, count=count, joints=joints),
+            *[
+                found
+                for found in rig.measurement.findings
+                if found.code == bodies.findings.BONE_PARTS_IMPOSSIBLE
+            ],
         )
-        return selection.report(self, done, *missing)
 
 
 class OBJECT_OT_body_moments_rig_center(OnArmature, Operator):
-    """Add an empty that stays at the center of mass of the posed character."""
+    """Add an empty that stays at the center of mass of the character in every pose, by constraints
+    to the centers of the bones' parts. One added before is replaced
+    """
 
-    bl_idname = "object.body_moments_rig_center"
     bl_label = "Add Center of Mass"
-    bl_description = (
-        "Add an empty that stays at the center of mass of the character in every pose, by "
-        "constraints to the centers "
-        "of the bones' parts. One added before is replaced"
-    )
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
         rig = bodies.measure_rig(context, read.rig.require_armature(armature_of(context)))
-        with tracking_paused():
+        with read.tracking.tracking_paused():
             scene.add_center(context, rig)
         text = "Added the center of mass of “{armature}”, which follows its pose"
-        return selection.report(self, reports.phrase(text, armature=rig.armature.name))
+        return selection.report(self, write.reports.phrase(text, armature=rig.armature.name))
 
 
 class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
     """Show or hide center of mass and support of the selected characters while they are posed"""
 
-    bl_idname = "pose.body_moments_show_weight"
     bl_label = "Show Weight"
 
     @selection.report_refusals
@@ -136,27 +125,21 @@ class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
             context.object
         ]
         shown = not context.object.body_moments_weight.show
-        rigs = list(
-            filter(
-                None,
-                [session.character.weight.prepare(context, armature) for armature in armatures],
-            )
-        )
+        prepare = session.character.weight.prepare
+        rigs = [rig for armature in armatures if (rig := prepare(context, armature)) is not None]
         shown = shown or bool(rigs)  # numbers that were out of date are shown anew
         for armature in armatures:
             armature.body_moments_weight.show = shown
-        findings = of_severity(
-            [found for rig in rigs for found in rig.measurement.findings], *NOTABLE
-        )
+        found = [found for rig in rigs for found in rig.measurement.findings]
         names = ", ".join(armature.name for armature in armatures)
         text = "Showing the weight of {names}" if shown else "Hid the weight of {names}"
-        return selection.report(self, reports.phrase(text, names=names), *reports.first(findings))
+        done = write.reports.phrase(text, names=names)
+        return selection.report(self, done, *of_severity(found, *NOTABLE))
 
 
 class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
     """Move a bone as little as brings the center of mass over the support; held feet stay"""
 
-    bl_idname = "pose.body_moments_balance_pose"
     bl_label = "Balance Pose"
 
     bone: StringProperty(
@@ -182,27 +165,14 @@ class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
     )
 
     def draw(self, context: Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        layout.prop_search(self, "bone", context.object.pose, "bones", icon="BONE_DATA")
-        layout.prop(self, "target")
-        if self.target == "INSIDE":
-            layout.prop(self, "margin")
+        margin = ("margin",) if self.target == "INSIDE" else ()
+        column = selection.draw_properties(self, "target", *margin)
+        column.prop_search(self, "bone", context.object.pose, "bones", icon="BONE_DATA")
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
         margin = self.margin if self.target == "INSIDE" else None
         values = session.balance_pose(context, context.object, self.bone, margin)
         text = "Moved “{bone}”: the center is {gap} from its target, {margin} inside the support"
-        selection.report(self, reports.phrase(text if values else BALANCED, **values))
-        return {"FINISHED" if values else "CANCELLED"}
-
-
-CLASSES = (
-    POSE_OT_body_moments_show_weight,
-    POSE_OT_body_moments_balance_pose,
-    OBJECT_OT_body_moments_measure_bones,
-    OBJECT_OT_body_moments_clear_bones,
-    OBJECT_OT_body_moments_physics_rig,
-    OBJECT_OT_body_moments_rig_center,
-)
+        done = write.reports.phrase(text if values else BALANCED, **values)
+        return selection.finish(self, [done], is_changed=bool(values))

@@ -8,20 +8,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Generator, Iterable, Iterator, Sequence
 from functools import wraps
-from os.path import basename, splitext
 from pathlib import Path
 from typing import Any
 
 import bpy
-from bpy.types import Context, Object, Operator
+from bpy.types import Context, Object, Operator, UILayout
 
 from .. import core
 from ..blender import read, scene, settings, write
-from ..blender.session import stored, tracking
-from ..blender.write import reports
+from ..blender.session import selected, stored, tracking
 from ..core.verdict import FileError, Finding, MeasureError, Severity, system_reason
 
 NO_FILE = "No file is named. Choose one."
+NO_RESULTS = "The selected objects have no results"
 MAX_OBJECTS_WITHOUT_REDRAW = (
     4  # limit of objects that are measured before the window is drawn again
 )
@@ -46,7 +45,7 @@ def poll_object_mode(cls: type[Operator], context: Context) -> bool:
     """Return whether Blender is in Object Mode; if not, set the reason that the disabled button
     shows.
     """
-    return context.mode == "OBJECT" or reports.unavailable(cls, "Switch to Object Mode")
+    return context.mode == "OBJECT" or write.reports.unavailable(cls, "Switch to Object Mode")
 
 
 class InObjectMode:
@@ -66,7 +65,7 @@ class OnSelection:
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return bool(context.view_layer.objects.selected) or reports.unavailable(
+        return bool(context.view_layer.objects.selected) or write.reports.unavailable(
             cls, "Select objects"
         )
 
@@ -77,6 +76,44 @@ class OnSelectionInObjectMode(OnSelection):
     @classmethod
     def poll(cls, context: Context) -> bool:
         return poll_object_mode(cls, context) and super().poll(context)
+
+
+class OnSubject:
+    """Base of operators on the object that the panel is about.
+
+    `_change` does the work; its refusals are reported with the object's name. NEEDED: the reason of
+    a disabled button.
+    """
+
+    bl_options = {"REGISTER", "UNDO"}
+    NEEDED = "Make a measurable object active"
+    _change: Callable[[Context, Object], set[str]]
+
+    @classmethod
+    def suits(cls, obj: Object) -> bool:
+        """Return whether the operator works on an object."""
+        return read.visibility.measurable(obj)
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        obj = selected.subject(context)
+        return obj is not None and cls.suits(obj) or write.reports.unavailable(cls, cls.NEEDED)
+
+    def execute(self, context: Context) -> set[str]:
+        obj = selected.subject(context)
+        try:
+            return self._change(context, obj)
+        except MeasureError as refusal:
+            return refuse(self, write.reports.failure(obj.name_full, refusal))
+
+
+def draw_properties(operator: Operator, *names: str) -> UILayout:
+    """Draw properties of an operator, one below the other, and return their column."""
+    column = operator.layout.column()
+    column.use_property_split = True
+    for name in names:
+        column.prop(operator, name)
+    return column
 
 
 def select_only(context: Context, objects: Collection[Object], active: Object) -> None:
@@ -97,11 +134,9 @@ def report(operator: Operator, *parts: Finding | str, level: Severity = Severity
 
     Refusals and warnings stay in the panel until the next action.
     """
-    stored.outcome.remember(
-        operator.bl_label, [part for part in parts if isinstance(part, Finding)]
-    )
-    redraw(bpy.context)
-    return reports.report(operator, *parts, level=level)
+    texts = [part for part in parts if isinstance(part, str)]
+    findings = [part for part in parts if not isinstance(part, str)]
+    return finish(operator, texts, findings=findings, level=level)
 
 
 def refuse(operator: Operator, reason: MeasureError | Finding | str, **values: Any) -> set[str]:
@@ -109,9 +144,11 @@ def refuse(operator: Operator, reason: MeasureError | Finding | str, **values: A
     an English text.
     """
     if isinstance(reason, str):
-        report(operator, reports.phrase(reason, **values), level=Severity.ERROR)
+        report(operator, write.reports.phrase(reason, **values), level=Severity.ERROR)
     else:
-        report(operator, reports.refusal(reason) if isinstance(reason, MeasureError) else reason)
+        report(
+            operator, write.reports.refusal(reason) if isinstance(reason, MeasureError) else reason
+        )
     return {"CANCELLED"}
 
 
@@ -135,7 +172,7 @@ def reporting(operator: Operator, run: Callable[..., set[str]], *arguments: obje
         return run(*arguments)
     except MeasureError as error:
         return refuse(operator, error)
-    except reports.Refused as error:
+    except write.reports.Refused as error:
         return refuse(operator, error.text, **error.values)
 
 
@@ -158,13 +195,15 @@ def summarize(
     `idle` are translated already. nothing: the English text if there are no objects.
     """
     if not total:
-        done = reports.phrase(nothing)
+        done = write.reports.phrase(nothing)
     elif not changed and not failures and idle is not None:
-        done = reports.phrase("Nothing to do: {cause}", cause=idle)
+        done = write.reports.phrase("Nothing to do: {cause}", cause=idle)
     parts = [done] if changed or not failures else []
     if failures:
         parts.append(
-            reports.phrase("{count} of {total} left unchanged:", count=len(failures), total=total)
+            write.reports.phrase(
+                "{count} of {total} left unchanged:", count=len(failures), total=total
+            )
         )
     return finish(operator, parts, failures, findings, is_changed=bool(changed))
 
@@ -172,7 +211,7 @@ def summarize(
 def finish(
     operator: Operator,
     texts: Sequence[str],
-    failures: Sequence[Finding],
+    failures: Sequence[Finding] = (),
     findings: Sequence[Finding | str] = (),
     level: Severity = Severity.NOTE,
     is_changed: bool = True,
@@ -184,8 +223,12 @@ def finish(
         operator.bl_label, [part for part in (*failures, *findings) if isinstance(part, Finding)]
     )
     redraw(bpy.context)
-    reports.report(
-        operator, *texts, *reports.first(failures), *reports.first(findings), level=level
+    write.reports.report(
+        operator,
+        *texts,
+        *write.reports.first(failures),
+        *write.reports.first(findings),
+        level=level,
     )
     return {"FINISHED"} if is_changed else {"CANCELLED"}
 
@@ -207,8 +250,40 @@ def iterate_objects(
                 yield done - 1 + share
         except Exception as error:
             # objects of two libraries may have one name
-            failures.append(reports.failure(obj.name_full, error))
+            failures.append(write.reports.failure(obj.name_full, error))
         yield done
+
+
+def name_warned(names: Sequence[str]) -> list[str]:
+    """Return a text that names the objects with warnings, none without any."""
+    text = "{count} with warnings: {objects}"
+    return [write.reports.phrase(text, count=len(names), objects=names)] if names else []
+
+
+def change_all(
+    operator: Operator,
+    objects: Sequence[Object],
+    action: Callable[[Object], bool | None],
+    done: tuple[str, str],
+    idle: str | None = None,
+    findings: Sequence[Finding | str] = (),
+    nothing: str = "Nothing selected can be measured",
+    then: Callable[[list[Object]], None] = lambda changed: None,
+    **values: Any,
+) -> set[str]:
+    """Run `action` on each object, report the run once, and return the result of `execute`.
+
+    done: the English report, for one object and for `count` objects. idle: the English reason if
+    nothing had to be done. findings: other observations, to which `action` may add. then: gets the
+    changed objects. values: of the texts.
+    """
+    changed, failures = apply_to_all(objects, action)
+    then(changed)
+    text = write.reports.phrase(*done, count=len(changed), **values)
+    reason = idle and write.reports.phrase(idle, **values)
+    return summarize(
+        operator, len(changed), len(objects), text, failures, findings, reason, nothing
+    )
 
 
 def apply_to_all(
@@ -227,7 +302,7 @@ def apply_to_all(
         if is_changed is None or is_changed:
             changed.append(obj)
 
-    with reports.progress(len(objects)) as step:
+    with write.reports.progress(len(objects)) as step:
         for done in iterate_objects(objects, run, failures):
             step(done)
     return changed, failures
@@ -244,27 +319,3 @@ def write_file(path: Path, pieces: Iterable[str | bytes]) -> None:
         raise FileError(
             write.findings.FILE_NOT_WRITTEN, file=path.name, error=system_reason(error)
         ) from error
-
-
-def ask_for_table(operator: Operator, context: Context) -> set[str]:
-    """Open the file browser, by default for a .csv file beside the .blend file and with its
-    name.
-    """
-    if not operator.filepath:
-        operator.filepath = bpy.path.ensure_ext(
-            bpy.data.filepath.removesuffix(".blend") or "masses", ".csv"
-        )
-    context.window_manager.fileselect_add(operator)
-    return {"RUNNING_MODAL"}
-
-
-def ensure_suffix(operator: Operator, suffix: str, others: Collection[str] = ()) -> bool:
-    """Give the path the suffix, unless it has one of the others or no name at all.
-
-    Return whether the path was changed, as `check` does.
-    """
-    path = operator.filepath
-    name = basename(operator.filepath)
-    if name and splitext(name)[1].lower() not in others:
-        operator.filepath = bpy.path.ensure_ext(path, suffix)
-    return operator.filepath != path

@@ -2,28 +2,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Stability of objects, their resting poses, and the balance of groups over time."""
 
+from functools import partial
 from math import degrees
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
-from ..blender import session
-from ..blender.write import reports, translations
+from ..blender import session, write
 from ..core.verdict import Finding, finding
 from . import findings, modal, selection
 
 
 class OBJECT_OT_body_moments_stability(selection.OnSelection, Operator):
-    """Compute whether the selected objects stand on the ground, and in which poses they rest."""
+    """Compute whether the selected objects stand on the ground below them, how far the ground can
+    be tilted, and in which poses they rest. Objects are measured where their results are out of
+    date
+    """
 
-    bl_idname = "object.body_moments_stability"
     bl_label = "Check Stability"
-    bl_description = (
-        "Compute whether the selected objects stand on the ground below them, how far the ground "
-        "can be tilted, and in "
-        "which poses they rest. Objects are measured where their results are out of date"
-    )
 
     def execute(self, context: Context) -> set[str]:
         objects = selection.selected_measurable(context)
@@ -40,27 +37,21 @@ class OBJECT_OT_body_moments_stability(selection.OnSelection, Operator):
             obj for obj, support in supports.items() if support is not None and support.stands
         ]
         falling = [
-            obj.name
-            for obj in objects
-            if session.stored.stability.is_known(obj) and obj not in standing
+            obj.name for obj in objects if obj in session.memory.hulls and obj not in standing
         ]
         if falling:
             notes.insert(0, finding(findings.OBJECTS_TIP, count=len(falling), names=falling))
         texts = ("{count} of {total} object stands", "{count} of {total} objects stand")
-        done = reports.phrase(*texts, count=len(standing), total=len(known))
+        done = write.reports.phrase(*texts, count=len(standing), total=len(known))
         return selection.summarize(self, len(known), len(objects), done, failures, notes)
 
 
 class OBJECT_OT_body_moments_rest_on_ground(selection.OnSelectionInObjectMode, Operator):
-    """Lay the selected objects on the ground in a pose in which they stay."""
+    """Lay the selected objects on the ground in a stable pose, the likeliest or another one. They
+    turn by the smallest angle about the center of mass, which stays above the same point
+    """
 
-    bl_idname = "object.body_moments_rest_on_ground"
     bl_label = "Rest on Ground"
-    bl_description = (
-        "Lay the selected objects on the ground in a stable pose, the likeliest or another one. "
-        "They turn by the "
-        "smallest angle about the center of mass, which stays above the same point"
-    )
 
     pose: IntProperty(
         name="Pose",
@@ -82,46 +73,38 @@ class OBJECT_OT_body_moments_rest_on_ground(selection.OnSelectionInObjectMode, O
     )
 
     def draw(self, context: Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        layout.prop(self, "pose")
+        layout = selection.draw_properties(self, "pose")
         obj = session.selected.subject(context)
-        poses = None if obj is None else session.stored.stability.poses(obj)
+        poses = None if obj is None else session.stored.stability.poses(obj, context.scene)
         if self.pose and poses is not None and not isinstance(poses, Finding):
             count = len(poses.shares)
             place = (self.pose - 1) % count
-            text = translations.localized("Pose {:d} of {:d}: {:.1f}%, tips at {:.1f}°")
+            text = write.translations.localized("Pose {:d} of {:d}: {:.1f}%, tips at {:.1f}°")
             share = 100.0 * poses.shares[place]
             angle = degrees(poses.tipping_angles[place])
             layout.label(text=text.format(place + 1, count, share, angle), translate=False)
         layout.prop(self, "ground")
 
     def execute(self, context: Context) -> set[str]:
-        objects = selection.selected_measurable(context)
         notes: list[str] = []
-
-        def lay(obj: Object) -> bool:
-            return session.lay_on_ground(context, obj, self.pose, self.ground, notes)
-
-        # one after the other, for a child moves with its parent
-        moved, failures = selection.apply_to_all(objects, lay)
-        session.remeasure(context, moved)
-        texts = ("Laid {count} object on the ground", "Laid {count} objects on the ground")
-        done = reports.phrase(*texts, count=len(moved))
-        idle = reports.phrase("already on the ground")
-        return selection.summarize(self, len(moved), len(objects), done, failures, notes, idle)
+        return selection.change_all(
+            self,
+            selection.selected_measurable(context),
+            lambda obj: session.lay_on_ground(context, obj, self.pose, self.ground, notes),
+            ("Laid {count} object on the ground", "Laid {count} objects on the ground"),
+            "already on the ground",
+            notes,
+            then=partial(session.remeasure, context),
+        )
 
 
 class OBJECT_OT_body_moments_balance_group(modal.ModalDialog, Operator):
-    """Follow the center of mass of several objects over the frame range."""
+    """Follow the common center of mass of the selected objects, of a collection, or of the meshes
+    that the selected armatures deform, over the frame range. Adds an empty with keys, and draws the
+    path
+    """
 
-    bl_idname = "object.body_moments_balance_group"
     bl_label = "Follow Center"
-    bl_description = (
-        "Follow the common center of mass of the selected objects, of a collection, or of the "
-        "meshes that the selected "
-        "armatures deform, over the frame range. Adds an empty with keys, and draws the path"
-    )
 
     collection: StringProperty(
         name="Collection",
@@ -162,24 +145,19 @@ class OBJECT_OT_body_moments_balance_group(modal.ModalDialog, Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return context.mode in {"OBJECT", "POSE"} or reports.unavailable(
+        return context.mode in {"OBJECT", "POSE"} or write.reports.unavailable(
             cls, "Switch to Object Mode or Pose Mode"
         )
 
     def draw(self, _context: Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        layout.prop_search(self, "collection", bpy.data, "collections")
-        layout.prop_search(self, "contacts", bpy.data, "collections")
-        if self.contacts:
-            layout.prop(self, "ground")
-            layout.prop(self, "reach")
-        layout.prop(self, "use_scene_range")
-        column = layout.column(align=True)
+        column = selection.draw_properties(self)
+        column.prop_search(self, "collection", bpy.data, "collections")
+        column.prop_search(self, "contacts", bpy.data, "collections")
+        ground = ("ground", "reach") if self.contacts else ()
+        selection.draw_properties(self, *ground, "use_scene_range")
+        column = selection.draw_properties(self, "frame_start", "frame_end")
         column.active = not self.use_scene_range
-        column.prop(self, "frame_start")
-        column.prop(self, "frame_end")
-        layout.prop(self, "frame_step")
+        selection.draw_properties(self, "frame_step")
 
     def _begin(self, context: Context) -> int:
         scene = context.scene
@@ -196,7 +174,7 @@ class OBJECT_OT_body_moments_balance_group(modal.ModalDialog, Operator):
         group = self._group
         empty = group.store(context)
         texts = [
-            reports.phrase(
+            write.reports.phrase(
                 "“{empty}” has {count} key of the center of mass; objects: {objects_count}",
                 "“{empty}” has {count} keys of the center of mass; objects: {objects_count}",
                 empty=empty.name,
@@ -207,12 +185,5 @@ class OBJECT_OT_body_moments_balance_group(modal.ModalDialog, Operator):
         if group.feet:
             inside = sum(support is not None and support.stands for support in group.supports)
             text = "It is over the support polygon at {count} of {total} frames"
-            texts.append(reports.phrase(text, count=inside, total=len(group.supports)))
+            texts.append(write.reports.phrase(text, count=inside, total=len(group.supports)))
         return selection.report(self, *texts)
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_stability,
-    OBJECT_OT_body_moments_rest_on_ground,
-    OBJECT_OT_body_moments_balance_group,
-)

@@ -12,8 +12,8 @@ from bpy.types import Context, Object, UILayout
 from ..blender import session, write
 from ..blender.session.displayed import displayed
 from ..blender.settings.preferences import shows_advanced
-from ..core import inertia, lazy
-from . import places, rows
+from ..core import inertia
+from . import places, rows, texts
 
 
 class AdvancedPanel:
@@ -45,7 +45,7 @@ def _display_mesh(layout: UILayout, obj: Object, shown: inertia.PlainBody) -> No
     if body is not None:
         column = body.column(align=True)
         rows.values(column, ("Volume", "Difference"), "volume", (display, display - shown.volume))
-        rows.filled(column, "{:+.3g}% of the volume", 100.0 * (display / shown.volume - 1.0))
+        texts.filled(column, "{:+.3g}% of the volume", 100.0 * (display / shown.volume - 1.0))
 
 
 def _bounds(layout: UILayout, obj: Object, shown: inertia.PlainBody) -> None:
@@ -79,26 +79,24 @@ class MomentsPanel:
         obj = session.selected.subject(context)
         settings = context.scene.body_moments
         column = layout.column()
-        rows.setting(column, settings, "moments_order")
-        rows.setting(column, settings, "moments_of")
-        rows.setting(column, settings, "moments_about")
-        rows.setting(column, settings, "frame", expand=True)
+        rows.settings(column, settings, "moments_order", "moments_of", "moments_about")
+        rows.settings(column, settings, "frame", expand=True)
         row = layout.row(align=True)
         rows.button(row, "object.body_moments_compute_moments", "PHYSICS", short="Compute")
         row.operator("object.body_moments_copy", text="", icon="COPYDOWN").what = "MOMENTS"
-        table = lazy.loaded_module(session.stored, "moments")
-        computed = None if table is None else table.computed_moments(obj)
+        computed = session.memory.moments.get(obj)
         if computed is None:
             return
-        rows.stale_state(
-            layout, session.tracking.staleness.stale_reason(obj, context.scene, table.stamp_of)
-        )
+        table = session.stored.moments
+        kind = session.tracking.stamps.Kind.MOMENTS
+        reason = session.tracking.staleness.stale_reason(obj, context.scene, kind)
+        texts.stale_state(layout, reason)
         degrees, missing = table.current_numbers(obj, context.scene)
         if missing is not None:
-            rows.message(layout, missing)
+            texts.message(layout, missing)
         for degree in degrees:
             column = layout.column(align=True)
-            rows.filled(
+            texts.filled(
                 column,
                 "Order {:d} ({:s})" if degree.unit else "Order {:d}",
                 degree.degree,
@@ -107,7 +105,7 @@ class MomentsPanel:
             rows.table(column, [(*row, degree.unit) for row in degree.rows])
         if computed.order > table.MAX_SHOWN_ORDER:
             text = "Orders {first} to {last} are only in the copy."
-            rows.remark(layout, text, first=table.MAX_SHOWN_ORDER + 1, last=computed.order)
+            texts.remark(layout, text, first=table.MAX_SHOWN_ORDER + 1, last=computed.order)
 
 
 CLASSES = (

@@ -27,7 +27,7 @@ from ..blender.session.tracking.staleness import stale_reason
 from ..blender.settings import assembly, chosen, given
 from ..blender.write import properties, translations
 from ..core import inertia, verdict
-from . import density, places, remedies, rows
+from . import density, places, remedies, rows, texts
 
 MEMBER_ICONS = {
     "COLLECTION": "OUTLINER_COLLECTION",
@@ -59,21 +59,19 @@ class BODY_MOMENTS_UL_assembly(UIList):
         copies = _count_equal(tree, index)
         text = row.name if copies == 1 else "{:d} × {:s}".format(copies, _base_name(row.name))
         name.label(text=text, icon=MEMBER_ICONS[row.member], translate=False)
-        numbers = line.row(align=True)
-        numbers.active = row.is_counted
-        numbers.alignment = "RIGHT"
         findings = properties.findings_in(row.findings)
+        words = []
         if row.mass > 0.0:
-            mass = rows.scene_units().text("mass", copies * row.mass)
-            numbers.label(text=mass, translate=False)
+            words.append(texts.scene_units().text("mass", copies * row.mass))
             if row.is_counted and row.depth:
-                share = "{:.0f}%".format(100.0 * copies * row.share)
-                numbers.label(text=share, translate=False)
+                words.append("{:.0f}%".format(100.0 * copies * row.share))
+        numbers = rows.right(line, *words)
+        numbers.active = row.is_counted
         if findings:
             worst = max(
-                findings, key=lambda found: tuple(rows.ICONS).index(verdict.severity(found))
+                findings, key=lambda found: tuple(texts.ICONS).index(verdict.severity(found))
             )
-            numbers.label(text="", icon=rows.ICONS[verdict.severity(worst)])
+            numbers.label(text="", icon=texts.ICONS[verdict.severity(worst)])
 
     def filter_items(self, _context, data, name) -> tuple[list[int], list[int]]:
         """Hide rows below a closed member, rows that do not match a search, and equal parts but for
@@ -122,19 +120,17 @@ def draw_assembly(layout: UILayout, context: Context, root: assembly.Root, targe
     layout.use_property_decorate = False
     settings = assembly.settings_of(root)
     column = layout.column()
-    rows.setting(column, settings, "mass_from", expand=True)
+    rows.settings(column, settings, "mass_from", expand=True)
     if settings.mass_from == "MASS":
-        rows.setting(column, settings, "mass", text="Mass (kg)")
+        rows.settings(column, settings, "mass")
         density.given_rows(layout, settings)
-    button = layout.row()
-    button.scale_y = 1.4
-    button.operator("object.body_moments_measure_assembly", icon="PHYSICS").target = target
+    rows.main_button(layout, "object.body_moments_measure_assembly", "PHYSICS").target = target
     stored = properties.stored(root) if properties.method_text(root) == "assembly" else None
     actions = layout.column(align=True)
     actions.enabled = stored is not None
     _actions(actions, target, isinstance(root, Collection))
     reason = None if stored is None else stale_reason(root, context.scene)
-    rows.stale_state(layout, reason)
+    texts.stale_state(layout, reason)
     if stored is None:
         return
     groups = [verdict.Group(found) for found in properties.findings(root)]
@@ -177,13 +173,12 @@ def _tree(layout: UILayout, settings: PropertyGroup) -> None:
     )
     if 0 <= settings.active_row < len(settings.rows):
         for found in properties.findings_in(settings.rows[settings.active_row].findings):
-            rows.message(layout, found)
+            texts.message(layout, found)
 
 
 def _numbers(layout: UILayout, stored: inertia.PlainBody, in_world: bool) -> None:
-    column = layout.column(align=True)
     entries = [("Volume", "volume", stored.volume), ("Area", "area", stored.area)]
-    rows.quantities(column, [entry for entry in entries if entry[-1]])
+    rows.quantities(layout, [entry for entry in entries if entry[-1]])
     heading = "Center of Mass (World)" if in_world else "Center of Mass (Object)"
     rows.center(layout, heading, stored)
     rows.group(layout, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", stored.moments)
@@ -226,8 +221,4 @@ class COLLECTION_PT_body_moments(places.AmongProperties, Panel):
         draw_assembly(self.layout, context, context.collection, "COLLECTION")
 
 
-CLASSES = (
-    BODY_MOMENTS_UL_assembly,
-    *places.in_both_places(AssemblyPanel, "assembly"),
-    COLLECTION_PT_body_moments,
-)
+CLASSES = places.in_both_places(AssemblyPanel, "assembly")

@@ -15,14 +15,12 @@ from typing import NamedTuple
 
 from bpy.types import Context, Object, UILayout
 
-from ..blender import session, settings, write
-from ..blender.read.visibility import measurable
+from ..blender import read, session, settings, write
 from ..blender.session.displayed import Displayed, Verdict, displayed, shown_objects, total
-from ..blender.session.live.following import Lag, current_numbers, is_live
-from ..blender.write.translations import localized
+from ..blender.session.live.following import Lag
 from ..core import inertia, wall
 from ..core.verdict import METHODS, Group, Source, method_key, truncate_list
-from . import places, remedies, rows
+from . import places, remedies, rows, texts
 from .density import material_row
 from .overlay.draw import header_switch
 
@@ -77,7 +75,7 @@ class BodyPanel:
     def draw_header_preset(self, context: Context) -> None:
         row = self.layout.row(align=True)
         header_switch(row, context)
-        if not rows.is_narrow():  # the name would be below them
+        if not texts.is_narrow():  # the name would be below them
             settings.preferences.draw_links(row, icons_only=True)
 
     def draw(self, context: Context) -> None:
@@ -85,18 +83,19 @@ class BodyPanel:
         answer = _answer(context)
         row = layout.row(align=True)
         row.label(text=answer.name, icon=answer.icon, translate=False)
-        end = row.row(align=True)
-        end.alignment = "RIGHT"
         icon, word = rows.VERDICTS[answer.verdict]
-        end.label(text=word, icon=icon)
+        rows.right(row).label(text=word, icon=icon)
         _quantities(layout, answer)
         material_row(layout, context)
         _buttons(layout, context)
         column = layout.column(align=True)
         state = answer.state
         if not state[0] and _questioned(context) is not None:
-            state = localized("Is a unit of this scene a millimeter?"), "QUESTION"
-        rows.state(column, *state)
+            state = (
+                write.translations.localized("Is a unit of this scene a millimeter?"),
+                "QUESTION",
+            )
+        texts.state(column, *state)
         remedies.summary(column, context, answer.groups)
         area = None
         density = None
@@ -106,7 +105,7 @@ class BodyPanel:
         column = layout.column(align=True)
         rows.quantities(column, [("Area", "area", area), ("Density", "density", density)])
         rows.table(column, [("Method", answer.method or "–", "", "")])
-        row = layout.column(align=True) if rows.is_narrow() else layout.row(align=True)
+        row = layout.column(align=True) if texts.is_narrow() else layout.row(align=True)
         row.menu("VIEW3D_MT_body_moments_copy", icon="COPYDOWN")
         rows.button(row, "object.body_moments_clear", "TRASH")
 
@@ -132,14 +131,17 @@ def _of_one(context: Context, obj: Object) -> Answer:
         density = _density(numbers, length, "at {:s}, not set" if shown.is_assumed else "at {:s}")
     state = ("", "")
     if shown is not None and shown.reason is not None:
-        state = rows.outdated(shown.reason), "FILE_REFRESH"
+        state = texts.outdated(shown.reason), "FILE_REFRESH"
     elif shown is not None and shown.live is not None:
-        live = localized(LIVE[shown.lag]).format(milliseconds=1e3 * shown.live.seconds)
+        live = write.translations.localized(LIVE[shown.lag]).format(
+            milliseconds=1e3 * shown.live.seconds
+        )
         state = live, "REC"
     findings = () if shown is None else shown.findings
-    now = current_numbers(obj)
-    if now is not None and now.refusal is not None and session.stored.outcome.last() is None:
-        findings = now.refusal, *findings
+    followed = session.memory.followed.get(obj)
+    is_refused = followed is not None and followed.refusal is not None
+    if is_refused and session.stored.outcome.last() is None:
+        findings = followed.refusal, *findings
     return Answer(
         obj.name,
         "OBJECT_DATA",
@@ -161,10 +163,12 @@ def _of_several(context: Context) -> Answer:
     posed = None
     if active is not None and session.tracking.armatures.stands_for_meshes(active):
         posed = displayed(active, context.scene)
-        name = localized("{:s}: {:d} Mesh" if count == 1 else "{:s}: {:d} Meshes")
+        name = write.translations.localized(
+            "{:s}: {:d} Mesh" if count == 1 else "{:s}: {:d} Meshes"
+        )
         name = name.format(active.name, count)
     else:
-        name = localized("{:d} Objects").format(count)
+        name = write.translations.localized("{:d} Objects").format(count)
     is_rest = posed is not None and write.properties.optional(active, "body_mass") is not None
     numbers = shown.numbers if posed is None else posed.world
     density = ""
@@ -176,19 +180,19 @@ def _of_several(context: Context) -> Answer:
         density = _density(numbers, None, template, shown.assumed, count)
     volume = None if numbers is None else numbers.volume
     if is_rest:
-        state = rows.outdated(posed.reason) if posed.reason else ""
-        state = state or localized("The mass is that of the rest pose")
+        state = texts.outdated(posed.reason) if posed.reason else ""
+        state = state or write.translations.localized("The mass is that of the rest pose")
         icon = "FILE_REFRESH" if posed.reason else "INFO"
     else:
         volume = shown.volume if shown.count else volume
         missing = shown.missing if shown.count else ()  # of none the verdict says it
-        texts = [
+        outstanding = [
             _outstanding(text, names, count)
             for names, text in ((missing, "Not measured: {:s}"), (shown.stale, "Out of date: {:s}"))
             if names
         ]
-        state = "; ".join(texts)
-        icon = "FILE_REFRESH" if texts else ""
+        state = "; ".join(outstanding)
+        icon = "FILE_REFRESH" if outstanding else ""
     return Answer(
         name,
         "GROUP",
@@ -206,10 +210,14 @@ def _of_several(context: Context) -> Answer:
 
 def _outstanding(template: str, names: Sequence[str], count: int) -> str:
     """Return a text with names, or with how many of `count` they are if they do not fit a row."""
-    text = localized(template).format(truncate_list(names, translate=localized))
-    if rows.fits(1.0, text):
+    text = write.translations.localized(template).format(
+        truncate_list(names, translate=write.translations.localized)
+    )
+    if texts.fits(1.0, text):
         return text
-    return localized(template).format(localized("{} of {}").format(len(names), count))
+    return write.translations.localized(template).format(
+        write.translations.localized("{} of {}").format(len(names), count)
+    )
 
 
 def _density(numbers: inertia.PlainBody, length: float | None, template: str, *counts: int) -> str:
@@ -217,8 +225,8 @@ def _density(numbers: inertia.PlainBody, length: float | None, template: str, *c
     if length:
         text = "{:.4g} kg/m".format(numbers.mass / length)
     else:
-        text = rows.scene_units().texts("density", (numbers.density,))[0]
-    return localized(template).format(text, *counts)
+        text = texts.scene_units().texts("density", (numbers.density,))[0]
+    return write.translations.localized(template).format(text, *counts)
 
 
 def _quantities(layout: UILayout, answer: Answer) -> None:
@@ -232,21 +240,28 @@ def _quantities(layout: UILayout, answer: Answer) -> None:
 
 
 def _buttons(layout: UILayout, context: Context) -> None:
-    narrow = rows.is_narrow()
+    narrow = texts.is_narrow()
     buttons = layout.column(align=True) if narrow else layout.row(align=True)
     buttons.scale_y = 1.4
     shown = shown_objects(context)
     selected = context.view_layer.objects.selected
-    subjects = [obj for obj in session.tracking.armatures.subjects(selected) if measurable(obj)]
+    subjects = [
+        obj
+        for obj in session.tracking.armatures.subjects(selected)
+        if read.visibility.measurable(obj)
+    ]
     text = "Measure" if not subjects or len(shown) == 1 and subjects == shown else "Measure {:s}"
     name = (
-        subjects[0].name if len(subjects) == 1 else localized("{:d} Objects").format(len(subjects))
+        subjects[0].name
+        if len(subjects) == 1
+        else write.translations.localized("{:d} Objects").format(len(subjects))
     )
-    measure = {"text": localized(text).format(name), "translate": False}
+    measure = {"text": write.translations.localized(text).format(name), "translate": False}
     rows.button(buttons, "object.body_moments_measure", "PHYSICS", **measure)
     row = buttons.row(align=True)
     short = {"text": ""} if text != "Measure" else {}  # the longer text needs the room
-    rows.button(row, "object.body_moments_live", "REC", depress=any(map(is_live, shown)), **short)
+    is_live = any(obj in session.memory.followed for obj in shown)
+    rows.button(row, "object.body_moments_live", "REC", depress=is_live, **short)
     row.operator("object.body_moments_select_faults", text="", icon="ZOOM_SELECTED")
 
 
@@ -259,7 +274,9 @@ def _method(obj: Object, shown: Displayed) -> str:
         Source.POLYGONS if shown.method is None or key == str(shown.method) else shown.method.source
     )
     name = METHODS[key][0] if key in METHODS else write.properties.method_text(obj).title()
-    return localized(SOURCES.get(origin, "{:s}")).format(localized(name))
+    return write.translations.localized(SOURCES.get(origin, "{:s}")).format(
+        write.translations.localized(name)
+    )
 
 
 class FindingsPanel:
@@ -277,7 +294,7 @@ class FindingsPanel:
         objects = shown_objects(context)
         source = write.properties.density_from(objects[0]) if len(objects) == 1 else ""
         if source:
-            rows.remark(layout, "Mean density, from {cause}", icon="BLANK1", cause=source)
+            texts.remark(layout, "Mean density, from {cause}", icon="BLANK1", cause=source)
 
 
 def _questioned(context: Context) -> tuple[Object, inertia.PlainBody] | None:
@@ -309,14 +326,18 @@ class ApplyPanel:
 
     def draw(self, context: Context) -> None:
         layout = self.layout
-        column = layout.column(align=True)
-        rows.button(column, "object.body_moments_origin_to_center", "OBJECT_ORIGIN")
-        rows.button(column, "object.body_moments_axes_to_principal", "EMPTY_AXIS")
-        rows.button(column, "object.body_moments_align_to_world", "ORIENTATION_GLOBAL")
-        column = layout.column(align=True)
-        rows.button(column, "object.body_moments_add_empty", "OUTLINER_OB_EMPTY")
-        rows.button(column, "view3d.body_moments_cursor_to_center", "PIVOT_CURSOR")
-        rows.button(column, "object.body_moments_create_orientation", "ORIENTATION_LOCAL")
+        rows.buttons(
+            layout,
+            ("object.body_moments_origin_to_center", "OBJECT_ORIGIN"),
+            ("object.body_moments_axes_to_principal", "EMPTY_AXIS"),
+            ("object.body_moments_align_to_world", "ORIENTATION_GLOBAL"),
+        )
+        column = rows.buttons(
+            layout,
+            ("object.body_moments_add_empty", "OUTLINER_OB_EMPTY"),
+            ("view3d.body_moments_cursor_to_center", "PIVOT_CURSOR"),
+            ("object.body_moments_create_orientation", "ORIENTATION_LOCAL"),
+        )
         row = column.split(factor=0.7, align=True)
         rows.button(row, "object.body_moments_rigid_bodies", "RIGID_BODY").type = "ACTIVE"
         passive = row.operator("object.body_moments_rigid_bodies", text="Passive")
@@ -331,8 +352,7 @@ VIEW3D_PT_body_moments, OBJECT_PT_body_moments = places.in_both_places(
     BodyPanel, shown_for=lambda obj: True, of_all=True
 )
 CLASSES = (
-    *(VIEW3D_PT_body_moments, OBJECT_PT_body_moments),
-    *places.in_both_places(ApplyPanel, "apply", shown_for=measurable, of_all=True),
+    *places.in_both_places(ApplyPanel, "apply", shown_for=read.visibility.measurable, of_all=True),
     *places.in_both_places(
         FindingsPanel, "findings", options=frozenset(), shown_for=lambda obj: True, of_all=True
     ),

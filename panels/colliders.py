@@ -12,12 +12,10 @@ from typing import Any
 
 from bpy.types import Context, OperatorProperties
 
-from ..blender import scale, session
-from ..blender.read.visibility import measurable
+from ..blender import read, scale, session, settings
 from ..blender.session.stored.collider_tolerance import is_beyond_tolerance, tolerance_remedy
-from ..blender.settings.given import COLLIDER, COLLIDERS, body_of
 from ..operators.setup.colliders import SHAPES
-from . import places, rows
+from . import places, rows, texts
 
 # Ratios to numbers that are zero are not stored.
 KEYS = {
@@ -55,9 +53,9 @@ class CollidersPanel:
     def draw(self, context: Context) -> None:
         layout = self.layout
         chosen = session.selected.subject(context)
-        body = None if chosen is None else body_of(chosen)
+        body = None if chosen is None else settings.given.body_of(chosen)
         layout.label(text="" if body is None else body.name, icon="OBJECT_DATA", translate=False)
-        group = None if body is None else body.get(COLLIDERS)
+        group = None if body is None else body.get(settings.given.COLLIDERS)
         stored = group if hasattr(group, "keys") and KEYS.issubset(group.keys()) else None
         make_colliders = "object.body_moments_make_colliders"
         kind = SHAPES[0][0] if stored is None else str(stored["shape"]).upper()
@@ -87,15 +85,15 @@ class CollidersPanel:
             None
             if stored is None
             else session.tracking.staleness.stale_reason(
-                body, context.scene, session.tracking.stamps.of_colliders
+                body, context.scene, session.tracking.stamps.Kind.COLLIDERS
             )
         )
-        rows.stale_state(layout, reason)
+        texts.stale_state(layout, reason)
         if stored is None:
-            rows.remark(layout, "Engines take mass, center and inertia from colliders.")
+            texts.remark(layout, "Engines take mass, center and inertia from colliders.")
             return
         column = layout.column(align=True)
-        rows.filled(
+        texts.filled(
             column, "1 Collider" if stored["count"] == 1 else "{:d} Colliders", stored["count"]
         )
         size = max(body.dimensions) * scale.meters_per_unit(context.scene)
@@ -107,28 +105,32 @@ class CollidersPanel:
         )
         if max(changes) > SLIGHT:
             remedies = REMEDIES.get(stored["correct"], REMEDIES["none"])
-            kinds = {child[COLLIDER]["kind"] for child in body.children if COLLIDER in child}
+            kinds = {
+                child[settings.given.COLLIDER]["kind"]
+                for child in body.children
+                if settings.given.COLLIDER in child
+            }
             remedy = remedies[stored["shape"] == "pieces"] if "mesh" in kinds else PRIMITIVE_REMEDY
-            rows.remark(column, ANOTHER_BODY, icon="ERROR")
-            rows.remark(column, remedy)
+            texts.remark(column, ANOTHER_BODY, icon="ERROR")
+            texts.remark(column, remedy)
         else:
-            rows.remark(column, "An engine simulates the body within 1%.", icon="CHECKMARK")
+            texts.remark(column, "An engine simulates the body within 1%.", icon="CHECKMARK")
         if is_beyond_tolerance(stored):
-            rows.remark(column, "The tolerance is not kept.", icon="ERROR")
-            rows.remark(column, tolerance_remedy(stored))
-        rows.title(layout, "Of the Object's")
+            texts.remark(column, "The tolerance is not kept.", icon="ERROR")
+            texts.remark(column, tolerance_remedy(stored))
+        texts.title(layout, "Of the Object's")
         labels = ("Volume", "Mass", "Moment 1", "Moment 2", "Moment 3")
         moments = stored.get("moment_ratios", (None,) * 3)
         ratios = zip(labels, (stored.get("volume_ratio"), stored.get("mass_ratio"), *moments))
         rows.table(
-            layout.column(align=True),
+            layout,
             [
                 (label, "{:.5g} %".format(100.0 * one), repr(one), "")
                 for label, one in ratios
                 if one is not None
             ],
         )
-        rows.title(layout, "Off by")
+        texts.title(layout, "Off by")
         column = layout.column(align=True)
         labels = ("Center", "Outward", "Inward", "Uncertain by")
         lengths = shift, *(stored[name] for name in ("outward", "inward", "distance_bound"))
@@ -151,4 +153,6 @@ def _repeat(make: OperatorProperties, stored: Mapping[str, Any] | None, correct:
         make.pieces, make.vertices = stored["limits"]
 
 
-CLASSES = places.in_both_places(CollidersPanel, "colliders", shown_for=measurable, of_all=True)
+CLASSES = places.in_both_places(
+    CollidersPanel, "colliders", shown_for=read.visibility.measurable, of_all=True
+)

@@ -5,17 +5,14 @@
 from __future__ import annotations
 
 from math import pi
-from typing import TYPE_CHECKING
 
 from bpy.types import Context, UILayout
 
 from ..blender.read.visibility import measurable
 from ..blender.session import memory, selected, stored
-from ..core.lazy import loaded_module
-from . import places, rows
-
-if TYPE_CHECKING:
-    from ..blender.session.stored.cuts import KnownCutFill, Level
+from ..blender.session.tracking.staleness import stale_reason
+from ..blender.session.tracking.stamps import Kind
+from . import places, rows, texts
 
 TABLE_STEP = 4  # every fourth row of the level table is listed
 
@@ -28,26 +25,20 @@ class CutsPanel:
     def draw(self, context: Context) -> None:
         layout = self.layout
         obj = selected.subject(context)
-        column = layout.column(align=True)
-        rows.button(column, "object.body_moments_level", "MATFLUID")
+        column = rows.buttons(layout, ("object.body_moments_level", "MATFLUID"))
         rows.button(column, "object.body_moments_cut_fill", "MOD_BOOLEAN", short="Cut, Fill")
-        cuts = loaded_module(stored, "cuts")
-        if cuts is None:
-            return
-        for values, read, draw in (
-            (memory.levels, cuts.level_of, _level),
-            (memory.cut_fills, cuts.cut_fill_of, _cut_fill),
+        for values, kind, draw in (
+            (memory.levels, Kind.LEVEL, _level),
+            (memory.cut_fills, Kind.CUT_FILL, _cut_fill),
         ):
-            if obj in values:
-                found = read(obj, context.scene)
-                if found is None:
-                    text = "The object has changed. Press the button again."
-                    rows.remark(layout, text, icon="FILE_REFRESH")
-                else:
-                    draw(layout, found)
+            if obj in values and stale_reason(obj, context.scene, kind):
+                text = "The object has changed. Press the button again."
+                texts.remark(layout, text, icon="FILE_REFRESH")
+            elif obj in values:
+                draw(layout, values[obj])
 
 
-def _level(layout: UILayout, level: Level) -> None:
+def _level(layout: UILayout, level: stored.cuts.Level) -> None:
     layout.label(text="Liquid", icon="MATFLUID")
     column = layout.column(align=True)
     rows.quantities(
@@ -61,7 +52,7 @@ def _level(layout: UILayout, level: Level) -> None:
         ],
     )
     if level.tilt is None:
-        rows.remark(column, "Spills at Tilt: only up to 20,000 triangles")
+        texts.remark(column, "Spills at Tilt: only up to 20,000 triangles")
     elif level.tilt < pi:
         rows.table(column, [rows.angle_cell("Spills at Tilt", level.tilt)])
     row = layout.row(align=True)
@@ -70,9 +61,8 @@ def _level(layout: UILayout, level: Level) -> None:
     body = rows.fold(layout, "body_moments_level_surface", "Free Surface")
     if body is not None:
         area, least, largest = level.surface_moments
-        column = body.column(align=True)
         rows.quantities(
-            column,
+            body,
             [
                 ("Area", "area", area),
                 ("I1", "area_moment", least),
@@ -90,20 +80,19 @@ def _level(layout: UILayout, level: Level) -> None:
         )
     body = rows.fold(layout, "body_moments_level_table", "Level Table")
     if body is not None:
-        units = rows.scene_units()
+        units = texts.scene_units()
         cells = [
             (units.text("length", height), units.text("volume", volume), repr(volume), "m³")
             for height, volume in level.table[TABLE_STEP::TABLE_STEP].tolist()
         ]
-        rows.table(body.column(align=True), cells)
+        rows.table(body, cells)
 
 
-def _cut_fill(layout: UILayout, known: KnownCutFill) -> None:
+def _cut_fill(layout: UILayout, known: stored.cuts.KnownCutFill) -> None:
     found = known.found
     layout.label(text="Cut and Fill", icon="MOD_BOOLEAN")
-    column = layout.column(align=True)
     rows.quantities(
-        column,
+        layout,
         [
             ("Cut", "volume", found.cut.total),
             ("Fill", "volume", found.fill.total),
@@ -113,7 +102,7 @@ def _cut_fill(layout: UILayout, known: KnownCutFill) -> None:
         ],
     )
     for shown in known.findings:
-        rows.message(layout, shown)
+        texts.message(layout, shown)
     body = rows.fold(layout, "body_moments_cut_fill_centers", "Centers")
     if body is not None:
         for label, part, area in (

@@ -19,7 +19,18 @@ from ..blender.settings import given, preferences, properties
 from ..blender.write.translations import CONTEXT
 from ..core.lazy import loaded_module
 from . import material_menus as materials
-from . import places, rows
+from . import places, rows, texts
+
+PRINT_SETTINGS = (
+    "print_preset",
+    "print_walls",
+    "print_line_width",
+    "print_top_layers",
+    "print_bottom_layers",
+    "print_layer_height",
+    "print_infill",
+    "spool_price",
+)
 
 
 class DensityPanel:
@@ -43,17 +54,17 @@ def material_row(layout: UILayout, context: Context) -> None:
     column = layout.column()
     column.use_property_split = True
     if are_volumes and common(settings, "grid_as") == "DENSITY":
-        rows.setting(column, settings, "grid")
+        rows.settings(column, settings, "grid")
     elif is_mixed(settings, "mass_from"):
-        rows.setting(column, settings, "mass_from")
+        rows.settings(column, settings, "mass_from")
     elif settings.mass_from == "MASS":
-        rows.setting(column, settings, "mass", text="Mass (kg)")
+        rows.settings(column, settings, "mass")
     elif common(settings, "kind") == "WIRE":
-        rows.setting(column, settings, "linear_density", text="Density (kg/m)")
+        rows.settings(column, settings, "linear_density")
     elif common(settings, "density_from") == "VALUE" or are_volumes:
         _material(column, context, settings, "Material")
     else:
-        rows.setting(column, settings, "density_from")
+        rows.settings(column, settings, "density_from")
 
 
 def _density_source(column: UILayout, settings: PropertyGroup) -> None:
@@ -62,7 +73,7 @@ def _density_source(column: UILayout, settings: PropertyGroup) -> None:
     """
     source = common(settings, "density_from")
     if preferences.shows_advanced() or source in (None, "POLYNOMIAL"):
-        rows.setting(column, settings, "density_from")
+        rows.settings(column, settings, "density_from")
         return
     grid = column.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
     grid.use_property_split = False  # each choice has its name on it
@@ -74,7 +85,7 @@ def _settings(layout: UILayout, context: Context) -> None:
     settings = chosen_settings(context)
     objects = owners(context)
     if any(obj.override_library is not None for obj in objects):
-        rows.remark(
+        texts.remark(
             layout,
             "Library override: settings and results are lost on saving. Make it local.",
             icon="ERROR",
@@ -87,12 +98,12 @@ def _settings(layout: UILayout, context: Context) -> None:
     kind = "SOLID" if are_volumes else common(settings, "kind")
     if not are_volumes:
         _shape_settings(column, settings, objects, kind)
-    rows.setting(column, settings, "mass_from", expand=True)
+    rows.settings(column, settings, "mass_from", expand=True)
     mass_from = common(settings, "mass_from")
     if mass_from == "MASS":
-        rows.setting(column, settings, "mass", text="Mass (kg)")
+        rows.settings(column, settings, "mass")
     elif mass_from is not None and kind == "WIRE":
-        rows.setting(column, settings, "linear_density", text="Density (kg/m)")
+        rows.settings(column, settings, "linear_density")
     elif mass_from is not None:
         _density_settings(layout, column, context, settings, are_volumes)
 
@@ -102,7 +113,7 @@ def _shape_settings(
 ) -> None:
     """Draw the kind of the bodies, and their walls or overlaps."""
     if kind is None:
-        rows.setting(column, settings, "kind")
+        rows.settings(column, settings, "kind")
     else:
         row = rows.labeled_row(column, "Kind", CONTEXT)
         row.use_property_split = False
@@ -110,40 +121,27 @@ def _shape_settings(
         for item in ("SOLID", "SHELL", "PRINTED", *(["WIRE"] if may_be_wire else [])):
             row.prop_enum(settings, "kind", item)
     if kind == "SHELL":
-        rows.setting(column, settings, "wall")
-        rows.setting(column, settings, "thickness")
+        rows.settings(column, settings, "wall", "thickness")
         if len(objects) == 1:
             _max_thickness(column, objects[0])
     elif kind == "PRINTED":
         _print_settings(column, settings)
     if kind in ("SOLID", "PRINTED"):
-        rows.setting(column, settings, "overlap")
+        rows.settings(column, settings, "overlap")
 
 
 def _print_settings(column: UILayout, settings: PropertyGroup) -> None:
     """Draw how the bodies are printed, and the price of the filament."""
-    rows.setting(column, settings, "print_preset")
-    for name, text in (
-        ("print_walls", "Walls"),
-        ("print_line_width", "Line Width (mm)"),
-        ("print_top_layers", "Top Layers"),
-        ("print_bottom_layers", "Bottom Layers"),
-        ("print_layer_height", "Layer (mm)"),
-        ("print_infill", "Infill"),
-        ("spool_price", "Price of a Spool"),
-    ):
-        rows.setting(column, settings, name, text=text)
+    rows.settings(column, settings, *PRINT_SETTINGS)
     if common(settings, "pocket_radius"):
-        rows.setting(column, settings, "pocket_radius", text="Pocket (mm)")
-        rows.setting(column, settings, "pocket_density", text="Ballast (kg/m³)")
-        rows.setting(column, settings, "pocket_center", text="Center")
+        rows.settings(column, settings, "pocket_radius", "pocket_density", "pocket_center")
     if common(settings, "spool_price"):
-        rows.setting(column, settings, "spool_mass", text="Spool (kg)")
+        rows.settings(column, settings, "spool_mass")
     objects = owners(bpy.context)
     if len(objects) == 1 and "body_material_volume" in objects[0]:
-        rows.filled(column, "Material: {:.5g} cm³", 1e6 * objects[0]["body_material_volume"])
+        texts.filled(column, "Material: {:.5g} cm³", 1e6 * objects[0]["body_material_volume"])
         if "body_price" in objects[0]:
-            rows.filled(column, "Price: {:.2f}", objects[0]["body_price"])
+            texts.filled(column, "Price: {:.2f}", objects[0]["body_price"])
 
 
 def _density_settings(
@@ -156,8 +154,8 @@ def _density_settings(
     _density_source(column, settings)
     source = common(settings, "density_from")
     if source == "POLYNOMIAL":
-        rows.setting(column, settings, "density_polynomial")
-        rows.setting(column, settings, "density_frame", expand=True)
+        rows.settings(column, settings, "density_polynomial")
+        rows.settings(column, settings, "density_frame", expand=True)
     elif source == "ATTRIBUTE":
         mesh = owners(context)[0].data
         if isinstance(mesh, Mesh) and not is_mixed(settings, "density_attribute"):
@@ -165,9 +163,9 @@ def _density_settings(
                 settings, "density_attribute", mesh, "attributes", results_are_suggestions=True
             )
         else:
-            rows.setting(column, settings, "density_attribute")
+            rows.settings(column, settings, "density_attribute")
     elif source == "VOLUME":
-        rows.setting(column, settings, "density_volume")
+        rows.settings(column, settings, "density_volume")
     elif source == "MATERIALS":
         _materials(layout, context, settings)
     elif source is not None:
@@ -184,20 +182,20 @@ def _max_thickness(layout: UILayout, obj: Object) -> None:
     row = layout.row()
     row.alert = folds
     if folds:
-        rows.remark(row, "Folds over from {length:length}", icon="ERROR", length=limit)
+        texts.remark(row, "Folds over from {length:length}", icon="ERROR", length=limit)
     else:
-        rows.remark(row, "Largest wall: {length:length}", length=limit)
+        texts.remark(row, "Largest wall: {length:length}", length=limit)
 
 
 def _materials(layout: UILayout, context: Context, settings: PropertyGroup) -> None:
     column = layout.column(align=True)
-    rows.filled(column, "Densities ({:s})", rows.scene_units().unit("density", 0.0)[1])
+    texts.filled(column, "Densities ({:s})", texts.scene_units().unit("density", 0.0)[1])
     slots = chain.from_iterable(obj.material_slots for obj in owners(context))
     shown = dict.fromkeys(slot.material for slot in slots if slot.material)
     for material in shown:
         materials.density_row(column, context.scene, material, material.name)
     if not shown:
-        rows.remark(column, "No material slots")
+        texts.remark(column, "No material slots")
     column = layout.column()
     column.use_property_split = True
     _uniform_density(column, context, settings, "Others")
@@ -206,7 +204,7 @@ def _materials(layout: UILayout, context: Context, settings: PropertyGroup) -> N
 def _uniform_density(column: UILayout, context: Context, settings, heading: str) -> None:
     """Draw the object's own density, with the table and the user's presets."""
     _material(column, context, settings, heading)
-    rows.setting(column, settings, properties.density_field_name(context.scene))
+    rows.settings(column, settings, properties.density_field_name(context.scene))
 
 
 def _material(column: UILayout, context: Context, settings: PropertyGroup, heading: str) -> None:
@@ -245,31 +243,30 @@ def _grid_settings(layout: UILayout, settings: PropertyGroup) -> bool:
     from a material.
     """
     column = layout.column()
-    rows.setting(column, settings, "grid")
-    rows.setting(column, settings, "grid_as", expand=True)
+    rows.settings(column, settings, "grid")
+    rows.settings(column, settings, "grid_as", expand=True)
     grid_as = common(settings, "grid_as")
     if grid_as in (None, "SOLID"):
         return False
     if grid_as == "LABEL":
-        rows.setting(column, settings, "label")
+        rows.settings(column, settings, "label")
         return False
     if grid_as == "THRESHOLD":
-        rows.setting(column, settings, "threshold")
-        rows.setting(column, settings, "threshold_fill", expand=True)
-    rows.setting(column, settings, "spline_order")
+        rows.settings(column, settings, "threshold")
+        rows.settings(column, settings, "threshold_fill", expand=True)
+    rows.settings(column, settings, "spline_order")
     if getattr(settings, "sample_positions", ""):
         column.label(text="Samples at their own positions", icon="SNAP_INCREMENT")
     if grid_as == "THRESHOLD" and common(settings, "threshold_fill") in (None, "MATERIAL"):
         return False
-    rows.setting(column, settings, "mass_from", expand=True)
-    rows.setting(column, settings, "values_from", expand=True)
+    rows.settings(column, settings, "mass_from", "values_from", expand=True)
     if common(settings, "values_from") in (None, "FACTOR"):
-        rows.setting(column, settings, "value_density", text="Value 1 (kg/m³)")
+        rows.settings(column, settings, "value_density")
     else:
-        rows.setting(column, settings, "transfer_table", text="Table")
-        rows.sentence(layout.column(), settings.transfer_table.replace(", ", " · "))
+        rows.settings(column, settings, "transfer_table")
+        texts.sentence(layout.column(), settings.transfer_table.replace(", ", " · "))
     if common(settings, "mass_from") == "MASS":
-        rows.setting(column, settings, "mass", text="Mass (kg)")
+        rows.settings(column, settings, "mass")
     return True
 
 
@@ -288,9 +285,9 @@ class GivenPanel:
             row.prop_enum(settings, "mass_from", "DENSITY", text="No Mass")
             row.prop_enum(settings, "mass_from", "MASS", text="Point Mass")
         elif is_mixed(settings, "mass_from"):
-            rows.setting(layout, settings, "mass_from")
+            rows.settings(layout, settings, "mass_from")
         if common(settings, "mass_from") == "MASS":
-            rows.setting(layout.column(), settings, "mass", text="Mass (kg)")
+            rows.settings(layout.column(), settings, "mass")
             given_rows(layout, settings)
 
 
@@ -301,17 +298,15 @@ def _may_be_point(obj) -> bool:
 def given_rows(layout: UILayout, settings: PropertyGroup) -> None:
     """Draw the optional properties of a given mass."""
     column = layout.column()
-    rows.setting(column, settings, "use_center")
+    rows.settings(column, settings, "use_center")
     if common(settings, "use_center"):
-        rows.setting(column, settings, "given_center", text="Center")
-    rows.setting(column, settings, "use_inertia")
+        rows.settings(column, settings, "given_center")
+    rows.settings(column, settings, "use_inertia")
     if common(settings, "use_inertia"):
-        rows.setting(column, settings, "given_inertia_diagonal", text="Ixx, Iyy, Izz")
-        rows.setting(column, settings, "given_inertia_products", text="Ixy, Ixz, Iyz")
+        rows.settings(column, settings, "given_inertia_diagonal", "given_inertia_products")
 
 
 CLASSES = (
-    OBJECT_PT_body_moments_mixed,
     *places.in_both_places(DensityPanel, "density", shown_for=given.has_density, of_all=True),
     *places.in_both_places(
         GivenPanel,

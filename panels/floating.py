@@ -5,18 +5,13 @@
 from __future__ import annotations
 
 from math import isfinite, pi
-from typing import TYPE_CHECKING
 
 from bpy.types import Context, UILayout
 
 from ..blender.read.visibility import measurable
-from ..blender.session import displayed, selected, stored
-from ..core import lazy, verdict
-from . import places, rows
-
-if TYPE_CHECKING:
-    from ..blender.session.stored.floating import Afloat, Held
-    from ..core.floating import RightingCurve
+from ..blender.session import displayed, memory, selected, stored
+from ..core import floating, verdict
+from . import places, rows, texts
 
 MAX_POSITIONS = 6
 
@@ -47,16 +42,14 @@ class FloatingPanel:
             column.prop(tank, "role")
             if tank.role == "TANK":
                 column.prop(tank, "fill")
-        floating = lazy.loaded_module(stored, "floating")
-        afloat = None if floating is None or obj is None else floating.known_body(obj)
-        if afloat is None:
-            rows.remark(layout, "Press Float to see where it rests.")
+        if obj is None or obj not in memory.afloat:
+            texts.remark(layout, "Press Float to see where it rests.")
             return
-        held = floating.held_body(obj, context.scene)
+        held = stored.floating.held_body(obj, context.scene)
         if isinstance(held, verdict.Finding):
-            rows.message(layout, held)
+            texts.message(layout, held)
         elif held is None:
-            rows.remark(layout, "The object has changed. Press Float again.", icon="FILE_REFRESH")
+            texts.remark(layout, "The object has changed. Press Float again.", icon="FILE_REFRESH")
         else:
             _numbers(layout, held)
             _positions(layout, held.afloat)
@@ -64,7 +57,7 @@ class FloatingPanel:
                 _stability(layout, held.afloat.curve)
 
 
-def _numbers(layout: UILayout, held: Held) -> None:
+def _numbers(layout: UILayout, held: stored.floating.Held) -> None:
     state = held.state
     stable = state.metacentric_heights[0] > 0.0
     if not held.is_at_rest:
@@ -72,7 +65,7 @@ def _numbers(layout: UILayout, held: Held) -> None:
     else:
         layout.label(text="Afloat", icon="CHECKMARK" if stable else "ERROR")
     for found in held.afloat.rest.findings:
-        rows.message(layout, found)
+        texts.message(layout, found)
     column = layout.column(align=True)
     rows.quantities(
         column,
@@ -90,10 +83,9 @@ def _numbers(layout: UILayout, held: Held) -> None:
     rows.quantities(column, [("GM", "length", smaller), ("GM, Lengthwise", "length", larger)])
     body = rows.fold(layout, "body_moments_floating_more", "Hydrostatics")
     if body is not None:
-        column = body.column(align=True)
         keel = state.keel
         rows.quantities(
-            column,
+            body,
             [
                 ("KB", "length", float(state.up @ state.center_of_buoyancy) - keel),
                 ("KG", "length", float(state.up @ state.center_of_gravity) - keel),
@@ -112,22 +104,22 @@ def _numbers(layout: UILayout, held: Held) -> None:
             rows.group(body, label, rows.AXIS_LABELS, "length", held.to_world(point), size)
 
 
-def _positions(layout: UILayout, afloat: Afloat) -> None:
+def _positions(layout: UILayout, afloat: stored.floating.Afloat) -> None:
     if not afloat.rests:
         return
     layout.label(text="Positions of Rest")
     column = layout.column(align=True)
     for place, rest in enumerate(afloat.rests[:MAX_POSITIONS], 1):
         row = column.row(align=True)
-        gm = rows.scene_units().text("length", rest.metacentric_heights[0])
+        gm = texts.scene_units().text("length", rest.metacentric_heights[0])
         row.label(text="{:d}: GM {:s}".format(place, gm), translate=False)
         row.operator("object.body_moments_float", text="", icon="MOD_OCEAN").position = place
     more = len(afloat.rests) - MAX_POSITIONS
     if more > 0:
-        rows.filled(column, "{:d} more", more)
+        texts.filled(column, "{:d} more", more)
 
 
-def _stability(layout: UILayout, curve: RightingCurve) -> None:
+def _stability(layout: UILayout, curve: floating.RightingCurve) -> None:
     layout.label(text="Righting Arms")
     column = layout.column(align=True)
     largest = int(curve.arms.argmax())
@@ -146,7 +138,7 @@ def _stability(layout: UILayout, curve: RightingCurve) -> None:
         if reached:
             rows.table(column, [rows.angle_cell(label, min(reached))])
     if high >= pi - 1e-6 and low <= 1e-6 - pi:
-        rows.remark(column, "It comes back from any heel.")
+        texts.remark(column, "It comes back from any heel.")
 
 
 CLASSES = places.in_both_places(FloatingPanel, "floating", shown_for=measurable, of_all=True)

@@ -11,7 +11,7 @@ from bpy.types import Context
 from ..blender import read, session, write
 from ..blender.session.displayed import displayed, shown_objects, total
 from ..core import inertia, verdict
-from . import places, rows
+from . import places, rows, texts
 
 ERROR_OF_A_DIFFERENCE = (
     6.0  # each principal moment is off by at most 3 times the error of a tensor entry
@@ -37,13 +37,10 @@ class InertiaPanel:
         moments = None if shown is None else shown.moments
         rows.group(layout, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", moments)
         column = layout.column(align=True)
-        if shown is None:
-            rows.title(column.row(align=True), "Principal Axes")
-        else:
-            rows.heading(column, "Principal Axes", "", shown.axes)
+        rows.heading(column, "Principal Axes", "", None if shown is None else shown.axes)
         for place, label in enumerate(rows.PRINCIPAL_LABELS):
             rows.direction(column, label, None if shown is None else shown.axes[place])
-        rows.state(
+        texts.state(
             column, "" if shown is None else write.translations.localized(_equal_moments(shown))
         )
         gyration = None if shown is None else shown.gyration
@@ -90,12 +87,11 @@ class ReferencePanel:
         settings = scene.body_moments_reference
         obj = session.selected.subject(context)
         column = layout.column()
-        rows.setting(column, settings, "about")
+        rows.settings(column, settings, "about")
         if settings.about == "OBJECT":
-            rows.setting(column, settings, "object")
+            rows.settings(column, settings, "object")
         elif settings.about == "AXIS":
-            rows.setting(column, settings, "first")
-            rows.setting(column, settings, "second")
+            rows.settings(column, settings, "first", "second")
             rows.button(
                 layout,
                 "object.body_moments_axis_from_selection",
@@ -113,7 +109,7 @@ class ReferencePanel:
         if result is None:
             return
         if isinstance(result, verdict.Finding):
-            rows.message(layout, result)
+            texts.message(layout, result)
             return
         if settings.about == "AXIS":
             column = layout.column(align=True)
@@ -126,11 +122,10 @@ class ReferencePanel:
         rows.group(layout, "Inertia, Ixy = −∫xy dm", rows.TENSOR_LABELS, "inertia", result.inertia)
         sources = (
             ("Rounding, at Most", result.rounding_error),
-            ("Float32, at Most", result.input_error),
+            ("Float32 Coordinates, at Most", result.input_error),
         )
         size = max(map(abs, result.inertia))
-        bounds = [(label, "inertia", error["inertia"], size) for label, error in sources]
-        rows.bounds(layout.column(align=True), bounds)
+        rows.error_bounds(layout, sources, [("Inertia", "inertia", "inertia", size)])
 
 
 CLASSES = (

@@ -13,20 +13,13 @@ from bpy.types import Context, Material, Menu, Panel, Scene, UILayout
 from ..blender.settings.chosen import chosen_objects
 from ..blender.settings.properties import density_field_name
 from ..core.density import CATEGORIES, FILAMENT, MATERIALS
-from ..operators.setup.presets import (
-    PRESET_FOLDER,
-    MATERIAL_OT_body_moments_set_density,
-    OBJECT_OT_body_moments_preset_add,
-    OBJECT_OT_body_moments_preset_apply,
-    OBJECT_OT_body_moments_set_material,
-)
-from . import places, rows
+from ..operators.setup.presets import PRESET_FOLDER
+from . import places, texts
 
 
 class OBJECT_MT_body_moments_materials(Menu):
     """Densities of materials by category. Type to search"""
 
-    bl_idname = "OBJECT_MT_body_moments_materials"
     bl_label = "Materials"
     bl_options = {"SEARCH_ON_KEY_PRESS"}
 
@@ -53,12 +46,12 @@ def _set_density(layout: UILayout, context: Context, **options: str):
     """
     target = getattr(context, "body_moments_material", None)
     if target is None:
-        button = layout.operator(OBJECT_OT_body_moments_set_material.bl_idname, **options)
+        button = layout.operator("object.body_moments_set_material", **options)
         chosen = chosen_objects(context)
         if len(chosen) == 1:
             button.target = chosen[0].name_full
         return button
-    button = layout.operator(MATERIAL_OT_body_moments_set_density.bl_idname, **options)
+    button = layout.operator("material.body_moments_set_density", **options)
     button.target = target.name
     return button
 
@@ -75,7 +68,7 @@ def density_row(layout: UILayout, scene: Scene, material: Material, label: str =
         row = split.row(align=True)
     row.prop(settings, density_field_name(scene), **({"text": ""} if label else {}))
     row.context_pointer_set("body_moments_material", material)
-    row.menu(OBJECT_MT_body_moments_materials.bl_idname, text="", icon="DOWNARROW_HLT")
+    row.menu(OBJECT_MT_body_moments_materials.__name__, text="", icon="DOWNARROW_HLT")
 
 
 def _draw_category(self: Menu, context: Context) -> None:
@@ -84,7 +77,7 @@ def _draw_category(self: Menu, context: Context) -> None:
 
 
 def _entries(layout: UILayout, context: Context, category: str) -> None:
-    units = rows.scene_units()
+    units = texts.scene_units()
     for material in MATERIALS:
         if material.category == category:
             text = "{:s}  ({:s})".format(material.name, units.text("density", material.density))
@@ -111,8 +104,8 @@ class OBJECT_PT_body_moments_presets(PresetPanel, Panel):
 
     bl_label = "Body Moments Presets"
     preset_subdir = PRESET_FOLDER
-    preset_operator = OBJECT_OT_body_moments_preset_apply.bl_idname
-    preset_add_operator = OBJECT_OT_body_moments_preset_add.bl_idname
+    preset_operator = "object.body_moments_preset_apply"
+    preset_add_operator = "object.body_moments_preset_add"
 
     def draw(self, context: Context) -> None:
         if bpy.utils.preset_paths(PRESET_FOLDER):
@@ -145,12 +138,7 @@ class MATERIAL_PT_body_moments(places.AmongProperties, Panel):
         if material.body_moments.material:
             column.label(text=material.body_moments.material, icon="CHECKMARK", translate=False)
         elif not material.body_moments.density:
-            rows.remark(column, "None: the object's density is used")
+            texts.remark(column, "None: the object's density is used")
 
 
-CLASSES = (
-    *CATEGORY_MENUS,
-    OBJECT_MT_body_moments_materials,
-    OBJECT_PT_body_moments_presets,
-    MATERIAL_PT_body_moments,
-)
+CLASSES = CATEGORY_MENUS

@@ -92,7 +92,6 @@ class _Groups:
 class VIEW3D_MT_body_moments_shape(_Groups, Menu):
     """Placing, standing and comparing"""
 
-    bl_idname = "VIEW3D_MT_body_moments_shape"
     bl_label = "Shape"
     GROUPS = (
         (ALIGN, EMPTY, CURSOR, ("object.body_moments_create_orientation", "ORIENTATION_LOCAL")),
@@ -121,7 +120,6 @@ class VIEW3D_MT_body_moments_shape(_Groups, Menu):
 class VIEW3D_MT_body_moments_advanced(_Groups, Menu):
     """Analyses, for which the preferences have a switch"""
 
-    bl_idname = "VIEW3D_MT_body_moments_advanced"
     bl_label = "Advanced"
     GROUPS = (
         (
@@ -140,7 +138,6 @@ class VIEW3D_MT_body_moments_advanced(_Groups, Menu):
 class VIEW3D_MT_body_moments(_Groups, Menu):
     """Mass properties of the selected objects"""
 
-    bl_idname = "VIEW3D_MT_body_moments"
     bl_label = "Body Moments"
     GROUPS = (
         (MEASURE, ("object.body_moments_live", "REC")),
@@ -155,9 +152,9 @@ class VIEW3D_MT_body_moments(_Groups, Menu):
         layout.menu(EXPORT_MENU, text="Export", icon="EXPORT")
         layout.operator("import_scene.body_moments_audit", icon="VIEWZOOM")
         layout.separator()
-        layout.menu(VIEW3D_MT_body_moments_shape.bl_idname)
+        layout.menu(VIEW3D_MT_body_moments_shape.__name__)
         if shows_advanced():
-            layout.menu(VIEW3D_MT_body_moments_advanced.bl_idname)
+            layout.menu(VIEW3D_MT_body_moments_advanced.__name__)
 
 
 def _entries(*entries: Entry, separator: bool = True, mode: str = "OBJECT") -> Callable:
@@ -181,7 +178,7 @@ def _imports(menu: Menu, _context: Context) -> None:
 
 def _object_menu(menu: Menu, _context: Context) -> None:
     menu.layout.separator()
-    menu.layout.menu(VIEW3D_MT_body_moments.bl_idname, icon="PHYSICS")
+    menu.layout.menu(VIEW3D_MT_body_moments.__name__, icon="PHYSICS")
 
 
 def _snap_pie(menu: Menu, _context: Context) -> None:
@@ -231,7 +228,6 @@ MENUS = (
     (bpy.types.PHYSICS_PT_rigid_body, _rigid_body_panel),
     (bpy.types.TOPBAR_MT_help, _help_entry),
 )
-CLASSES = (VIEW3D_MT_body_moments_shape, VIEW3D_MT_body_moments_advanced, VIEW3D_MT_body_moments)
 
 
 def register() -> None:

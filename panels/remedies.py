@@ -13,14 +13,12 @@ from dataclasses import replace
 import bpy
 from bpy.types import Context, Object, UILayout
 
+from ..blender import write
 from ..blender.session import selected, stored
-from ..blender.write.remedies import DEFECTS, REMEDIES, REPAIR, SELECT, remedies_of
-from ..blender.write.translations import localized, localized_sentence
-from ..core.inertia import PlainBody
-from ..core.verdict import Finding, Group, Severity, of_severity, severity
-from . import rows
+from ..core import inertia, verdict
+from . import rows, texts
 
-ICONS = {DEFECTS: "ZOOM_SELECTED", SELECT: "RESTRICT_SELECT_OFF"}
+ICONS = {write.remedies.DEFECTS: "ZOOM_SELECTED", write.remedies.SELECT: "RESTRICT_SELECT_OFF"}
 LINE_SHARE = 0.6  # of a row for the text of a line and its button, beside the icons
 MIN_QUESTIONED_LENGTH = 5.0  # m: longer bodies may be meant in millimeters
 MIN_QUESTIONED_MASS = 1e5  # kg
@@ -28,85 +26,93 @@ QUESTION_DIGITS = 3
 
 
 def lines(
-    layout: UILayout, context: Context, groups: Sequence[Group], can_accept: bool = True
+    layout: UILayout, context: Context, groups: Sequence[verdict.Group], can_accept: bool = True
 ) -> None:
     """Draw a line for each group of errors and warnings, with its first remedy; its sentence opens
     on click.
     """
-    warnings = [group for group in groups if severity(group.finding) != Severity.NOTE]
+    warnings = [
+        group for group in groups if verdict.severity(group.finding) != verdict.Severity.NOTE
+    ]
     for group in warnings:
         header, body = layout.panel("body_moments_" + group.finding.code, default_closed=True)
         _line(header, context, group, can_accept)
         if body is None:
             continue
         column = body.column(align=True)
-        rows.message(column, _of_objects(group), icon="BLANK1")
+        texts.message(column, _of_objects(group), icon="BLANK1")
         for remedy in _remedies(context, group)[1:]:
             _remedy(column, group, remedy)
     if can_accept and sum(map(_is_acceptable, warnings)) > 1:
         _accept(layout, "", "CHECKMARK", text="Accept All")
 
 
-def summary(layout: UILayout, context: Context, groups: Sequence[Group]) -> None:
+def summary(layout: UILayout, context: Context, groups: Sequence[verdict.Group]) -> None:
     """Draw one row, always: the worst of errors and warnings with its first remedy, and the number
     of the others.
     """
-    ranks = tuple(rows.ICONS)
-    warnings = [group for group in groups if severity(group.finding) != Severity.NOTE]
-    worst = max(warnings, key=lambda group: ranks.index(severity(group.finding)), default=None)
+    ranks = tuple(texts.ICONS)
+    warnings = [
+        group for group in groups if verdict.severity(group.finding) != verdict.Severity.NOTE
+    ]
+    worst = max(
+        warnings, key=lambda group: ranks.index(verdict.severity(group.finding)), default=None
+    )
     if worst is None:
-        rows.state(layout, "")
+        texts.state(layout, "")
     else:
         _line(layout.row(align=True), context, worst, more=len(warnings) - 1)
 
 
 def _line(
-    row: UILayout, context: Context, group: Group, can_accept: bool = True, more: int = 0
+    row: UILayout, context: Context, group: verdict.Group, can_accept: bool = True, more: int = 0
 ) -> None:
     """Draw the headline of a finding with its first remedy; more: the number of other findings."""
     own = _remedies(context, group)
     text = _headline(context, group) + (" (+{:d})".format(more) if more else "")
-    row.label(text=text, icon=rows.ICONS[severity(group.finding)], translate=False)
+    row.label(text=text, icon=texts.ICONS[verdict.severity(group.finding)], translate=False)
     buttons = row.row(align=True)
     buttons.alignment = "RIGHT"
     if own:
-        _remedy(buttons, group, own[0], with_text=rows.fits(LINE_SHARE, text + _name(own[0])))
+        _remedy(buttons, group, own[0], with_text=texts.fits(LINE_SHARE, text + _name(own[0])))
     if can_accept and _is_acceptable(group):
         _accept(buttons, group.finding.code, "CHECKMARK")
 
 
-def _is_acceptable(group: Group) -> bool:
-    return severity(group.finding) == Severity.WARNING
+def _is_acceptable(group: verdict.Group) -> bool:
+    return verdict.severity(group.finding) == verdict.Severity.WARNING
 
 
-def _of_objects(group: Group) -> Finding:
+def _of_objects(group: verdict.Group) -> verdict.Finding:
     return group.finding.of_sources(group.objects) if group.objects else group.finding
 
 
-def notes(layout: UILayout, idname: str, groups: Sequence[Group]) -> None:
+def notes(layout: UILayout, idname: str, groups: Sequence[verdict.Group]) -> None:
     """Draw a sub-panel, closed at first, of notes and accepted warnings.
 
     It is there without any, so that nothing moves when one comes.
     """
-    shown_notes = of_severity(map(_of_objects, groups), Severity.NOTE)
+    shown_notes = verdict.of_severity(map(_of_objects, groups), verdict.Severity.NOTE)
     header, body = layout.panel(idname, default_closed=True)
-    rows.filled(header, "Notes ({:d})", len(shown_notes))
+    texts.filled(header, "Notes ({:d})", len(shown_notes))
     for shown in shown_notes if body is not None else ():
         row = body.row(align=True)
-        rows.message(row, shown)
+        texts.message(row, shown)
         if shown.values.get("accepted"):
             _accept(row, shown.code, "LOOP_BACK", accepted=False)
 
 
-def _headline(context: Context, group: Group) -> str:
+def _headline(context: Context, group: verdict.Group) -> str:
     """Return the first clause of a group's sentence; of several objects, their number and the words
     before a number.
     """
     shown = replace(group.finding, elements=())
-    clause = re.split(r"\.$|[.;,] | \(", localized_sentence(shown, context.scene.unit_settings))[0]
+    clause = re.split(
+        r"\.$|[.;,] | \(", write.translations.localized_sentence(shown, context.scene.unit_settings)
+    )[0]
     if not group.objects:
         # its names are in the sentence
-        return clause if rows.fits(1.0, clause) else clause.partition(": “")[0]
+        return clause if texts.fits(1.0, clause) else clause.partition(": “")[0]
     # nouns keep their capitals in other languages
     if bpy.app.translations.locale[:2] in (
         "",
@@ -115,31 +121,40 @@ def _headline(context: Context, group: Group) -> str:
         clause = clause[0].lower() + clause[1:]
     if len(group.objects) == 1:
         return "{:s}: {:s}".format(group.objects[0], clause)
-    return localized("{:d} objects: {:s}").format(len(group.objects), clause.partition(":")[0])
+    return write.translations.localized("{:d} objects: {:s}").format(
+        len(group.objects), clause.partition(":")[0]
+    )
 
 
-def _remedies(context: Context, group: Group) -> tuple[str, ...]:
+def _remedies(context: Context, group: verdict.Group) -> tuple[str, ...]:
     if group.finding.values.get("objects"):
-        return (SELECT,)  # a caveat about a total or an assembly
+        return (write.remedies.SELECT,)  # a caveat about a total or an assembly
     obj = selected.subject(context)  # a collection may be shown without an object
     if group.objects and (obj is None or group.objects != (obj.name_full,)):
-        return (SELECT,)
-    return remedies_of(group.finding.code, "" if obj is None else obj.type)
+        return (write.remedies.SELECT,)
+    return write.remedies.remedies_of(group.finding.code, "" if obj is None else obj.type)
 
 
 def _name(remedy: str) -> str:
-    return localized(REMEDIES[remedy].name if remedy in REMEDIES else "Select")
+    return write.translations.localized(
+        write.remedies.REMEDIES[remedy].name if remedy in write.remedies.REMEDIES else "Select"
+    )
 
 
-def _remedy(layout: UILayout, group: Group, remedy: str, with_text: bool = True) -> None:
+def _remedy(layout: UILayout, group: verdict.Group, remedy: str, with_text: bool = True) -> None:
     """Draw the button of a remedy: one of `REMEDIES`, or the idname of an operator."""
     text = _name(remedy) if with_text else ""
-    if remedy in REMEDIES:
-        button = layout.operator(REPAIR, text=text, icon=REMEDIES[remedy].icon, translate=False)
+    if remedy in write.remedies.REMEDIES:
+        button = layout.operator(
+            write.remedies.REPAIR,
+            text=text,
+            icon=write.remedies.REMEDIES[remedy].icon,
+            translate=False,
+        )
         button.remedy = remedy
         return
     button = layout.operator(remedy, text=text, icon=ICONS[remedy], translate=False)
-    if remedy == SELECT:
+    if remedy == write.remedies.SELECT:
         button.code = group.finding.code
         listed = group.finding.values.get("objects", ())
         button.listed = "\n".join(one if isinstance(one, str) else one[0] for one in listed)
@@ -158,17 +173,17 @@ def last_action(layout: UILayout, context: Context) -> None:
         return
     box = layout.box()
     header = box.row(align=True)
-    icon = "NONE" if rows.is_narrow() else "CANCEL"
-    rows.sentence(header, localized(last.action), icon=icon, boxed=True)
+    icon = "NONE" if texts.is_narrow() else "CANCEL"
+    texts.sentence(header, write.translations.localized(last.action), icon=icon, boxed=True)
     header.operator("wm.body_moments_dismiss", text="", icon="X", emboss=False)
     column = box.column(align=True)
     for group in last.groups:
-        rows.message(column, _of_objects(group), icon="NONE", boxed=True)
+        texts.message(column, _of_objects(group), icon="NONE", boxed=True)
         for remedy in _remedies(context, group):
             _remedy(column, group, remedy)
 
 
-def is_unit_questioned(context: Context, obj: Object, shown: PlainBody) -> bool:
+def is_unit_questioned(context: Context, obj: Object, shown: inertia.PlainBody) -> bool:
     """Return whether to ask if a unit is a millimeter: until it is answered, of large and heavy
     bodies.
     """
@@ -180,16 +195,20 @@ def is_unit_questioned(context: Context, obj: Object, shown: PlainBody) -> bool:
     )
 
 
-def unit_question(layout: UILayout, context: Context, obj: Object, shown: PlainBody) -> None:
+def unit_question(
+    layout: UILayout, context: Context, obj: Object, shown: inertia.PlainBody
+) -> None:
     """Ask whether a unit of the scene is a millimeter."""
     box = layout.box()
-    units = rows.scene_units()._replace(mass="TONNES", digits=QUESTION_DIGITS)
-    texts = {
-        "length": units.text("length", max(obj.dimensions)),
-        "mass": units.text("mass", shown.mass),
-    }
-    question = "{length} long and {mass}: is a unit of this scene a millimeter?"
-    rows.remark(box, question, icon="QUESTION", boxed=True, **texts)
+    units = texts.scene_units()._replace(mass="TONNES", digits=QUESTION_DIGITS)
+    texts.remark(
+        box,
+        "{length} long and {mass}: is a unit of this scene a millimeter?",
+        icon="QUESTION",
+        boxed=True,
+        length=units.text("length", max(obj.dimensions)),
+        mass=units.text("mass", shown.mass),
+    )
     column = box.column(align=True)
     rows.button(column, "scene.body_moments_set_millimeters", "DRIVER_DISTANCE")
     column.prop(context.scene.body_moments, "units_answered", toggle=True, icon="X")

@@ -7,18 +7,13 @@ character.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from bpy.types import Context, Menu, Panel, PoseBone, UILayout
 
 from ..blender import scale, session, write
 from ..blender.session.tracking import armatures, staleness
-from ..blender.write import reports, translations
 from ..core import lazy, verdict
-from . import places, rows
-
-if TYPE_CHECKING:
-    from ..blender.session.character.weight import Weight
+from . import places, rows, texts
 
 LISTED = 60  # bones that the sub-panel lists
 
@@ -36,19 +31,19 @@ class BonesPanel:
         layout, armature = self.layout, session.selected.armature_of(context)
         if len(session.displayed.shown_objects(context)) > 1:
             layout.label(text=armature.name, icon="ARMATURE_DATA", translate=False)
-        button = layout.row()
-        button.scale_y = 1.4
-        button.operator("object.body_moments_measure_bones", icon="BONE_DATA")
+        rows.main_button(layout, "object.body_moments_measure_bones", "BONE_DATA")
         is_measured = write.properties.stored(armature) is not None
-        column = layout.column(align=True)
+        column = rows.buttons(
+            layout,
+            ("object.body_moments_physics_rig", "RIGID_BODY"),
+            ("object.body_moments_rig_center", "EMPTY_AXIS"),
+            ("object.body_moments_clear_bones", "TRASH"),
+        )
         column.enabled = is_measured
-        rows.button(column, "object.body_moments_physics_rig", "RIGID_BODY")
-        rows.button(column, "object.body_moments_rig_center", "EMPTY_AXIS")
-        rows.button(column, "object.body_moments_clear_bones", "TRASH")
         if not is_measured:
             return
-        rows.stale_state(layout, staleness.stale_reason(armature, context.scene))
-        units = rows.scene_units()
+        texts.stale_state(layout, staleness.stale_reason(armature, context.scene))
+        units = texts.scene_units()
         measured = [
             (bone, own.mass)
             for bone in armature.pose.bones
@@ -59,12 +54,9 @@ class BonesPanel:
         for bone, mass in measured[:LISTED]:
             row = column.row(align=True)
             row.label(text=bone.name, icon="BONE_DATA", translate=False)
-            cell = row.row(align=True)
-            cell.alignment = "RIGHT"
-            cell.label(text=units.text("mass", mass), translate=False)
-            cell.label(text="{:.1f}%".format(100.0 * mass / total), translate=False)
+            rows.right(row, units.text("mass", mass), "{:.1f}%".format(100.0 * mass / total))
         if len(measured) > LISTED:
-            rows.filled(layout, "And {:d} more", len(measured) - LISTED)
+            texts.filled(layout, "And {:d} more", len(measured) - LISTED)
 
 
 class WeightPanel:
@@ -83,22 +75,24 @@ class WeightPanel:
             return
         # Buttons and settings first: they stay in place however the character stands.
         column.operator("pose.body_moments_balance_pose", icon="PIVOT_CURSOR")
-        column = layout.column(align=True)
-        rows.button(column, "pose.body_moments_parabola", "FORCE_FORCE")
-        rows.button(column, "pose.body_moments_keep_spin", "FORCE_VORTEX")
-        rows.button(column, "pose.body_moments_bake_curves", "FCURVE")
-        rows.button(column, "pose.body_moments_trace", "CON_FOLLOWPATH")
+        column = rows.buttons(
+            layout,
+            ("pose.body_moments_parabola", "FORCE_FORCE"),
+            ("pose.body_moments_keep_spin", "FORCE_VORTEX"),
+            ("pose.body_moments_bake_curves", "FCURVE"),
+            ("pose.body_moments_trace", "CON_FOLLOWPATH"),
+        )
         spans = _spans(context)
         row = column.row()
         row.enabled = bool(spans)
-        text = translations.localized("Momentum from nothing: {:d}").format(len(spans))
+        text = write.translations.localized("Momentum from nothing: {:d}").format(len(spans))
         icon = "ERROR" if spans else "BLANK1"
         row.menu("VIEW3D_MT_body_moments_spans", text=text, icon=icon, translate=False)
         column = layout.column()
         mass = column.column()
         mass.active = settings.mass > 0.0
-        rows.setting(mass, settings, "shown_mass", text="Total Mass (kg)")
-        rows.setting(column, settings, "ground")
+        rows.settings(mass, settings, "shown_mass")
+        rows.settings(column, settings, "ground")
         column.prop(settings, "show_axes")
         bone = context.active_pose_bone
         if bone is not None:
@@ -110,20 +104,22 @@ class WeightPanel:
         weight = None
         if posed is not None and depsgraph is not None:
             weight = posed.weight(armature, depsgraph)
-        rows.stale_state(layout, staleness.stale_reason(armature, context.scene))
+        texts.stale_state(layout, staleness.stale_reason(armature, context.scene))
         _standing(layout, weight, scale.meters_per_unit(context.scene))
 
 
-def standing(weight: Weight, unit: float) -> tuple[str, dict[str, str], str]:
+def standing(
+    weight: session.character.weight.Weight, unit: float
+) -> tuple[str, dict[str, str], str]:
     """Return the English text on how a character stands, the lengths in it, and its icon."""
     support = weight.support
     height = weight.contacts.height
     if height is None:
         return "No mesh can touch the ground", {}, "INFO"
     if support is None:
-        lengths = {"height": reports.distance(height * unit)}
+        lengths = {"height": write.reports.distance(height * unit)}
         return "In the air: {height} above ground", lengths, "INFO"
-    margin = {"margin": reports.distance(abs(support.margin) * unit)}
+    margin = {"margin": write.reports.distance(abs(support.margin) * unit)}
     if not support.stands:
         return "Falls: {margin} outside", margin, "CANCEL"
     if support.is_near_edge:
@@ -131,18 +127,20 @@ def standing(weight: Weight, unit: float) -> tuple[str, dict[str, str], str]:
     return "Balanced: {margin} inside", margin, "CHECKMARK"
 
 
-def _standing(layout: UILayout, weight: Weight | None, unit: float) -> None:
+def _standing(
+    layout: UILayout, weight: session.character.weight.Weight | None, unit: float
+) -> None:
     """Draw how a character stands, its mass, and the contacts that carry it, in as many rows
     however it stands.
     """
-    text = translations.localized("Not measured. Show the weight again.")
+    text = write.translations.localized("Not measured. Show the weight again.")
     icon = "INFO"
     mass = None
     lengths: dict[str, float] = {}
     names: dict[str, Sequence[str]] = {}
     if weight is not None:
         template, shown, icon = standing(weight, unit)
-        text = translations.localized(template).format(**shown)
+        text = write.translations.localized(template).format(**shown)
         mass = weight.parts.mass
         unmeasured = [name for name, own in zip(weight.parts.names, weight.parts.masses) if not own]
         contacts = weight.contacts
@@ -158,11 +156,16 @@ def _standing(layout: UILayout, weight: Weight | None, unit: float) -> None:
     for name in ("Margin", "Height"):
         value = lengths.get(name)
         cell = (
-            ("–", "", "") if value is None else (reports.distance(value), repr(float(value)), "m")
+            ("–", "", "")
+            if value is None
+            else (write.reports.distance(value), repr(float(value)), "m")
         )
         rows.table(column, [(name, *cell)])
     for word in ("Carries", "Lifted", "Not Measured"):
-        listed = verdict.truncate_list(names.get(word, ()), translate=translations.localized) or "–"
+        listed = (
+            verdict.truncate_list(names.get(word, ()), translate=write.translations.localized)
+            or "–"
+        )
         row = column.split(factor=rows.LABEL_SHARE)
         row.label(text=word)
         row.label(text=listed, translate=False)
@@ -187,9 +190,9 @@ class VIEW3D_MT_body_moments_spans(Menu):
 
     def draw(self, context: Context) -> None:
         for first, last, impulse, twist in _spans(context)[:LISTED]:
-            text = translations.localized("Frames {:.0f}–{:.0f}: {:.3g} N·s, {:.3g} N·m·s").format(
-                first, last, impulse, twist
-            )
+            text = write.translations.localized(
+                "Frames {:.0f}–{:.0f}: {:.3g} N·s, {:.3g} N·m·s"
+            ).format(first, last, impulse, twist)
             jump = self.layout.operator("wm.context_set_int", text=text, translate=False)
             jump.data_path = "scene.frame_current"
             jump.value = round(first)
@@ -209,14 +212,10 @@ class BONE_PT_body_moments(places.AmongProperties, Panel):
         layout = self.layout
         layout.use_property_decorate = False
         settings = bone.body_moments
-        column = layout.column()
-        rows.setting(column, settings, "mass_from")
-        if settings.mass_from == "DENSITY":
-            rows.setting(column, settings, "density", text="Density (kg/m³)")
-        elif settings.mass_from == "MASS":
-            rows.setting(column, settings, "mass", text="Mass (kg)")
+        own = {"DENSITY": ("density",), "MASS": ("mass",)}
+        rows.settings(layout.column(), settings, "mass_from", *own.get(settings.mass_from, ()))
         rows.button(layout, "object.body_moments_measure_bones", "BONE_DATA")
-        rows.stale_state(layout, staleness.stale_reason(bone.id_data, context.scene))
+        texts.stale_state(layout, staleness.stale_reason(bone.id_data, context.scene))
         _numbers(layout, bone)
 
 
@@ -231,8 +230,7 @@ def _numbers(layout: UILayout, bone: PoseBone) -> None:
     stored = write.properties.stored(bone)
     if stored is None:
         return
-    column = layout.column(align=True)
-    rows.quantities(column, [("Mass", "mass", stored.mass), ("Volume", "volume", stored.volume)])
+    rows.quantities(layout, [("Mass", "mass", stored.mass), ("Volume", "volume", stored.volume)])
     rows.center(layout, "Center of Mass (Rest Frame)", stored)
     rows.group(layout, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", stored.moments)
     rows.group(layout, "Inertia, Ixy = −∫xy dm", rows.TENSOR_LABELS, "inertia", stored.inertia)
@@ -243,6 +241,4 @@ CLASSES = (
         WeightPanel, "weight", options=frozenset(), shown_for=armatures.stands_for_meshes
     ),
     *places.in_both_places(BonesPanel, "bones"),
-    VIEW3D_MT_body_moments_spans,
-    BONE_PT_body_moments,
 )

@@ -1,57 +1,31 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rows of a narrow panel: settings, values that can be copied, and sentences that wrap.
-
-Blender translates labels as it draws them: constant labels are passed as in the source, filled ones
-are translated before that (`filled`, `message`). Names, numbers and filled texts are drawn without
-translation.
-"""
+"""Rows of a narrow panel: settings, values that can be copied, and buttons."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
-from functools import lru_cache, partial
 from math import degrees
 from typing import Any
 
-import blf
-import bpy
 from bpy.types import PropertyGroup, UILayout
 
+from ..blender import write
 from ..blender.session.selected import is_mixed
-from ..blender.write.translations import localized, localized_sentence
-from ..blender.write.units import SI_UNITS, Units
-from ..core import inertia, measurement
-from ..core.verdict import Finding, Severity, Verdict, fill, severity
+from ..core import inertia, measurement, verdict
+from . import texts
 
 # share of a row for its label, for one of up to 3 letters, and for one of 1 letter
 LABEL_SHARE = 0.36
 SHORT_LABEL_SHARE = 0.3
 INDEX_LABEL_SHARE = 0.12
-REGION_MARGIN = 88  # width of tabs, borders and an icon in the region, in unscaled pixels
-ROW_MARGIN = 80  # width for a row without an icon, but with a button
-TEXT_MARGIN = 0.2  # space around a text in a row, relative to the font size
-DEFAULT_WIDTH = 300  # unscaled pixels, for a region of unknown width
-BOX_MARGIN = 12  # additional width of a box
-MIN_LINE_WIDTH = 50  # no line is made narrower
-# letters of a word that is broken
-MIN_PART = 4
-MIN_LAST_PART = 3
-NARROW = 220  # regions below this width have buttons without icons, and headings above
-# ERROR is Blender's warning sign
-ICONS = {
-    Severity.NOTE: "INFO",
-    Severity.WARNING: "ERROR",
-    Severity.ERROR: "CANCEL",
-}
 
 VERDICTS = {  # icon and word; the form says it, not the color alone
-    Verdict.EXACT: ("CHECKMARK", "Exact"),
-    Verdict.REPAIRED: ("MODIFIER", "Repaired"),
-    Verdict.DOUBTFUL: ("ERROR", "Doubtful"),
-    Verdict.OUT_OF_DATE: ("FILE_REFRESH", "Out of Date"),
-    Verdict.INCOMPLETE: ("ERROR", "Incomplete"),
+    verdict.Verdict.EXACT: ("CHECKMARK", "Exact"),
+    verdict.Verdict.REPAIRED: ("MODIFIER", "Repaired"),
+    verdict.Verdict.DOUBTFUL: ("ERROR", "Doubtful"),
+    verdict.Verdict.OUT_OF_DATE: ("FILE_REFRESH", "Out of Date"),
+    verdict.Verdict.INCOMPLETE: ("ERROR", "Incomplete"),
     None: ("RADIOBUT_OFF", "Not Measured"),
 }
 AXIS_LABELS = ("X", "Y", "Z")
@@ -61,18 +35,35 @@ VALUE_SHARE = 0.6  # share of a row that a setting takes beside its label
 WIDEST_COSINE = "−0.0000"  # rows of directions have one form, whatever their signs
 BUTTON_MARGIN = "m"  # a letter as wide as the space around a button's text
 Cell = tuple[str, str, str, str]  # label, text, copied value, its unit
+LABELS = {  # of settings, in place of their names
+    "mass": "Mass (kg)",
+    "shown_mass": "Total Mass (kg)",
+    "density": "Density (kg/m³)",
+    "linear_density": "Density (kg/m)",
+    "value_density": "Value 1 (kg/m³)",
+    "transfer_table": "Table",
+    "given_center": "Center",
+    "print_line_width": "Line Width (mm)",
+    "print_layer_height": "Layer (mm)",
+    "pocket_radius": "Pocket (mm)",
+    "pocket_density": "Ballast (kg/m³)",
+    "spool_mass": "Spool (kg)",
+}
 
 
-def setting(
-    layout: UILayout, data: PropertyGroup, name: str, text: str = "", expand: bool = False
-) -> None:
-    """Draw a setting in a column, its label (by default its name) beside it, or above it in a
-    narrow region.
+def settings(layout: UILayout, data: PropertyGroup, *names: str, expand: bool = False) -> None:
+    """Draw settings in a column, each with its label beside it, or above it in a narrow region.
 
     `expand` puts choices side by side if there is room for their names. A setting that differs
     among the selected objects is a button "Mixed", which opens its choices or its field.
     """
+    for name in names:
+        _setting(layout, data, name, expand)
+
+
+def _setting(layout: UILayout, data: PropertyGroup, name: str, expand: bool) -> None:
     definition = data.bl_rna.properties[name]
+    text = LABELS.get(name, "")
     if is_mixed(data, name):
         row = labeled_row(layout, text or definition.name, definition.translation_context)
         if definition.type == "ENUM":
@@ -82,22 +73,22 @@ def setting(
             row.popover("OBJECT_PT_body_moments_mixed", text="Mixed")
         return
     options = {"text": text} if text else {}
-    narrow = is_narrow()
+    narrow = texts.is_narrow()
     if narrow and definition.type != "BOOLEAN":
-        title(layout, text or definition.name)
+        texts.title(layout, text or definition.name)
         options = {"text": ""}
     row = layout.row()
     row.use_property_split = not narrow
     if expand:
-        names = [localized(item.name) for item in definition.enum_items]
-        expand = fits(1.0 if narrow else VALUE_SHARE, *(one + BUTTON_MARGIN for one in names))
+        names = [write.translations.localized(item.name) for item in definition.enum_items]
+        expand = texts.fits(1.0 if narrow else VALUE_SHARE, *(one + BUTTON_MARGIN for one in names))
     row.prop(data, name, expand=expand, **options)
 
 
 def labeled_row(column: UILayout, label: str, context: str = "*") -> UILayout:
     """Return a row beside a label, as Blender aligns properties, or below it in a narrow panel."""
-    if is_narrow():
-        title(column, label)
+    if texts.is_narrow():
+        texts.title(column, label)
         return column.row(align=True)
     split = column.row(align=True).split(factor=1.0 - VALUE_SHARE, align=True)
     end = split.row()
@@ -118,12 +109,11 @@ def group(
     column.
     """
     column = layout.column(align=True)
-    if si is None:
-        title(column.row(align=True), label)
-        table(column, [(name, "–", "", "") for name in labels])
-        return column
     heading(column, label, quantity, si)
-    values(column, labels, quantity, si, size)
+    if si is None:
+        table(column, [(name, "–", "", "") for name in labels])
+    else:
+        values(column, labels, quantity, si, size)
     return column
 
 
@@ -138,7 +128,12 @@ def quantity_cell(label: str, quantity: str, si: float | None) -> Cell:
     """
     if si is None:
         return label, "–", "", ""
-    return label, scene_units().text(quantity, si), repr(float(si)), SI_UNITS[quantity]
+    return (
+        label,
+        texts.scene_units().text(quantity, si),
+        repr(float(si)),
+        write.units.SI_UNITS[quantity],
+    )
 
 
 def angle_cell(label: str, angle: float) -> Cell:
@@ -151,12 +146,12 @@ def values(
     layout: UILayout, labels: Sequence[str], quantity: str, si: Sequence[float], size: float = 0.0
 ) -> None:
     """Draw a row for each value, all in the same unit. size: as for `Units.texts`."""
-    texts = scene_units().texts(quantity, si, size)
+    shown = texts.scene_units().texts(quantity, si, size)
     table(
         layout,
         [
-            (label, text, repr(float(number)), SI_UNITS[quantity])
-            for label, text, number in zip(labels, texts, si)
+            (label, text, repr(float(number)), write.units.SI_UNITS[quantity])
+            for label, text, number in zip(labels, shown, si)
         ],
     )
 
@@ -170,17 +165,6 @@ def center(layout: UILayout, label: str, numbers: inertia.PlainBody | None) -> N
     group(layout, label, AXIS_LABELS, "length", place, size)
 
 
-def bounds(layout: UILayout, entries: Sequence[tuple[str, str, float, float]]) -> None:
-    """Draw a row for each (label, quantity, SI error bound, value beside it)."""
-    table(
-        layout,
-        [
-            (label, scene_units().bound(quantity, bound, beside), repr(bound), SI_UNITS[quantity])
-            for label, quantity, bound, beside in entries
-        ],
-    )
-
-
 def error_bounds(
     layout: UILayout,
     sources: Sequence[tuple[str, Any]],
@@ -189,25 +173,30 @@ def error_bounds(
     """Draw each source, a heading and bounds by name, with a row for each (label, quantity, name,
     value beside it).
     """
+    bound = texts.scene_units().bound
     for source, errors in sources:
         column = layout.column(align=True)
         column.label(text=source)
-        bounds(
+        table(
             column,
-            [(label, quantity, errors[name], size) for label, quantity, name, size in entries],
+            [
+                (
+                    label,
+                    bound(quantity, errors[name], size),
+                    repr(errors[name]),
+                    write.units.SI_UNITS[quantity],
+                )
+                for label, quantity, name, size in entries
+            ],
         )
 
 
-def heading(layout: UILayout, label: str, quantity: str, si: Sequence[float]) -> None:
-    """Draw a heading with a button that copies all values below it."""
+def heading(layout: UILayout, label: str, quantity: str, si: Sequence[float] | None) -> None:
+    """Draw a heading with a button that copies all values below it, if they are known."""
     row = layout.row(align=True)
-    _title(row, localized(label))
-    _copy(row, repr(measurement.plain(si)), SI_UNITS.get(quantity, ""))
-
-
-def title(layout: UILayout, label: str) -> None:
-    """Draw a label above rows, in several lines if the panel is too narrow for one."""
-    _title(layout, localized(label))
+    texts.title(row, label)
+    if si is not None:
+        _copy(row, repr(measurement.plain(si)), write.units.SI_UNITS.get(quantity, ""))
 
 
 def direction(layout: UILayout, label: str, vector: Sequence[float] | None) -> None:
@@ -222,7 +211,7 @@ def direction(layout: UILayout, label: str, vector: Sequence[float] | None) -> N
             for component in vector
         ]
         exact = [repr(float(component)) for component in vector]
-    if not fits(1.0 - INDEX_LABEL_SHARE, WIDEST_COSINE, *cosines[1:]):
+    if not texts.fits(1.0 - INDEX_LABEL_SHARE, WIDEST_COSINE, *cosines[1:]):
         table(
             layout,
             [
@@ -241,14 +230,15 @@ def direction(layout: UILayout, label: str, vector: Sequence[float] | None) -> N
 
 
 def table(layout: UILayout, cells: Sequence[Cell]) -> None:
-    """Draw rows of label, text to the right, copy button, all in one form.
+    """Draw rows of label, text to the right, copy button, all in one form, in a column.
 
     Labels are above their texts if rows are too narrow for both, and units beside the labels if
     rows are too narrow for the texts.
     """
     if not cells:
         return
-    labels = [localized(label) for label, *_ in cells]
+    layout = layout.column(align=True)
+    labels = [write.translations.localized(label) for label, *_ in cells]
     share, rests = _form(labels, [shown for _, shown, *_ in cells])
     for label, (_, shown, exact, unit) in zip(labels, cells):
         if share:
@@ -258,14 +248,14 @@ def table(layout: UILayout, cells: Sequence[Cell]) -> None:
             right(cell, shown)
             _copy(row, exact, unit)
         elif rests:
-            _title(layout, label)
+            texts.headline(layout, label)
             row = layout.row(align=True)
             right(row, shown)
             _copy(row, exact, unit)
         else:
             number, _, name = shown.rpartition(" ")
             row = layout.row(align=True)
-            _title(row, "{:s} {:s}".format(label, name))
+            texts.headline(row, "{:s} {:s}".format(label, name))
             _copy(row, exact, unit)
             right(layout, number)
 
@@ -278,29 +268,23 @@ def _form(labels: Sequence[str], shown: Sequence[str]) -> tuple[float, bool]:
     share = LABEL_SHARE
     if letters < 4:
         share = INDEX_LABEL_SHARE if letters < 2 else SHORT_LABEL_SHARE
-    room = _room()
+    room = texts.find_room()
     if room is None:
         return share, True
-    label = max(map(_length, labels))
-    text = max(map(_length, shown))
+    label = max(map(texts.length, labels))
+    text = max(map(texts.length, shown))
     if label + text > room:
         return 0.0, text <= room
     return min(max(share, label / room), 1.0 - text / room), True
 
 
-def _title(layout: UILayout, text: str) -> None:
-    room = _room()
-    if room is None or _length(text) <= room:
-        layout.label(text=text, translate=False)
-    else:
-        sentence(layout, text)
-
-
-def right(layout: UILayout, text: str) -> None:
-    """Draw a text at the right end of a row."""
+def right(layout: UILayout, *shown: str) -> UILayout:
+    """Draw texts at the right end of a row, and return their layout."""
     cell = layout.row(align=True)
     cell.alignment = "RIGHT"
-    cell.label(text=text, translate=False)
+    for text in shown:
+        cell.label(text=text, translate=False)
+    return cell
 
 
 def _copy(row: UILayout, exact: str, unit: str) -> None:
@@ -320,148 +304,23 @@ def fold(layout: UILayout, idname: str, label: str, closed: bool = True) -> UILa
     return body
 
 
-def filled(layout: UILayout, template: str, *values: object, icon: str = "NONE") -> None:
-    """Draw a label that is filled after its translation."""
-    layout.label(text=localized(template).format(*values), icon=icon, translate=False)
-
-
-def scene_units() -> Units:
-    """Return the units of the scene that is shown."""
-    return Units.from_settings(bpy.context.scene.unit_settings)
-
-
-def is_narrow() -> bool:
-    """Return whether the region has room for little more than words."""
-    region = bpy.context.region
-    return (
-        region is not None and 0 < region.width < NARROW * bpy.context.preferences.system.ui_scale
-    )
-
-
 def button(layout: UILayout, idname: str, icon: str, short: str = "", **options: object):
     """Draw the button of an operator; in a narrow panel without its icon, and with a short text."""
-    if not is_narrow():
+    if not texts.is_narrow():
         return layout.operator(idname, icon=icon, **options)
     return layout.operator(idname, **(options | {"text": short} if short else options))
 
 
-def sentence(layout: UILayout, text: str, icon: str = "NONE", boxed: bool = False) -> None:
-    """Draw a translated text, wrapped to the region's width. boxed: a box is around it."""
+def buttons(layout: UILayout, *entries: tuple[str, str]) -> UILayout:
+    """Draw the buttons of operators with their icons, one below the other; return their column."""
     column = layout.column(align=True)
-    column.scale_y = 0.85
-    width, size = _width()
-    margin = int(BOX_MARGIN * bpy.context.preferences.system.ui_scale) if boxed else 0
-    for i, line in enumerate(_wrapped(text, width - margin, size)):
-        if icon == "NONE":
-            column.label(text=line, translate=False)
-        else:
-            column.label(text=line, icon=icon if i == 0 else "BLANK1", translate=False)
+    for idname, icon in entries:
+        button(column, idname, icon)
+    return column
 
 
-def message(layout: UILayout, shown: Finding, icon: str = "", boxed: bool = False) -> None:
-    """Draw the sentence of a finding, with the number of its elements instead of their indices.
-
-    icon: by default that of its severity. boxed: as for `sentence`.
-    """
-    text = localized_sentence(replace(shown, elements=()), bpy.context.scene.unit_settings)
-    sentence(layout, text, icon or ICONS[severity(shown)], boxed)
-
-
-def remark(
-    layout: UILayout, text: str, /, icon: str = "INFO", boxed: bool = False, **values: object
-) -> None:
-    """Draw an interface text, translated, filled and wrapped."""
-    sentence(
-        layout,
-        fill(text, None, values, localized, partial(scene_units().text, "length")),
-        icon,
-        boxed,
-    )
-
-
-def state(layout: UILayout, text: str, icon: str = "") -> None:
-    """Draw one row about the state of numbers.
-
-    It is there without a text too, so that nothing below it moves.
-    """
+def main_button(layout: UILayout, idname: str, icon: str, **options: object):
+    """Draw the higher button of the operator that a panel is for."""
     row = layout.row()
-    row.alert = icon == "FILE_REFRESH"
-    row.label(text=text, icon=icon or "BLANK1", translate=False)
-
-
-def stale_state(layout: UILayout, reason: str | None) -> None:
-    """Draw one row, always, with the reason why numbers are out of date, if any."""
-    state(layout, outdated(reason) if reason else "", "FILE_REFRESH" if reason else "")
-
-
-def outdated(reason: str) -> str:
-    """Return the translated sentence on why numbers are out of date."""
-    return localized("Out of date: {:s}").format(localized(reason))
-
-
-def fits(share: float, *cells: str) -> bool:
-    """Return whether texts fit side by side in that share of a row, beside its button, of the
-    region being drawn.
-    """
-    room = _room()
-    return room is None or len(cells) * max(map(_length, cells)) <= share * room
-
-
-def _room() -> float | None:
-    """Return the width in pixels of a row without its button, or None if no region is being
-    drawn.
-    """
-    if bpy.context.region is None:
-        return None
-    return bpy.context.region.width - ROW_MARGIN * bpy.context.preferences.system.ui_scale
-
-
-def _length(text: str) -> float:
-    """Return the width in pixels of a text, with the space around it."""
-    _, size = _width()
-    blf.size(0, size)
-    return blf.dimensions(0, text)[0] + TEXT_MARGIN * size
-
-
-def _width() -> tuple[int, float]:
-    """Return the width of a line and the font size, in pixels."""
-    region = bpy.context.region
-    preferences = bpy.context.preferences
-    scale = preferences.system.ui_scale or 1.0  # 0 without a window
-    width = region.width if region is not None and region.width else DEFAULT_WIDTH * scale
-    points = preferences.ui_styles[0].widget.points
-    return max(int(width - REGION_MARGIN * scale), int(MIN_LINE_WIDTH * scale)), points * scale
-
-
-@lru_cache(maxsize=256)
-def _wrapped(text: str, width: int, size: float) -> tuple[str, ...]:
-    blf.size(0, size)
-    lines = []
-    line = ""
-    for word in text.split(" "):  # not at the spaces inside numbers
-        longer = "{:s} {:s}".format(line, word) if line else word
-        if _is_within(longer, width):
-            line = longer
-            continue
-        if line:
-            lines.append(line)
-        *parts, line = _parts(word, width)
-        lines += parts
-    return (*lines, line)
-
-
-def _parts(word: str, width: int) -> list[str]:
-    """Split a word that is longer than a line; return a shorter one unchanged."""
-    parts = []
-    rest = word
-    while len(rest) > MIN_PART and not _is_within(rest, width):
-        end = len(rest) - MIN_LAST_PART
-        while end > MIN_PART and not _is_within(rest[:end] + "-", width):
-            end -= 1
-        parts.append(rest[:end] + "-")
-        rest = rest[end:]
-    return [*parts, rest]
-
-
-def _is_within(text: str, width: int) -> bool:
-    return blf.dimensions(0, text)[0] <= width
+    row.scale_y = 1.4
+    return row.operator(idname, icon=icon, **options)

@@ -11,7 +11,7 @@ from bpy.types import Context, Object, UILayout
 from ..blender import read, session, write
 from ..blender.session.tracking import staleness, stamps
 from ..core.verdict import Group
-from . import places, remedies, rows
+from . import places, remedies, rows, texts
 
 FLAT_RTOL = (
     1e-5  # thickness of a flat shape by its width; other shapes have sections of selected faces
@@ -35,7 +35,7 @@ class SectionPanel:
         if stored is None:
             layout.label(text="Not Measured", icon="RADIOBUT_OFF")
             return
-        _verdict(layout, stored, staleness.stale_reason(obj, context.scene, stamps.of_section))
+        _verdict(layout, stored, staleness.stale_reason(obj, context.scene, stamps.Kind.SECTION))
         groups = [Group(found) for found in stored.findings]
         remedies.lines(layout, context, groups, can_accept=False)
         _numbers(layout, stored.section)
@@ -60,18 +60,17 @@ def _verdict(layout: UILayout, stored: write.section.StoredSection, outdated: st
         for count, singular, plural in counts
         if count
     ]
-    rows.sentence(
+    texts.sentence(
         column,
         "{:s}: {:s}".format(write.translations.localized(stored.description), ", ".join(parts)),
         icon="CHECKMARK",
     )
-    rows.stale_state(column, outdated)
+    texts.stale_state(column, outdated)
 
 
 def _numbers(layout: UILayout, section) -> None:
-    column = layout.column(align=True)
     rows.quantities(
-        column, [("Area", "area", section.area), ("Perimeter", "length", section.perimeter)]
+        layout, [("Area", "area", section.area), ("Perimeter", "length", section.perimeter)]
     )
     size = section.area**0.5
     rows.group(layout, "Centroid (World)", rows.AXIS_LABELS, "length", section.center, size)
@@ -98,7 +97,7 @@ def _more_numbers(layout: UILayout, section) -> None:
     body = rows.fold(layout, "body_moments_section_plane", "Plane")
     if body is not None:
         column = body.column(align=True)
-        rows.filled(column, "x is nearest to the object's {:s} axis", section.plane.x_axis_name)
+        texts.filled(column, "x is nearest to the object's {:s} axis", section.plane.x_axis_name)
         for label, axis in zip(("x", "y", "n"), zip(*section.plane.axes)):
             rows.direction(column, label, axis)
         column = rows.group(

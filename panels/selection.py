@@ -10,7 +10,7 @@ from bpy.props import BoolProperty, EnumProperty
 from bpy.types import Context, UIList
 
 from ..blender.session.displayed import SortBy, Verdict, drawn, listed_masses, listing
-from . import places, rows
+from . import places, rows, texts
 
 LINES = 5  # height of the list, before it scrolls
 
@@ -42,8 +42,9 @@ class BODY_MOMENTS_UL_measured(UIList):
         row.alert = body.verdict == Verdict.OUT_OF_DATE
         row.active = obj.select_get()
         row.label(text=obj.name, icon=rows.VERDICTS[body.verdict][0], translate=False)
-        if not rows.is_narrow():
-            rows.right(row, listed_masses(context.scene, context.view_layer)[obj.session_uid])
+        if not texts.is_narrow():
+            masses = listed_masses(context.scene, context.view_layer, texts.scene_units())
+            rows.right(row, masses[obj.session_uid])
 
     def draw_filter(self, _context, layout) -> None:
         row = layout.row(align=True)
@@ -91,4 +92,4 @@ class SelectionPanel:
         rows.button(column, "object.body_moments_save_numbers", "FILE_TICK", short="Save")
 
 
-CLASSES = (BODY_MOMENTS_UL_measured, *places.in_both_places(SelectionPanel, "selection"))
+CLASSES = places.in_both_places(SelectionPanel, "selection")

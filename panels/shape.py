@@ -8,11 +8,10 @@ from __future__ import annotations
 
 from bpy.types import Context, Object, UILayout
 
-from ..blender import session, settings, write
-from ..blender.read.visibility import measurable
+from ..blender import read, session, settings, write
 from ..blender.session.tracking import staleness, stamps
 from ..core.verdict import SIMILARITY, truncate
-from . import places, rows
+from . import places, rows, texts
 
 MAX_SHOWN = 12  # elements of a symmetry, and similar shapes
 KINDS = {"AXIS": "{:d}-Fold Axis", "PLANE": "Mirror Plane", "ROUND": "Axis of Revolution"}
@@ -52,15 +51,15 @@ def _symmetry(layout: UILayout, context: Context, obj: Object | None) -> None:
         return
     stored = obj.body_moments_symmetry
     column = layout.column(align=True)
-    rows.filled(column, "Symmetry {:s}", stored.group, icon="CHECKMARK")
-    rows.stale_state(column, staleness.stale_reason(obj, context.scene, stamps.of_symmetry))
+    texts.filled(column, "Symmetry {:s}", stored.group, icon="CHECKMARK")
+    texts.stale_state(column, staleness.stale_reason(obj, context.scene, stamps.Kind.SYMMETRY))
     if stored.compatible != stored.group:
         text = "Moments to order 6 alone allow {group}"
-        rows.remark(column, text, icon="BLANK1", group=stored.compatible)
+        texts.remark(column, text, icon="BLANK1", group=stored.compatible)
     text = "The surface matches its images within {share:.2g} of the radius of gyration"
     if stored.of_display_mesh:
         text = "The display mesh matches its images within {share:.2g} of the radius of gyration"
-    rows.remark(column, text, icon="BLANK1", share=stored.tolerance)
+    texts.remark(column, text, icon="BLANK1", share=stored.tolerance)
     if not stored.elements:
         return
     body = rows.fold(layout, "body_moments_symmetry", "Axes and Mirror Planes")
@@ -70,10 +69,10 @@ def _symmetry(layout: UILayout, context: Context, obj: Object | None) -> None:
     column.label(text="Directions and normals along the object's axes")
     shown, more = truncate(stored.elements, MAX_SHOWN)
     for element in shown:
-        rows.filled(column, KINDS[element.kind], element.order)
+        texts.filled(column, KINDS[element.kind], element.order)
         rows.direction(column, "", element.direction)
     if more:
-        rows.filled(column, "And {:d} more", more)
+        texts.filled(column, "And {:d} more", more)
 
 
 def _similar(layout: UILayout, context: Context) -> None:
@@ -81,18 +80,16 @@ def _similar(layout: UILayout, context: Context) -> None:
     if not search.wanted:
         return
     header, body = layout.panel("body_moments_similar")
-    rows.filled(header, "Similar to {:s}", search.wanted)
+    texts.filled(header, "Similar to {:s}", search.wanted)
     if body is None:
         return
     column = body.column(align=True)
     if search.looked_at:
         column.label(text=search.looked_at, icon="FILE", translate=False)
     if not search.found:
-        rows.remark(column, "Nothing to compare with")
+        texts.remark(column, "Nothing to compare with")
     else:
-        row = column.row()
-        row.alignment = "RIGHT"
-        row.label(text="Similarity, Distance")
+        rows.right(column).label(text="Similarity, Distance")
     for shape in search.found[:MAX_SHOWN]:
         row = column.row(align=True)
         icon = ICONS.get(shape.verdict, "QUESTION")
@@ -108,4 +105,6 @@ def _similar(layout: UILayout, context: Context) -> None:
         rows.right(row, "{:s}{:s}, {:.2g}".format(words, size, shape.distance))
 
 
-CLASSES = places.in_both_places(ShapePanel, "shape", shown_for=measurable, of_all=True)
+CLASSES = places.in_both_places(
+    ShapePanel, "shape", shown_for=read.visibility.measurable, of_all=True
+)

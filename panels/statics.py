@@ -7,18 +7,12 @@ poses.
 from __future__ import annotations
 
 from math import atan2, degrees
-from typing import TYPE_CHECKING
 
 from bpy.types import Context, UILayout
 
-from ..blender import scale, session
-from ..blender.read.visibility import measurable
-from ..blender.write.translations import localized
-from ..core import lazy, verdict
-from . import places, rows
-
-if TYPE_CHECKING:
-    from ..core.statics import RestingPoses, Support
+from ..blender import read, scale, session, write
+from ..core import statics, verdict
+from . import places, rows, texts
 
 MAX_POSES = 6  # limit of the list: round bodies have thousands
 
@@ -32,9 +26,8 @@ class StabilityPanel:
         layout = self.layout
         objects = session.displayed.shown_objects(context)
         obj = objects[0] if len(objects) == 1 else session.selected.subject(context)
-        stability = lazy.loaded_module(session.stored, "stability")
-        is_known = stability is not None and obj is not None and stability.is_known(obj)
-        support = stability.support(obj, context.scene) if is_known else None
+        is_known = obj is not None and obj in session.memory.hulls
+        support = session.stored.stability.support(obj, context.scene) if is_known else None
         tips_over_edge = support is not None and not support.stands and len(support.polygon) > 2
         column = layout.column(align=True)
         rows.button(column, "object.body_moments_stability", "CON_FLOOR", short="Check")
@@ -61,19 +54,23 @@ class StabilityPanel:
         )
 
 
-def _support(layout: UILayout, context: Context, support: Support | None, is_known: bool) -> None:
+def _support(
+    layout: UILayout, context: Context, support: statics.Support | None, is_known: bool
+) -> None:
     """Draw the standing state, margin and angles, in as many rows before they are known."""
     cells = [(name, "–", "", "") for name in ("Margin", "Tipping Angle", "Toward, from X")]
     column = layout.column(align=True)
     if support is None:
         text = "Changed since: check again" if is_known else "Not checked yet"
-        rows.state(column, localized(text), "FILE_REFRESH" if is_known else "INFO")
+        texts.state(
+            column, write.translations.localized(text), "FILE_REFRESH" if is_known else "INFO"
+        )
     elif support.stands:
-        rows.state(column, localized("Stands"), "CHECKMARK")
+        texts.state(column, write.translations.localized("Stands"), "CHECKMARK")
     else:
         is_on_area = len(support.polygon) > 2
         text = "Tips Over" if is_on_area else "On an edge or corner: lay it down"
-        rows.state(column, localized(text), "ERROR")
+        texts.state(column, write.translations.localized(text), "ERROR")
     if support is not None:
         margin = support.margin * scale.meters_per_unit(context.scene)
         toward = atan2(support.direction[1], support.direction[0])
@@ -85,15 +82,14 @@ def _support(layout: UILayout, context: Context, support: Support | None, is_kno
     rows.table(column, cells)
 
 
-def _poses(layout: UILayout, poses: RestingPoses | verdict.Finding | None) -> None:
+def _poses(layout: UILayout, poses: statics.RestingPoses | verdict.Finding | None) -> None:
     """Draw the most probable poses, in as many rows before they are known."""
-    narrow = rows.is_narrow()
+    narrow = texts.is_narrow()
     column = layout.column(align=True)
     column.label(text="Resting Poses")
     heading = column.row()
     heading.label(text="Share" if narrow else "Probability")
-    cell = heading.row()
-    cell.alignment = "RIGHT"
+    cell = rows.right(heading)
     cell.label(text="Tips at")
     if not narrow:
         cell.label(icon="BLANK1")
@@ -113,14 +109,16 @@ def _poses(layout: UILayout, poses: RestingPoses | verdict.Finding | None) -> No
             place + 1
         )
     more = len(known) - MAX_POSES
-    rows.state(column, localized("{:d} more").format(more) if more > 0 else "")
+    texts.state(column, write.translations.localized("{:d} more").format(more) if more > 0 else "")
     if isinstance(poses, verdict.Finding):
-        rows.message(layout, poses)
+        texts.message(layout, poses)
 
 
 CLASSES = places.in_both_places(
     StabilityPanel,
     "stability",
-    shown_for=lambda obj: measurable(obj) or session.tracking.armatures.stands_for_meshes(obj),
+    shown_for=lambda obj: (
+        read.visibility.measurable(obj) or session.tracking.armatures.stands_for_meshes(obj)
+    ),
     of_all=True,
 )

@@ -110,10 +110,10 @@ def convex_pieces(name: str) -> Steps:
 
 
 def colliders(kind: str) -> Steps:
-    """Press Make Colliders, Automatic, on 20 different objects."""
-    parts(kind, 20)
+    """Press Make Colliders, Automatic, each time on 20 new objects that all differ."""
     bpy = blender()
-    for _ in range(3):
+    for seed in range(3):
+        parts(kind, 20, seed)
         yield lambda: bpy.ops.object.body_moments_make_colliders(shape="AUTOMATIC")
 
 
@@ -245,12 +245,12 @@ def blender():
     return bpy
 
 
-def parts(kind: str, count: int = 400) -> list:
+def parts(kind: str, count: int = 400, seed: int = 1) -> list:
     """So many selected objects: cubes that are equal, or other bodies that all differ."""
     from benchmark_many import CORNERS, SIDES, make, prism
 
     blender()
-    rng = np.random.default_rng(1)
+    rng = np.random.default_rng(seed)
     kinds = {
         "cubes": lambda: (CORNERS.copy(), SIDES),
         "boxes": lambda: (CORNERS * rng.uniform(0.5, 2.0, 3), SIDES),

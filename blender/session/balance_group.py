@@ -14,9 +14,7 @@ from numpy.typing import NDArray
 
 from ...core import numerics, statics
 from ...core.verdict import EditRefusedError, MeasureError, internal_error
-from .. import scale, write
-from ..bodies.assembly.assembly import measure_assembly
-from ..read import assembly, rig, visibility
+from .. import bodies, read, scale, write
 from ..scene import fcurves, rigid_world
 from . import findings, stored
 from .live.motion import Motion
@@ -25,7 +23,7 @@ REACH = (
     0.01  # contact with the ground within this distance, relative to the contact objects' extent
 )
 
-SUMS = (assembly.MemberKind.COLLECTION, assembly.MemberKind.EMPTY)
+SUMS = (read.assembly.MemberKind.COLLECTION, read.assembly.MemberKind.EMPTY)
 
 
 class BalanceGroup:
@@ -45,7 +43,7 @@ class BalanceGroup:
         self._assembly: Collection | None = None  # the collection, if its mass is given
         self.objects = self._members(collection)
         self.feet = (
-            [obj for obj in _collection(contacts).all_objects if visibility.measurable(obj)]
+            [obj for obj in _collection(contacts).all_objects if read.visibility.measurable(obj)]
             if contacts
             else []
         )
@@ -61,10 +59,10 @@ class BalanceGroup:
         context = self._context
         if collection:
             depsgraph = context.evaluated_depsgraph_get()
-            root = assembly.members_of(_collection(collection), depsgraph)
+            root = read.assembly.members_of(_collection(collection), depsgraph)
             objects: Iterable[Object] = counted(root)
             given = [
-                assembly.settings_of(member.data).mass_from == "MASS"
+                read.assembly.settings_of(member.data).mass_from == "MASS"
                 for member in root.walk()
                 if member.kind in SUMS
             ]
@@ -79,9 +77,9 @@ class BalanceGroup:
         for obj in objects:
             members.add(obj)
             if obj.type == "ARMATURE":
-                members |= {one for one in layer if rig.is_skin_of(one, obj)}
+                members |= {one for one in layer if read.rig.is_skin_of(one, obj)}
                 members |= {one for one in layer if one.parent == obj and one.parent_type == "BONE"}
-        followed = [obj for obj in members & layer if visibility.measurable(obj)]
+        followed = [obj for obj in members & layer if read.visibility.measurable(obj)]
         if not followed:
             raise EditRefusedError(findings.BALANCE_GROUP_EMPTY, place="the selection")
         return sorted(followed, key=lambda obj: obj.name_full)
@@ -123,7 +121,9 @@ class BalanceGroup:
     def _center(self, motion: Motion, depsgraph: Depsgraph) -> numerics.Array:
         """Return the common center at this frame, in Blender's units."""
         if self._assembly is not None:
-            body = measure_assembly(self._assembly, depsgraph).measurement.mass_properties
+            body = bodies.assembly.assembly.measure_assembly(
+                self._assembly, depsgraph
+            ).measurement.mass_properties
             return body.center / scale.meters_per_unit(depsgraph.scene)
         masses, centers = zip(*[motion.mass_and_center(obj, depsgraph) for obj in self.objects])
         return centers[0] + np.einsum(
@@ -172,12 +172,12 @@ def _collection(name: str) -> Collection:
     return collection
 
 
-def counted(member: assembly.Member) -> Iterator[Object]:
+def counted(member: read.assembly.Member) -> Iterator[Object]:
     """Yield the objects of an assembly that count; an instanced collection counts as its
     instancer.
     """
-    if member.is_measured or member.kind == assembly.MemberKind.INSTANCE:
+    if member.is_measured or member.kind == read.assembly.MemberKind.INSTANCE:
         yield member.data
-    if member.kind != assembly.MemberKind.INSTANCE:
+    if member.kind != read.assembly.MemberKind.INSTANCE:
         for below in member.members:
             yield from counted(below)

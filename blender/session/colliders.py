@@ -22,6 +22,7 @@ from ..scene import changes
 from ..scene import colliders as scene
 from ..settings.given import COLLIDER, COLLIDERS
 from .tracking import staleness, stamps
+from .tracking.stamps import Kind, Stale, Stamp
 
 SAME = 1e-5  # relative: float32 matrices of turned copies differ by less
 LIMITED = ("automatic", "hull", "pieces")  # shapes with tolerances
@@ -116,7 +117,7 @@ def _mesh_key(obj: Object, measured: Measured) -> str:
         parts += [solid.given_surface.points, solid.given_surface.all_triangles()[0], *steps]
     if not parts:
         return str(obj.session_uid)
-    settings = stamps.Stamp.parse(measurement.fingerprint).settings.encode()
+    settings = Stamp.parse(measurement.fingerprint).settings.encode()
     parts.append(np.float64(measurement.density))
     return digest(settings + b"".join(np.ascontiguousarray(part).tobytes() for part in parts))
 
@@ -170,10 +171,7 @@ def store_colliders(context: Context, plans: Sequence[Plan], engine: str) -> lis
             if None not in (one if isinstance(one, list) else [one])
         }
         plan.obj[COLLIDERS] = known | marks
-    fresh = [
-        (plan.obj, stamp) for plan in plans if (stamp := stamps.of_colliders(plan.obj)) is not None
-    ]
-    staleness.mark_stamps(context, fresh)
+    staleness.mark_stored(context, [plan.obj for plan in plans], Kind.COLLIDERS)
     return made
 
 
@@ -185,12 +183,10 @@ def colliders_kept_current(context: Context, objects: Iterable[Object]) -> Itera
     kept = {
         obj: bodies.float64_matrix(obj.matrix_world)
         for obj in objects
-        if COLLIDERS in obj
-        and staleness.stale_reason(obj, context.scene, stamps.of_colliders) is None
+        if COLLIDERS in obj and staleness.stale_reason(obj, context.scene, Kind.COLLIDERS) is None
     }
     yield
     context.view_layer.update()
-    fresh = []
     for obj, before in kept.items():
         group = obj[COLLIDERS]
         places = np.array([bodies.float64_matrix(obj.matrix_world), before])
@@ -200,8 +196,7 @@ def colliders_kept_current(context: Context, objects: Iterable[Object]) -> Itera
         group["digest"] = colliders_digest(obj)
         group["scale"] = scale_products(obj)
         staleness.note_edits(obj)
-        fresh.append((obj, stamps.of_colliders(obj)))
-    staleness.mark_stamps(context, fresh)
+    staleness.mark_stored(context, kept, Kind.COLLIDERS)
 
 
 def remove_colliders(context: Context, objects: Iterable[Object]) -> int:
@@ -227,19 +222,19 @@ def collider_record(
     """Return the effect of an object's colliders for its record, with the reason if it is out of
     date; else None.
     """
-    stamp = stamps.of_colliders(obj)
+    stamp = stamps.stamp_of(obj, Kind.COLLIDERS)
     if stamp is None:
         return None
     stored = {
         key: value.to_list() if hasattr(value, "to_list") else value
         for key, value in obj[COLLIDERS].items()
     }
-    reason = staleness.stale_reason(obj, context.scene, stamps.of_colliders)
+    reason = staleness.stale_reason(obj, context.scene, Kind.COLLIDERS)
     # Without the add-on nobody notes edits, and a turned body has another digest of its geometry.
-    is_same = stamps.Stamp.parse(measurement.fingerprint).geometry == stamp.geometry
+    is_same = Stamp.parse(measurement.fingerprint).geometry == stamp.geometry
     is_same = is_same or _is_same_body(stored.get("body", ()), measurement.in_object_frame())
     if reason is None and not is_same:
-        reason = stamps.Stale.GEOMETRY
+        reason = Stale.GEOMETRY
     shown = stored.keys() - {"fingerprint", "digest", "scale", "body", "limits"}
     return {key: stored[key] for key in stored if key in shown} | {
         "out_of_date": reason and str(reason)

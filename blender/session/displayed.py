@@ -3,8 +3,6 @@
 """The displayed numbers of objects, and the verdict on them: panels, list and overlay ask here.
 
 Loads no numpy.
-
-The order of the list is cached until Blender reports a change.
 """
 
 from __future__ import annotations
@@ -16,6 +14,7 @@ from typing import NamedTuple
 
 import bpy
 from bpy.types import ID, Context, Object, PoseBone, Scene, ViewLayer
+from mathutils import Matrix
 
 from ...core.bodies import DENSITY_DEFAULTED
 from ...core.inertia import PlainBody, add_bodies
@@ -31,15 +30,13 @@ from ...core.verdict import (
     open_body_caveats,
 )
 from .. import read, scale, write
-from ..settings.chosen import chosen_objects, pinned_object
-from ..write import properties
+from ..settings.chosen import chosen_objects
 from . import character, live, memory, stored
 from .live import following
 from .tracking import armatures, handlers, staleness, stamps
 
 ASSEMBLY = Method(Procedure.ASSEMBLY)
 BY_OTHERS = ("MATERIALS", "VOLUME")  # densities that change without an update of the object
-Listing = tuple[list[bool], list[int]]  # for each object its visibility in the list, and its line
 RANKS = {verdict: rank for rank, verdict in enumerate(Verdict)}
 
 
@@ -47,7 +44,7 @@ class Displayed(NamedTuple):
     """The displayed numbers of an object, SI.
 
     numbers: in the object frame. world: in the world frame. unit: meters per Blender unit. reason:
-    the reason if the numbers are out of date. live: the result with Live on. lag: the lag of live
+    the reason if the numbers are out of date. live: the object with Live on. lag: the lag of live
     numbers behind the object. is_posed: whether the numbers are a sum of parts in the present pose.
     is_plumbed: whether a plumb line is drawn with a support polygon, in place of a drop line.
     shows_axes: whether principal axes may be drawn.
@@ -60,7 +57,7 @@ class Displayed(NamedTuple):
     findings: Sequence[Finding]
     verdict: Verdict
     reason: stamps.Stale | None = None
-    live: following.LiveResult | None = None
+    live: following.Followed | None = None
     lag: following.Lag = following.Lag.NONE
     is_posed: bool = False
     is_plumbed: bool = False
@@ -115,29 +112,32 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
         if total is not None:
             return total
     current = memory.followed.get(obj)
-    now = None if current is None else current.result
-    if current is not None and now is not None and (measurement := now.measurement) is not None:
+    if current is not None and (measurement := current.measurement) is not None:
         own = live.mapping.map_properties(obj, current, measurement, scene)
         method = measurement.method
         findings = stored.density.noted(obj, measurement, scene).findings
         lag = live.mapping.lag(obj)
-        reason = staleness.stale_reason(obj, scene, following.stamp_of)
+        reason = staleness.stale_reason(obj, scene, stamps.Kind.LIVE)
         is_behind = reason is not None or lag == following.Lag.BEHIND
-    else:
-        own = properties.stored(obj) if "body_mass" in obj else None
-        method = properties.method(obj)
-        findings = properties.findings(obj)
-        lag = following.Lag.NONE
-        reason = staleness.stale_reason(obj, scene)
-        is_behind = reason is not None
-        now = None
-    if own is None:
-        return None
-    verdict = Verdict.OUT_OF_DATE if is_behind else find_verdict(method, findings)
+        verdict = Verdict.OUT_OF_DATE if is_behind else find_verdict(method, findings)
+        unit = scale.meters_per_unit(scene)
+        world = own.in_world(obj.matrix_world, unit)
+        return Displayed(own, world, unit, method, findings, verdict, reason, current, lag)
+    own = write.properties.stored(obj) if "body_mass" in obj else None
+    return None if own is None else _stored(obj, scene, own, obj.matrix_world, obj)
+
+
+def _stored(
+    obj: Object, scene: Scene, own: PlainBody, matrix: Matrix, measured: Object | PoseBone
+) -> Displayed:
+    """Return stored numbers, in the frame of a matrix, of an object or of its bone."""
     unit = scale.meters_per_unit(scene)
-    return Displayed(
-        own, own.in_world(obj.matrix_world, unit), unit, method, findings, verdict, reason, now, lag
-    )
+    world = own.in_world(matrix, unit)
+    method = write.properties.method(measured)
+    findings = write.properties.findings(obj)
+    reason = staleness.stale_reason(obj, scene)
+    verdict = find_verdict(method, findings) if reason is None else Verdict.OUT_OF_DATE
+    return Displayed(own, world, unit, method, findings, verdict, reason)
 
 
 def drawn(obj: Object, scene: Scene) -> Displayed | None:
@@ -180,7 +180,7 @@ def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | No
         if shown is not None and not shown.is_posed:  # its own stored numbers are of the rest pose
             shown = _as_one(obj, scene, [drawn_bone(bone, scene) for bone in obj.pose.bones])
     else:
-        stamp = None if before is None or before.reason is not None else stamps.of_results(obj)
+        stamp = None if before is None or before.reason is not None else stamps.stamp_of(obj)
         if (
             before is not None
             and stamp is not None
@@ -225,17 +225,11 @@ def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
     """Return the numbers of an original armature's bone at the bone's current place, or None if
     there are none.
     """
-    armature = bone.id_data
-    own = properties.stored(bone)
+    own = write.properties.stored(bone)
     if own is None:
         return None
-    unit = scale.meters_per_unit(scene)
-    world = own.in_world(armature.matrix_world @ bone.matrix, unit)
-    method = properties.method(bone)
-    findings = properties.findings(armature)
-    reason = staleness.stale_reason(armature, scene)
-    verdict = find_verdict(method, findings) if reason is None else Verdict.OUT_OF_DATE
-    return Displayed(own, world, unit, method, findings, verdict, reason)
+    armature = bone.id_data
+    return _stored(armature, scene, own, armature.matrix_world @ bone.matrix, bone)
 
 
 def _as_one(armature: Object, scene: Scene, parts: Iterable[Displayed | None]) -> Displayed | None:
@@ -247,7 +241,7 @@ def _as_one(armature: Object, scene: Scene, parts: Iterable[Displayed | None]) -
     if world is None:
         return None
     unit = scale.meters_per_unit(scene)
-    rest = properties.optional(armature, "body_mass")
+    rest = write.properties.optional(armature, "body_mass")
     if rest is not None:  # posing stretches and squeezes the skin, and leaves the mass
         factor = rest / world.mass
         inertia, moments = (
@@ -260,7 +254,7 @@ def _as_one(armature: Object, scene: Scene, parts: Iterable[Displayed | None]) -
             moments=tuple(moments),
         )
     own = world.in_object(armature.matrix_world, unit)
-    worst = max(known, key=lambda part: tuple(Verdict).index(part.verdict))
+    worst = max(known, key=lambda part: RANKS[part.verdict])
     return Displayed(own, world, unit, worst.method, worst.findings, worst.verdict, is_posed=True)
 
 
@@ -275,24 +269,12 @@ def _weighed(armature: Object, scene: Scene) -> Displayed | None:
     weight = posed.weight(armature, depsgraph)
     if weight is None:
         return None
-    unit = scale.meters_per_unit(scene)
-    method = properties.method(armature)
-    findings = properties.findings(armature)
-    reason = staleness.stale_reason(armature, scene)
-    verdict = find_verdict(method, findings) if reason is None else Verdict.OUT_OF_DATE
-    own = weight.body.in_object(armature.matrix_world, unit)
-    shows_axes = armature.body_moments_weight.show_axes
-    return Displayed(
-        own,
-        weight.body,
-        unit,
-        method,
-        findings,
-        verdict,
-        reason,
+    own = weight.body.in_object(armature.matrix_world, scale.meters_per_unit(scene))
+    return _stored(armature, scene, own, armature.matrix_world, armature)._replace(
+        world=weight.body,
         is_posed=True,
         is_plumbed=True,
-        shows_axes=shows_axes,
+        shows_axes=armature.body_moments_weight.show_axes,
     )
 
 
@@ -308,9 +290,7 @@ def total(context: Context) -> Total:
     """Return the selected objects as one body, by the parallel-axis theorem, from displayed
     numbers.
     """
-    pinned = pinned_object(context)
-    key = memory.state.generation, context.view_layer.name, pinned and pinned.session_uid
-    return memory.current_value(memory.totals, context.scene, key, lambda: _sum(context))
+    return _sum(context.scene, context.view_layer, *shown_objects(context))
 
 
 def places(objects: Iterable[Object]) -> frozenset[tuple]:
@@ -325,15 +305,17 @@ def _members(obj: Object, objects: Iterable[Object]) -> list[Object]:
     return [*obj.children_recursive, *read.rig.skinned_objects(obj, objects)]
 
 
-def _sum(context: Context) -> Total:
-    chosen = shown_objects(context)
+@memory.until_change
+def _sum(scene: Scene, layer: ViewLayer, *chosen: Object) -> Total:
     selected = set(chosen)
     parts = {}
     missing = []
     for obj in chosen:
-        if properties.method(obj) == ASSEMBLY and not selected.isdisjoint(_members(obj, selected)):
+        if write.properties.method(obj) == ASSEMBLY and not selected.isdisjoint(
+            _members(obj, selected)
+        ):
             continue  # its members count by themselves
-        shown = displayed(obj, context.scene)
+        shown = displayed(obj, scene)
         if shown is None:
             missing.append(obj.name)
         else:
@@ -341,7 +323,7 @@ def _sum(context: Context) -> Total:
     worlds = [shown.world for shown in parts.values()]
     alone = next((world for world in worlds if world.mass > 0.0), None)
     stale = tuple(obj.name for obj, shown in parts.items() if shown.verdict == Verdict.OUT_OF_DATE)
-    of_places, overlaps = memory.overlaps.get(context.scene) or (None, ())
+    of_places, overlaps = memory.overlaps.get(scene) or (None, ())
     if stale or of_places != places(parts):
         overlaps = ()
     return Total(
@@ -353,8 +335,8 @@ def _sum(context: Context) -> Total:
         stale,
         sum(shown.is_assumed for shown in parts.values()),
         (
-            *open_body_caveats((obj.name, properties.method(obj)) for obj in parts),
-            *read.assembly.total_caveats(parts, context.view_layer),
+            *open_body_caveats((obj.name, write.properties.method(obj)) for obj in parts),
+            *read.assembly.total_caveats(parts, layer),
             *overlaps,
         ),
         Verdict.INCOMPLETE
@@ -376,49 +358,30 @@ class SortBy(StrEnum):
     VERDICT = "VERDICT"  # the least trustworthy first
 
 
-def listing(
-    scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, warnings_first: bool
-) -> Listing:
-    """Return two lists over a view layer's objects: whether each is listed, and its line, warnings
-    first on request.
-    """
-    key = (memory.state.generation, view_layer.name, name, sort_by, warnings_first)
-    return memory.current_value(
-        memory.listings,
-        scene,
-        key,
-        lambda: _listing(scene, view_layer, name.lower(), sort_by, warnings_first),
-    )
-
-
-def listed_masses(scene: Scene, view_layer: ViewLayer) -> dict[int, str]:
+@memory.until_change
+def listed_masses(scene: Scene, view_layer: ViewLayer, units: write.units.Units) -> dict[int, str]:
     """Return texts of the masses of a view layer's measured objects by session uid, with common
     unit and decimals.
     """
-    units = write.units.Units.from_settings(scene.unit_settings)
-
-    def list_masses() -> dict[int, str]:
-        objects = list(view_layer.objects)
-        masses = {
-            obj: body.world.mass
-            for obj, body in zip(objects, all_drawn(objects, scene))
-            if body is not None
-        }
-        return dict(
-            zip([obj.session_uid for obj in masses], units.texts("mass", list(masses.values())))
-        )
-
-    return memory.current_value(
-        memory.masses, scene, (memory.state.generation, view_layer.name, units), list_masses
-    )
+    objects = list(view_layer.objects)
+    masses = {
+        obj.session_uid: body.world.mass
+        for obj, body in zip(objects, all_drawn(objects, scene))
+        if body is not None
+    }
+    return dict(zip(masses, units.texts("mass", list(masses.values()))))
 
 
-def _listing(
+@memory.until_change
+def listing(
     scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, warnings_first: bool
-) -> Listing:
+) -> tuple[list[bool], list[int]]:
+    """Return two lists over a view layer's objects: whether each is listed, and its line, warnings
+    first on request.
+    """
     objects = list(view_layer.objects)
     all_bodies = zip(objects, all_drawn(objects, scene))
-    bodies = [body if name in obj.name.lower() else None for obj, body in all_bodies]
+    bodies = [body if name.lower() in obj.name.lower() else None for obj, body in all_bodies]
     order = sorted(
         range(len(objects)), key=lambda i: _rank(objects[i], bodies[i], sort_by, warnings_first)
     )

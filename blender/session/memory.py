@@ -6,25 +6,27 @@ Nothing here is written to data. Loading a file and unregistering the add-on for
 (`forget_file`); other ends are said beside the declaration. Data-blocks are keys by their session
 uid, which survives renaming, undo and redo.
 
-Functions that keep their last results by the content of their arguments (`lru_cache`) do so
-themselves: such results cannot become out of date.
+Functions that keep their last results until the next change have the decorator `until_change`.
+Those that keep them by the content of their arguments (`lru_cache`) do so themselves: such results
+cannot become out of date.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from functools import wraps
+from typing import TYPE_CHECKING, Generic, ParamSpec, TypeVar
 
 from bpy.types import ID, Object, Scene
+
+from ...core import statics, verdict
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from ...core.statics import Support
-    from ...core.verdict import Finding
-    from .character.weight import Character, Weight
-    from .displayed import Displayed, Listing, Total
+    from .character.weight import Character
+    from .displayed import Displayed
     from .live.following import Followed
     from .stored.computed_moments import ComputedMoments
     from .stored.cuts import KnownCutFill, Level
@@ -37,6 +39,7 @@ if TYPE_CHECKING:
     from .tracking.updates import Update
 
 Value = TypeVar("Value")
+Arguments = ParamSpec("Arguments")
 _containers: list[SessionCache | dict | set | list] = []
 
 
@@ -87,16 +90,6 @@ class SessionCache(Generic[Value]):
         self._values.clear()
 
 
-def current_value(
-    cache: SessionCache[tuple[Any, Value]], data: ID, key: object, compute: Callable[[], Value]
-) -> Value:
-    """Return a data-block's cached value if it has this key, else compute and cache it."""
-    known = cache.get(data)
-    if known is None or known[0] != key:
-        known = cache[data] = (key, compute())
-    return known[1]
-
-
 Container = TypeVar("Container", bound=dict | set | list)
 
 
@@ -122,10 +115,6 @@ edited: SessionCache[frozenset[str]] = SessionCache()
 carried: SessionCache[dict[Kind, Stamp]] = SessionCache()
 # stamp → digest of the surface when it was stored: copies of an object share both
 shapes: dict[str, bytes] = _remembered({})
-# assembly or armature → the generation, and the present digests of its parts
-part_digests: SessionCache[tuple[int, tuple[str, str] | None]] = SessionCache()
-# armature → the generation, and the meshes that it deforms
-deformed_meshes: SessionCache[tuple[int, tuple[Object, ...]]] = SessionCache()
 # session uid of a skinned mesh → the armature that deforms it; made anew after undo and loading
 watched: dict[int, Object] = _remembered({})
 
@@ -137,14 +126,8 @@ followed: SessionCache[Followed] = SessionCache()
 drawn: dict[int, Displayed] = _remembered({})
 # session uids of drawn objects that have only moved since
 moved: set[int] = _remembered(set())
-# scene → the key (generation, view layer, query) of the last answer, and the answer
-totals: SessionCache[tuple[tuple, Total]] = SessionCache()
-masses: SessionCache[tuple[tuple, dict[int, str]]] = SessionCache()
-listings: SessionCache[tuple[tuple, Listing]] = SessionCache()
 # scene → the last measured objects with their places (`displayed.places`), and their overlaps
-overlaps: SessionCache[tuple[frozenset, Sequence[Finding]]] = SessionCache()
-# scene → the selection, the objects whose settings are shown, and names of settings that differ
-chosen: SessionCache[tuple[tuple, tuple[list[Object], dict[str, bool]]]] = SessionCache()
+overlaps: SessionCache[tuple[frozenset, Sequence[verdict.Finding]]] = SessionCache()
 
 # ---------------------------------------------------------------- Results too large to store
 
@@ -160,10 +143,8 @@ grids: SessionCache[SliderGrid] = SessionCache(max_size=2)  # one may have gigab
 due_numbers: list[tuple[Object, Scene]] = _remembered([])
 # armature → the stamp of its results, and its model
 characters: SessionCache[tuple[str, Character | None]] = SessionCache()
-# armature → the generation and scene, and its weight in the present pose
-weights: SessionCache[tuple[tuple, Weight | None]] = SessionCache()
 # empty of a balance group → its support by frame
-supports: SessionCache[Mapping[int, Support]] = SessionCache()
+supports: SessionCache[Mapping[int, statics.Support]] = SessionCache()
 
 
 @dataclass
@@ -187,6 +168,21 @@ class State:
 
 
 state = State()
+
+
+def until_change(function: Callable[Arguments, Value]) -> Callable[Arguments, Value]:
+    """Decorate a function of data-blocks and values: it keeps its results until the next change."""
+    results: dict[tuple, tuple[int, Value]] = _remembered({})
+
+    @wraps(function)
+    def current(*arguments: Arguments.args, **options: Arguments.kwargs) -> Value:
+        key = tuple(getattr(one, "session_uid", one) for one in (*arguments, *options.values()))
+        known = results.get(key)
+        if known is None or known[0] != state.generation:
+            known = results[key] = state.generation, function(*arguments, **options)
+        return known[1]
+
+    return current
 
 
 def forget_file() -> None:

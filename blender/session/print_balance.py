@@ -14,8 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from bpy.types import Context, Object
 
-from ...core import bodies, measurement, statics, verdict
-from ...core.numerics import Array, shortest_decimal
+from ...core import bodies, measurement, numerics, statics, verdict
 from ..bodies import mesh
 from ..bodies.request import Request
 from ..scene.rigid_world import down
@@ -43,7 +42,7 @@ class PrintBalance(NamedTuple):
 def balance_print(
     context: Context,
     obj: Object,
-    corners: Array | None,
+    corners: numerics.Array | None,
     margin: float,
     point: tuple[float, ...] | None = None,
     change: str = "WALLS",
@@ -81,7 +80,7 @@ def balance_print(
     flat = (corners - middle) @ axes
     about = middle * settings.unit
 
-    def placed(**values: Any) -> Array:
+    def placed(**values: Any) -> numerics.Array:
         """Return the mass and its first moments along the ground, in Blender units."""
         printed = settings.printed._replace(**values)
         mass = bodies.print_body(made, replace(settings, printed=printed), to_body).mass
@@ -139,14 +138,14 @@ def balance_print(
 
 def _place_pocket(
     room: bodies.PocketRoom,
-    to_flat: Callable[[Array], Array],
-    corners: Array,
-    mass: Array,
+    to_flat: Callable[[numerics.Array], numerics.Array],
+    corners: numerics.Array,
+    mass: numerics.Array,
     margin: float,
     excess: float,
-    point: Array | None,
-    axes: Array,
-) -> tuple[Array, float, float]:
+    point: numerics.Array | None,
+    axes: numerics.Array,
+) -> tuple[numerics.Array, float, float]:
     """Return center and radius, m, of the least pocket that gives the margin, and the margin; else
     those of the pocket with the largest margin.
 
@@ -195,5 +194,5 @@ def _shorten(infill: float, low: float, high: float) -> float:
     for step in (1.0, 0.1, 0.01):
         for rounded in (np.ceil(infill / step), np.floor(infill / step)):
             if low <= rounded * step <= high:
-                return shortest_decimal(float(rounded * step))
+                return numerics.shortest_decimal(float(rounded * step))
     return infill

@@ -9,20 +9,18 @@ belong together.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import bpy
 import numpy as np
 from bpy.types import Context, Mesh, Object
 
-from ...core.inertia import combine
+from ...core import inertia, verdict
 from ...core.measurement import NO_VOLUME
 from ...core.mesh import convex_hull, triangle_areas
-from ...core.verdict import EditRefusedError, Finding, MeasureError, Procedure
 from .. import read, scale, scene, settings, write
 from ..bodies.measure_object import measured_in_turn
 from ..bodies.stack import Measured as MeasuredObject
-from ..scene import changes, findings, reframe, rigid_world, snap_targets, transforms
 from . import stored, tracking
 from .colliders import colliders_kept_current
 
@@ -32,35 +30,25 @@ FLAT_RTOL = 1e-5  # of the size, and of the area
 PROBE_DENSITY = 1e6  # for Calculate Mass: high, as Blender's rigid bodies weigh no less than a gram
 
 
-@dataclass(frozen=True, eq=False)
-class Body:
-    """An object that becomes a rigid body, with the objects below it that belong to the same
-    body.
-    """
-
-    obj: Object
-    members: tuple[Object, ...] = ()
+Body = tuple[Object, ...]  # an object, and the objects below it that belong to the same body
 
 
-@dataclass(frozen=True, eq=False)
-class Measured:
+class Measured(NamedTuple):
     """A measured body. density: mean density, kg/m³. parts: its objects with their measurements."""
 
-    body: Body
-    target: snap_targets.SnapTarget
+    target: scene.snap_targets.SnapTarget
     density: float
-    parts: tuple[tuple[Object, MeasuredObject], ...]
+    parts: dict[Object, MeasuredObject]
 
 
-@dataclass(frozen=True, eq=False)
-class RigidBodies:
+class RigidBodies(NamedTuple):
     """New rigid bodies by their objects, their masses in kg by Calculate Mass, the refusals of
     other bodies, and passive bodies without a mass.
     """
 
     measured: dict[Object, Measured]
     calculated: dict[Object, float]
-    failures: list[Finding]
+    failures: list[verdict.Finding]
     floors: list[Object]
 
 
@@ -70,22 +58,21 @@ def make_rigid_bodies(
     """Make objects, or each with its descendants, rigid bodies with their mass, center of mass and
     principal axes.
     """
-    bodies = _bodies(objects) if compounds else [Body(obj) for obj in objects]
+    bodies = _bodies(objects) if compounds else [(obj,) for obj in objects]
     measured: dict[Object, Measured] = {}
-    failures: list[Finding] = []
+    failures: list[verdict.Finding] = []
     floors: list[Object] = []
     ask = _measure_in_turn(context, bodies)
     with write.reports.progress(len(bodies)) as step:
         for done, body in enumerate(bodies, 1):
             try:
-                measured[body.obj] = _measured(context, body, ask)
+                measured[body[0]] = _measured(context, body, ask)
             except Exception as error:
-                found = error.finding.code if isinstance(error, MeasureError) else None
-                if type == "PASSIVE" and found in {findings.OPEN_OBJECT, NO_VOLUME}:
-                    floors += body.obj, *body.members  # no engine asks for their mass
-                    step(done)
-                    continue
-                failures.append(write.reports.failure(body.obj.name_full, error))
+                found = error.finding.code if isinstance(error, verdict.MeasureError) else None
+                if type == "PASSIVE" and found in {scene.findings.OPEN_OBJECT, NO_VOLUME}:
+                    floors += body  # no engine asks for their mass
+                else:
+                    failures.append(write.reports.failure(body[0].name_full, error))
             step(done)
     # Blender reports a rigid body as a change of the shape, and again when results are stored on it
     with (
@@ -96,7 +83,7 @@ def make_rigid_bodies(
         failures += _place(context, measured, frame)
         new = _add(context, measured, type, shape)
         new_floors = [obj for obj in floors if obj.rigid_body is None]
-        rigid_world.add_rigid_bodies(context, new_floors, type)
+        scene.rigid_world.add_rigid_bodies(context, new_floors, type)
         depsgraph = context.evaluated_depsgraph_get()
         for obj in floors:
             obj.rigid_body.type = "PASSIVE"
@@ -110,20 +97,22 @@ def make_rigid_bodies(
         for obj, one in measured.items():
             obj.rigid_body.mass = one.target.mass
         stored.results.store_measured(
-            context, [part for one in measured.values() for part in one.parts]
+            context, [part for one in measured.values() for part in one.parts.items()]
         )
     return RigidBodies(measured, calculated, failures, floors)
 
 
-def _place(context: Context, measured: dict[Object, Measured], frame: str) -> list[Finding]:
+def _place(context: Context, measured: dict[Object, Measured], frame: str) -> list[verdict.Finding]:
     """Give each body the requested frame; remove refused bodies from `measured`, and return the
     reasons.
     """
-    failures: list[Finding] = []
+    failures: list[verdict.Finding] = []
     if frame == "KEEP":
         return failures
     frame_of = (
-        snap_targets.matrix_for_bullet if frame == "ORIGIN" else snap_targets.matrix_along_axes
+        scene.snap_targets.matrix_for_bullet
+        if frame == "ORIGIN"
+        else scene.snap_targets.matrix_along_axes
     )
     for _ in range(2):  # a new scale may cut faces that are not flat into other triangles
         plans = []
@@ -133,27 +122,27 @@ def _place(context: Context, measured: dict[Object, Measured], frame: str) -> li
             if target is None:
                 continue
             try:
-                reframe.check(obj)
+                scene.reframe.check(obj)
                 joints[obj] = _joint_in_place(context, obj)
             except Exception as error:
                 failures.append(write.reports.failure(obj.name_full, error))
                 del measured[obj]
                 continue
-            move_only = np.array_equal(target[:3, :3], transforms.world(obj)[:3, :3])
-            plans.append(reframe.Plan(obj, target, one.target.size, move_only=move_only))
+            move_only = np.array_equal(target[:3, :3], scene.transforms.world(obj)[:3, :3])
+            plans.append(scene.reframe.Plan(obj, target, one.target.size, move_only=move_only))
         with write.reports.progress(len(plans)) as step:
-            changed, refused = reframe.reframe(context, plans, step)
+            changed, refused = scene.reframe.reframe(context, plans, step)
         for plan in changed:
             if joints[plan.obj] is not None:
-                rigid_world.remove_joint(context, plan.obj)
+                scene.rigid_world.remove_joint(context, plan.obj)
         for obj, refusal in refused:
             failures.append(write.reports.failure(obj.name_full, refusal))
             del measured[obj]
             if joints[obj] is not None:
                 bpy.data.objects.remove(joints[obj])
-        ask = _measure_in_turn(context, [measured[plan.obj].body for plan in changed])
+        ask = _measure_in_turn(context, [measured[plan.obj].parts for plan in changed])
         for plan in changed:
-            measured[plan.obj] = _measured(context, measured[plan.obj].body, ask)
+            measured[plan.obj] = _measured(context, (*measured[plan.obj].parts,), ask)
         tracking.staleness.mark_axes_changed(plan.obj for plan in changed if not plan.move_only)
     return failures
 
@@ -163,13 +152,13 @@ def _add(context: Context, measured: dict[Object, Measured], type: str, shape: s
 
     Return the objects that had no rigid body before.
     """
-    parts = [part for one in measured.values() for part in (one.body.obj, *one.body.members)]
+    parts = [part for one in measured.values() for part in one.parts]
     colliders = scene.colliders.colliders_by_body(context.scene.objects) if shape == "KEEP" else {}
     added = [collider for part in parts for collider in colliders.get(part, ())]
     new = [obj for obj in parts if obj.rigid_body is None]
     for collider in added:
         scene.colliders.apply_for_bullet(collider)
-    rigid_world.add_rigid_bodies(
+    scene.rigid_world.add_rigid_bodies(
         context, [*new, *(obj for obj in added if obj.rigid_body is None)], type
     )
     for collider in added:
@@ -177,9 +166,9 @@ def _add(context: Context, measured: dict[Object, Measured], type: str, shape: s
             collider[settings.given.COLLIDER]["kind"], "CONVEX_HULL"
         )
     fresh = set(new)
-    for one in measured.values():
-        inner = {part.parent for part in one.body.members}
-        for part in (one.body.obj, *one.body.members):
+    for obj, one in measured.items():
+        inner = {part.parent for part in one.parts if part != obj}
+        for part in one.parts:
             if part in fresh:
                 part.rigid_body.collision_shape = "CONVEX_HULL"
             if part in inner or part in colliders:
@@ -201,7 +190,7 @@ def _is_convex_polygon(mesh: Mesh) -> bool:
     surface = read.mesh.mesh_surface(mesh, edges=False)
     try:
         hull = convex_hull(surface.points, FLAT_RTOL)
-    except MeasureError:
+    except verdict.MeasureError:
         return False
     area = triangle_areas(surface.points, surface.all_triangles()[0]).sum()
     both_sides = triangle_areas(hull.points, hull.triangles).sum()
@@ -220,51 +209,55 @@ def _bodies(objects: Sequence[Object]) -> list[Body]:
             top = top.parent
         if top != obj:
             members[top].append(obj)
-    return [Body(obj, tuple(below)) for obj, below in members.items()]
+    return [(obj, *below) for obj, below in members.items()]
 
 
 def _measure_in_turn(
-    context: Context, bodies: Iterable[Body]
+    context: Context, bodies: Iterable[Iterable[Object]]
 ) -> Callable[[Object], MeasuredObject]:
     """Return a function that measures the objects of the bodies, one at a time and in order."""
-    parts = [part for body in bodies for part in (body.obj, *body.members)]
+    parts = [part for body in bodies for part in body]
     return measured_in_turn(parts, context.evaluated_depsgraph_get())
 
 
 def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredObject]) -> Measured:
     """Measure a body as it is now; raise EditRefusedError if it cannot be a rigid body."""
-    rigid_world.require_rigid_world(
-        context.scene, joints=body.obj.rigid_body_constraint is not None
+    scene.rigid_world.require_rigid_world(
+        context.scene, joints=body[0].rigid_body_constraint is not None
     )
-    parts = [(body.obj, _measured_part(body.obj, ask))]
-    for part in body.members:
+    parts = {body[0]: _measured_part(body[0], ask)}
+    for part in body[1:]:
         try:
-            parts.append((part, _measured_part(part, ask)))
-        except MeasureError as error:
-            raise EditRefusedError(error.finding.of_sources([part.name_full])) from error
-    measurements = [measured.measurement for _, measured in parts]
-    if body.members:
+            parts[part] = _measured_part(part, ask)
+        except verdict.MeasureError as error:
+            raise verdict.EditRefusedError(error.finding.of_sources([part.name_full])) from error
+    measurements = [measured.measurement for measured in parts.values()]
+    if len(body) > 1:
         moments = [measurement.mass_moments for measurement in measurements]
-        whole = combine(moments, preferred_axes=measurements[0].rotation)
+        whole = inertia.combine(moments, preferred_axes=measurements[0].rotation)
         unit = scale.meters_per_unit(context.scene)
-        target = snap_targets.SnapTarget.of_body(body.obj, whole, whole.principal, unit)
+        target = scene.snap_targets.SnapTarget.of_body(body[0], whole, whole.principal, unit)
     else:
-        target = snap_targets.target_of(context, *parts[0])
-    if target.mass < rigid_world.MIN_MASS:
-        raise EditRefusedError(
-            findings.RIGID_BODY_MASS_TOO_SMALL, mass=float(target.mass), limit=rigid_world.MIN_MASS
+        target = scene.snap_targets.target_of(context, body[0], parts[body[0]])
+    if target.mass < scene.rigid_world.MIN_MASS:
+        raise verdict.EditRefusedError(
+            scene.findings.RIGID_BODY_MASS_TOO_SMALL,
+            mass=float(target.mass),
+            limit=scene.rigid_world.MIN_MASS,
         )
     volume = sum(measurement.volume for measurement in measurements)
-    return Measured(body, target, target.mass / volume, tuple(parts))
+    return Measured(target, target.mass / volume, parts)
 
 
 def _measured_part(part: Object, ask: Callable[[Object], MeasuredObject]) -> MeasuredObject:
-    changes.require_storable_data(part)
+    scene.changes.require_storable_data(part)
     if part.type != "MESH":
-        raise EditRefusedError(findings.RIGID_BODY_UNFIT, fault=findings.RIGID_BODY_NEEDS_MESH)
+        raise verdict.EditRefusedError(
+            scene.findings.RIGID_BODY_UNFIT, fault=scene.findings.RIGID_BODY_NEEDS_MESH
+        )
     measured = ask(part)
-    if measured.measurement.method.procedure == Procedure.OPEN:
-        raise EditRefusedError(findings.OPEN_OBJECT)
+    if measured.measurement.method.procedure == verdict.Procedure.OPEN:
+        raise verdict.EditRefusedError(scene.findings.OPEN_OBJECT)
     return measured
 
 
@@ -294,7 +287,7 @@ def _joint_in_place(context: Context, obj: Object) -> Object | None:
     empty.rotation_mode = "QUATERNION"
     empty.location = location
     empty.rotation_quaternion = turn
-    copy = rigid_world.add_joint(context, empty, joint.type)
+    copy = scene.rigid_world.add_joint(context, empty, joint.type)
     for prop in joint.bl_rna.properties:
         if not prop.is_readonly:
             setattr(copy, prop.identifier, getattr(joint, prop.identifier))

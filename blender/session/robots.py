@@ -13,37 +13,13 @@ import bpy
 import numpy as np
 from bpy.types import Collection, Context, Depsgraph, Object
 
-from ...core import bodies, mesh, numerics
+from ...core import bodies, mesh, numerics, robots, verdict
 from ...core.measurement import Measurement
-from ...core.robots import (
-    ROBOT_WITHOUT_LINKS,
-    Candidate,
-    Connection,
-    Link,
-    Pose,
-    Robot,
-    Shape,
-    assemble_robot,
-    make_candidate,
-)
 from ...core.robots.write.shapes import with_colliders
-from ...core.verdict import EditRefusedError, Finding, MeasureError, finding
+from .. import read, scene, settings, write
 from ..bodies import measure_object, overlaps
 from ..bodies.assembly.assembly import measure_assembly
 from ..bodies.rig import measure_rig
-from ..read.joints import (
-    bone_freedom,
-    bone_parents,
-    constraint_connections,
-    is_passive,
-    joint_values,
-)
-from ..read.objects import read_object
-from ..read.visibility import measurable
-from ..scene.colliders import colliders_by_body, read_colliders
-from ..settings.given import COLLIDER
-from ..settings.options import AS_SET, MeasureOptions
-from ..write import reports
 from .findings import LEFT_OUT_OF_ROBOT
 
 
@@ -56,8 +32,8 @@ class SceneLinks:
     world in meters.
     """
 
-    robot: Robot
-    findings: list[Finding]
+    robot: robots.Robot
+    findings: list[verdict.Finding]
     unit: float
     members: dict[str, list[Object]] = field(default_factory=dict)
     pieces: dict[str, tuple[tuple[mesh.Surface, numerics.Array], ...]] = field(default_factory=dict)
@@ -66,22 +42,24 @@ class SceneLinks:
         """Return the links with the colliders of their objects in place of their geometry as
         collision shapes.
         """
-        by_body = colliders_by_body(bpy.data.objects)
+        by_body = scene.colliders.colliders_by_body(bpy.data.objects)
 
-        def colliders_of(link: Link) -> list[Shape]:
-            placed: list[Shape] = []
+        def colliders_of(link: robots.Link) -> list[robots.Shape]:
+            placed: list[robots.Shape] = []
             for obj in self.members.get(link.name, ()):
                 location, turn, _scale = obj.matrix_world.decompose()
-                frame = Pose(
+                frame = robots.Pose(
                     np.array(location, np.float64) * self.unit, numerics.rotation_matrix(turn)
                 )
-                shapes = read_colliders(by_body.get(obj, ()), frame.rotation, self.unit)
+                shapes = scene.colliders.read_colliders(
+                    by_body.get(obj, ()), frame.rotation, self.unit
+                )
                 is_own = (
                     np.array_equal(frame.rotation, link.pose.rotation)
                     and len(self.members[link.name]) == 1
                 )
                 # equal frames without rounding
-                to_link = Pose() if is_own else link.pose.inverse() @ frame
+                to_link = robots.Pose() if is_own else link.pose.inverse() @ frame
                 placed += [replace(shape, pose=to_link @ shape.pose) for shape in shapes]
             return placed
 
@@ -116,21 +94,21 @@ def candidates(context: Context, collection: str, selected: bool) -> list[Object
         chosen = bpy.data.collections[collection].all_objects
     elif selected:
         chosen = context.view_layer.objects.selected
-    return [obj for obj in chosen if COLLIDER not in obj]
+    return [obj for obj in chosen if settings.given.COLLIDER not in obj]
 
 
 def jointed_robot(
     context: Context,
     name: str,
-    made: Sequence[Candidate],
+    made: Sequence[robots.Candidate],
     labels: Mapping[Object, str],
     unit: float,
-) -> tuple[Robot, list[Finding]]:
+) -> tuple[robots.Robot, list[verdict.Finding]]:
     """Return a robot of candidates with the joints of the scene's rigid-body constraints, and
     findings.
     """
-    connections, bases, findings = constraint_connections(context.scene, labels, unit)
-    robot, more = assemble_robot(name, [*made, *bases], connections)
+    connections, bases, findings = read.joints.constraint_connections(context.scene, labels, unit)
+    robot, more = robots.assemble_robot(name, [*made, *bases], connections)
     placed = sorted(labels, key=lambda obj: obj.name)
     shared = overlaps.shared_space_caveats(placed, context.evaluated_depsgraph_get())
     return robot, [*findings, *more, *shared]
@@ -146,7 +124,7 @@ def object_links(
     finished counts.
     """
     depsgraph = context.evaluated_depsgraph_get()
-    chosen = [obj for obj in objects if measurable(obj)]
+    chosen = [obj for obj in objects if read.visibility.measurable(obj)]
     measured: dict[Object, Measurement] = {}
     in_turn = measure_object.measured_in_turn(chosen, depsgraph)
     failures = []
@@ -154,16 +132,18 @@ def object_links(
         try:
             measured[obj] = in_turn(obj).measurement
         except Exception as error:
-            failures.append(reports.failure(obj.name_full, error))
+            failures.append(write.reports.failure(obj.name_full, error))
         step(done)
     if not measured:
-        raise EditRefusedError(failures[0] if failures else finding(ROBOT_WITHOUT_LINKS))
+        raise verdict.EditRefusedError(
+            failures[0] if failures else verdict.finding(robots.ROBOT_WITHOUT_LINKS)
+        )
     labels = {obj: obj.name_full for obj in measured}
     made = [
         object_candidate(labels[obj], obj, measurement, labels)
         for obj, measurement in measured.items()
     ]
-    unit = AS_SET.meters_per_unit(context.scene)
+    unit = settings.options.AS_SET.meters_per_unit(context.scene)
     robot, findings = jointed_robot(context, name, made, labels, unit)
     members = {label: [obj] for obj, label in labels.items()}
     return SceneLinks(robot, [*findings, *left_out(failures, len(chosen))], unit, members)
@@ -174,7 +154,7 @@ def collection_links(
     name: str,
     root: Collection,
     objects: list[Object],
-    options: MeasureOptions = AS_SET,
+    options: settings.options.MeasureOptions = settings.options.AS_SET,
 ) -> SceneLinks:
     """Return a robot with a link along the world's axes for each child collection of `root`, or for
     `root` alone.
@@ -189,22 +169,29 @@ def collection_links(
         label = collection.name_full
         try:
             measurement = measure_assembly(collection, depsgraph, options).measurement
-        except MeasureError as error:
-            failures.append(reports.failure(label, error.finding))
+        except verdict.MeasureError as error:
+            failures.append(write.reports.failure(label, error.finding))
             continue
         held = {*collection.all_objects}
         labels.update(dict.fromkeys(held, label))
-        members[label] = [obj for obj in objects if obj in held and measurable(obj)]
-        made.append(make_candidate(label, measurement, is_fixed=any(map(is_passive, held))))
+        members[label] = [obj for obj in objects if obj in held and read.visibility.measurable(obj)]
+        made.append(
+            robots.make_candidate(
+                label, measurement, is_fixed=any(map(read.joints.is_passive, held))
+            )
+        )
     if not made:
-        raise EditRefusedError(failures[0])
+        raise verdict.EditRefusedError(failures[0])
     unit = options.meters_per_unit(context.scene)
     robot, findings = jointed_robot(context, name, made, labels, unit)
     return SceneLinks(robot, [*findings, *left_out(failures, len(collections))], unit, members)
 
 
 def bone_links(
-    context: Context, name: str, objects: list[Object], options: MeasureOptions = AS_SET
+    context: Context,
+    name: str,
+    objects: list[Object],
+    options: settings.options.MeasureOptions = settings.options.AS_SET,
 ) -> SceneLinks:
     """Return a robot with a link in rest frame for each bone that has a part; joints have the
     limits of the bones.
@@ -229,52 +216,58 @@ def bone_links(
                 continue
             bone = armature.pose.bones[part.name]
             label = labels[part.name]
-            parents = bone_parents(bone, labels)
-            values, mimic, unusable = joint_values(bone)
+            parents = read.joints.bone_parents(bone, labels)
+            values, mimic, unusable = read.joints.joint_values(bone)
             findings += unusable
-            free = bone_freedom(bone, values, unit)
-            made.append(make_candidate(label, part.measurement))
+            free = read.joints.bone_freedom(bone, values, unit)
+            made.append(robots.make_candidate(label, part.measurement))
             if parents:
                 connections.append(
-                    Connection("{}_joint".format(label), parents[0], label, None, free, mimic)
+                    robots.Connection(
+                        "{}_joint".format(label), parents[0], label, None, free, mimic
+                    )
                 )
             pieces[label] = part.surfaces
     if not made:
-        raise EditRefusedError(ROBOT_WITHOUT_LINKS)
-    robot, left = assemble_robot(name, made, connections)
+        raise verdict.EditRefusedError(robots.ROBOT_WITHOUT_LINKS)
+    robot, left = robots.assemble_robot(name, made, connections)
     return SceneLinks(robot, [*findings, *left], unit, pieces=pieces)
 
 
-def left_out(failures: list[Finding], total: int) -> list[Finding]:
+def left_out(failures: list[verdict.Finding], total: int) -> list[verdict.Finding]:
     """Return a list with one finding about all objects that could not be measured, empty if there
     are none.
     """
     if not failures:
         return []
-    causes = [failure.as_record() for failure in reports.first(failures)]
-    return [finding(LEFT_OUT_OF_ROBOT, count=len(failures), total=total, causes=causes)]
+    causes = [failure.as_record() for failure in write.reports.first(failures)]
+    return [verdict.finding(LEFT_OUT_OF_ROBOT, count=len(failures), total=total, causes=causes)]
 
 
 def object_candidate(
     label: str, obj: Object | None, measurement: Measurement, labels: Mapping[Object, str]
-) -> Candidate:
+) -> robots.Candidate:
     """Return a measured object as a possible link, with the labels of its parents; `obj` is None
     for instances.
     """
     if obj is None:
-        return make_candidate(label, measurement)
+        return robots.make_candidate(label, measurement)
     parents = []
     above = obj.parent
     while above is not None:
         parents += [labels[above]] if above in labels else []
         above = above.parent
-    return make_candidate(
-        label, measurement, parents, obj.matrix_world.to_scale(), is_fixed=is_passive(obj)
+    return robots.make_candidate(
+        label,
+        measurement,
+        parents,
+        obj.matrix_world.to_scale(),
+        is_fixed=read.joints.is_passive(obj),
     )
 
 
 def link_surface(
-    objects: Iterable[Object], depsgraph: Depsgraph, pose: Pose, unit: float
+    objects: Iterable[Object], depsgraph: Depsgraph, pose: robots.Pose, unit: float
 ) -> mesh.Surface | None:
     """Return the surface of a link's objects as triangles in m, in the link's frame; None without
     visible faces.
@@ -283,8 +276,8 @@ def link_surface(
     to_link = pose.inverse()
     for obj in objects:
         try:
-            surface = read_object(obj, depsgraph, edges=False).join()
-        except MeasureError:  # such as a grid of densities
+            surface = read.objects.read_object(obj, depsgraph, edges=False).join()
+        except verdict.MeasureError:  # such as a grid of densities
             continue
         pieces.append(surface.transform(unit * to_link.rotation, to_link.position))
     if len(pieces) > 1:

@@ -12,10 +12,10 @@ from typing import Any
 
 import bpy
 from bpy.props import StringProperty
-from bpy.types import Context, Object, PropertyGroup, Scene
+from bpy.types import Context, Object, PropertyGroup, Scene, ViewLayer
 
 from ...core.density import DENSITY_UNITS
-from ..settings import given, properties
+from ..settings import given, prints, properties
 from ..settings.chosen import chosen_objects, pinned_object
 from . import memory, tracking
 
@@ -65,24 +65,20 @@ def objects_with_settings(objects: Iterable[Object]) -> list[Object]:
     )
 
 
-def _owners(context: Context) -> tuple[list[Object], dict[str, bool]]:
-    """Return the chosen objects whose settings the panel shows and sets, and known answers of
-    `is_mixed` about them.
-    """
-    layer = context.view_layer
-    pinned = pinned_object(context)
-    uid = None if pinned is None else pinned.session_uid
-    return memory.current_value(
-        memory.chosen,
-        context.scene,
-        (memory.state.generation, layer.name, len(layer.objects.selected), uid),
-        lambda: (objects_with_settings(chosen_objects(context)), {}),
-    )
-
-
 def owners(context: Context) -> list[Object]:
     """Return the chosen objects whose settings the panel shows and sets."""
-    return _owners(context)[0]
+    return _owners(*_selection(context))
+
+
+def _selection(context: Context) -> tuple[ViewLayer, int, Object | None]:
+    """Return what tells selections apart between two changes that Blender reports."""
+    layer = context.view_layer
+    return layer, len(layer.objects.selected), pinned_object(context)
+
+
+@memory.until_change
+def _owners(_layer: ViewLayer, _count: int, _pinned: Object | None) -> list[Object]:
+    return objects_with_settings(chosen_objects(bpy.context))
 
 
 def chosen_settings(context: Context) -> PropertyGroup | None:
@@ -95,13 +91,17 @@ def chosen_settings(context: Context) -> PropertyGroup | None:
 
 def is_mixed(settings: PropertyGroup, name: str) -> bool:
     """Return whether a setting differs among the chosen objects; never for those of one object."""
-    if not isinstance(settings, BodyMomentsSelectionSettings):
-        return False
-    objects, mixed = _owners(bpy.context)
-    if name not in mixed:
-        values = {properties.comparable(getattr(obj.body_moments, name)) for obj in objects}
-        mixed[name] = len(values) > 1
-    return mixed[name]
+    is_group = isinstance(settings, BodyMomentsSelectionSettings)
+    return is_group and _is_mixed(name, *_selection(bpy.context))
+
+
+@memory.until_change
+def _is_mixed(name: str, layer: ViewLayer, count: int, pinned: Object | None) -> bool:
+    values = {
+        properties.comparable(getattr(obj.body_moments, name))
+        for obj in _owners(layer, count, pinned)
+    }
+    return len(values) > 1
 
 
 def common(settings: PropertyGroup, name: str) -> Any:
@@ -135,7 +135,9 @@ class BodyMomentsSelectionSettings(PropertyGroup):
 
 
 ANNOTATIONS = (
-    given.GivenPartProperties.__annotations__ | properties.BodyMomentsObjectSettings.__annotations__
+    given.GivenPartProperties.__annotations__
+    | prints.PrintProperties.__annotations__
+    | properties.BodyMomentsObjectSettings.__annotations__
 )
 BodyMomentsSelectionSettings.__annotations__ = {
     name: _of_all(name, ANNOTATIONS[name].function, ANNOTATIONS[name].keywords)
@@ -151,5 +153,4 @@ BodyMomentsSelectionSettings.__annotations__["density_volume"] = StringProperty(
         obj.name for obj in bpy.data.objects if obj.type == "VOLUME"
     ],
 )
-CLASSES = (BodyMomentsSelectionSettings,)
 POINTERS = {(Scene, "body_moments_selection"): BodyMomentsSelectionSettings}

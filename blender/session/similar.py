@@ -24,9 +24,7 @@ from ...core.shape import (
     similarity,
 )
 from ...core.verdict import Finding
-from ..bodies.flat.flat_shape import FlatShape, body_or_flat, comparable_shape_of, distance_from
-from ..bodies.shape.shape import signed_in_turn, surface_shape_of
-from ..bodies.shape.surface_distance import register_surfaces
+from .. import bodies
 
 DESCRIPTOR_ORDER = 12  # ample to separate parts, in a fourth of the time of order 20
 
@@ -63,7 +61,7 @@ class SimilarSearch:
 
     def measure(self) -> Iterator[float]:
         """Measure the wanted object, in steps. Raises MeasureError if it has no signature."""
-        self._shape = comparable_shape_of(self._obj, self._depsgraph)
+        self._shape = bodies.flat.flat_shape.comparable_shape_of(self._obj, self._depsgraph)
         yield 0.0
         self.wanted = self._shape.signature(DESCRIPTOR_ORDER)
 
@@ -76,27 +74,27 @@ class SimilarSearch:
         wanted_shape = self._shape
         skin = None
         depsgraph = self._depsgraph
-        flat = isinstance(wanted_shape, FlatShape)
+        flat = isinstance(wanted_shape, bodies.flat.flat_shape.FlatShape)
         if flat:
-            of_body = partial(surface_shape_of, depsgraph=depsgraph)
+            of_body = partial(bodies.shape.shape.surface_shape_of, depsgraph=depsgraph)
         else:
-            of_body = signed_in_turn(objects, depsgraph, DESCRIPTOR_ORDER)
+            of_body = bodies.shape.shape.signed_in_turn(objects, depsgraph, DESCRIPTOR_ORDER)
 
         def compare(obj: Object) -> Generator[float, None, None]:
             nonlocal skin
-            shape = body_or_flat(obj, depsgraph, of_body, flat)
+            shape = bodies.flat.flat_shape.body_or_flat(obj, depsgraph, of_body, flat)
             yield 0.3
             signature = shape if isinstance(shape, Signature) else shape.signature(DESCRIPTOR_ORDER)
             entry = Entry(obj.name_full, "", signature)
             likeness = similarity(self.wanted, entry.signature)
             if classify(likeness) in UNDECIDED_HANDEDNESS:
                 yield 0.6
-                skin = skin or distance_from(wanted_shape)
+                skin = skin or bodies.flat.flat_shape.distance_from(wanted_shape)
                 if isinstance(shape, Signature):
-                    shape = surface_shape_of(obj, depsgraph)
-                skin_compared = distance_from(shape)
+                    shape = bodies.shape.shape.surface_shape_of(obj, depsgraph)
+                skin_compared = bodies.flat.flat_shape.distance_from(shape)
                 yield 0.9
-                match = register_surfaces(
+                match = bodies.shape.surface_distance.register_surfaces(
                     shape, wanted_shape, skin_compared, skin, 1.0 / likeness.scale
                 )
                 is_copy = match.max_distance <= MAX_FIT_RTOL * wanted_shape.size

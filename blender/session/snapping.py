@@ -10,10 +10,7 @@ from bpy.types import Context, Object
 from numpy.typing import NDArray
 
 from ...core.verdict import Finding, internal_error
-from ..bodies import measure_object, stack
-from ..read.tracking import tracking_paused
-from ..scene import reframe, snap_targets
-from ..write import properties, reports
+from .. import bodies, read, scene, write
 from .stored import assembly, results
 from .tracking import staleness
 
@@ -21,18 +18,18 @@ from .tracking import staleness
 def remeasure(
     context: Context,
     objects: Sequence[Object],
-    known: Mapping[Object, stack.Measured] | None = None,
+    known: Mapping[Object, bodies.stack.Measured] | None = None,
 ) -> None:
     """Measure and store results anew after objects have moved; known: measurements of those that
     have not.
     """
     known = known or {}
-    stored = [obj for obj in objects if properties.is_stored(obj)]
+    stored = [obj for obj in objects if write.properties.is_stored(obj)]
     if not stored:
         return
     measured = [(obj, known[obj]) for obj in stored if obj in known]
     unknown = [obj for obj in stored if obj not in known]
-    for together in measure_object.measure_many(unknown, context.evaluated_depsgraph_get()):
+    for together in bodies.measure_object.measure_many(unknown, context.evaluated_depsgraph_get()):
         for obj, outcome in together:
             # stored results stay, and the panel shows that they are out of date
             if isinstance(outcome, Exception):
@@ -46,50 +43,52 @@ def remeasure(
 def reframe_objects(
     context: Context,
     objects: Sequence[Object],
-    target_matrix: Callable[[Object, snap_targets.SnapTarget], NDArray | None],
+    target_matrix: Callable[[Object, scene.snap_targets.SnapTarget], NDArray | None],
     move_only: bool,
     strict: bool = False,
-) -> tuple[list[reframe.Plan], list[Finding]]:
+) -> tuple[list[scene.reframe.Plan], list[Finding]]:
     """Give objects the frames of `target_matrix` while nothing visible moves; return finished plans
     and refusals.
     """
 
     def plans_of(
-        chosen: Sequence[Object], right: dict[Object, stack.Measured], by_shape: bool
-    ) -> tuple[list[reframe.Plan], list[Finding]]:
+        chosen: Sequence[Object], right: dict[Object, bodies.stack.Measured], by_shape: bool
+    ) -> tuple[list[scene.reframe.Plan], list[Finding]]:
         """Return plans and refusals; measurements of unchanged objects with stored results go to
         `right`. by_shape: moments to sixth order choose among axes that lower ones leave open.
         """
-        plans: list[reframe.Plan] = []
+        plans: list[scene.reframe.Plan] = []
         failures: list[Finding] = []
-        measured = measure_object.measured_in_turn(chosen, context.evaluated_depsgraph_get())
-        with reports.progress(len(chosen)) as step:
+        measured = bodies.measure_object.measured_in_turn(chosen, context.evaluated_depsgraph_get())
+        with write.reports.progress(len(chosen)) as step:
             for done, obj in enumerate(chosen, 1):
                 try:
-                    reframe.check(obj)
+                    scene.reframe.check(obj)
                     outcome = measured(obj)
-                    body = snap_targets.target_of(context, obj, outcome, strict, by_shape)
+                    body = scene.snap_targets.target_of(context, obj, outcome, strict, by_shape)
                     target = target_matrix(obj, body)
                 except Exception as error:
-                    failures.append(reports.failure(obj.name_full, error))
+                    failures.append(write.reports.failure(obj.name_full, error))
                 else:
                     if target is not None:
-                        plans.append(reframe.Plan(obj, target, body.size, move_only=move_only))
-                    elif properties.is_stored(obj):
+                        plans.append(
+                            scene.reframe.Plan(obj, target, body.size, move_only=move_only)
+                        )
+                    elif write.properties.is_stored(obj):
                         right[obj] = outcome
                 step(done)
         return plans, failures
 
     plans, failures = plans_of(objects, {}, not move_only)
-    known: dict[Object, stack.Measured] = {}
+    known: dict[Object, bodies.stack.Measured] = {}
     with assembly.kept_up_to_date(context):
-        with tracking_paused(), reports.progress(len(plans)) as step:
-            changed, refused = reframe.reframe(context, plans, step)
-            failures += [reports.failure(obj.name_full, refusal) for obj, refusal in refused]
+        with read.tracking.tracking_paused(), write.reports.progress(len(plans)) as step:
+            changed, refused = scene.reframe.reframe(context, plans, step)
+            failures += [write.reports.failure(obj.name_full, refusal) for obj, refusal in refused]
             # a new scale may change the triangles of faces that are not flat: another body
             if not move_only:
                 again, _ = plans_of([plan.obj for plan in changed], known, by_shape=False)
-                reframe.reframe(context, again)
+                scene.reframe.reframe(context, again)
         remeasure(context, [plan.obj for plan in changed], known)
     if not move_only:
         staleness.mark_axes_changed(plan.obj for plan in changed)

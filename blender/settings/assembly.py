@@ -181,12 +181,6 @@ class BodyMomentsWeightSettings(PropertyGroup):
     )
 
 
-CLASSES = (
-    BodyMomentsAssemblyRow,
-    BodyMomentsAssemblySettings,
-    BodyMomentsBoneSettings,
-    BodyMomentsWeightSettings,
-)
 POINTERS = {
     (Collection, "body_moments"): BodyMomentsAssemblySettings,
     (Object, "body_moments_assembly"): BodyMomentsAssemblySettings,

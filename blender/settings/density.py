@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import bpy
 
 from ...core import density as density_engine
-from ...core import numerics
+from ...core import numerics, verdict
 from ...core.measurement import DENSITY_FROM_VALUE
-from ...core.verdict import Finding, ReadError, finding
 from .findings import (
     DENSITY_FROM_POLYNOMIAL,
     DENSITY_SOURCE_MISSING,
@@ -47,12 +46,12 @@ class DensityField(NamedTuple):
         """Frame of the polynomial's coordinates: "world" or "object"."""
         return "world" if self.in_world else "object"
 
-    def polynomial_source(self) -> Finding:
+    def polynomial_source(self) -> verdict.Finding:
         """Return the source of a polynomial density; a text with commas is shown as a list, as one
         may be mistaken.
         """
         text = "({}) · (1, x, y, z, …)".format(self.text) if "," in self.text else self.text
-        return finding(DENSITY_FROM_POLYNOMIAL, polynomial=text, frame=self.frame)
+        return verdict.finding(DENSITY_FROM_POLYNOMIAL, polynomial=text, frame=self.frame)
 
 
 def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
@@ -73,10 +72,10 @@ def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
         )
     if settings.density_from == "VOLUME":
         if settings.density_volume is None:
-            raise ReadError(DENSITY_SOURCE_MISSING, source="Volume Object")
+            raise verdict.ReadError(DENSITY_SOURCE_MISSING, source="Volume Object")
         return DensityField("volume")
     if not settings.density_attribute:
-        raise ReadError(DENSITY_SOURCE_MISSING, source="Vertex Attribute")
+        raise verdict.ReadError(DENSITY_SOURCE_MISSING, source="Vertex Attribute")
     return DensityField("attribute", attribute=settings.density_attribute)
 
 

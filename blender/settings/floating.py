@@ -76,7 +76,6 @@ def liquid_density(scene: Scene) -> float:
     return BY_NAME[LIQUIDS[settings.liquid]].density
 
 
-CLASSES = (BodyMomentsLiquidSettings, BodyMomentsTankSettings)
 POINTERS = {
     (Scene, "body_moments_liquid"): BodyMomentsLiquidSettings,
     (Object, "body_moments_tank"): BodyMomentsTankSettings,

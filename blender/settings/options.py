@@ -8,13 +8,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from bpy.types import Object, PropertyGroup, Scene
+from bpy.types import Object, Scene
 
-from ...core.measurement import Pocket, PrintSettings, Settings
-from ...core.numerics import shortest_decimal
+from ...core import measurement, numerics
 from ..scale import meters_per_unit
 from .density import object_density
-from .properties import PRINT_OPTIONS
+from .prints import print_settings
 
 
 @dataclass(frozen=True)
@@ -46,21 +45,9 @@ class MeasureOptions:
 AS_SET = MeasureOptions()  # every object as its own settings say
 
 
-def print_settings(properties: PropertyGroup) -> PrintSettings:
-    """Return the print settings in the settings of an object."""
-    radius, density = properties.pocket_radius, properties.pocket_density
-    center = tuple(map(shortest_decimal, properties.pocket_center))
-    pocket = Pocket(center, shortest_decimal(radius) * 1e-3, shortest_decimal(density))
-    values = {}
-    for field, (name, scale) in PRINT_OPTIONS.items():
-        value = getattr(properties, name)
-        values[field] = shortest_decimal(value) * scale if isinstance(value, float) else value
-    return PrintSettings(**values, pocket=pocket if radius else None)
-
-
 def object_settings(
     obj: Object, scene: Scene, options: MeasureOptions = AS_SET, unit: float | None = None
-) -> Settings:
+) -> measurement.Settings:
     """Return the options with gaps filled from the object's, and the scene's, settings."""
     properties = obj.body_moments
     density, mass = options.density, options.mass
@@ -69,19 +56,19 @@ def object_settings(
     kind = options.kind or ("solid" if obj.type == "VOLUME" else properties.kind.lower())
     if density is None and mass is None:
         if properties.mass_from == "MASS":
-            mass = shortest_decimal(properties.mass)
+            mass = numerics.shortest_decimal(properties.mass)
         else:
             is_wire = kind == "wire"
             density = (
-                shortest_decimal(properties.linear_density)
+                numerics.shortest_decimal(properties.linear_density)
                 if is_wire
                 else object_density(properties, scene)
             )
-    return Settings(
+    return measurement.Settings(
         kind=kind,
         density=density,
         mass=mass,
-        thickness=shortest_decimal(properties.thickness) * unit
+        thickness=numerics.shortest_decimal(properties.thickness) * unit
         if options.thickness is None
         else options.thickness,
         overlap=options.overlap or properties.overlap.lower(),
@@ -89,7 +76,7 @@ def object_settings(
         unit=unit,
         printed=print_settings(properties)._replace(**dict(options.printed))
         if kind == "printed"
-        else PrintSettings(),
+        else measurement.PrintSettings(),
         order=options.order,
         surface=options.surface,
         compare=options.compare,

@@ -170,12 +170,7 @@ class BodyMomentsSceneSettings(preferences.SceneDefaults, PropertyGroup):
     )
 
 
-CLASSES = (
-    preferences.BodyMomentsPreferences,
-    BodyMomentsOverlaySettings,
-    BodyMomentsReferenceSettings,
-    BodyMomentsSceneSettings,
-)
+CLASSES = (preferences.BodyMomentsPreferences,)
 POINTERS = {
     (Scene, "body_moments"): BodyMomentsSceneSettings,
     (Scene, "body_moments_reference"): BodyMomentsReferenceSettings,

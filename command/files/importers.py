@@ -16,7 +16,7 @@ from mathutils import Matrix
 from numpy.typing import NDArray
 
 from ...blender import bodies, scene
-from ...blender.settings.properties import set_print
+from ...blender.settings.prints import set_print
 from ...core import cad, files, polyhedron, streams, verdict
 from ...core.mesh import Surface
 from ...core.solid import UNCHECKED, measure_solid

@@ -8,7 +8,7 @@ rows of at most ROW voxels; all further sums are of whole numbers.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import comb
 
 import numpy as np
@@ -22,7 +22,7 @@ from .spline_grid import Blocks
 
 ROW = 1 << 12  # voxels along each axis of a block
 BLOCK = 1 << 18  # voxels of a block, at most, and bins of its sums
-TABLE = 1 << 20  # span of label numbers that are looked up in a table
+NARROW = 1 << 10  # range of labels in a block that are all counted, there or not
 MAX_LABELS = 10_000
 LARGEST = 1 << 62
 POWERS = monomials(KNOWN_ORDER)
@@ -30,61 +30,34 @@ POWERS = monomials(KNOWN_ORDER)
 CUBE = (1.0, 0.0, 1.0 / 12.0, 0.0)
 
 
-class _Numbering:
-    """Consecutive numbers for the labels met so far."""
+def _number_labels(block: NDArray) -> tuple[Sequence[int], Index]:
+    """Return labels of a block, with more between those of a narrow range, and the place of each
+    voxel's label among them.
 
-    def __init__(self) -> None:
-        self.labels: list[int] = []
-        self._first = 0
-        self._table = np.zeros(0, np.intp)
-
-    def number(self, block: NDArray) -> Index:
-        """Return the numbers of a block's labels, or raise ReadError if it has no labels."""
-        if block.dtype.kind == "f":
-            whole = np.rint(block)
-            if not (whole == block).all():
-                raise ReadError(LABELS_UNFIT, cause="a sample is no whole number")
-            if not (np.abs(whole) < LARGEST).all():
-                raise ReadError(LABELS_UNFIT, cause="a label is too large")
-            block = whole.astype(np.int64)
-        low, high = int(block.min()), int(block.max())
-        if high >= LARGEST:
+    Raises ReadError if the block has no labels.
+    """
+    if block.dtype.kind == "f":
+        whole = np.rint(block)
+        if not (whole == block).all():
+            raise ReadError(LABELS_UNFIT, cause="a sample is no whole number")
+        if not (np.abs(whole) < LARGEST).all():
             raise ReadError(LABELS_UNFIT, cause="a label is too large")
-        if high - low >= TABLE:
-            labels, inverse = np.unique(block, return_inverse=True)
-            return self._numbers(labels.tolist())[inverse.reshape(block.shape)]
-        self._extend(low, high)
-        places = block.astype(np.intp) - self._first
-        numbers = self._table[places]
-        if numbers.min() < 0:
-            new = np.unique(places[numbers < 0])
-            self._table[new] = self._numbers((new + self._first).tolist())
-            numbers = self._table[places]
-        return numbers
+        block = whole.astype(np.int64)
+    low, high = int(block.min()), int(block.max())
+    if high >= LARGEST:
+        raise ReadError(LABELS_UNFIT, cause="a label is too large")
+    if high - low < NARROW:
+        return range(low, high + 1), block.astype(np.intp) - low
+    labels, places = np.unique(block, return_inverse=True)
+    _check_count(len(labels))
+    return labels.tolist(), places.reshape(block.shape)
 
-    def _extend(self, low: int, high: int) -> None:
-        """Make the table cover a range of labels, if need be alone."""
-        last = self._first + len(self._table) - 1
-        if len(self._table) and self._first <= low and high <= last:
-            return
-        if len(self._table) and max(high, last) - min(low, self._first) < TABLE:
-            low, high = min(low, self._first), max(high, last)
-        self._first = low
-        self._table = np.full(high - low + 1, -1)
-        for number, label in enumerate(self.labels):
-            if low <= label <= high:
-                self._table[label - low] = number
 
-    def _numbers(self, labels: list[int]) -> Index:
-        known = {label: number for number, label in enumerate(self.labels)}
-        for label in labels:
-            known.setdefault(label, len(known))
-        self.labels = [*known]
-        if len(known) > MAX_LABELS:
-            raise ReadError(
-                LABELS_UNFIT, cause="they have more than {} different numbers".format(MAX_LABELS)
-            )
-        return np.array([known[label] for label in labels], np.intp)
+def _check_count(labels: int) -> None:
+    if labels > MAX_LABELS:
+        raise ReadError(
+            LABELS_UNFIT, cause="they have more than {} different numbers".format(MAX_LABELS)
+        )
 
 
 def sum_labels(samples: NDArray | Blocks) -> dict[int, NDArray]:
@@ -113,18 +86,18 @@ def sum_labels(samples: NDArray | Blocks) -> dict[int, NDArray]:
     >>> sums[1][:5].tolist()
     [4, 4, 2, 2, 4]
     """
-    numbering = _Numbering()
-    sums = np.zeros((0, len(POWERS)), object)
+    sums: dict[int, NDArray] = {}
     for offset, block in _blocks(samples):
         if not block.size:
             continue
-        own = _block_sums(numbering.number(block), len(numbering.labels))
-        added = np.zeros((len(numbering.labels), len(POWERS)), object)
-        added[: len(sums)] = sums
+        labels, places = _number_labels(block)
+        own = _block_sums(places, len(labels))
         used = np.flatnonzero(own[:, 0])
-        added[used] += own[used].astype(object) @ _shift(offset)
-        sums = added
-    return dict(zip(numbering.labels, sums))
+        moved = own[used].astype(object) @ _shift(offset)
+        for place, row in zip(used.tolist(), moved):
+            sums[labels[place]] = sums.get(labels[place], 0) + row
+        _check_count(len(sums))
+    return sums
 
 
 def label_moments(sums: NDArray) -> Moments:

@@ -6,9 +6,9 @@ The volumetric scheme of Soldea, Elber and Rivlin. The integrals separate,
 
     ∫ u^p v^q w^r f = Σ_ijk p_ijk U[p,i] V[q,j] W[r,k],
 
-so only three small tables (`SplineAxis.table`) are precomputed, and the sum is three contractions.
-The first one runs along the axis that is contiguous in memory, in blocks that stay in the cache;
-the others take its small result. A grid may therefore be larger than memory.
+so only three small tables (`full_support_integrals`) are precomputed, and the sum is three
+contractions. The first one runs along the axis that is contiguous in memory, in blocks that stay in
+the cache; the others take its small result. A grid may therefore be larger than memory.
 
 The moments are taken about the middle of the knots. If the mass is far from there, relative to its
 size, they are taken again about the knot nearest to its center, as the paper advises (section 5).
@@ -59,7 +59,7 @@ def density_moments(
     axes = tuple(axes)
     if not callable(coefficients):
         coefficients = number_array("coefficients", coefficients, *(axis.count for axis in axes))
-    about = np.array([axis.center for axis in axes])
+    about = np.array([(axis.knots[0] + axis.knots[-1]) / 2.0 for axis in axes])
     moments = _moments_about(coefficients, axes, order, value, about)
     if order < 2 or not moments.total > 0.0:
         return moments
@@ -154,7 +154,9 @@ def _moments_about(
     if not callable(coefficients):  # the first contraction runs along the contiguous axis
         axis_order = np.argsort([-abs(stride) for stride in coefficients.strides], kind="stable")
         coefficients = coefficients.transpose(axis_order)
-    tables = [axes[i].table(order, about[i]) for i in axis_order]
+    tables = [
+        full_support_integrals(axes[i].knots - about[i], axes[i].order, order) for i in axis_order
+    ]
     total, size = np.zeros((2, order + 1, order + 1, order + 1))
     blocks, longest = 0, 0
     for part, block in _pieces(coefficients):
@@ -176,7 +178,7 @@ def _moments_about(
     p, q, r = monomials(order)[:, axis_order].T
     bounds = [_absolute_from_even(axes[i], order, about[i]) for i in axis_order]
     size = np.einsum("ax,by,cz,xyz->abc", *bounds, size)
-    units = sum(axis.rounding_counts(order) for axis in axes) + longest + blocks + 8
+    units = sum(2 * axis.order + 3 * order + 8 for axis in axes) + longest + blocks + 8
     return Moments(total[p, q, r], about, Measure.MASS, 1.01 * units * U * size[p, q, r])
 
 
@@ -207,8 +209,8 @@ def _absolute_from_even(axis: SplineAxis, order: int, center: float) -> Array:
     """Return the (order + 1, order + 1) matrix that turns even moments into bounds of the absolute
     moments.
     """
-    reach = axis.reach(center)
-    width = axis.width
+    reach = np.abs(axis.knots[[0, -1]] - center).max()
+    width = (axis.knots[axis.order :] - axis.knots[: -axis.order]).max()
     matrix = np.zeros((order + 1, order + 1))
     for power in range(order + 1):
         for j in range(power + 1):
@@ -221,33 +223,23 @@ def _absolute_from_even(axis: SplineAxis, order: int, center: float) -> Array:
 class SplineAxis:
     """The spline space of one direction of a trivariate spline, by (n + order,) ascending knots.
 
-    order: the degree plus one: 1 voxels, 2 linear, 4 the paper's cubic. ValueError if the knots or
-    the order make no such space.
+    order: the degree plus one: 1 voxels, 2 linear, 4 the paper's cubic. ValueError if it is out of
+    range, or there are too few knots.
     """
 
     knots: Array
     order: int
 
     def __post_init__(self) -> None:
-        knots = float_array("knots", self.knots, "n")
-        object.__setattr__(self, "knots", knots)
         if not 1 <= self.order <= MAX_ORDER:
             raise ValueError("order beyond 1…{:d}".format(MAX_ORDER))
-        if len(knots) <= self.order:
+        if self.count < 1:
             raise ValueError("too few knots")
-        if not np.isfinite(knots).all() or (np.diff(knots) < 0.0).any():
-            raise ValueError("knots must ascend")
 
     @classmethod
-    def uniform(
-        cls, count: int, order: int = 1, spacing: float = 1.0, origin: float = 0.0
-    ) -> SplineAxis:
-        """Return an axis of `count` functions with full supports, the i-th centered at origin + i
-        spacing.
-        """
-        return cls(
-            origin + spacing * (np.arange(count + order, dtype=np.float64) - order / 2.0), order
-        )
+    def uniform(cls, count: int, order: int = 1) -> SplineAxis:
+        """Return an axis of `count` functions with full supports, centered at whole numbers."""
+        return cls(np.arange(count + order) - order / 2.0, order)
 
     @classmethod
     def at_positions(cls, positions: ArrayLike, order: int = 1) -> SplineAxis:
@@ -266,30 +258,6 @@ class SplineAxis:
     def count(self) -> int:
         """The number of functions, and so of coefficients."""
         return len(self.knots) - self.order
-
-    @property
-    def center(self) -> float:
-        """The middle of the knots."""
-        return float((self.knots[0] + self.knots[-1]) / 2.0)
-
-    @property
-    def width(self) -> float:
-        """The widest support."""
-        return float((self.knots[self.order :] - self.knots[: -self.order]).max())
-
-    def reach(self, center: float) -> float:
-        """Return the largest |t - center| in any support."""
-        return float(np.abs(self.knots[[0, -1]] - center).max())
-
-    def table(self, degree: int, center: float = 0.0) -> Array:
-        """Return (degree + 1, count) ∫ (t - center)^l B_i(t) dt; `rounding_counts` bounds their
-        roundings.
-        """
-        return full_support_integrals(self.knots - center, self.order, degree)
-
-    def rounding_counts(self, degree: int) -> int:
-        """Return the bound of a table entry's error in units of rounding, see `table`."""
-        return 2 * (self.order + 1) + 3 * degree + 6
 
 
 def full_support_integrals(knots: ArrayLike, order: int, degree: int) -> Array:

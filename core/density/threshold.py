@@ -64,6 +64,9 @@ SAMPLE = 1 << 11
 DOUBT = 4.0  # factor of the differences in cells without an axis of monotone values
 CELLS_PER_BATCH = 1 << 10  # cut cells whose points are in memory at a time
 CELLS_PER_SLAB = 1 << 21  # cells of the grid at a time
+MEASURES = Measure.VOLUME, Measure.AREA, Measure.MASS  # of the sums, in this order
+VOLUME = 0
+MASS = 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,18 +177,14 @@ def threshold_body(
             cut = []
     about = about.astype(np.float64)
 
-    def moments(name: str, measure: Measure, scaled_as: Measure = Measure.VOLUME) -> Moments:
-        raw = getattr(sums, name)
-        error = sums.rounding_error(name)
-        return replace(Moments(raw, about, scaled_as, error).transform(matrix), measure=measure)
-
-    return ThresholdBody(
-        moments("volume", Measure.VOLUME),
-        moments("area", Measure.AREA, Measure.MASS),  # its scale is in the sums
-        moments("mass", Measure.MASS) if with_density else None,
-        count,
-        bool(clipped),
+    errors = sums.estimates + (60 + 8 * order + np.log2(sums.terms + 1.0)) * U * sums.sizes
+    # The scale of areas is in the sums.
+    scaled_as = Measure.VOLUME, Measure.MASS, Measure.VOLUME
+    volume, area, mass = (
+        replace(Moments(*each).transform(matrix), measure=measure)
+        for measure, *each in zip(MEASURES, sums.totals, [about] * 3, scaled_as, errors)
     )
+    return ThresholdBody(volume, area, mass if with_density else None, count, bool(clipped))
 
 
 def _slabs(
@@ -231,7 +230,9 @@ def _batches(cells: Cells) -> Iterator[tuple[Cells, tuple, float]]:
 
 
 class _Sums:
-    """The moments so far, about the middle of the grid, and bounds of their errors."""
+    """The moments so far, about the middle of the grid, (3, K) `totals` of MEASURES; the sizes of
+    their terms, and estimates of their errors.
+    """
 
     def __init__(self, order: int, with_density: bool, preview: bool, metric: NDArray) -> None:
         self.order = order
@@ -240,18 +241,8 @@ class _Sums:
         self.metric = metric
         self.face = np.sqrt(np.trace(metric) / 3.0)  # roughly the area of a cell's face
         self.powers = monomials(order)
-        self.volume, self.area, self.mass, self.volume_size, self.area_size, self.mass_size = (
-            np.zeros((6, len(self.powers)))
-        )
-        self.volume_estimate, self.area_estimate, self.mass_estimate = np.zeros(
-            (3, len(self.powers))
-        )
+        self.totals, self.sizes, self.estimates = np.zeros((3, len(MEASURES), len(self.powers)))
         self.terms = 0
-
-    def rounding_error(self, measure: str) -> Array:
-        """Return the error bounds of "volume", "area" or "mass"."""
-        units = (60 + 8 * self.order + np.log2(self.terms + 1.0)) * U
-        return getattr(self, measure + "_estimate") + units * getattr(self, measure + "_size")
 
     def add_whole_cells(self, values: NDArray, whole: Mask, origin: NDArray) -> None:
         """Add cells of the grid that lie entirely inside."""
@@ -264,8 +255,8 @@ class _Sums:
         ]
         full = [table[: self.order + 1] for table in tables]
         sizes = [np.abs(table) for table in full]
-        self.volume += self._contract(mask, full)
-        self.volume_size += self._contract(mask, sizes)
+        self.totals[VOLUME] += self._contract(mask, full)
+        self.sizes[VOLUME] += self._contract(mask, sizes)
         self.terms += sum(whole.shape)
         if not self.with_density:
             return
@@ -277,8 +268,8 @@ class _Sums:
             x, y, z = (slice(i, i + n) for i, n in zip(place, whole.shape))
             factors = [up if i else even - up for i, up, even in zip(place, rising, full)]
             block = mask * values[x, y, z]
-            self.mass += self._contract(block, factors)
-            self.mass_size += self._contract(np.abs(block), sizes)
+            self.totals[MASS] += self._contract(block, factors)
+            self.sizes[MASS] += self._contract(np.abs(block), sizes)
 
     def _contract(self, block: NDArray, factors: list[NDArray]) -> Array:
         """Return (K,) Σ block_ijk X[p,i] Y[q,j] Z[r,k]."""
@@ -290,7 +281,7 @@ class _Sums:
             return
         allowed = np.array(
             [
-                TOLERANCE * (self.volume[0] + len(cells.size) / 2.0) / len(cells.size),
+                TOLERANCE * (self.totals[VOLUME, 0] + len(cells.size) / 2.0) / len(cells.size),
                 AREA_TOLERANCE * self.face,
             ]
         )
@@ -345,8 +336,8 @@ class _Sums:
             for part in columns:
                 self._add_columns(part.take(good[part.cell]), cells, turn, threshold)
             kept = cells[good]
-            self._add_largest("estimate", kept, threshold, *estimates[:, good])
-            self._add_largest("size", kept, threshold, kept.size**3, amounts[1, good])
+            self._add_largest(self.estimates, kept, threshold, *estimates[:, good])
+            self._add_largest(self.sizes, kept, threshold, kept.size**3, amounts[1, good])
             cells = cells[~good]
             before = amounts[:, ~good]
             if good.all():
@@ -370,7 +361,7 @@ class _Sums:
                 inside = np.einsum("ij,ij->i", across[q], ends[r + 1] - levels[r + 1])
                 surface = np.einsum("ij,ij,ij->i", across[q], columns.slope, levels[r])
                 rows[q, r] = upward * inside / (r + 1), surface
-            for total, sums in zip((self.volume, self.area), rows[q, r]):
+            for total, sums in zip(self.totals, rows[q, r]):
                 total[number] += (xs[p] * sums).sum()
         self.terms += floor.size
         if not self.with_density:
@@ -382,18 +373,16 @@ class _Sums:
         for node, weight in zip(*gauss_legendre((self.order + 1) // 2 + 1)):
             z = columns.level + node * height
             amounts = floor * size * np.abs(height) * weight * (bottom + rise * z)
-            self._add_points("mass", amounts, [*place, z0 + size * z], turn)
+            self._add_points(MASS, amounts, [*place, z0 + size * z], turn)
 
     def _add_points(
-        self, measure: str, amounts: NDArray, points: list[NDArray], turn: tuple = TURNS[2]
+        self, measure: int, amounts: NDArray, points: list[NDArray], turn: tuple = TURNS[2]
     ) -> None:
-        total = getattr(self, measure)
-        size = getattr(self, measure + "_size")
         xs, ys, zs = (power_table(values, self.order) for values in points)
         for number, (p, q, r) in enumerate(self.powers[:, turn].tolist()):
             term = amounts * xs[p] * ys[q] * zs[r]
-            total[number] += term.sum()
-            size[number] += np.abs(term).sum()
+            self.totals[measure, number] += term.sum()
+            self.sizes[measure, number] += np.abs(term).sum()
 
     def _add_boxes(self, cells: Cells, threshold: float) -> None:
         """Add whole cells, which lie entirely inside the body."""
@@ -404,28 +393,24 @@ class _Sums:
             u, v, w = nodes[list(place)]
             points = list((cells.origin + cells.size[:, None] * np.array([u, v, w])).T)
             volumes = weights[list(place)].prod() * cells.size**3
-            self._add_points("volume", volumes, points)
+            self._add_points(VOLUME, volumes, points)
             if self.with_density:
                 above = np.einsum(
                     "nijk,i,j,k->n", cells.corners, (1.0 - u, u), (1.0 - v, v), (1.0 - w, w)
                 )
-                self._add_points("mass", volumes * (threshold + above), points)
+                self._add_points(MASS, volumes * (threshold + above), points)
         self.terms += len(cells.size)
 
     def _add_largest(
-        self, name: str, cells: Cells, threshold: float, volumes: NDArray, areas: NDArray
+        self, sums: Array, cells: Cells, threshold: float, volumes: NDArray, areas: NDArray
     ) -> None:
-        """Add the largest moments of volumes, areas and masses in cells to the totals "estimate" or
-        "size".
-        """
+        """Add the largest moments of volumes, areas and masses in cells to (3, K) sums."""
         reach = power_table((np.abs(cells.origin) + cells.size[:, None]).T, self.order)
         density = abs(threshold) + np.abs(cells.corners).max(axis=(1, 2, 3))
         largest = np.stack(
             [reach[p][0] * reach[q][1] * reach[r][2] for p, q, r in self.powers.tolist()]
         )
-        for measure, amounts in (("volume", volumes), ("area", areas), ("mass", volumes * density)):
-            total = getattr(self, measure + "_" + name)
-            total += np.einsum("ki,i->k", largest, amounts)
+        sums += np.einsum("ki,mi->mk", largest, np.stack([volumes, areas, volumes * density]))
 
 
 def _interval_moments(first: NDArray, order: int) -> Array:

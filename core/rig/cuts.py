@@ -18,19 +18,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..mesh import Surface, find_edges, uncancelled_sides
+from ...core import mesh, numerics, polyhedron
 from ..moments import Moments
-from ..numerics import (
-    Array,
-    Floats,
-    Index,
-    Integers,
-    Mask,
-    NDArray,
-    connected_components,
-    sums_by_index,
-)
-from ..polyhedron import polyhedron_moments
 
 NO_BONE = -1
 TIE_RTOL = 1e-5  # weights are float32, and a mirrored face adds them up in another order
@@ -47,27 +36,27 @@ class BonePiece:
     """
 
     bone: int
-    surface: Surface
+    surface: mesh.Surface
     face_count: int
 
     def moments(self, order: int = 3) -> Moments:
         """Return the moments of its volume, about the middle of its bounding box in the surface's
         coordinates.
         """
-        return polyhedron_moments(self.surface, order, exact=True)[0]
+        return polyhedron.polyhedron_moments(self.surface, order, exact=True)[0]
 
 
 def bone_pieces(
-    points: Floats,
-    triangles: Integers,
-    bone: Integers,
-    displacement: NDArray | None = None,
+    points: numerics.Floats,
+    triangles: numerics.Integers,
+    bone: numerics.Integers,
+    displacement: numerics.NDArray | None = None,
 ) -> list[BonePiece]:
     """Cut (t, 3) outward triangles with (t,) bones into closed pieces; displacement: (3,) by
     storing.
     """
     points = points.astype(np.float64)
-    owner, start, stop = uncancelled_sides(triangles, bone)
+    owner, start, stop = mesh.uncancelled_sides(triangles, bone)
     cut, apexes = _apexes(points, start, stop)
     corners = np.concatenate([triangles, np.stack([stop, start, len(points) + cut], axis=1)])
     labels = np.concatenate([bone, owner])
@@ -78,17 +67,19 @@ def bone_pieces(
     pieces = []
     for one, rows in zip(bones.tolist(), np.split(order, starts[1:])):
         used, local = np.unique(corners[rows], return_inverse=True)
-        surface = Surface(points[used], local.reshape(-1, 3), displacement=displacement)
+        surface = mesh.Surface(points[used], local.reshape(-1, 3), displacement=displacement)
         pieces.append(BonePiece(one, surface, int(faces[one])))
     return pieces
 
 
-def bones_of_caps(triangles: Integers, is_cap: Mask, bone: Integers) -> Index:
+def bones_of_caps(
+    triangles: numerics.Integers, is_cap: numerics.Mask, bone: numerics.Integers
+) -> numerics.Index:
     """Return (t,) bones of triangles: caps, which close holes, get the bones of the faces beside
     them.
     """
     result = np.where(is_cap, NO_BONE, bone)
-    edge = find_edges(triangles).of_side.reshape(-1, 3)
+    edge = mesh.find_edges(triangles).of_side.reshape(-1, 3)
     while (result == NO_BONE).any():
         known = result != NO_BONE
         of_edge = np.full(int(edge.max()) + 1, NO_BONE)
@@ -100,13 +91,15 @@ def bones_of_caps(triangles: Integers, is_cap: Mask, bone: Integers) -> Index:
     return result
 
 
-def _apexes(points: Array, start: Index, stop: Index) -> tuple[Index, Array]:
+def _apexes(
+    points: numerics.Array, start: numerics.Index, stop: numerics.Index
+) -> tuple[numerics.Index, numerics.Array]:
     """Return the cut that each edge belongs to, and (c, 3) the centroids of the cuts' edges."""
     if not len(start):
         return np.zeros(0, np.intp), np.zeros((0, 3))
     vertices, ends = np.unique(np.concatenate([start, stop]), return_inverse=True)
     first, last = ends.reshape(2, -1)
-    cut = connected_components(len(vertices), first, last)[0][first]
+    cut = numerics.connected_components(len(vertices), first, last)[0][first]
     # An edge counts once, however many bones meet there.
     edges = np.unique(
         np.stack([np.minimum(start, stop), np.maximum(start, stop), cut], axis=1), axis=0
@@ -126,32 +119,32 @@ class VertexWeights:
     together once.
     """
 
-    vertex: Integers
-    bone: Integers
-    weight: Floats
+    vertex: numerics.Integers
+    bone: numerics.Integers
+    weight: numerics.Floats
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "weight", np.asarray(self.weight, np.float64))
 
-    def normalized(self) -> Array:
+    def normalized(self) -> numerics.Array:
         """Return the (w,) weights divided by their sum at each vertex, as an armature modifier
         does.
         """
         total = np.bincount(self.vertex, self.weight)[self.vertex]
         return np.divide(self.weight, total, out=np.zeros_like(self.weight), where=total > 0.0)
 
-    def unweighted(self, count: int) -> Index:
+    def unweighted(self, count: int) -> numerics.Index:
         """Return the vertices below `count` that no bone has any weight on."""
         return np.flatnonzero(np.bincount(self.vertex, self.weight, minlength=count)[:count] == 0.0)
 
 
 def dominant_bones(
-    faces: Integers,
-    corners: Integers,
-    points: Floats,
+    faces: numerics.Integers,
+    corners: numerics.Integers,
+    points: numerics.Floats,
     weights: VertexWeights,
-    bones: Floats,
-) -> tuple[Index, Index]:
+    bones: numerics.Floats,
+) -> tuple[numerics.Index, numerics.Index]:
     """Return the (f,) bones of faces, -1 without corners, and the (k,) unweighted faces, which get
     the nearest bone.
 
@@ -184,8 +177,8 @@ def dominant_bones(
 
 
 def _scores(
-    faces: Integers, corners: Integers, weights: VertexWeights, number: int
-) -> tuple[Index, Index, Array]:
+    faces: numerics.Integers, corners: numerics.Integers, weights: VertexWeights, number: int
+) -> tuple[numerics.Index, numerics.Index, numerics.Array]:
     """Return (k,) faces and (k,) bones with weight on their corners, by face, then bone, and (k,)
     summed weights.
     """
@@ -200,13 +193,15 @@ def _scores(
     )
     key = faces[owner].astype(np.int64) * number + weights.bone[entry]
     pairs, place = np.unique(key, return_inverse=True)
-    score = sums_by_index(place, weights.normalized()[entry])
+    score = numerics.sums_by_index(place, weights.normalized()[entry])
     positive = score > 0.0
     face, bone = np.divmod(pairs[positive].astype(np.intp), number)
     return face, bone, score[positive]
 
 
-def _nearest(face: Integers, bone: Integers, away: Array) -> Integers:
+def _nearest(
+    face: numerics.Integers, bone: numerics.Integers, away: numerics.Array
+) -> numerics.Integers:
     """Return for each of k rows the nearest bone of its face, the first of equally near ones.
 
     Rows are by face.
@@ -218,7 +213,7 @@ def _nearest(face: Integers, bone: Integers, away: Array) -> Integers:
     return np.repeat(bone[first], sizes)
 
 
-def _distances(points: Array, segments: Array) -> Array:
+def _distances(points: numerics.Array, segments: numerics.Array) -> numerics.Array:
     """Return (k,) distances of (k, 3) points, each from its segment, (k, 2, 3)."""
     start = segments[:, 0]
     way = segments[:, 1] - segments[:, 0]

@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
     """Check mass, center and inertia in a robot description against its meshes; write a text"""
 
-    bl_idname = "import_scene.body_moments_audit"
     bl_label = "Audit Robot Description"
     bl_options = {"REGISTER", "UNDO"}
 
@@ -85,6 +84,3 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
             raise verdict.FileError(findings.FILE_EXISTS, file=target.name)
         selection.write_file(target, [robots.audit.repaired_copy(audit.description, repairs)])
         return str(target)
-
-
-CLASSES = (IMPORT_SCENE_OT_body_moments_audit,)

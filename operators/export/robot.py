@@ -14,15 +14,14 @@ from typing import TYPE_CHECKING
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
-from bpy.types import Context, FileHandler, Menu, Object, Operator, UILayout
+from bpy.types import Context, FileHandler, Menu, Object, Operator
 from bpy_extras.io_utils import ExportHelper
 
 from ...blender import session
 from ...blender.write import reports
 from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...core import files, verdict
-from ...core.robots import FORMATS, ROBOT_SCALED, USD_UNIT_SCALE, RobotFormat, write
-from ...core.verdict import EditRefusedError, FileError, Finding, finding, system_reason
+from ...core.robots import FORMATS, ROBOT_SCALED, UNIT_SCALE, USD_SCALED, RobotFormat, write
 from .. import selection
 from ..findings import ROBOT_GEOMETRY_NOT_WRITTEN, ROBOT_NAMES_ALIKE
 from ..measure.copy import VIEW3D_MT_body_moments_copy
@@ -130,7 +129,7 @@ class RobotExport(selection.InObjectMode, ExportHelper):
         with reports.progress(len(objects)) as step:
             return session.robots.object_links(context, name, objects, step)
 
-    def _export(self, context: Context, made: "SceneLinks", path: Path) -> list[Finding]:
+    def _export(self, context: Context, made: "SceneLinks", path: Path) -> list[verdict.Finding]:
         if self.geometry == "MESH" and self.use_collision and not self.inertial_only:
             made = made.with_colliders()
         robot = made.robot
@@ -149,8 +148,8 @@ class RobotExport(selection.InObjectMode, ExportHelper):
                     mesh_format=self.mesh_format.lower(),
                 )
             except OSError as error:
-                raise FileError(
-                    FILE_NOT_WRITTEN, file=path.name, error=system_reason(error)
+                raise verdict.FileError(
+                    FILE_NOT_WRITTEN, file=path.name, error=verdict.system_reason(error)
                 ) from error
         robot = write.joints.merge_fixed(robot) if self.merge_fixed else robot
         found = [*made.findings, *bare]
@@ -164,30 +163,20 @@ class RobotExport(selection.InObjectMode, ExportHelper):
         return text.encode("utf-8")
 
     def draw(self, _context: Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
-        if not self.collection:
-            layout.prop(self, "use_selection")
-        self._draw_options(layout)
-
-    def _draw_options(self, layout: UILayout) -> None:
-        layout.prop(self, "links")
-        layout.prop(self, "inertial_only")
-        column = layout.column()
+        self.layout.use_property_decorate = False
+        chosen = () if self.collection else ("use_selection",)
+        selection.draw_properties(self, *chosen, "links", "inertial_only")
+        meshes = () if FORMATS[self.FORMAT].holds_meshes else ("mesh_format",)
+        column = selection.draw_properties(
+            self, "fixed_base", "merge_fixed", "geometry", *meshes, "use_collision"
+        )
         column.enabled = not self.inertial_only
-        column.prop(self, "fixed_base")
-        column.prop(self, "merge_fixed")
-        column.prop(self, "geometry")
-        if not FORMATS[self.FORMAT].holds_meshes:
-            column.prop(self, "mesh_format")
-        column.prop(self, "use_collision")
 
 
 class GeometryExport(RobotExport):
     """Base of exporters that leave the geometry of objects to Blender's own exporter."""
 
-    def _export(self, context: Context, made: "SceneLinks", path: Path) -> list[Finding]:
+    def _export(self, context: Context, made: "SceneLinks", path: Path) -> list[verdict.Finding]:
         is_own = self.links != "OBJECT" or self.geometry != "MESH" or self.inertial_only
         has_colliders = self.use_collision and any(
             not shape.seen for link in made.with_colliders().robot.links for shape in link.shapes
@@ -201,10 +190,10 @@ class GeometryExport(RobotExport):
             [obj for held in made.members.values() for obj in held]
         )
         if sheared:
-            made.findings.append(finding(ROBOT_SCALED, count=len(sheared), links=sheared))
+            made.findings.append(verdict.finding(ROBOT_SCALED, count=len(sheared), links=sheared))
         return self._export_over(made, path)
 
-    def _export_over(self, made: "SceneLinks", path: Path) -> list[Finding]:
+    def _export_over(self, made: "SceneLinks", path: Path) -> list[verdict.Finding]:
         """Write the geometry by Blender's exporter, with our masses; return the findings about the
         robot.
         """
@@ -218,17 +207,17 @@ class GeometryExport(RobotExport):
                 filepath=str(path), collection=self.collection, **options
             )
         except (AttributeError, RuntimeError) as error:  # a Blender may be built without it
-            raise FileError(
+            raise verdict.FileError(
                 ROBOT_GEOMETRY_NOT_WRITTEN, error=" ".join(str(error).split())
             ) from error
         if "FINISHED" not in result or not path.is_file():
-            raise FileError(ROBOT_GEOMETRY_NOT_WRITTEN, error=exporter)
+            raise verdict.FileError(ROBOT_GEOMETRY_NOT_WRITTEN, error=exporter)
 
 
 class UsdExport(GeometryExport):
     """Base of the USD exporter: a layer with masses refers to that of Blender's exporter."""
 
-    def _export_over(self, made: "SceneLinks", path: Path) -> list[Finding]:
+    def _export_over(self, made: "SceneLinks", path: Path) -> list[verdict.Finding]:
         robot = made.robot
         findings = made.findings
         usd = write.usd
@@ -238,7 +227,7 @@ class UsdExport(GeometryExport):
         }
         alike = [label for label, prim in paths.items() if list(paths.values()).count(prim) > 1]
         if alike:
-            raise EditRefusedError(ROBOT_NAMES_ALIKE, names=alike)
+            raise verdict.EditRefusedError(ROBOT_NAMES_ALIKE, names=alike)
         geometry = path.with_name(path.stem + "_geometry.usdc")
         options = {
             "selected_objects_only": self.use_selection,
@@ -247,9 +236,9 @@ class UsdExport(GeometryExport):
         self._run_exporter("wm.usd_export", geometry, options)
         scaled = [link.name for link in robot.roots if min(link.scale) < 0.0]
         if scaled:
-            findings.append(finding(ROBOT_SCALED, count=len(scaled), links=scaled))
+            findings.append(verdict.finding(ROBOT_SCALED, count=len(scaled), links=scaled))
         if made.unit != 1.0:
-            findings.append(finding(USD_UNIT_SCALE, scale=made.unit))
+            findings.append(verdict.finding(UNIT_SCALE, scale=made.unit, cause=USD_SCALED))
         remarks = list(map(verdict.sentence, findings))
         text = usd.write_over(robot, paths, "./" + geometry.name, made.unit, remarks)
         selection.write_file(path, [text])
@@ -259,7 +248,7 @@ class UsdExport(GeometryExport):
 class GltfExport(GeometryExport):
     """Base of the glTF exporter: rigid bodies are added to the file of Blender's exporter."""
 
-    def _export_over(self, made: "SceneLinks", path: Path) -> list[Finding]:
+    def _export_over(self, made: "SceneLinks", path: Path) -> list[verdict.Finding]:
         findings = made.findings
         options = {"use_selection": self.use_selection, "export_format": "GLB", "export_yup": True}
         self._run_exporter("export_scene.gltf", path, options)
@@ -267,7 +256,7 @@ class GltfExport(GeometryExport):
         try:
             document = files.gltf_document(data)
         except ValueError as error:
-            raise FileError(ROBOT_GEOMETRY_NOT_WRITTEN, error=path.name) from error
+            raise verdict.FileError(ROBOT_GEOMETRY_NOT_WRITTEN, error=path.name) from error
         findings += write.gltf.add_rigid_bodies(document, made.robot, made.unit)
         selection.write_file(path, [files.replace_gltf_document(data, document)])
         return findings
@@ -311,7 +300,6 @@ def _file_handler(form: RobotFormat) -> type[FileHandler]:
 class TOPBAR_MT_body_moments_export(Menu):
     """Formats of robots and engines, with exact mass properties"""
 
-    bl_idname = "TOPBAR_MT_body_moments_export"
     bl_label = "Mass Properties"
 
     def draw(self, _context: Context) -> None:
@@ -321,11 +309,10 @@ class TOPBAR_MT_body_moments_export(Menu):
                 "export_scene.body_moments_" + form.name, text=text, translate=False
             )
         self.layout.separator()
-        self.layout.menu(VIEW3D_MT_body_moments_copy.bl_idname)
+        self.layout.menu(VIEW3D_MT_body_moments_copy.__name__)
 
 
 CLASSES = (
     *map(_exporter, FORMATS.values()),
     *map(_file_handler, FORMATS.values()),
-    TOPBAR_MT_body_moments_export,
 )

@@ -11,11 +11,12 @@ from pathlib import Path
 from typing import Any
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
-from bpy.types import Context, Event, Menu, Operator, OperatorProperties, Scene
+from bpy.props import EnumProperty, IntProperty, StringProperty
+from bpy.types import Context, Menu, Operator, OperatorProperties, Scene
+from bpy_extras.io_utils import ExportHelper
 
 from ...blender import bodies, read, session, write
-from ...blender.session import selected, stored, tracking
+from ...blender.session import memory, selected, stored, tracking
 from ...blender.write import properties, reports, translations
 from ...core import measurement, robots, verdict
 from ...core.robots import write as robot_formats
@@ -39,7 +40,6 @@ def copy_text(operator: Operator, context: Context, text: str, done: str) -> Non
 class OBJECT_OT_body_moments_copy_value(Operator):
     """Copy this value to the clipboard in SI units, with all digits"""
 
-    bl_idname = "object.body_moments_copy_value"
     bl_label = "Copy Value"
     bl_options = {"INTERNAL"}
 
@@ -133,14 +133,14 @@ def _section(context: Context) -> Copied | str:
     text = write.section.text(
         obj.name,
         section,
-        tracking.staleness.stale_reason(obj, context.scene, tracking.stamps.of_section),
+        tracking.staleness.stale_reason(obj, context.scene, tracking.stamps.Kind.SECTION),
     )
     return text, reports.phrase("Copied the section of {object}", object=obj.name)
 
 
 def _moments(context: Context) -> Copied | str:
     obj, scene = selected.subject(context), context.scene
-    computed = None if obj is None else stored.moments.computed_moments(obj)
+    computed = None if obj is None else memory.moments.get(obj)
     if obj is None or computed is None:
         return "Compute the moments first"
     settings = scene.body_moments
@@ -189,7 +189,6 @@ ITEMS = (
 class OBJECT_OT_body_moments_copy(Operator):
     """Copy numbers to the clipboard as text in SI units, with all digits"""
 
-    bl_idname = "object.body_moments_copy"
     bl_label = "Copy"
     bl_options = {"REGISTER"}
 
@@ -221,36 +220,31 @@ class OBJECT_OT_body_moments_copy(Operator):
 class VIEW3D_MT_body_moments_copy(Menu):
     """Numbers as text on the clipboard"""
 
-    bl_idname = "VIEW3D_MT_body_moments_copy"
     bl_label = "Copy"
 
     def draw(self, _context: Context) -> None:
-        self.layout.operator_enum(OBJECT_OT_body_moments_copy.bl_idname, "what")
+        self.layout.operator_enum("object.body_moments_copy", "what")
 
 
 SUFFIXES = {".csv": "csv", ".json": "json", ".jsonl": "jsonl"}
 
 
-class OBJECT_OT_body_moments_save_numbers(Operator):
+class OBJECT_OT_body_moments_save_numbers(Operator, ExportHelper):
     """Save the selected objects' results and their total, in SI units, as .csv, .json or .jsonl"""
 
-    bl_idname = "object.body_moments_save_numbers"
     bl_label = "Save CSV or JSON"
     bl_options = {"REGISTER"}
 
-    filepath: StringProperty(name="File Path", description="File to write", subtype="FILE_PATH")
-    check_existing: BoolProperty(name="Check Existing", default=True, options={"HIDDEN"})
     filter_glob: StringProperty(default="*.csv;*.json;*.jsonl", options={"HIDDEN"})
 
     @classmethod
     def poll(cls, context: Context) -> bool:
         return has_stored(context) or reports.unavailable(cls, MEASURE_FIRST)
 
-    def invoke(self, context: Context, _event: Event) -> set[str]:
-        return selection.ask_for_table(self, context)
-
-    def check(self, _context: Context) -> bool:
-        return selection.ensure_suffix(self, ".csv", SUFFIXES)
+    @property
+    def filename_ext(self) -> str:
+        suffix = Path(self.filepath).suffix.lower()
+        return suffix if suffix in SUFFIXES else ".csv"
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
@@ -298,11 +292,3 @@ def register() -> None:
 def unregister() -> None:
     """Remove the property."""
     del Scene.body_moments_listed
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_copy_value,
-    OBJECT_OT_body_moments_copy,
-    VIEW3D_MT_body_moments_copy,
-    OBJECT_OT_body_moments_save_numbers,
-)

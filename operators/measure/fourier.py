@@ -12,36 +12,28 @@ from math import pi
 from pathlib import Path
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
+from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy.types import Context, Event, Operator
+from bpy_extras.io_utils import ExportHelper
 
 from ... import core
-from ...blender import bodies, read, session, settings, write
+from ...blender import bodies, session, settings, write
 from .. import modal, selection
 
 SUFFIX = ".npz"
 
 
-class OBJECT_OT_body_moments_fourier(modal.ModalSteps, Operator):
-    """Ask for a file and a grid, then write the Fourier transform of the active object."""
+class OBJECT_OT_body_moments_fourier(modal.ModalSteps, selection.OnSubject, Operator, ExportHelper):
+    """Write the Fourier transform of the active object on a regular grid of frequencies to an .npz
+    file, and show slices of its magnitude as an image
+    """
 
-    bl_idname = "object.body_moments_fourier"
     bl_label = "Fourier Transform"
-    bl_description = (
-        "Write the Fourier transform of the active object on a regular grid of frequencies to an "
-        ".npz file, and show "
-        "slices of its magnitude as an image"
-    )
     bl_options = {"REGISTER"}  # Blender would push its undo step before the image is there
     PROGRESS = "Fourier transform: {share:.0%}. Esc to cancel"
     CANCELED = "Fourier transform canceled; nothing was written"
+    filename_ext = SUFFIX
 
-    filepath: StringProperty(
-        name="File Path",
-        description="Path of the .npz file to write",
-        subtype="FILE_PATH",
-        options={"SKIP_SAVE"},
-    )
     of: EnumProperty(
         name="Domain",
         description="What the transform integrates over",
@@ -77,14 +69,6 @@ class OBJECT_OT_body_moments_fourier(modal.ModalSteps, Operator):
         "of twice the object's size",
     )
     filter_glob: StringProperty(default="*" + SUFFIX, options={"HIDDEN"})
-    check_existing: BoolProperty(default=True, options={"HIDDEN"})
-
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        obj = session.selected.subject(context)
-        if obj is None or not read.visibility.measurable(obj):
-            return write.reports.unavailable(cls, "Make an object with a surface active")
-        return True
 
     def invoke(self, context: Context, event: Event) -> set[str]:
         obj = session.selected.require_subject(context)
@@ -97,17 +81,10 @@ class OBJECT_OT_body_moments_fourier(modal.ModalSteps, Operator):
         name = bpy.path.clean_name(obj.name) + SUFFIX
         folder = os.path.dirname(self.filepath or bpy.data.filepath)
         self.filepath = os.path.join(folder, name)
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
-
-    def check(self, context: Context) -> bool:
-        return selection.ensure_suffix(self, SUFFIX)
+        return ExportHelper.invoke(self, context, event)
 
     def draw(self, context: Context) -> None:
-        column = self.layout.column()
-        column.use_property_split = True
-        for name in ("of", "frame", "count", "largest"):
-            column.prop(self, name)
+        column = selection.draw_properties(self, "of", "frame", "count", "largest")
         if not self.largest:
             column.label(text="0 rad/m: from the object's size", icon="INFO")
 
@@ -169,7 +146,4 @@ class OBJECT_OT_body_moments_fourier(modal.ModalSteps, Operator):
             file=self._path.name,
             image=image.name,
         )
-        return write.reports.report(self, done, *write.reports.first(findings))
-
-
-CLASSES = (OBJECT_OT_body_moments_fourier,)
+        return selection.report(self, done, *findings)

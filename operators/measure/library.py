@@ -45,7 +45,6 @@ _kept: list[tuple[str, str, str]] = []
 class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
     """Measure all files of a folder or an asset library, and write results and a report there"""
 
-    bl_idname = "object.body_moments_measure_library"
     bl_label = "Measure Library"
     bl_options = {"REGISTER"}
     PROGRESS = "Measuring the library: {share:.0%}. Esc to stop"
@@ -73,14 +72,8 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
     )
 
     def draw(self, _context: Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        layout.prop(self, "source")
-        layout.prop(self, "thumbnails")
-        layout.prop(self, "asset_metadata")
-        row = layout.row()
-        row.enabled = self.asset_metadata
-        row.prop(self, "overwrite")
+        selection.draw_properties(self, "source", "thumbnails", "asset_metadata")
+        selection.draw_properties(self, "overwrite").enabled = self.asset_metadata
 
     def invoke(self, context: Context, _event: Event) -> set[str]:
         context.window_manager.fileselect_add(self)
@@ -170,6 +163,3 @@ class _Documents:
 
     def __iter__(self) -> Generator[dict, None, None]:
         yield from map(self._journal.document, self._paths)
-
-
-CLASSES = (OBJECT_OT_body_moments_measure_library,)

@@ -13,14 +13,11 @@ import bpy
 from bpy.props import EnumProperty
 from bpy.types import Context, Object, Operator
 
-from ...blender import bodies, scene, session, write
-from ...blender.read.visibility import has_shape, measurable
+from ...blender import bodies, read, scene, session, write
 from ...blender.session import character, displayed, live, memory
-from ...blender.session.tracking import armatures, staleness, stamps
+from ...blender.session.tracking import armatures, staleness
 from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
-from ...blender.write import properties, reports
 from ...core import density, verdict
-from ...core.verdict import Finding, Severity, finding
 from .. import findings, modal, selection
 
 AS_SET = "AS_SET"
@@ -29,7 +26,6 @@ AS_SET = "AS_SET"
 class OBJECT_OT_body_moments_measure(modal.ModalSteps, selection.OnSelection, Operator):
     """Compute exact mass properties of the selected objects and store them as custom properties"""
 
-    bl_idname = "object.body_moments_measure"
     bl_label = "Measure"
     MAX_AT_ONCE = selection.MAX_OBJECTS_WITHOUT_REDRAW
 
@@ -67,10 +63,12 @@ class OBJECT_OT_body_moments_measure(modal.ModalSteps, selection.OnSelection, Op
     @classmethod
     def poll(cls, context: Context) -> bool:
         may_have_mass = any(
-            has_shape(obj) or measurable(obj) or armatures.stands_for_meshes(obj)
+            read.visibility.has_shape(obj)
+            or read.visibility.measurable(obj)
+            or armatures.stands_for_meshes(obj)
             for obj in context.selected_objects
         )
-        return may_have_mass or reports.unavailable(cls, "Nothing selected can be measured")
+        return may_have_mass or write.reports.unavailable(cls, "Nothing selected can be measured")
 
     def _begin(self, context: bpy.types.Context) -> int:
         """Apply the settings of the redo panel and prepare the steps; return the number of selected
@@ -78,12 +76,14 @@ class OBJECT_OT_body_moments_measure(modal.ModalSteps, selection.OnSelection, Op
         """
         copy_defaults(context.scene)
         if not (subjects := armatures.subjects(context.selected_objects)):
-            raise reports.Refused("Nothing selected can be measured")
-        self._objects = objects = [obj for obj in subjects if has_shape(obj)] or subjects
+            raise write.reports.Refused("Nothing selected can be measured")
+        self._objects = objects = [
+            obj for obj in subjects if read.visibility.has_shape(obj)
+        ] or subjects
         for obj in objects:
             self._change_settings(obj)
         self._results: list[tuple[bpy.types.Object, Any]] = []
-        self._refusals: dict[bpy.types.Object, Finding] = {}
+        self._refusals: dict[bpy.types.Object, verdict.Finding] = {}
         self._steps = self._measure(objects, context.evaluated_depsgraph_get())
         return len(objects)
 
@@ -126,7 +126,7 @@ class OBJECT_OT_body_moments_measure(modal.ModalSteps, selection.OnSelection, Op
             character.weight.store_rest(context, armature)
         refusals = self._refusals | failed
         self._failures = [
-            reports.failure(obj.name_full, refusals[obj])
+            write.reports.failure(obj.name_full, refusals[obj])
             for obj in self._objects
             if obj in refusals
         ]
@@ -137,81 +137,73 @@ class OBJECT_OT_body_moments_measure(modal.ModalSteps, selection.OnSelection, Op
         memory.overlaps[context.scene] = displayed.places(measured), shared
         return self._report(len(measured), shared)
 
-    def _report(self, count: int, notes: list[Finding]) -> set[str]:
+    def _report(self, count: int, notes: list[verdict.Finding]) -> set[str]:
         warnings = [
-            finding(
+            verdict.finding(
                 findings.OBJECT_WARNINGS,
                 object=obj.name_full,
                 causes=[cause.as_record() for cause in causes],
             )
             for obj, measured in self._results
-            if (causes := verdict.of_severity(measured.findings, Severity.WARNING, Severity.ERROR))
+            if (
+                causes := verdict.of_severity(
+                    measured.findings, verdict.Severity.WARNING, verdict.Severity.ERROR
+                )
+            )
         ]
         tried = count + len(self._failures)
         names = [warning.values["object"] for warning in warnings]
         if tried == count == 1:
             text = "Measured {object}, with warnings" if warnings else "Measured {object}"
-            done = [reports.phrase(text, object=self._results[0][0].name)]
+            done = [write.reports.phrase(text, object=self._results[0][0].name)]
         else:
-            text = reports.phrase("Measured {count} of {total} objects", count=count, total=tried)
-            done = [text] if tried > 1 else []
-            if warnings:
-                done.append(
-                    reports.phrase(
-                        "{count} with warnings: {objects}", count=len(names), objects=names
-                    )
-                )
-        level = Severity.WARNING if warnings else Severity.NOTE
+            text = write.reports.phrase(
+                "Measured {count} of {total} objects", count=count, total=tried
+            )
+            done = [*([text] if tried > 1 else []), *selection.name_warned(names)]
+        level = verdict.Severity.WARNING if warnings else verdict.Severity.NOTE
         return selection.finish(
             self, done, self._failures, notes, level=level, is_changed=bool(count)
         )
 
 
 class OBJECT_OT_body_moments_live(Operator):
-    """Let the numbers of the selected objects follow what happens to them."""
+    """Update the numbers of the selected objects while they are edited, sculpted, posed or
+    animated, until the file is closed. In Pose Mode, those of the meshes that the armature deforms.
+    Press Measure to store them
+    """
 
-    bl_idname = "object.body_moments_live"
     bl_label = "Live"
-    bl_description = (
-        "Update the numbers of the selected objects while they are edited, sculpted, posed or "
-        "animated, until the file "
-        "is closed. In Pose Mode, those of the meshes that the armature deforms. Press Measure to "
-        "store them"
-    )
     bl_options = {"INTERNAL"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return bool(_subjects(context)) or reports.unavailable(cls, "Select objects")
+        return bool(_subjects(context)) or write.reports.unavailable(cls, "Select objects")
 
     def execute(self, context: Context) -> set[str]:
         objects = _subjects(context)
-        if any(live.following.is_live(obj) for obj in objects):
-            for obj in objects:
-                live.measuring.stop(obj)
-            selection.redraw(context)
-            return {"FINISHED"}
+        was_live = any(obj in memory.followed for obj in objects)
         depsgraph = context.evaluated_depsgraph_get()
         refusals = []
         for obj in objects:
-            result = live.measuring.start(obj, depsgraph)
-            if result.refusal is not None:
-                refusals.append(reports.failure(obj.name, result.refusal))
+            if was_live:
+                live.measuring.stop(obj)
+            elif (refusal := live.measuring.start(obj, depsgraph).refusal) is not None:
+                refusals.append(write.reports.failure(obj.name, refusal))
         if refusals:
-            selection.report(self, *reports.first(refusals))
+            return selection.report(self, *refusals)
         selection.redraw(context)
         return {"FINISHED"}
 
 
 def _subjects(context: Context) -> list[Object]:
     """Return the measurable objects that the panel is about."""
-    return [obj for obj in displayed.shown_objects(context) if measurable(obj)]
+    return [obj for obj in displayed.shown_objects(context) if read.visibility.measurable(obj)]
 
 
 class OBJECT_OT_body_moments_clear(selection.OnSelection, Operator):
     """Remove the stored results from the selected objects. Settings are kept"""
 
-    bl_idname = "object.body_moments_clear"
     bl_label = "Clear Results"
 
     kinds: EnumProperty(
@@ -232,33 +224,31 @@ class OBJECT_OT_body_moments_clear(selection.OnSelection, Operator):
         objects = [
             obj
             for obj in dict.fromkeys((*selected, *armatures.subjects(selected)))
-            if any(key in obj for key in (*properties.DESCRIPTIONS, write.section.KEY))
-            or stamps.of_symmetry(obj)
+            if any(key in obj for key in (*write.properties.DESCRIPTIONS, write.section.KEY))
+            or obj.is_property_set("body_moments_symmetry")
         ]
 
         def remove(obj: Object) -> bool:
             scene.changes.require_editable(obj)
             staleness.note_edits(obj)
-            clear = session.stored.results.clear_rig if obj.type == "ARMATURE" else properties.clear
+            clear = (
+                session.stored.results.clear_rig
+                if obj.type == "ARMATURE"
+                else write.properties.clear
+            )
             removed = "MASS" in self.kinds and clear(obj)
             removed |= "SECTION" in self.kinds and write.section.clear(obj)
-            if "SYMMETRY" in self.kinds and stamps.of_symmetry(obj):
+            if "SYMMETRY" in self.kinds and obj.is_property_set("body_moments_symmetry"):
                 obj.property_unset("body_moments_symmetry")
                 removed = True
             return removed
 
-        cleared, failures = selection.apply_to_all(objects, remove)
-        staleness.mark_up_to_date(context, objects)
         texts = ("Removed the results of {count} object", "Removed the results of {count} objects")
-        done = reports.phrase(*texts, count=len(cleared))
-        nothing = "The selected objects have no results"
-        return selection.summarize(
-            self, len(cleared), len(objects), done, failures, nothing=nothing
+        return selection.change_all(
+            self,
+            objects,
+            remove,
+            texts,
+            nothing=selection.NO_RESULTS,
+            then=lambda _cleared: staleness.mark_up_to_date(context, objects),
         )
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_measure,
-    OBJECT_OT_body_moments_live,
-    OBJECT_OT_body_moments_clear,
-)

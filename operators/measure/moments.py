@@ -11,79 +11,64 @@ from bpy.types import Context, Object, Operator
 from mathutils import Vector
 
 from ... import core
-from ...blender import bodies, read
-from ...blender.session import selected, stored
-from ...blender.write import properties, reports
+from ...blender import bodies, read, write
+from ...blender.session import stored
 from ...core.inertia import tensor_rows
-from ...core.verdict import MeasureError, Severity, of_severity
+from ...core.verdict import Severity, of_severity
 from .. import selection
 
 
-class OBJECT_OT_body_moments_compute_moments(Operator):
-    """Compute all moments of the active object up to the chosen order."""
+class OBJECT_OT_body_moments_compute_moments(selection.OnSubject, Operator):
+    """Compute all moments of the active object's volume, surface and mass, or of the area of what
+    is flat, up to the chosen order. A million triangles take about 1 second at order 4 and 20
+    seconds at order 20
+    """
 
-    bl_idname = "object.body_moments_compute_moments"
     bl_label = "Compute Moments"
-    bl_description = (
-        "Compute all moments of the active object's volume, surface and mass, or of the area of "
-        "what is flat, up to "
-        "the chosen order. A million triangles take about 1 second at order 4 and 20 seconds at "
-        "order 20"
-    )
     bl_options = {"REGISTER"}
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        obj = selected.subject(context)
-        is_measurable = obj is not None and read.visibility.measurable(obj)
-        return is_measurable or reports.unavailable(cls, "Make a measurable object active")
-
-    def execute(self, context: Context) -> set[str]:
-        obj = selected.require_subject(context)
+    def _change(self, context: Context, obj: Object) -> set[str]:
         order: int = context.scene.body_moments.moments_order
-        try:
-            computed, findings = stored.compute_moments(context, obj, order)
-        except MeasureError as error:
-            return selection.refuse(self, reports.failure(obj.name, error))
+        computed, findings = stored.compute_moments(context, obj, order)
         if computed is None:
             text = (
                 "{object}: a wire has no volume or surface. Set Kind to Solid or Shell; measure "
                 "--order gives moments "
                 "of length."
             )
-            reports.report(self, reports.phrase(text, object=obj.name), level=Severity.WARNING)
+            write.reports.report(
+                self, write.reports.phrase(text, object=obj.name), level=Severity.WARNING
+            )
             return {"CANCELLED"}
         stored.moments.cache_moments(obj, computed, context.evaluated_depsgraph_get())
         count = (
             (order + 1) * (order + 2) // 2 if computed.volume is None else len(computed.volume.raw)
         )
-        done = reports.phrase("Computed {count} moments of {object}", count=count, object=obj.name)
-        return reports.report(self, done, *reports.first(findings))
+        done = write.reports.phrase(
+            "Computed {count} moments of {object}", count=count, object=obj.name
+        )
+        return selection.report(self, done, *findings)
 
 
 class OBJECT_OT_body_moments_measure_section(Operator):
-    """Compute the section properties of the selection."""
+    """Compute the section properties of the selected faces in Edit Mode, or of the selected flat
+    meshes, 2D curves and texts, and store them on the objects
+    """
 
-    bl_idname = "object.body_moments_measure_section"
     bl_label = "Measure Section"
-    bl_description = (
-        "Compute the section properties of the selected faces in Edit Mode, or of the selected "
-        "flat meshes, 2D "
-        "curves and texts, and store them on the objects"
-    )
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:
         reason = "Select faces in Edit Mode, or a flat mesh, 2D curve or text"
-        return bool(_objects_with_sections(context)) or reports.unavailable(cls, reason)
+        return bool(_objects_with_sections(context)) or write.reports.unavailable(cls, reason)
 
     def execute(self, context: Context) -> set[str]:
         depsgraph = context.evaluated_depsgraph_get()
         sections = []
 
         def measure(obj: Object) -> None:
-            properties.require_storable(obj)
+            write.properties.require_storable(obj)
             sections.append((obj, bodies.section_of(obj, depsgraph)))
 
         measured, failures = selection.apply_to_all(_objects_with_sections(context), measure)
@@ -99,16 +84,11 @@ class OBJECT_OT_body_moments_measure_section(Operator):
                 if warned
                 else "Measured the section of {object}"
             )
-            done = [reports.phrase(text, object=measured[0].name)]
+            done = [write.reports.phrase(text, object=measured[0].name)]
         else:
             texts = ("Measured {count} section", "Measured {count} sections")
-            done = [reports.phrase(*texts, count=len(measured))] if measured else []
-            if warned:
-                done.append(
-                    reports.phrase(
-                        "{count} with warnings: {objects}", count=len(warned), objects=warned
-                    )
-                )
+            done = [write.reports.phrase(*texts, count=len(measured))] if measured else []
+            done += selection.name_warned(warned)
         level = Severity.WARNING if warned else Severity.NOTE
         return selection.finish(self, done, failures, level=level, is_changed=bool(measured))
 
@@ -136,28 +116,29 @@ POINTS = 2  # points of an axis
 class OBJECT_OT_body_moments_store_reference(selection.OnSelection, Operator):
     """Store the inertia of the selected objects about the chosen reference as custom properties"""
 
-    bl_idname = "object.body_moments_store_reference"
     bl_label = "Store Inertia about Reference"
 
     def execute(self, context: Context) -> set[str]:
-        objects = [obj for obj in context.view_layer.objects.selected if properties.is_stored(obj)]
+        objects = [
+            obj for obj in context.view_layer.objects.selected if write.properties.is_stored(obj)
+        ]
 
         def store(obj: Object) -> None:
             stored.reference.store(obj, context.scene)
-            properties.retrigger_drivers(obj)
+            write.properties.retrigger_drivers(obj)
 
         # the results are bound to their places, and stay the same
         with stored.assembly.kept_up_to_date(context):
-            changed, failures = selection.apply_to_all(objects, store)
-        texts = (
-            "Stored the inertia of {count} object about the reference",
-            "Stored the inertia of {count} objects about the reference",
-        )
-        done = reports.phrase(*texts, count=len(changed))
-        nothing = "The selected objects have no results"
-        return selection.summarize(
-            self, len(changed), len(objects), done, failures, nothing=nothing
-        )
+            return selection.change_all(
+                self,
+                objects,
+                store,
+                (
+                    "Stored the inertia of {count} object about the reference",
+                    "Stored the inertia of {count} objects about the reference",
+                ),
+                nothing=selection.NO_RESULTS,
+            )
 
 
 def reference_text(
@@ -190,7 +171,6 @@ def reference_text(
 class OBJECT_OT_body_moments_axis_from_selection(Operator):
     """Take the axis from two selected vertices in Edit Mode or from two objects' origins"""
 
-    bl_idname = "object.body_moments_axis_from_selection"
     bl_label = "Axis from Selection"
     bl_options = {"REGISTER", "UNDO"}
 
@@ -225,11 +205,3 @@ def _selected_points(context: Context) -> list[Vector]:
         chosen += [vertex for vertex in mesh.verts if vertex.select and vertex not in chosen]
         points += [obj.matrix_world @ vertex.co for vertex in chosen]
     return points
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_compute_moments,
-    OBJECT_OT_body_moments_measure_section,
-    OBJECT_OT_body_moments_store_reference,
-    OBJECT_OT_body_moments_axis_from_selection,
-)

@@ -27,15 +27,11 @@ KINDS = (
 
 
 class OBJECT_OT_body_moments_select_faults(Operator):
-    """Measure the selected meshes and select their defects in Edit Mode."""
+    """Measure the selected meshes and select their defects in Edit Mode: boundary and non-manifold
+    edges, and flipped, duplicate and zero-area faces. Objects without defects are deselected
+    """
 
-    bl_idname = "object.body_moments_select_faults"
     bl_label = "Select Defects"
-    bl_description = (
-        "Measure the selected meshes and select their defects in Edit Mode: boundary and "
-        "non-manifold edges, and "
-        "flipped, duplicate and zero-area faces. Objects without defects are deselected"
-    )
     bl_options = {"REGISTER", "UNDO"}
 
     kinds: EnumProperty(
@@ -129,6 +125,3 @@ def _show_defects(context: Context, faults: dict[Object, dict[str, Any]]) -> Non
     bpy.ops.object.mode_set(mode="EDIT")
     for obj, elements in faults.items():
         scene.select_elements(obj, elements)
-
-
-CLASSES = (OBJECT_OT_body_moments_select_faults,)

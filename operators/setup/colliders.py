@@ -116,7 +116,6 @@ class _Making(selection.OnSelectionInObjectMode, modal.ModalSteps):
 class OBJECT_OT_body_moments_make_colliders(_Making, Operator):
     """Make or renew each selected object's colliders, as children, and compare their physics"""
 
-    bl_idname = "object.body_moments_make_colliders"
     bl_label = "Make Colliders"
 
     shape: EnumProperty(
@@ -175,14 +174,11 @@ class OBJECT_OT_body_moments_make_colliders(_Making, Operator):
     names: StringProperty(options={"HIDDEN", "SKIP_SAVE"})
 
     def draw(self, _context: Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
         limits = (
             ("tolerance", "outward", "inward", "pieces", "vertices") if self.shape in HULLS else ()
         )
-        for name in ("shape", *limits, "correct", "engine"):
-            layout.prop(self, name)
-        column = layout.column(align=True)
+        selection.draw_properties(self, "shape", *limits, "correct", "engine")
+        column = self.layout.column(align=True)
         for name in self.names.splitlines():
             column.label(text=name, translate=False)
 
@@ -201,7 +197,6 @@ class OBJECT_OT_body_moments_make_colliders(_Making, Operator):
 class OBJECT_OT_body_moments_remove_colliders(selection.OnSelectionInObjectMode, Operator):
     """Remove the colliders that were made for the selected objects"""
 
-    bl_idname = "object.body_moments_remove_colliders"
     bl_label = "Remove Colliders"
 
     def execute(self, context: Context) -> set[str]:
@@ -222,7 +217,6 @@ def bodies_of(context: Context) -> list[Object]:
 class OBJECT_OT_body_moments_equal_inertia(_Making, Operator):
     """Add a simple shape with the mass, center of mass and inertia of each selected object"""
 
-    bl_idname = "object.body_moments_equal_inertia"
     bl_label = "Add Equal-Inertia Shape"
 
     kind: EnumProperty(
@@ -263,10 +257,3 @@ class OBJECT_OT_body_moments_equal_inertia(_Making, Operator):
             plan.obj.parent = new
             plan.obj.matrix_parent_inverse = matrix.inverted()
         return result
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_make_colliders,
-    OBJECT_OT_body_moments_remove_colliders,
-    OBJECT_OT_body_moments_equal_inertia,
-)

@@ -9,10 +9,9 @@ from bl_operators.presets import AddPresetBase
 from bpy.props import EnumProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
-from ...blender import scene, session
+from ...blender import scene, session, write
 from ...blender.settings import given, preferences, properties
 from ...blender.settings.chosen import chosen_objects
-from ...blender.write import reports
 from ...core.density import BY_NAME
 from .. import selection
 
@@ -21,15 +20,11 @@ PRESET_PANEL = "OBJECT_PT_body_moments_presets"
 
 
 class OBJECT_OT_body_moments_set_material(Operator):
-    """Set the density of the selected objects to that of a material."""
+    """Set the density of the selected objects to that of a material. With Density From set to
+    Materials, it applies to faces whose material has no density
+    """
 
-    bl_idname = "object.body_moments_set_material"
     bl_label = "Set Material"
-    bl_description = (
-        "Set the density of the selected objects to that of a material. With Density From set to "
-        "Materials, it "
-        "applies to faces whose material has no density"
-    )
     bl_options = {"REGISTER", "UNDO"}
     bl_property = "material"
 
@@ -69,11 +64,9 @@ class OBJECT_OT_body_moments_set_material(Operator):
             settings.material = material.name
             return before != _density_of(settings)
 
-        changed, failures = selection.apply_to_all(objects, set_density)
         texts = ("Set {count} object to {material}", "Set {count} objects to {material}")
-        done = reports.phrase(*texts, count=len(changed), material=material.name)
-        idle = reports.phrase("already set to {material}", material=material.name)
-        return selection.summarize(self, len(changed), len(objects), done, failures, idle=idle)
+        idle = "already set to {material}"
+        return selection.change_all(self, objects, set_density, texts, idle, material=material.name)
 
 
 def _density_of(settings) -> tuple:
@@ -83,7 +76,6 @@ def _density_of(settings) -> tuple:
 class MATERIAL_OT_body_moments_set_density(Operator):
     """Set the density of a Blender material from the material table"""
 
-    bl_idname = "material.body_moments_set_density"
     bl_label = "Set Material Density"
     bl_options = {"REGISTER", "UNDO"}
     bl_property = "material"
@@ -112,21 +104,20 @@ class MATERIAL_OT_body_moments_set_density(Operator):
         entry = BY_NAME[self.material]
         target.body_moments.density = entry.density
         target.body_moments.material = entry.name
-        return reports.report(
+        return write.reports.report(
             self,
-            reports.phrase("Set “{target}” to {material}", target=target.name, material=entry.name),
+            write.reports.phrase(
+                "Set “{target}” to {material}", target=target.name, material=entry.name
+            ),
         )
 
 
 class OBJECT_OT_body_moments_copy_settings(Operator):
-    """Copy the settings of the active object to the other selected objects."""
+    """Copy kind, material, density or mass, wall and overlaps from the active object to the other
+    selected objects
+    """
 
-    bl_idname = "object.body_moments_copy_settings"
     bl_label = "Copy Settings to Selected"
-    bl_description = (
-        "Copy kind, material, density or mass, wall and overlaps from the active object to the "
-        "other selected objects"
-    )
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
@@ -135,7 +126,9 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
         others = active is not None and any(
             obj != active for obj in context.view_layer.objects.selected
         )
-        return others or reports.unavailable(cls, "Select other objects besides the active one")
+        return others or write.reports.unavailable(
+            cls, "Select other objects besides the active one"
+        )
 
     def execute(self, context: Context) -> set[str]:
         active = context.view_layer.objects.active
@@ -145,17 +138,13 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
             scene.changes.require_storable_data(obj)
             return properties.copy_settings(active.body_moments, obj.body_moments)
 
-        copied, failures = selection.apply_to_all(objects, copy)
         texts = ("Copied the settings to {count} object", "Copied the settings to {count} objects")
-        done = reports.phrase(*texts, count=len(copied))
-        idle = reports.phrase("the settings are equal")
-        return selection.summarize(self, len(copied), len(objects), done, failures, idle=idle)
+        return selection.change_all(self, objects, copy, texts, "the settings are equal")
 
 
 class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):
     """Add or remove a preset of the settings that the panel shows"""
 
-    bl_idname = "object.body_moments_preset_add"
     bl_label = "Add Body Moments Preset"
     preset_menu = PRESET_PANEL
     preset_subdir = PRESET_FOLDER
@@ -177,7 +166,6 @@ class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):
 class OBJECT_OT_body_moments_preset_apply(Operator):
     """Give the settings of a preset to the objects that the panel is about"""
 
-    bl_idname = "object.body_moments_preset_apply"
     bl_label = "Apply Preset"
     bl_options = {"INTERNAL", "UNDO"}
 
@@ -192,16 +180,5 @@ class OBJECT_OT_body_moments_preset_apply(Operator):
                 bpy.ops.script.execute_preset(filepath=self.filepath, menu_idname=PRESET_PANEL)
 
         objects = session.selected.objects_with_settings(chosen_objects(context))
-        changed, failures = selection.apply_to_all(objects, apply)
         texts = ("Set {count} object", "Set {count} objects")
-        done = reports.phrase(*texts, count=len(changed))
-        return selection.summarize(self, len(changed), len(objects), done, failures)
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_set_material,
-    MATERIAL_OT_body_moments_set_density,
-    OBJECT_OT_body_moments_copy_settings,
-    OBJECT_OT_body_moments_preset_add,
-    OBJECT_OT_body_moments_preset_apply,
-)
+        return selection.change_all(self, objects, apply, texts)

@@ -8,20 +8,8 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
-from ...blender import bodies, read, scene, settings
-from ...blender.session import displayed, selected, stored
-from ...blender.write import properties, reports, translations
-from ...blender.write.remedies import (
-    DUPLICATES,
-    EDITS,
-    FILL,
-    MERGE,
-    REMEDIES,
-    REPAIR,
-    SELECT,
-    SHELL,
-    UNION,
-)
+from ...blender import bodies, scene, settings, write
+from ...blender.session import displayed, stored
 from ...core import solid, verdict
 from .. import selection
 
@@ -36,39 +24,18 @@ def measure_anew(context: Context, objects: list[Object]) -> None:
         bpy.ops.object.body_moments_measure()
 
 
-class _OnSubject:
-    """Base of operators that change the settings of the object that the panel shows."""
+class OBJECT_OT_body_moments_remedy(selection.OnSubject, Operator):
+    """Repair the active object and measure it again"""
 
-    bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        obj = selected.subject(context)
-        is_measurable = obj is not None and read.visibility.measurable(obj)
-        return is_measurable or reports.unavailable(cls, "Make a measurable object active")
-
-    def execute(self, context: Context) -> set[str]:
-        obj = selected.require_subject(context)
-        try:
-            return self._change(context, obj)
-        except verdict.MeasureError as refusal:
-            return selection.refuse(self, reports.failure(obj.name_full, refusal))
-
-    def _change(self, context: Context, obj: Object) -> set[str]:
-        raise NotImplementedError
-
-
-class OBJECT_OT_body_moments_remedy(_OnSubject, Operator):
-    """Repair the active object and measure it again."""
-
-    bl_idname = REPAIR
     bl_label = "Repair"
-    bl_description = "Repair the active object and measure it again"
 
     remedy: EnumProperty(
         name="Remedy",
         description="What is changed before the object is measured again",
-        items=[(key, remedy.name, remedy.description) for key, remedy in REMEDIES.items()],
+        items=[
+            (key, remedy.name, remedy.description)
+            for key, remedy in write.remedies.REMEDIES.items()
+        ],
         options={"SKIP_SAVE"},
     )
     thickness: FloatProperty(
@@ -82,51 +49,56 @@ class OBJECT_OT_body_moments_remedy(_OnSubject, Operator):
 
     @classmethod
     def description(cls, _context: Context, values) -> str:
-        text = translations.localized("{:s}, and measure the object again").format(
-            translations.localized(REMEDIES[values.remedy].description)
+        text = write.translations.localized("{:s}, and measure the object again").format(
+            write.translations.localized(write.remedies.REMEDIES[values.remedy].description)
         )
-        others = ". " + translations.localized("Other objects that use the mesh change too")
-        return text + others if values.remedy in EDITS else text
+        others = ". " + write.translations.localized("Other objects that use the mesh change too")
+        return text + others if values.remedy in write.remedies.EDITS else text
 
     def draw(self, _context: Context) -> None:
-        if self.remedy == SHELL:
+        if self.remedy == write.remedies.SHELL:
             self.layout.prop(self, "thickness")
 
     def _change(self, context: Context, obj: Object) -> set[str]:
-        text = reports.phrase(REMEDIES[self.remedy].name)
-        if self.remedy in EDITS:
+        text = write.reports.phrase(write.remedies.REMEDIES[self.remedy].name)
+        if self.remedy in write.remedies.EDITS:
             if obj.type != "MESH":
                 return selection.refuse(self, "Make a mesh object active")
             if context.mode != "OBJECT":
                 return selection.refuse(self, "Switch to Object Mode")
             count = self._edit(context, obj)
             if not count:
-                cause = reports.phrase("the mesh has nothing to repair in this way")
-                reports.report(self, reports.phrase("Nothing to do: {cause}", cause=cause))
+                cause = write.reports.phrase("the mesh has nothing to repair in this way")
+                write.reports.report(
+                    self, write.reports.phrase("Nothing to do: {cause}", cause=cause)
+                )
                 return {"CANCELLED"}
             text = "{:s}: {:d}".format(text, count)
         else:
             scene.changes.require_storable_data(obj)
-            if self.remedy == UNION:
+            if self.remedy == write.remedies.UNION:
                 obj.body_moments.overlap = "UNION"
             else:
                 obj.body_moments.kind = "SHELL"
                 obj.body_moments.thickness = self.thickness or obj.body_moments.thickness
         measure_anew(context, [obj])
-        return reports.report(self, text)
+        return write.reports.report(self, text)
 
     def _edit(self, context: Context, obj: Object) -> int:
         """Edit the mesh of an object; return the number of changed elements."""
-        if self.remedy in (FILL, MERGE):  # also of a mesh whose modifiers change its elements
+        if self.remedy in (
+            write.remedies.FILL,
+            write.remedies.MERGE,
+        ):  # also of a mesh whose modifiers change its elements
             return (
                 scene.fill_holes(obj.data)
-                if self.remedy == FILL
+                if self.remedy == write.remedies.FILL
                 else scene.merge_by_distance(obj.data)
             )
         scene.require_editable_mesh(obj)
         depsgraph = context.evaluated_depsgraph_get()
         measurement = bodies.measured_in_turn([obj], depsgraph)(obj).measurement
-        if self.remedy == DUPLICATES:
+        if self.remedy == write.remedies.DUPLICATES:
             return scene.delete_faces(
                 obj.data, scene.defects_by_kind(measurement).get("duplicate_faces", ())
             )
@@ -138,7 +110,6 @@ class OBJECT_OT_body_moments_remedy(_OnSubject, Operator):
 class SCENE_OT_body_moments_set_millimeters(Operator):
     """Let one unit of the scene be a millimeter, and measure again what was measured"""
 
-    bl_idname = "scene.body_moments_set_millimeters"
     bl_label = "Set Units to Millimeters"
     bl_options = {"REGISTER", "UNDO"}
 
@@ -159,17 +130,16 @@ class SCENE_OT_body_moments_set_millimeters(Operator):
         measured = [
             obj
             for obj in context.view_layer.objects
-            if properties.is_stored(obj) and obj.is_editable
+            if write.properties.is_stored(obj) and obj.is_editable
         ]
         if self.remeasure and measured:
             measure_anew(context, measured)
         return {"FINISHED"}
 
 
-class OBJECT_OT_body_moments_accept(_OnSubject, Operator):
+class OBJECT_OT_body_moments_accept(selection.OnSubject, Operator):
     """Accept this warning: it becomes a note, also when the object is measured again"""
 
-    bl_idname = "object.body_moments_accept"
     bl_label = "Accept Warning"
     bl_options = {"INTERNAL", "UNDO"}
 
@@ -186,9 +156,11 @@ class OBJECT_OT_body_moments_accept(_OnSubject, Operator):
         """Accept a code, or every warning without one, on the objects that the panel is about."""
         changed = False
         for shown in displayed.shown_objects(context):
-            own = verdict.of_severity(properties.findings(shown), verdict.Severity.WARNING)
+            own = verdict.of_severity(write.properties.findings(shown), verdict.Severity.WARNING)
             codes = {self.code} if self.code else {found.code for found in own}
-            if shown != obj and not codes & {found.code for found in properties.findings(shown)}:
+            if shown != obj and not codes & {
+                found.code for found in write.properties.findings(shown)
+            }:
                 continue
             scene.changes.require_storable_data(shown)
             if not any(
@@ -196,18 +168,17 @@ class OBJECT_OT_body_moments_accept(_OnSubject, Operator):
             ):
                 continue
             changed = True
-            if properties.is_stored(shown):
+            if write.properties.is_stored(shown):
                 kept = settings.accepted.with_acceptance(
-                    properties.findings(shown), settings.accepted.accepted_codes(shown)
+                    write.properties.findings(shown), settings.accepted.accepted_codes(shown)
                 )
-                properties.store_findings(shown, kept)
+                write.properties.store_findings(shown, kept)
         return {"FINISHED"} if changed else {"CANCELLED"}
 
 
 class OBJECT_OT_body_moments_select_refused(selection.InObjectMode, Operator):
     """Select the objects that this line is about; by default, those that the last action refused"""
 
-    bl_idname = SELECT
     bl_label = "Select These Objects"
     bl_options = {"INTERNAL", "UNDO"}
 
@@ -245,19 +216,9 @@ class OBJECT_OT_body_moments_select_refused(selection.InObjectMode, Operator):
 class WM_OT_body_moments_dismiss(Operator):
     """Hide what the last action refused"""
 
-    bl_idname = "wm.body_moments_dismiss"
     bl_label = "Dismiss"
     bl_options = {"INTERNAL"}
 
     def execute(self, _context: Context) -> set[str]:
         stored.outcome.forget()
         return {"FINISHED"}
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_remedy,
-    SCENE_OT_body_moments_set_millimeters,
-    OBJECT_OT_body_moments_accept,
-    OBJECT_OT_body_moments_select_refused,
-    WM_OT_body_moments_dismiss,
-)

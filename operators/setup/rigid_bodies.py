@@ -11,7 +11,6 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
 from ...blender import read, scale, scene, session, write
-from ...blender.write import reports, translations
 from ...core.verdict import EditRefusedError, Finding, finding
 from .. import modal, selection
 from ..findings import NOT_A_RIGID_BODY, RIGID_BODY_CENTER_ELSEWHERE
@@ -20,15 +19,12 @@ SHOWN = 12  # bodies in the redo panel
 
 
 class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Operator):
-    """Make the selected objects rigid bodies with their exact mass, center and principal axes."""
+    """Make the selected objects rigid bodies: mass from density and true volume, origin at the
+    center of mass, axes along the principal axes. Nothing visible moves, and joints stay where they
+    are
+    """
 
-    bl_idname = "object.body_moments_rigid_bodies"
     bl_label = "Make Rigid Bodies"
-    bl_description = (
-        "Make the selected objects rigid bodies: mass from density and true volume, origin at the "
-        "center of mass, axes "
-        "along the principal axes. Nothing visible moves, and joints stay where they are"
-    )
 
     type: EnumProperty(
         name="Type",
@@ -88,13 +84,11 @@ class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Ope
     comparison: StringProperty(options={"HIDDEN", "SKIP_SAVE"})
 
     def draw(self, _context: Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        for name in ("type", "shape", "frame", "compounds", "use_density"):
-            layout.prop(self, name)
-        if self.use_density:
-            layout.prop(self, "density")
-        column = layout.column(align=True)
+        density = ("density",) if self.use_density else ()
+        selection.draw_properties(
+            self, "type", "shape", "frame", "compounds", "use_density", *density
+        )
+        column = self.layout.column(align=True)
         for line in self.comparison.splitlines():
             column.label(text=line, translate=False)
 
@@ -112,7 +106,7 @@ class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Ope
         self.comparison = _compare_masses(context, made)
         count = len(made.measured)
         mass = float(sum(one.target.mass for one in made.measured.values()))
-        done = reports.phrase(
+        done = write.reports.phrase(
             "{count} rigid body of {mass:.7g} kg",
             "{count} rigid bodies of {mass:.7g} kg",
             count=count,
@@ -120,10 +114,10 @@ class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Ope
         )
         if made.calculated and all(made.calculated.values()):
             text = "; Calculate Mass would say {calculated:.7g} kg"
-            done += reports.phrase(text, calculated=float(sum(made.calculated.values())))
+            done += write.reports.phrase(text, calculated=float(sum(made.calculated.values())))
         if made.floors:
             text = "{count} passive body without volume", "{count} passive bodies without volume"
-            floors = reports.phrase(*text, count=len(made.floors))
+            floors = write.reports.phrase(*text, count=len(made.floors))
             done = "; ".join([*([done] if count else ()), floors])
             count += len(made.floors)
         findings = [
@@ -149,25 +143,23 @@ def _compare_masses(context: Context, made: "session.rigid_bodies.RigidBodies") 
         line = "{:s}: {:s}".format(obj.name, units.text("mass", one.target.mass))
         if made.calculated[obj] > 0.0:  # of a compound, Blender weighs nothing
             calculated = units.text("mass", made.calculated[obj])
-            line += translations.localized("; Calculate Mass: {:s}").format(calculated)
+            line += write.translations.localized("; Calculate Mass: {:s}").format(calculated)
         lines.append(line)
     if len(made.measured) > SHOWN:
-        lines.append(translations.localized("And {:d} more").format(len(made.measured) - SHOWN))
+        lines.append(
+            write.translations.localized("And {:d} more").format(len(made.measured) - SHOWN)
+        )
     return "\n".join(lines)
 
 
 class OBJECT_OT_body_moments_set_rigid_body_mass(
     modal.ModalSteps, selection.OnSelectionInObjectMode, Operator
 ):
-    """Set the mass of rigid bodies to the measured mass in kilograms."""
+    """Set the mass of rigid bodies to the measured mass in kilograms. The physics engine uses the
+    origin as center of mass; use Axes to Principal Axes as well
+    """
 
-    bl_idname = "object.body_moments_set_rigid_body_mass"
     bl_label = "Set Rigid Body Mass"
-    bl_description = (
-        "Set the mass of rigid bodies to the measured mass in kilograms. The physics engine uses "
-        "the origin as center "
-        "of mass; use Axes to Principal Axes as well"
-    )
     MAX_AT_ONCE = selection.MAX_OBJECTS_WITHOUT_REDRAW
 
     add: BoolProperty(
@@ -239,12 +231,12 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(
         count = len(changed)
         findings += _display_scaled(context, count)
         findings += _centers_elsewhere(bodies) if count else []
-        done = reports.phrase(
+        done = write.reports.phrase(
             "Set the rigid body mass of {count} object",
             "Set the rigid body mass of {count} objects",
             count=count,
         )
-        idle = reports.phrase("the masses are equal")
+        idle = write.reports.phrase("the masses are equal")
         return selection.summarize(self, count, len(self._objects), done, failures, findings, idle)
 
 
@@ -265,10 +257,4 @@ def _display_scaled(context: Context, count: int) -> list[str]:
         "Physics properties show masses times {factor:.6g} (unit scale cubed); the physics engine "
         "uses kilograms."
     )
-    return [reports.phrase(text, factor=unit**3)]
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_rigid_bodies,
-    OBJECT_OT_body_moments_set_rigid_body_mass,
-)
+    return [write.reports.phrase(text, factor=unit**3)]

@@ -13,7 +13,8 @@ from pathlib import Path
 
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, FloatProperty, StringProperty
-from bpy.types import Context, Event, Operator, PropertyGroup, Scene
+from bpy.types import Context, Operator, PropertyGroup, Scene
+from bpy_extras.io_utils import ImportHelper
 
 from ...blender import read, session, write
 from ...blender.session.selected import require_subject, subject
@@ -115,15 +116,11 @@ class _SearchMixin:
 
 
 class OBJECT_OT_body_moments_find_similar(modal.ModalSteps, _SearchMixin, Operator):
-    """Find the visible objects most similar in shape to the active object."""
+    """Compare the shapes of all visible objects with the active object, in any pose, size and
+    triangulation, and list copies, mirror images and similar shapes
+    """
 
-    bl_idname = "object.body_moments_find_similar"
     bl_label = "Find Similar"
-    bl_description = (
-        "Compare the shapes of all visible objects with the active object, in any pose, size and "
-        "triangulation, and "
-        "list copies, mirror images and similar shapes"
-    )
     PROGRESS = "Comparing: {share:.0%}. Esc to cancel"
     CANCELED = "Search canceled; nothing was changed"
 
@@ -173,25 +170,16 @@ class OBJECT_OT_body_moments_find_similar(modal.ModalSteps, _SearchMixin, Operat
         return self.store_and_report(context, matches, "", self._failures)
 
 
-class OBJECT_OT_body_moments_find_in_library(_SearchMixin, Operator):
-    """Find the bodies of a library most similar in shape to the active object."""
+class OBJECT_OT_body_moments_find_in_library(_SearchMixin, Operator, ImportHelper):
+    """Compare the shape of the active object with those of a library, written by the command line
+    with --signature --format jsonl
+    """
 
-    bl_idname = "object.body_moments_find_in_library"
     bl_label = "Find in Library"
-    bl_description = (
-        "Compare the shape of the active object with those of a library, written by the command "
-        "line with "
-        "--signature --format jsonl"
-    )
 
     mirrored: MIRRORED
     scaled: SCALED
-    filepath: StringProperty(name="Library", description="File of the library", subtype="FILE_PATH")
     filter_glob: StringProperty(default="*.jsonl", options={"HIDDEN"})
-
-    def invoke(self, context: Context, _event: Event) -> set[str]:
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
 
     def execute(self, context: Context) -> set[str]:
         path = Path(bpy.path.abspath(self.filepath))
@@ -209,7 +197,6 @@ class OBJECT_OT_body_moments_find_in_library(_SearchMixin, Operator):
 class OBJECT_OT_body_moments_select_found(Operator):
     """Select these objects and make the first one active"""
 
-    bl_idname = "object.body_moments_select_found"
     bl_label = "Select Similar Object"
     bl_options = {"REGISTER", "UNDO"}
 
@@ -227,10 +214,3 @@ class OBJECT_OT_body_moments_select_found(Operator):
 
 
 POINTERS = {(Scene, "body_moments_search"): BodyMomentsSearch}
-CLASSES = (
-    BodyMomentsSimilar,
-    BodyMomentsSearch,
-    OBJECT_OT_body_moments_find_similar,
-    OBJECT_OT_body_moments_find_in_library,
-    OBJECT_OT_body_moments_select_found,
-)

@@ -20,9 +20,8 @@ from bpy.props import (
 from bpy.types import Context, Object, Operator, PropertyGroup
 
 from ... import core
-from ...blender import bodies, scene, session
+from ...blender import bodies, scene, session, write
 from ...blender.session.tracking import staleness, stamps
-from ...blender.write import reports
 from ...core.verdict import Finding
 from .. import modal, selection
 
@@ -64,15 +63,11 @@ class BodyMomentsSymmetry(PropertyGroup):
 
 
 class OBJECT_OT_body_moments_find_symmetry(modal.ModalSteps, selection.OnSelection, Operator):
-    """Find the rotation axes and mirror planes of the selected objects."""
+    """Find the rotation axes and mirror planes through the center of mass of the selected objects
+    that moments allow and the surface, or of flat shapes the outline, confirms
+    """
 
-    bl_idname = "object.body_moments_find_symmetry"
     bl_label = "Find Symmetry"
-    bl_description = (
-        "Find the rotation axes and mirror planes through the center of mass of the selected "
-        "objects that moments "
-        "allow and the surface, or of flat shapes the outline, confirms"
-    )
     PROGRESS = "Finding symmetry: {share:.0%}. Esc to cancel"
     CANCELED = "Search canceled; nothing was changed"
 
@@ -116,16 +111,13 @@ class OBJECT_OT_body_moments_find_symmetry(modal.ModalSteps, selection.OnSelecti
                 obj, shape, found_symmetry, allowed, self.tolerance
             )
         # Blender reports the stored symmetry as a change of the object.
-        staleness.mark_stamps(
-            context,
-            [(obj, stamp) for obj, *_ in self._results if (stamp := stamps.of_symmetry(obj))],
-        )
+        staleness.mark_stored(context, [obj for obj, *_ in self._results], stamps.Kind.SYMMETRY)
         texts = (
             "{object}: {group}, {description}",
             "{object}: {group}, {description}, of the display mesh",
         )
         symmetries = [
-            reports.phrase(
+            write.reports.phrase(
                 texts[shape.is_display_mesh],
                 object=obj.name,
                 group=found.group,
@@ -136,18 +128,18 @@ class OBJECT_OT_body_moments_find_symmetry(modal.ModalSteps, selection.OnSelecti
         selection.redraw(context)
         if self._failures or not symmetries:
             count = len(symmetries)
-            done = reports.phrase(
+            done = write.reports.phrase(
                 "Searched {count} object", "Searched {count} objects", count=count
             )
             return selection.summarize(
                 self, count, len(self._objects), done, self._failures, symmetries
             )
-        return reports.report(self, *reports.first(symmetries))
+        return write.reports.report(self, *write.reports.first(symmetries))
 
 
 def describe(symmetry: "core.shape.Symmetry") -> list[str]:
     """Return translated descriptions of the elements of a symmetry."""
-    phrase = reports.phrase
+    phrase = write.reports.phrase
     if len(symmetry.revolution_axes) == 3:
         return [phrase("sphere")]
     if len(symmetry.revolution_axes) == 1:
@@ -170,5 +162,4 @@ def describe(symmetry: "core.shape.Symmetry") -> list[str]:
     return clauses or [phrase("no symmetry")]
 
 
-CLASSES = (BodyMomentsElement, BodyMomentsSymmetry, OBJECT_OT_body_moments_find_symmetry)
 POINTERS = {(Object, "body_moments_symmetry"): BodyMomentsSymmetry}

@@ -5,8 +5,7 @@
 from bpy.props import EnumProperty, FloatProperty
 from bpy.types import Context, Event, Operator
 
-from ...blender import read, scale, scene, session
-from ...blender.write import reports
+from ...blender import read, scale, scene, session, write
 from .. import selection
 
 MAX_LISTED = 10  # groups that the dialog lists
@@ -16,7 +15,6 @@ NOTHING = "There are no copies."
 class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
     """Let equal meshes, moved, turned, mirrored or scaled, share one mesh; nothing moves"""
 
-    bl_idname = "object.body_moments_link_copies"
     bl_label = "Link Copies"
 
     tolerance: FloatProperty(
@@ -67,7 +65,7 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
         if self._found is None or self._found[0] != key:
             chosen = self._objects or context.selected_objects or context.visible_objects
             objects = [obj for obj in chosen if obj.type == "MESH"]
-            with reports.progress(len(objects)) as step:
+            with write.reports.progress(len(objects)) as step:
                 self._found = (
                     key,
                     scene.copies.find_copies(objects, self.tolerance, set(key[1]), step),
@@ -84,10 +82,7 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
         return True
 
     def draw(self, context: Context) -> None:
-        column = self.layout.column()
-        column.use_property_split = True
-        column.prop(self, "tolerance")
-        column.prop(self, "may_differ")
+        column = selection.draw_properties(self, "tolerance", "may_differ")
         if self._found is None:  # the redo panel
             return
         kinds = sorted(
@@ -95,14 +90,14 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
         )
         count = sum(len(kind.members) for kind in kinds)
         size = _size(sum(kind.saved_bytes for kind in kinds))
-        summary = reports.phrase(
+        summary = write.reports.phrase(
             "Groups: {groups}. Objects to link: {count}", groups=len(kinds), count=count
         )
         column.label(text="{:s}. {:s}".format(summary, size), icon="LINKED", translate=False)
         for kind in kinds[:MAX_LISTED]:
             row = self.layout.row(align=True)
             members = [*kind.objects, *(obj for obj, *_ in kind.members)]
-            text = reports.phrase(
+            text = write.reports.phrase(
                 "{count} objects as {object}", count=len(members), object=kind.data.mesh.name
             )
             row.label(text="{:s}, {:s}".format(text, _size(kind.saved_bytes)), translate=False)
@@ -112,7 +107,7 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
             button.name = "\n".join(obj.name_full for obj in members)
         if len(kinds) > MAX_LISTED:
             self.layout.label(
-                text=reports.phrase("And {count} more", count=len(kinds) - MAX_LISTED),
+                text=write.reports.phrase("And {count} more", count=len(kinds) - MAX_LISTED),
                 translate=False,
             )
 
@@ -124,15 +119,15 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
         with session.stored.assembly.kept_up_to_date(context):
             with (
                 read.tracking.tracking_paused(),
-                reports.progress(sum(len(kind.members) for kind in kinds)) as step,
+                write.reports.progress(sum(len(kind.members) for kind in kinds)) as step,
             ):
                 linked = scene.copies.link_copies(
                     context, kinds, self.tolerance, keeps_materials, step
                 )
             session.remeasure(context, linked.objects)
         session.tracking.staleness.mark_axes_changed(linked.objects)
-        left_out = [reports.failure(obj.name_full, reason) for obj, reason in linked.left_out]
-        done = reports.phrase(
+        left_out = [write.reports.failure(obj.name_full, reason) for obj, reason in linked.left_out]
+        done = write.reports.phrase(
             "{count} object linked, {size} saved, vertices moved by up to {maximum:length}",
             "{count} objects linked, {size} saved, vertices moved by up to {maximum:length}",
             count=len(linked.objects),
@@ -147,6 +142,3 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
 
 def _size(size: int) -> str:
     return "{:.3g} MB".format(size / 1e6) if size >= 1e6 else "{:.3g} kB".format(size / 1e3)
-
-
-CLASSES = (OBJECT_OT_body_moments_link_copies,)

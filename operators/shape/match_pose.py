@@ -9,24 +9,18 @@ from collections.abc import Generator, Iterator
 from bpy.types import Context, Object, Operator
 
 from ... import core
-from ...blender import bodies, scene, session
-from ...blender.write import reports
+from ...blender import bodies, scene, session, write
 from ...core.verdict import EditRefusedError, Finding, MeasureError, finding
 from .. import findings, modal, selection
 
 
 class OBJECT_OT_body_moments_match_pose(modal.ModalSteps, Operator):
-    """Move the other selected objects onto the active object."""
+    """Move and rotate the other selected objects onto the active object by centers of mass and
+    principal axes, and report the distance between the surfaces. Symmetric objects take the nearest
+    of their poses; mirror images are left unchanged
+    """
 
-    bl_idname = "object.body_moments_match_pose"
     bl_label = "Match Pose"
-    bl_description = (
-        "Move and rotate the other selected objects onto the active object by centers of mass and "
-        "principal axes, and "
-        "report the distance between the surfaces. Symmetric objects take the nearest of their "
-        "poses; mirror images "
-        "are left unchanged"
-    )
     PROGRESS = "Comparing: {share:.0%}. Esc to cancel"
     CANCELED = "Match Pose canceled; nothing was moved"
 
@@ -34,7 +28,9 @@ class OBJECT_OT_body_moments_match_pose(modal.ModalSteps, Operator):
     def poll(cls, context: Context) -> bool:
         others = [obj for obj in context.view_layer.objects.selected if obj != context.object]
         if context.object is None or not others:
-            return reports.unavailable(cls, "Select the objects to move, then the object to match")
+            return write.reports.unavailable(
+                cls, "Select the objects to move, then the object to match"
+            )
         return selection.poll_object_mode(cls, context)
 
     def _begin(self, context: Context) -> int:
@@ -52,7 +48,7 @@ class OBJECT_OT_body_moments_match_pose(modal.ModalSteps, Operator):
         try:
             target = bodies.comparable_shape_of(active, context.evaluated_depsgraph_get())
         except MeasureError as error:
-            reports.report(self, reports.refusal(error.about(active.name)))
+            write.reports.report(self, write.reports.refusal(error.about(active.name)))
             return
         yield 0.0
         self._size = target.size
@@ -86,12 +82,12 @@ class OBJECT_OT_body_moments_match_pose(modal.ModalSteps, Operator):
                 if scene.move_to_match(context, plan):
                     moved.append(plan.obj)
             except Exception as error:
-                self._failures.append(reports.failure(plan.obj.name_full, error))
+                self._failures.append(write.reports.failure(plan.obj.name_full, error))
             else:
                 distances.append(_distance(plan.obj.name, match, self._size))
         session.remeasure(context, moved)
         texts = ("Moved {count} object onto {object}", "Moved {count} objects onto {object}")
-        done = reports.phrase(*texts, count=len(distances), object=context.object.name)
+        done = write.reports.phrase(*texts, count=len(distances), object=context.object.name)
         return selection.summarize(
             self, len(distances), len(self._others), done, self._failures, distances
         )
@@ -105,9 +101,6 @@ def _distance(name: str, match: "core.shape.RigidMatch", size: float) -> Finding
     }
     if not scene.is_copy(match, size):
         return finding(findings.POSE_NOT_A_COPY, **values)
-    return reports.phrase(
+    return write.reports.phrase(
         "{object}: surfaces at most {maximum:length} apart, {mean:length} on average", **values
     )
-
-
-CLASSES = (OBJECT_OT_body_moments_match_pose,)

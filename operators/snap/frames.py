@@ -10,14 +10,14 @@ warns. A node group shows the center at every frame.
 """
 
 from collections.abc import Sequence
+from functools import partial
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Object, Operator, View3DCursor
 from mathutils import Matrix
 
-from ...blender import bodies, read, scale, scene, session
-from ...blender.write import reports
+from ...blender import bodies, read, scale, scene, session, write
 from ...core import inertia, verdict
 from .. import selection
 
@@ -50,22 +50,18 @@ def reframe_selected(
         context, objects, target_matrix, not along_axes, strict
     )
     findings = [found.of_sources([plan.obj.name]) for plan in changed for found in plan.findings]
-    text = reports.phrase(*done, count=len(changed))
-    idle = reports.phrase("already in place")
+    text = write.reports.phrase(*done, count=len(changed))
+    idle = write.reports.phrase("already in place")
     return selection.summarize(operator, len(changed), len(objects), text, failures, findings, idle)
 
 
 class OBJECT_OT_body_moments_origin_to_center(selection.OnSelectionInObjectMode, Operator):
-    """Move the origin to the exact center of mass of the evaluated object."""
+    """Move the origin to the exact center of mass of the evaluated object. Nothing visible moves:
+    children and other users of the data stay in place. Objects whose modifiers depend on the origin
+    are left unchanged
+    """
 
-    bl_idname = "object.body_moments_origin_to_center"
     bl_label = "Origin to Center of Mass"
-    bl_description = (
-        "Move the origin to the exact center of mass of the evaluated object. Nothing visible "
-        "moves: children and "
-        "other users of the data stay in place. Objects whose modifiers depend on the origin are "
-        "left unchanged"
-    )
 
     def execute(self, context: Context) -> set[str]:
         done = (
@@ -76,15 +72,11 @@ class OBJECT_OT_body_moments_origin_to_center(selection.OnSelectionInObjectMode,
 
 
 class OBJECT_OT_body_moments_axes_to_principal(selection.OnSelectionInObjectMode, Operator):
-    """Make the principal frame the frame of the object."""
+    """Move the origin to the center of mass and align the local X, Y and Z axes with the principal
+    axes, from the smallest moment to the largest, with unit scale. Nothing visible moves
+    """
 
-    bl_idname = "object.body_moments_axes_to_principal"
     bl_label = "Axes to Principal Axes"
-    bl_description = (
-        "Move the origin to the center of mass and align the local X, Y and Z axes with the "
-        "principal axes, from the "
-        "smallest moment to the largest, with unit scale. Nothing visible moves"
-    )
 
     strict: STRICT_PROPERTY
 
@@ -102,15 +94,11 @@ ORDERS = ("XYZ", "YZX", "ZXY", "XZY", "YXZ", "ZYX")
 
 
 class OBJECT_OT_body_moments_align_to_world(selection.OnSelectionInObjectMode, Operator):
-    """Rotate the object so that its principal axes align with the world axes."""
+    """Rotate the object so that its principal axes align with the world axes, about its center of
+    mass or at the world origin. Children follow
+    """
 
-    bl_idname = "object.body_moments_align_to_world"
     bl_label = "Align Object to World"
-    bl_description = (
-        "Rotate the object so that its principal axes align with the world axes, about its center "
-        "of mass or at the "
-        "world origin. Children follow"
-    )
 
     order: EnumProperty(
         name="Axes",
@@ -138,29 +126,27 @@ class OBJECT_OT_body_moments_align_to_world(selection.OnSelectionInObjectMode, O
     strict: STRICT_PROPERTY
 
     def execute(self, context: Context) -> set[str]:
-        objects = selection.selected_measurable(context)
-
         def align(obj: Object) -> bool:
             return scene.align_to_world(
                 context, obj, self.order, self.pivot == "ORIGIN", self.strict
             )
 
-        # in turn: a child moves with its parent
-        moved, failures = selection.apply_to_all(objects, align)
-        session.remeasure(context, moved)
-        done = reports.phrase(
-            "Aligned {count} object to the world axes",
-            "Aligned {count} objects to the world axes",
-            count=len(moved),
+        return selection.change_all(
+            self,
+            selection.selected_measurable(context),
+            align,
+            (
+                "Aligned {count} object to the world axes",
+                "Aligned {count} objects to the world axes",
+            ),
+            "already aligned",
+            then=partial(session.remeasure, context),
         )
-        idle = reports.phrase("already aligned")
-        return selection.summarize(self, len(moved), len(objects), done, failures, idle=idle)
 
 
 class VIEW3D_OT_body_moments_cursor_to_center(selection.OnSelection, Operator):
     """Move the 3D cursor to the common center of mass of the selected objects"""
 
-    bl_idname = "view3d.body_moments_cursor_to_center"
     bl_label = "Cursor to Center of Mass"
 
     rotate: BoolProperty(
@@ -191,7 +177,7 @@ class VIEW3D_OT_body_moments_cursor_to_center(selection.OnSelection, Operator):
             if self.rotate:
                 turn_cursor(cursor, total.principal.axes.tolist())
                 findings = [total.principal.finding] if total.principal.finding is not None else []
-        done = reports.phrase(
+        done = write.reports.phrase(
             "Moved the 3D cursor to the center of mass of {count} object",
             "Moved the 3D cursor to the center of mass of {count} objects",
             count=len(added),
@@ -213,15 +199,11 @@ def turn_cursor(cursor: View3DCursor, axes: Sequence[Sequence[float]]) -> None:
 
 
 class OBJECT_OT_body_moments_add_empty(selection.OnSelectionInObjectMode, Operator):
-    """Add an empty at the center of mass, along the principal axes."""
+    """Add an empty at the center of mass, along the principal axes, with arrows as long as the
+    largest radius of gyration. An empty added before is moved
+    """
 
-    bl_idname = "object.body_moments_add_empty"
     bl_label = "Add Empty at Principal Frame"
-    bl_description = (
-        "Add an empty at the center of mass, along the principal axes, with arrows as long as the "
-        "largest radius of "
-        "gyration. An empty added before is moved"
-    )
 
     parent: BoolProperty(
         name="Parent to Object",
@@ -248,27 +230,26 @@ class OBJECT_OT_body_moments_add_empty(selection.OnSelectionInObjectMode, Operat
 
     def execute(self, context: Context) -> set[str]:
         objects = selection.selected_measurable(context)
-        with reports.progress(len(objects)) as step:
+        with write.reports.progress(len(objects)) as step:
             placed, refused = scene.place_empties(
                 context, objects, self.parent, self.display, self.size, step
             )
         findings = [
             body.finding.of_sources([body.obj.name]) for body in placed if body.finding is not None
         ]
-        failures = [reports.failure(obj.name_full, error) for obj, error in refused.items()]
-        done = reports.phrase(
+        failures = [write.reports.failure(obj.name_full, error) for obj, error in refused.items()]
+        done = write.reports.phrase(
             "Placed an empty at the principal frame of {count} object",
             "Placed empties at the principal frames of {count} objects",
             count=len(placed),
         )
-        idle = reports.phrase("the empties are in place")
+        idle = write.reports.phrase("the empties are in place")
         return selection.summarize(self, len(placed), len(objects), done, failures, findings, idle)
 
 
 class OBJECT_OT_body_moments_create_orientation(Operator):
     """Create a transform orientation along the principal axes of the active object"""
 
-    bl_idname = "object.body_moments_create_orientation"
     bl_label = "Orientation from Principal Axes"
     bl_options = {"REGISTER", "UNDO"}
 
@@ -287,7 +268,7 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
     def poll(cls, context: Context) -> bool:
         obj = context.view_layer.objects.active
         if obj is None or not obj.select_get():
-            return reports.unavailable(cls, "Make an object active and select it")
+            return write.reports.unavailable(cls, "Make an object active and select it")
         return selection.poll_object_mode(cls, context)
 
     def execute(self, context: Context) -> set[str]:
@@ -295,12 +276,12 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
         try:
             body = scene.snap_target(context, obj)
         except verdict.MeasureError as error:
-            return selection.refuse(self, reports.failure(obj.name_full, error))
+            return selection.refuse(self, write.reports.failure(obj.name_full, error))
         place = _view_3d(context)
         if place is None:
-            reports.report(
+            write.reports.report(
                 self,
-                reports.phrase("A transform orientation needs an open 3D Viewport."),
+                write.reports.phrase("A transform orientation needs an open 3D Viewport."),
                 level=verdict.Severity.WARNING,
             )
             return {"CANCELLED"}
@@ -313,8 +294,10 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
         if not self.use:
             slot.type = before
         free = [body.finding] if body.finding is not None else []
-        return reports.report(
-            self, reports.phrase("Created the transform orientation “{name}”", name=name), *free
+        return write.reports.report(
+            self,
+            write.reports.phrase("Created the transform orientation “{name}”", name=name),
+            *free,
         )
 
 
@@ -333,15 +316,11 @@ def _view_3d(context: Context) -> dict | None:
 
 
 class OBJECT_OT_body_moments_add_nodes(selection.InObjectMode, Operator):
-    """Add a node group that computes the center of mass in geometry nodes."""
+    """Add the node group “Center of Mass” to the file, marked as an asset: it computes center,
+    volume and mass in geometry nodes, follows modifiers and animation, and works without the add-on
+    """
 
-    bl_idname = "object.body_moments_add_nodes"
     bl_label = "Center of Mass Node Group"
-    bl_description = (
-        "Add the node group “Center of Mass” to the file, marked as an asset: it computes center, "
-        "volume and mass in "
-        "geometry nodes, follows modifiers and animation, and works without the add-on"
-    )
 
     marker: BoolProperty(
         name="Add Marker",
@@ -354,28 +333,17 @@ class OBJECT_OT_body_moments_add_nodes(selection.InObjectMode, Operator):
         group = scene.center_of_mass_group()
         obj = session.selected.subject(context)
         if not self.marker or obj is None or not read.visibility.measurable(obj):
-            return reports.report(
-                self, reports.phrase("Added the node group “{group}”", group=group.name)
+            return write.reports.report(
+                self, write.reports.phrase("Added the node group “{group}”", group=group.name)
             )
         marker = scene.add_marker(context, obj, group)
         text = "Added the node group “{group}” and the marker “{object}”"
-        texts = [reports.phrase(text, group=group.name, object=marker.name)]
+        texts = [write.reports.phrase(text, group=group.name, object=marker.name)]
         settings = obj.body_moments
         if (settings.kind, settings.mass_from, settings.density_from) != (
             "SOLID",
             "DENSITY",
             "VALUE",
         ):
-            texts.append(reports.phrase("nodes take the object as a solid of one density"))
-        return reports.report(self, *texts)
-
-
-CLASSES = (
-    OBJECT_OT_body_moments_origin_to_center,
-    OBJECT_OT_body_moments_axes_to_principal,
-    OBJECT_OT_body_moments_align_to_world,
-    VIEW3D_OT_body_moments_cursor_to_center,
-    OBJECT_OT_body_moments_add_empty,
-    OBJECT_OT_body_moments_create_orientation,
-    OBJECT_OT_body_moments_add_nodes,
-)
+            texts.append(write.reports.phrase("nodes take the object as a solid of one density"))
+        return write.reports.report(self, *texts)

@@ -29,8 +29,8 @@ from ...blender.session import memory
 from ...blender.settings.scene import BodyMomentsOverlaySettings
 from ...core.numerics import Array, NDArray
 from . import appearance as look
-from . import discs, draw, lines
-from .bodies import Bodies, Entry, collect
+from . import discs, draw
+from .bodies import Bodies, Entry, body_lines, collect
 from .details import Colored, list_details
 
 MAX_REGIONS = 8  # number of regions with cached batches
@@ -107,7 +107,7 @@ def _rebuild(context: Context, key: tuple, before: _Drawn | None) -> _Drawn:
     if before is not None and before.key[1:] == key[1:] and len(before.entries) == len(entries):
         rows = [row for row in rows if entries[row] is not before.entries[row]]
     bodies = Bodies.of([entries[row] for row in rows], meters_per_unit(scene))
-    segments = lines.body_lines(bodies, settings)
+    segments = body_lines(bodies, settings)
     if before is not None and len(rows) < len(entries):
         before.bodies.put(rows, bodies)
         before.segments[rows] = segments

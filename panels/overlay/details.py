@@ -14,6 +14,7 @@ from bpy.types import Context, Object, Scene
 from ... import blender, core
 from ...blender.scale import meters_per_unit
 from ...blender.scene import fcurves
+from ...blender.session import memory
 from ...blender.session.character.weight import Weight
 from ...blender.session.stored import balance_groups, cuts, faults, floating, stability
 from ...core.cuts import cut_outline
@@ -70,19 +71,16 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
         )
         if weight is not None:
             details += _weight(context, weight)
-    checked = [obj for obj in objects if stability.is_known(obj)] if settings.show_support else ()
+    checked = [obj for obj in objects if obj in memory.hulls] if settings.show_support else ()
     supports = [stability.support(obj, context.scene) for obj in checked]
     details += [support_detail(support) for support in supports if support is not None]
-    if settings.show_level and any(obj in blender.session.memory.levels for obj in objects):
-        unit = meters_per_unit(context.scene)
+    unit = meters_per_unit(context.scene)
+    if settings.show_level and any(obj in memory.levels for obj in objects):
         levels = [cuts.level_of(obj, context.scene) for obj in objects]
         details += [_surface(level, unit) for level in levels if level is not None]
     if settings.show_waterline:
-        afloat = {
-            id(body): obj for obj in objects if (body := floating.known_body(obj)) is not None
-        }
+        afloat = {id(memory.afloat[obj]): obj for obj in objects if obj in memory.afloat}
         held = [floating.held_body(obj, context.scene) for obj in afloat.values()]
-        unit = meters_per_unit(context.scene)
         details += [_waterline(body, unit) for body in held if isinstance(body, floating.Held)]
     return details
 

@@ -25,7 +25,6 @@ from bpy.types import (
 )
 
 from ...blender import session, write
-from ...blender.session.live.following import is_live
 from ...blender.session.tracking import armatures, handlers
 from ...blender.settings.scene import BodyMomentsOverlaySettings
 from .. import overlay
@@ -123,7 +122,7 @@ def drawn_objects(context: Context, show_all: bool) -> list[Object]:
         if (
             "body_mass" in obj
             or obj in session.memory.levels
-            or is_live(obj)
+            or obj in session.memory.followed
             or armatures.stands_for_meshes(obj)
             or shows_weight(obj)
         )
@@ -171,7 +170,6 @@ def section(self: Panel | Menu, context: Context) -> None:
     column.row(align=True).prop(settings, "equivalent", expand=True)
 
 
-CLASSES = (BodyMomentsOverlayMirror,)
 POINTERS = {(WindowManager, "body_moments_overlay"): BodyMomentsOverlayMirror}
 MENUS = ((bpy.types.VIEW3D_PT_overlay_object, section),)
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Objects to try operators on, and what they look like in the world."""
 
+from contextlib import contextmanager
 from types import SimpleNamespace
 
 import bpy
@@ -46,6 +47,28 @@ def add(data, name="Body", location=(0, 0, 0), rotation=(0, 0, 0), scale=(1, 1, 
         obj.select_set(True)
         bpy.context.view_layer.objects.active = obj
     return obj
+
+
+def after(step):
+    """The active object's successor, by its name, after undo or redo."""
+    name = bpy.context.object.name
+    step()
+    bpy.context.view_layer.update()
+    return bpy.data.objects[name]
+
+
+@contextmanager
+def editing(mesh):
+    """A mesh as a bmesh, to be edited, which becomes the mesh at the end."""
+    import bmesh  # is there once bpy is
+
+    edited = bmesh.new()
+    edited.from_mesh(mesh)
+    edited.faces.ensure_lookup_table()
+    yield edited
+    edited.to_mesh(mesh)
+    edited.free()
+    mesh.update()
 
 
 def only(*objects):

@@ -394,6 +394,15 @@ def test_joint_outside_of_the_tree_is_one_finding(joints, tmp_path):
     assert record["total"]["mass"] == 16000.0
 
 
+@pytest.mark.parametrize("leader", ["none", "k"])
+def test_mimic_of_no_other_joint_is_named(leader, tmp_path):
+    joint = JOINT.format("k", "a", "b").replace("</joint>", '<mimic joint="{}"/></joint>')
+    path = description(tmp_path / "r.urdf", *PAIR, "\n", joint.format(leader))
+    (found,) = json.loads(answer(path)[0])["findings"]
+    assert (found["code"], found["line"]) == ("joint_value_unusable", 2)
+    assert (found["values"]["joint"], found["values"]["value"]) == ("k", leader)
+
+
 AUTO = """<sdf version="1.11"><model name="m"><link name="b"><inertial auto="true">{}</inertial>
 <collision name="c">{}<geometry><box><size>1 2 3</size></box></geometry></collision>
 <collision name="d"><pose>2 0 0 0 0 0</pose><geometry><box><size>1 2 3</size></box></geometry>

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import pytest
 
-from tests.blender.objects import add, only
+from tests.blender.objects import add, editing, only
 
 bmesh = pytest.importorskip("bmesh")  # only found once bpy is loaded
 
@@ -16,13 +16,10 @@ balance = bpy.ops.object.body_moments_sculpt_balance
 def figure(**more):
     """A sphere cut in quads, its upper half pulled to one side: it would fall over."""
     mesh = bpy.data.meshes.new("Figure")
-    work = bmesh.new()
-    bmesh.ops.create_uvsphere(work, u_segments=20, v_segments=14, radius=1.0)
-    for vertex in work.verts:
-        if vertex.co.z > 0.0:
-            vertex.co.x += 0.6 * vertex.co.z
-    work.to_mesh(mesh)
-    work.free()
+    with editing(mesh) as work:
+        bmesh.ops.create_uvsphere(work, u_segments=20, v_segments=14, radius=1.0)
+        for vertex in work.verts:
+            vertex.co.x += 0.6 * max(vertex.co.z, 0.0)
     return add(mesh, "Figure", **more)
 
 

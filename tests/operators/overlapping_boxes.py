@@ -4,16 +4,17 @@
 
 import bpy
 
+from tests.blender.objects import editing
+
 
 def boxes(*sizes, reverse=()):
     """A mesh of boxes about one center, with some faces reversed."""
     import bmesh  # is there once bpy is
 
-    mesh, built = bpy.data.meshes.new("Boxes"), bmesh.new()
-    for size in sizes:
-        bmesh.ops.create_cube(built, size=size)
-    built.faces.ensure_lookup_table()
-    bmesh.ops.reverse_faces(built, faces=[built.faces[index] for index in reverse])
-    built.to_mesh(mesh)
-    built.free()
+    mesh = bpy.data.meshes.new("Boxes")
+    with editing(mesh) as built:
+        for size in sizes:
+            bmesh.ops.create_cube(built, size=size)
+        built.faces.ensure_lookup_table()
+        bmesh.ops.reverse_faces(built, faces=[built.faces[index] for index in reverse])
     return mesh

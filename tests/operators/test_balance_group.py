@@ -7,6 +7,9 @@ theirs; keys, signals.
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.session.live.motion import Motion
+from body_moments.blender.session.stored import balance_groups
+from body_moments.core.inertia.mass_properties import combine
 from mathutils import Matrix, Quaternion
 
 from tests.blender import objects
@@ -26,20 +29,14 @@ def key_matrix(obj, frame, matrix):
 
 
 def path_of(empty):
-    from body_moments.blender.session.stored import balance_groups
-
     return balance_groups.path(empty)
 
 
 def support_of(empty, frame):
-    from body_moments.blender.session.stored import balance_groups
-
     return balance_groups.support(empty, frame)
 
 
 def groups():
-    from body_moments.blender.session.stored import balance_groups
-
     return list(balance_groups.groups(bpy.context.scene))
 
 
@@ -124,9 +121,6 @@ def character():
 
 
 def test_the_center_of_a_character_is_that_of_its_parts(scene):
-    from body_moments.blender.session.live.motion import Motion
-    from body_moments.core.inertia.mass_properties import combine
-
     _, meshes = character()
     motion = Motion(frames=12)
     for frame in range(1, 13):
@@ -156,8 +150,6 @@ def test_an_armature_stands_for_its_meshes(scene):
 
 @pytest.mark.parametrize("mass", [None, 12.0])
 def test_shape_keys_are_followed_by_their_polynomials(scene, mass):
-    from body_moments.blender.session.live.motion import Motion
-
     obj = objects.add(
         objects.mesh_body(),
         location=(1.0, 2.0, 3.0),
@@ -188,8 +180,6 @@ def test_shape_keys_are_followed_by_their_polynomials(scene, mass):
 
 
 def test_scales_that_change_are_followed(scene):
-    from body_moments.blender.session.live.motion import Motion
-
     solid = objects.add(objects.mesh_body(), location=(1.0, 0.0, 0.0))
     sheet = objects.add(objects.mesh_body("Sheet"), "Sheet")
     sheet.body_moments.kind, sheet.body_moments.thickness = "SHELL", 0.01

@@ -4,17 +4,16 @@
 
 import re
 
-import bmesh
 import bpy
 import numpy as np
 import pytest
 from body_moments.blender.session import memory, stored
-from body_moments.core.cuts import cut_outline
+from body_moments.core.cuts import TABLE_ROWS, cut_outline
 from body_moments.core.verdict import sentence
 from mathutils import Vector
 
 from tests.blender.batch_files import document
-from tests.blender.objects import add
+from tests.blender.objects import add, editing
 
 pytestmark = pytest.mark.usefixtures("scene")
 LEVEL = bpy.ops.object.body_moments_level
@@ -100,13 +99,11 @@ def test_full_round_cavity_has_no_free_surface():
     """A cube of edge 2 with an octahedron of corners at 0.5 cut out of it."""
     bpy.ops.mesh.primitive_cube_add()
     cube = bpy.context.object
-    edited = bmesh.new()
-    edited.from_mesh(cube.data)
-    ends = [[edited.verts.new(0.5 * sign * np.eye(3)[i]) for sign in (1, -1)] for i in range(3)]
-    for i, j, k in np.ndindex(2, 2, 2):
-        corners = [ends[0][i], ends[1][j], ends[2][k]]
-        edited.faces.new(corners[:: 1 if (i + j + k) % 2 else -1])
-    edited.to_mesh(cube.data)
+    with editing(cube.data) as edited:
+        ends = [[edited.verts.new(0.5 * sign * np.eye(3)[i]) for sign in (1, -1)] for i in range(3)]
+        for i, j, k in np.ndindex(2, 2, 2):
+            corners = [ends[0][i], ends[1][j], ends[2][k]]
+            edited.faces.new(corners[:: 1 if (i + j + k) % 2 else -1])
     assert LEVEL(by="LEVEL", level=0.8) == {"FINISHED"}
     level = level_of(cube)
     assert level.volume == pytest.approx(4 / 3 * 0.5**3)
@@ -135,7 +132,7 @@ def test_show_level_adds_meshes_and_nothing_else_moves():
     assert bpy.ops.object.body_moments_show_level(what="TABLE") == {"FINISHED"}
     table = bpy.data.objects["Trough Level Table"]
     assert table.location == trough.matrix_world.translation == Vector((4, 5, 3))
-    assert len(table.data.edges) == stored.cuts.TABLE_ROWS - 1
+    assert len(table.data.edges) == TABLE_ROWS - 1
     assert trough.matrix_world == before
 
 

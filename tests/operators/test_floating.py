@@ -5,6 +5,8 @@
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.session.live import measuring
+from body_moments.blender.session.stored import floating
 
 from tests.blender import objects
 from tests.operators.standing import box
@@ -26,8 +28,6 @@ def water(scene, density=1000.0, level=0.0):
 
 
 def held(obj):
-    from body_moments.blender.session.stored import floating
-
     bpy.context.view_layer.update()
     return floating.held_body(obj, bpy.context.scene)
 
@@ -74,9 +74,6 @@ def test_turned_body_shows_its_righting_arm(scene):
 
 
 def test_live_body_is_read_by_the_timer_and_never_by_a_draw(scene, monkeypatch):
-    from body_moments.blender.session.live import measuring
-    from body_moments.blender.session.stored import floating
-
     water(scene)
     boat, cargo = hull(density=300.0), hull((1.0, 1.0, 0.2), density=300.0)
     cargo.parent = boat
@@ -119,8 +116,6 @@ def test_children_and_tanks_float_as_one_body(scene):
 
 
 def test_second_draw_looks_at_no_object_of_the_scene(scene, monkeypatch):
-    from body_moments.blender.session.stored import floating
-
     water(scene)
     boat = hull(density=300.0)
     bpy.ops.object.body_moments_float()

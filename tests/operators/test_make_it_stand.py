@@ -7,6 +7,7 @@ import re
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.session.stored import stability
 from body_moments.core.statics import infill_range, largest_margin
 from mathutils import Matrix
 
@@ -47,10 +48,8 @@ def leaning(scene):
 
 
 def margin_of(obj):
-    from body_moments.blender.session.stored import stability
-
     bpy.context.view_layer.update()
-    return stability.support(obj).margin
+    return stability.support(obj, bpy.context.scene).margin
 
 
 def test_least_infill_gives_the_margin(scene):

@@ -5,9 +5,13 @@
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.session.tracking import staleness
+from body_moments.blender.write.units import Units
+from body_moments.core.density.materials import BY_NAME
+from body_moments.core.numerics.float32 import shortest_decimal
 
 from tests.blender.boxes import box_mesh
-from tests.blender.objects import add, measured, mesh_body, only, place
+from tests.blender.objects import add, editing, measured, mesh_body, only, place
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -124,7 +128,6 @@ def test_rigid_body_mass_is_in_kilograms_in_any_unit():
 
 def test_faultless_object_keeps_mode_and_selection():
     import bmesh
-    from body_moments.blender.session.tracking import staleness
 
     obj = add(mesh_body())
     bpy.ops.object.mode_set(mode="EDIT")
@@ -140,17 +143,9 @@ def test_faultless_object_keeps_mode_and_selection():
 def test_boundary_edges_and_flipped_faces_are_selected(reported):
     mesh = mesh_body()
     obj = add(mesh)
-    import bmesh
-
-    bm = bmesh.new()
-    bm.from_mesh(mesh)
-    bm.faces.ensure_lookup_table()
-    bmesh.ops.delete(bm, geom=[bm.faces[0]], context="FACES_ONLY")
-    bm.faces.ensure_lookup_table()
-    bm.faces[3].normal_flip()
-    bm.to_mesh(mesh)
-    bm.free()
-    mesh.update()
+    with editing(mesh) as edited:
+        edited.faces[4].normal_flip()
+        edited.faces.remove(edited.faces[0])
     assert bpy.ops.object.body_moments_select_faults() == {"FINISHED"}
     assert obj.mode == "EDIT"
     bpy.ops.object.mode_set(mode="OBJECT")
@@ -235,14 +230,8 @@ def test_undo_of_faults_restores_measurement_then_start(mode):
 
 def test_only_faulty_objects_go_to_edit_mode():
     good, bad = add(mesh_body(), "Good"), add(mesh_body(), "Bad")
-    import bmesh
-
-    bm = bmesh.new()
-    bm.from_mesh(bad.data)
-    bm.faces.ensure_lookup_table()
-    bmesh.ops.delete(bm, geom=[bm.faces[0]], context="FACES_ONLY")
-    bm.to_mesh(bad.data)
-    bm.free()
+    with editing(bad.data) as edited:
+        edited.faces.remove(edited.faces[0])
     only(good, bad)
     assert bpy.ops.object.body_moments_select_faults() == {"FINISHED"}
     assert (good.mode, bad.mode) == ("OBJECT", "EDIT")
@@ -262,9 +251,6 @@ def test_faults_of_modifiers_are_not_selected():
 
 
 def test_material_sets_density_of_selected_objects(reported):
-    from body_moments.core.density.materials import BY_NAME
-    from body_moments.core.numerics.float32 import shortest_decimal
-
     one, other = add(mesh_body(), "One"), add(mesh_body(), "Other")
     only(one, other)
     other.body_moments.mass_from = "MASS"
@@ -318,8 +304,6 @@ def test_settings_are_copied_to_the_other_selected_objects(reported):
     ],
 )
 def test_numbers_are_shown_in_the_scenes_units(system, length, mass, expected):
-    from body_moments.blender.write.units import Units
-
     values = {
         "length": 1.5,
         "area": 2e-4,
@@ -337,8 +321,6 @@ def test_without_unit_system_masses_are_kilograms():
     """Else a density beside a volume in the scene's units would seem to give another mass than the
     one shown.
     """
-    from body_moments.blender.write.units import Units
-
     units = Units("NONE", "ADAPTIVE", "ADAPTIVE", 0.001)
     values = (
         ("length", 0.002),
@@ -357,8 +339,6 @@ def test_without_unit_system_masses_are_kilograms():
 
 
 def test_default_material_is_density_of_unset_objects():
-    from body_moments.blender.session.tracking import staleness
-
     scene, obj = bpy.context.scene, add(mesh_body())
     scene.body_moments.default_material = "PLA"
     bpy.ops.object.body_moments_measure()

@@ -4,11 +4,11 @@
 
 import bpy
 import pytest
-from body_moments.blender.session.tracking import staleness, stamps
-from body_moments.blender.session.tracking.stamps import Stale
+from body_moments.blender.session.tracking import staleness
+from body_moments.blender.session.tracking.stamps import Kind, Stale
 from body_moments.blender.write import section
 
-from tests.blender.objects import add, mesh_body
+from tests.blender.objects import add, after, mesh_body
 from tests.close import close
 from tests.operators.overlapping_boxes import boxes
 
@@ -45,10 +45,9 @@ def test_cleared_kinds_leave_other_results_current(kinds):
     assert {kind for kind in kept if not kept[kind]} == kinds
     assert staleness.stale_reason(obj, bpy.context.scene) is None
     assert (
-        staleness.stale_reason(obj, bpy.context.scene, stamps.of_section) is None
-        or not kept["SECTION"]
+        staleness.stale_reason(obj, bpy.context.scene, Kind.SECTION) is None or not kept["SECTION"]
     )
-    assert staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) is None
+    assert staleness.stale_reason(obj, bpy.context.scene, Kind.SYMMETRY) is None
     assert bpy.ops.object.body_moments_clear(kinds=kinds) == {"CANCELLED"}
     assert bpy.ops.object.body_moments_clear() == {"FINISHED"} and "body_mass" not in obj
 
@@ -61,7 +60,7 @@ def test_edit_before_clearing_makes_symmetry_stale():
     obj.data.update()
     assert bpy.ops.object.body_moments_clear(kinds={"MASS"}) == {"FINISHED"}
     bpy.context.view_layer.update()
-    assert staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) == Stale.GEOMETRY
+    assert staleness.stale_reason(obj, bpy.context.scene, Kind.SYMMETRY) == Stale.GEOMETRY
 
 
 def test_undo_of_clearing_stale_results_keeps_them_stale():
@@ -72,7 +71,5 @@ def test_undo_of_clearing_stale_results_keeps_them_stale():
     obj.data.update()
     bpy.ops.ed.undo_push(message="edited")
     assert bpy.ops.object.body_moments_clear("EXEC_DEFAULT", True) == {"FINISHED"}
-    bpy.ops.ed.undo()
-    bpy.context.view_layer.update()
-    obj = bpy.data.objects["Body"]
+    obj = after(bpy.ops.ed.undo)
     assert "body_mass" in obj and staleness.stale_reason(obj, bpy.context.scene) == Stale.GEOMETRY

@@ -12,7 +12,7 @@ import bpy
 import numpy as np
 import pytest
 
-from tests.blender.objects import add, measured, mesh_body, only
+from tests.blender.objects import add, editing, measured, mesh_body, only
 from tests.core.exact_splines import sphere
 from tests.core.iges_files import IgesFile, unrolled
 from tests.operators.balancing import edit, figure
@@ -145,15 +145,9 @@ def steel(folder):
 
 def flipped(folder):
     """One face turned around, one missing."""
-    import bmesh
-
-    built = bmesh.new()
-    built.from_mesh(bpy.context.object.data)
-    built.faces.ensure_lookup_table()
-    bmesh.ops.reverse_faces(built, faces=[built.faces[1]])
-    built.faces.remove(built.faces[4])
-    built.to_mesh(bpy.context.object.data)
-    built.free()
+    with editing(bpy.context.object.data) as mesh:
+        mesh.faces[1].normal_flip()
+        mesh.faces.remove(mesh.faces[4])
 
 
 def edited(folder):

@@ -9,6 +9,9 @@ from math import atan2, degrees
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.session.stored import stability
+from body_moments.blender.session.tracking.staleness import stale_reason
+from body_moments.blender.session.tracking.stamps import Kind
 
 from tests.blender import objects
 from tests.close import close
@@ -19,10 +22,8 @@ BLENDER = 1e-6  # of the size, through float32 matrices
 
 
 def support(obj):
-    from body_moments.blender.session.stored import stability
-
     bpy.context.view_layer.update()
-    return stability.support(obj)
+    return stability.support(obj, bpy.context.scene)
 
 
 def lowest(obj):
@@ -115,15 +116,12 @@ def test_balance_makes_a_wedge_stand(scene):
 
 
 def test_an_edit_puts_it_out_of_date(scene):
-    from body_moments.blender.session.stored import stability
-    from body_moments.blender.session.tracking.staleness import stale_reason
-
     obj = objects.add(box((4.0, 2.0, 6.0)))
     bpy.ops.object.body_moments_stability()
     for vertex in obj.data.vertices[:4]:
         vertex.co.x -= 1.0
     obj.data.update()
-    assert support(obj) is None and stale_reason(obj, scene, stability.stamp_of)
+    assert support(obj) is None and stale_reason(obj, scene, Kind.HULL)
     bpy.ops.object.body_moments_stability()
     assert close(obj["body_volume"], 60.0, BLENDER) and support(obj).stands
 

@@ -10,7 +10,10 @@ from importlib import import_module
 from types import SimpleNamespace
 
 import bpy
-from body_moments.core.verdict import finding
+from body_moments import panels
+from body_moments.blender.registration import classes_of
+from body_moments.core.verdict import finding, sentences
+from body_moments.panels import body, places
 
 LAYOUT = bpy.types.UILayout.bl_rna
 ICONS = LAYOUT.functions["label"].parameters["icon"].enum_items
@@ -149,8 +152,6 @@ def shown(closed=(), without=()):
 
     without: names of sub-panels.
     """
-    from body_moments.panels import body, places
-
     layout = Layout(closed=closed)
     body.VIEW3D_PT_body_moments.draw(SimpleNamespace(layout=layout), bpy.context)
     for name in places.ORDER:
@@ -163,11 +164,9 @@ def shown(closed=(), without=()):
 
 def every_panel():
     """The labels of all panels, of both places, that Blender's own context shows."""
-    from body_moments import panels
-
     layout = Layout()
     for module in panels.MODULES:
-        for cls in getattr(import_module("body_moments.panels." + module), "CLASSES", ()):
+        for cls in classes_of(import_module("body_moments.panels." + module)):
             # else Blender's
             is_ours = issubclass(cls, bpy.types.Panel) and not hasattr(cls, "preset_add_operator")
             if is_ours and (not hasattr(cls, "poll") or cls.poll(bpy.context)):
@@ -195,7 +194,6 @@ def copied(record, unit):
 def findings_of(obj, severity=None):
     """The codes that are stored, all or of one severity."""
     from body_moments.blender.write import properties
-    from body_moments.core.verdict import sentences
 
     found = properties.findings(obj)
     return [

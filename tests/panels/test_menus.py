@@ -6,6 +6,8 @@ from types import SimpleNamespace
 
 import bpy
 import pytest
+from body_moments.blender.registration import classes_of, register_modules, unregister_modules
+from body_moments.panels import menus
 
 from tests.blender.objects import add, mesh_body
 from tests.panels.drawing import Layout
@@ -14,9 +16,6 @@ pytestmark = pytest.mark.usefixtures("scene")
 
 
 def test_entries_are_in_the_menus_as_long_as_the_add_on_is():
-    from body_moments.blender.registration import register_modules, unregister_modules
-    from body_moments.panels import menus
-
     assert all(draw in menu.draw._draw_funcs for menu, draw in menus.MENUS)
     unregister_modules("body_moments.panels", ["menus"])
     try:
@@ -32,9 +31,9 @@ def drawn(menu):
 
 
 def test_no_operator_stands_in_two_menus():
-    from body_moments.panels import menus
-
-    entries = [entry for menu in menus.CLASSES for entry in drawn(menu) if entry[0] == "operator"]
+    entries = [
+        entry for menu in classes_of(menus) for entry in drawn(menu) if entry[0] == "operator"
+    ]
     assert len(entries) == len(set(entries)) > 20
 
 

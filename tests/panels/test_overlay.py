@@ -6,6 +6,8 @@ its pixels.
 
 import numpy as np
 import pytest
+from body_moments.panels.overlay import bodies, discs
+from body_moments.panels.overlay.discs import View
 
 from tests.close import close
 
@@ -13,8 +15,6 @@ from tests.close import close
 @pytest.fixture
 def view(registered):
     """A perspective of 60° from (3, -4, 5) at an odd size, rolled."""
-    from body_moments.panels.overlay.discs import View
-
     rotation = np.linalg.qr(np.random.default_rng(3).standard_normal((3, 3)))[0]
     rotation *= np.sign(np.linalg.det(rotation))
     matrix = np.eye(4)
@@ -49,23 +49,19 @@ def test_shapes_have_their_size_in_pixels_wherever_they_are(view):
 
 
 def test_an_equal_box_has_the_inertia_of_the_body(registered):
-    from body_moments.panels.overlay import lines
-
     sides = np.array([1.0, 2.0, 5.0])
     inertia = (sides @ sides - sides**2) / 12.0  # of a box of mass 1
     centers, axes = np.array([[10.0, 20.0, 30.0]]), np.eye(3)[None]
-    corners = lines.box_lines(centers, axes, np.sqrt(inertia)[None]).reshape(-1, 3)
+    corners = bodies.box_lines(centers, axes, np.sqrt(inertia)[None]).reshape(-1, 3)
     assert close(np.ptp(corners, axis=0), sides, 1e-12)
     assert close(corners.mean(axis=0), centers[0], 1e-12)
 
 
 def test_an_equal_ellipsoid_has_the_inertia_of_the_body(registered):
-    from body_moments.panels.overlay import lines
-
     half = np.array([1.0, 2.0, 5.0])
     inertia = (half @ half - half**2) / 5.0
     turn = np.linalg.qr(np.random.default_rng(1).standard_normal((3, 3)))[0]
-    points = lines.ellipsoid_lines(np.zeros((1, 3)), turn[None], np.sqrt(inertia)[None]).reshape(
+    points = bodies.ellipsoid_lines(np.zeros((1, 3)), turn[None], np.sqrt(inertia)[None]).reshape(
         -1, 3
     )
     assert close(((points @ turn / half) ** 2).sum(axis=1), 1.0, 1e-12)
@@ -73,32 +69,27 @@ def test_an_equal_ellipsoid_has_the_inertia_of_the_body(registered):
 
 
 def test_axes_are_as_long_as_the_largest_gyration(registered):
-    from body_moments.panels.overlay import lines
-
     gyration = np.array([[1.0, 2.0, 3.0]])
     turn = np.linalg.qr(np.random.default_rng(2).standard_normal((3, 3)))[0]
-    segments = lines.axis_lines(np.ones((1, 3)), turn[None], gyration)[0]
+    segments = bodies.axis_lines(np.ones((1, 3)), turn[None], gyration)[0]
     assert close(segments.mean(axis=1), 1.0, 1e-12)
     assert close(segments[:, 1] - segments[:, 0], 2.0 * 3.0 * turn.T, 1e-12)
 
 
 @pytest.mark.parametrize("size", [1e-4, 0.01, 0.3, 3.0])
 def test_disc_is_never_larger_than_its_ball(view, size):
-    from body_moments.panels.overlay import discs
-    from body_moments.panels.overlay.bodies import Bodies
-
     centers = in_front(view)
     count = len(centers)
     gyration = np.full((count, 3), size * np.sqrt(0.4))
     for verdict in range(5):
-        bodies = Bodies(
+        drawn = bodies.Bodies(
             centers,
             np.tile(np.eye(3), (count, 1, 1)),
             gyration,
             np.full(count, verdict),
             *np.ones((2, count), bool),
         )
-        points, _, _ = discs.disc_triangles(bodies, view, 1.0)
+        points, _, _ = discs.disc_triangles(drawn, view, 1.0)
         order = np.argsort(-view.depths(centers), kind="stable")
         pixels = (
             view.pixels(points.astype(float)).reshape(count, -1, 2)

@@ -5,6 +5,8 @@
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.session.displayed import displayed
+from body_moments.blender.session.stored import outcome
 
 from tests.blender.grids import vdb_grid, volume_object
 from tests.blender.objects import add, arrays, measured, mesh_body, only
@@ -14,8 +16,6 @@ pytestmark = pytest.mark.usefixtures("scene")
 
 
 def test_a_refusal_goes_with_undo_selection_and_success():
-    from body_moments.blender.session.stored import outcome
-
     obj, other = add(mesh_body()), add(mesh_body(), "Other", select=False)
     only(obj)
     settings = obj.body_moments
@@ -87,8 +87,6 @@ def test_absent_label_is_refused_beside_its_field(tmp_path):
 @pytest.mark.parametrize("frame", ["WORLD", "OBJECT"])
 @pytest.mark.parametrize("unit", [1.0, 0.001])
 def test_the_frame_shown_is_the_frame_chosen(frame, unit):
-    from body_moments.blender.session.displayed import displayed
-
     scene = bpy.context.scene
     scene.unit_settings.scale_length = unit
     obj = add(mesh_body(), location=(1, 2, 3), rotation=(0.3, 0.2, 0.1), scale=(1, 2, -1))
@@ -153,8 +151,6 @@ def test_total_counts_measured_objects_and_names_others():
 
 
 def test_objects_without_a_shape_are_passed_over():
-    from body_moments.blender.session.stored import outcome
-
     obj, light = add(mesh_body()), bpy.data.lights.new("Light", "POINT")
     others = [bpy.data.objects.new("Empty", None), bpy.data.objects.new("Light", light)]
     for other in others:

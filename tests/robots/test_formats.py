@@ -114,7 +114,7 @@ def test_tiny_body_is_raised_by_mujoco_with_a_finding(form):
         small.axes,
     )
     robot = Robot("tiny", (Link("grain", tiny),))
-    assert [found.code for found in form.check(robot)] == ["mjcf_inertia_too_small"]
+    assert [found.code for found in form.check(robot)] == ["inertia_too_small"]
     model = mujoco.MjModel.from_xml_string(form.write(robot))
     assert (
         model.body("grain").mass[0] >= form.LEAST

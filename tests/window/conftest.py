@@ -124,6 +124,7 @@ def open_window(run_blender, file: Path, folder: Path, **more):
         run_blender.blender, run_blender.user, file, log, artefacts, **more
     ) as opened:
         yield opened
+        assert "Traceback" not in opened.output()
 
 
 @pytest.fixture(scope="module")

@@ -183,6 +183,11 @@ class Window:
         x, y, width, height = self.region("WINDOW")
         self.move(x + width * 0.3, y + height * 0.2)
 
+    def undo(self) -> None:
+        """Press the key of undo in the 3D View."""
+        self.point_at_view()
+        self.key("ctrl+z")
+
     def open_tab(self, name: str) -> None:
         """Open the sidebar with the key for it and bring a tab to the front."""
         if not self.get("area.spaces.active.show_region_ui"):

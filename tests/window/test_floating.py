@@ -58,9 +58,9 @@ def test_waterline_follows_a_heeled_hull(window):
 
 def test_buttons_list_positions_and_righting_arms(window):
     window.press("object.body_moments_float_positions")
-    window.wait(f"{SESSION}.known_body({HULL}).rests != ()")
+    window.wait(f"{SESSION}.memory.afloat[{HULL}].rests != ()")
     window.press("object.body_moments_righting_arms")
-    window.wait(f"{SESSION}.known_body({HULL}).curve is not None")
+    window.wait(f"{SESSION}.memory.afloat[{HULL}].curve is not None")
     window.point_at_view()
     window.picture("floating-arms")
 
@@ -113,7 +113,7 @@ def test_open_boat_floats_and_shows_its_range(window):
     window.wait("bpy.data.objects['Boat'].location.z < 0.5")
     window.press("object.body_moments_righting_arms")
     held = HELD.replace("'Cube'", "'Boat'")
-    window.wait(f"{SESSION}.known_body(bpy.data.objects['Boat']).curve is not None")
+    window.wait(f"{SESSION}.memory.afloat[bpy.data.objects['Boat']].curve is not None")
     at_rest, draught, heel = window.ask(held)
     assert at_rest and abs(heel) < 1e-3 and 0.1 < draught < 0.5
     window.ask("bpy.data.objects['Boat'].rotation_euler.x = 0.3")

@@ -179,6 +179,5 @@ def test_transform_writes_a_file_and_shows_slices(window, tmp_path):
     window.picture("fourier")
     with np.load(path) as found:
         assert found["q"].shape == (16**3, 3) and found["F"].shape == (16**3,)
-    window.point_at_view()
-    window.key("ctrl+z")
+    window.undo()
     window.wait("not " + IMAGES)

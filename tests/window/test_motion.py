@@ -65,7 +65,6 @@ def test_parabola_explains_the_momentum(jump):
     found = "bpy.context.window_manager.operators[-1].properties"
     assert window.get(f"({found}.take_off, {found}.landing)") == [8, 24]
     window.picture("motion-parabola")
-    assert "Traceback" not in window.output()
 
 
 def test_spin_is_keyed_and_the_path_is_traced(jump):
@@ -75,7 +74,6 @@ def test_spin_is_keyed_and_the_path_is_traced(jump):
     window.wait(f"any('rotation' in curve.data_path for curve in {CURVES})")
     window.press("pose.body_moments_trace")
     window.wait(f"'body_balance_momentum' not in {EMPTY}")
-    assert "Traceback" not in window.output()
 
 
 @pytest.mark.skipif(

@@ -120,8 +120,7 @@ def test_buttons_stay_after_press_edit_and_undo(window):
     window.picture("positions-edited")
     assert_in_place(window, before)
     for _ in range(2):
-        window.point_at_view()
-        window.key("ctrl+z")
+        window.undo()
         assert_in_place(window, before)
 
 

@@ -88,8 +88,7 @@ def test_a_click_on_a_line_selects_that_object(listed):
         found += window.get(SELECTED)
     assert found == ["Large", "Open", "Small"]
     window.picture("list-clicked")
-    window.point_at_view()
-    window.key("ctrl+z")
+    window.undo()
     window.redraw()
 
 

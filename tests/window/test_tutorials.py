@@ -250,8 +250,7 @@ def test_print_is_made_to_stand_by_its_infill(window):
     window.press("object.body_moments_make_it_stand")
     window.wait("bpy.context.object.body_moments.print_infill > 5.0")
     take_picture(window, "print-stands")
-    window.point_at_view()
-    window.key("ctrl+z")
+    window.undo()
     window.wait("bpy.context.object.body_moments.print_infill == 5.0")
 
 
@@ -326,7 +325,3 @@ def test_page_shows_what_its_button_does(window, name):
     take_picture(window, "page-" + name)
     last = window.get("bpy.context.window_manager.operators[-1].bl_idname")
     assert last.lower().replace("_ot_", ".") == operator
-
-
-def test_nothing_was_printed_by_a_failing_panel(window):
-    assert "Traceback" not in window.output()

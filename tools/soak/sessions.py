@@ -18,8 +18,7 @@ import bmesh
 import bpy
 import numpy as np
 from body_moments.blender.read.mesh import MAX_DIGESTED_FACES
-from body_moments.blender.session import displayed
-from body_moments.blender.session.live import following
+from body_moments.blender.session import displayed, memory
 from body_moments.blender.session.live import measuring as live
 from body_moments.blender.session.tracking import handlers, staleness
 from body_moments.blender.write import properties
@@ -109,7 +108,7 @@ class Session:
     def check_object(self, obj, place):
         scene = bpy.context.scene
         is_stored = properties.is_stored(obj) and staleness.stale_reason(obj, scene) is None
-        current = displayed.displayed(obj, scene) if following.is_live(obj) else None
+        current = displayed.displayed(obj, scene) if obj in memory.followed else None
         shown = (
             None
             if current is None or current.verdict == displayed.Verdict.OUT_OF_DATE

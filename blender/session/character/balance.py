@@ -16,12 +16,8 @@ import numpy as np
 from bpy.types import Context, Object, PoseBone
 from mathutils import Quaternion, Vector
 
-from ....core.numerics import Array, NDArray
-from ....core.statics import ground_axes
-from ....core.verdict import EditRefusedError
-from ...read.tracking import tracking_paused
-from ...scale import meters_per_unit
-from ...write.reports import Refused, distance
+from ....core import numerics, statics, verdict
+from ... import read, scale, write
 from ..findings import NO_SUCH_NAME
 from . import weight as character
 from .weight import Character, Weight, bone_matrices
@@ -65,8 +61,8 @@ NO_CONTACT = (
 class _Look(NamedTuple):
     """The (3,) center, the bone's (3,) head, and the farthest move of a contact's bone."""
 
-    center: Array
-    head: Array
+    center: numerics.Array
+    head: numerics.Array
     slip: float
 
 
@@ -89,7 +85,7 @@ class _Handle:
         if turns and (mode == "axis_angle" or mode == "quaternion" and any(locks)):
             self.free = []  # their channels are none about an axis
 
-    def put(self, change: NDArray) -> None:
+    def put(self, change: numerics.NDArray) -> None:
         """Set the channels to their first values, changed by (3,) lengths or angles."""
         if self.channel == "rotation_quaternion":
             turn = Vector(change)
@@ -121,9 +117,9 @@ class _Search:
         self.context = context
         self.armature = armature
         self.known = known
-        self.unit = meters_per_unit(context.scene)
-        self.failure = Refused(UNMOVABLE)
-        self.axes = ground_axes(-weight.support.up)
+        self.unit = scale.meters_per_unit(context.scene)
+        self.failure = write.reports.Refused(UNMOVABLE)
+        self.axes = statics.ground_axes(-weight.support.up)
         self.target = weight.support.target(margin)
         is_carried = weight.contacts.bones >= 0
         self.bones = weight.contacts.bones[is_carried]
@@ -134,11 +130,11 @@ class _Search:
             matrices[:, :3, :3], (self.points - matrices[:, :3, 3])[:, :, None]
         )
 
-    def gap(self, center: NDArray) -> Array:
+    def gap(self, center: numerics.NDArray) -> numerics.Array:
         """Return the (2,) displacement along the ground from a center to the target."""
         return (self.target - center) @ self.axes[:, :2]
 
-    def look(self, handle: _Handle, change: NDArray) -> _Look:
+    def look(self, handle: _Handle, change: numerics.NDArray) -> _Look:
         """Evaluate a change of the channels."""
         handle.put(change)
         self.context.view_layer.update()
@@ -158,7 +154,7 @@ class _Search:
         self.nudge = max(NUDGE * size, 10.0 * self.noise)
         self.scale = size if handle.turns else max(map(abs, self.armature.matrix_world.to_scale()))
         # of usable channels, and how they move the center
-        units: list[NDArray] = []
+        units: list[numerics.NDArray] = []
         shifts = []
         for axis, sign in ((axis, sign) for axis in handle.free for sign in (1.0, -1.0)):
             unit = sign * np.eye(3)[axis]
@@ -189,7 +185,13 @@ class _Search:
         setattr(handle.bone, handle.channel, handle.start)
         return False
 
-    def _solve(self, handle: _Handle, units: NDArray, change: NDArray, head: NDArray) -> bool:
+    def _solve(
+        self,
+        handle: _Handle,
+        units: numerics.NDArray,
+        change: numerics.NDArray,
+        head: numerics.NDArray,
+    ) -> bool:
         """Find the least move from a first change of the units on; return whether the center is
         over the target, the bone no higher than it was, and the contacts in place.
         """
@@ -198,7 +200,7 @@ class _Search:
         reached = REACHED * size + self.noise
         tolerance = STAYED * size + self.noise
 
-        def missing(seen: _Look) -> NDArray:
+        def missing(seen: _Look) -> numerics.NDArray:
             lift = [] if handle.turns else [up @ (head - seen.head)]
             return np.array([*((self.target - seen.center) @ self.axes[:, :2]), *lift])
 
@@ -233,9 +235,11 @@ class _Search:
             seen = trial
         if self.failure.text == UNMOVABLE:
             lengths = {"gap": gap, "slip": seen.slip}
-            values = {name: distance(self.unit * value) for name, value in lengths.items()}
+            values = {
+                name: write.reports.distance(self.unit * value) for name, value in lengths.items()
+            }
             text = TOO_FAR if seen.slip <= tolerance else STRETCHED
-            self.failure = Refused(text, bone=handle.bone.name, **values)
+            self.failure = write.reports.Refused(text, bone=handle.bone.name, **values)
         return False
 
 
@@ -249,22 +253,24 @@ def balance_pose(
     None for the middle. Return the bone, the remaining gap and the margin; nothing if the
     character is balanced already.
     """
-    unit = meters_per_unit(context.scene)
+    unit = scale.meters_per_unit(context.scene)
     character.require_gravity(context.scene)
     if name and name not in armature.pose.bones:
-        raise EditRefusedError(NO_SUCH_NAME, kind="bone", name=name)
+        raise verdict.EditRefusedError(NO_SUCH_NAME, kind="bone", name=name)
     character.prepare(context, armature)
     weight = character.weight(armature, context.evaluated_depsgraph_get())
     known = character.character(armature, unit)
     assert weight is not None and known is not None
     if weight.contacts.height is None:
-        raise Refused(NO_CONTACT, armature=armature.name)
+        raise write.reports.Refused(NO_CONTACT, armature=armature.name)
     if weight.support is None:
-        raise Refused(IN_AIR, height=distance(unit * weight.contacts.height))
+        raise write.reports.Refused(
+            IN_AIR, height=write.reports.distance(unit * weight.contacts.height)
+        )
     search = _Search(context, armature, known, weight, margin)
     if np.linalg.norm(search.gap(weight.parts.center)) <= REACHED * known.size:
         return {}
-    with tracking_paused():
+    with read.tracking.tracking_paused():
         moved = next(filter(search.balance, _handles(context, armature, known, name)), None)
         context.view_layer.update()
     if moved is None:
@@ -277,7 +283,7 @@ def balance_pose(
     assert after is not None and after.support is not None
     gap = float(np.linalg.norm(search.gap(after.parts.center)))
     lengths = {"gap": gap, "margin": after.support.margin}
-    values = {name: distance(unit * value) for name, value in lengths.items()}
+    values = {name: write.reports.distance(unit * value) for name, value in lengths.items()}
     return {"bone": moved.bone.name} | values
 
 

@@ -10,14 +10,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from bpy.types import Context, Depsgraph, Object, PoseBone
 
-from ....core.bodies import float64_matrix
-from ....core.numerics import Array, NDArray, polar_rotation, quaternion, rotation_matrix
-from ....core.rig import continuous, divide_frames, in_pieces, rotation_values
+from ....core import bodies, numerics, rig
+from ... import scene, write
 from ...read.tracking import tracking_paused
-from ...scene import fcurves, strips
-from ...scene.changes import require_editable
-from ...scene.transforms import TransformChannels
-from ...write.reports import Refused
 from .weight import Character
 
 # relative to the character's size: a trial move, and the tolerance of the parts that follow
@@ -44,7 +39,9 @@ class Carrier:
 
     armature: Object
     owner: PoseBone | Object
-    frames: list[tuple[NDArray, NDArray, dict[str, NDArray]]] = field(default_factory=list)
+    frames: list[tuple[numerics.NDArray, numerics.NDArray, dict[str, numerics.NDArray]]] = field(
+        default_factory=list
+    )
 
     @property
     def rotation(self) -> str:
@@ -53,9 +50,9 @@ class Carrier:
         return kinds.get(self.owner.rotation_mode, "rotation_euler")
 
     @property
-    def axes(self) -> Array:
+    def axes(self) -> numerics.Array:
         """(s, 3, 3) rotations of the carrier in the world."""
-        polar, _ = polar_rotation(np.array([world for world, _, _ in self.frames]))
+        polar, _ = numerics.polar_rotation(np.array([world for world, _, _ in self.frames]))
         return polar * np.sign(np.linalg.det(polar))[:, None, None]
 
     @property
@@ -76,33 +73,35 @@ class Carrier:
     def read(self, depsgraph: Depsgraph) -> None:
         """Add the frame that the depsgraph shows."""
         owner = evaluated = self.armature.evaluated_get(depsgraph)
-        world = float64_matrix(evaluated.matrix_world)
+        world = bodies.float64_matrix(evaluated.matrix_world)
         if self.owner != self.armature:
             owner = evaluated.pose.bones[self.owner.name]
-            world = world @ float64_matrix(owner.matrix)
+            world = world @ bodies.float64_matrix(owner.matrix)
         values = {
             name: np.array(getattr(owner, name), np.float64)
             for name in ("location", self.rotation, "scale")
         }
-        self.frames.append((world, float64_matrix(owner.matrix_basis), values))
+        self.frames.append((world, bodies.float64_matrix(owner.matrix_basis), values))
 
     def require_free(self, turns: bool) -> None:
         """Raise Refused unless keys on the channels have an effect and are allowed."""
-        require_editable(self.armature)
+        scene.changes.require_editable(self.armature)
         owner = self.owner
-        if others := fcurves.sharing(self.armature):
-            raise Refused(SHARED, name=self.armature.name, others=others)
+        if others := scene.fcurves.sharing(self.armature):
+            raise write.reports.Refused(SHARED, name=self.armature.name, others=others)
         for channel in ("location", "rotation")[: 1 + turns]:
             path = self.path("location" if channel == "location" else self.rotation)
             for state, holds in self._states(channel, path):
                 if holds:
-                    raise Refused(NOT_FREE, name=owner.name, channel=channel, state=state)
+                    raise write.reports.Refused(
+                        NOT_FREE, name=owner.name, channel=channel, state=state
+                    )
 
     def _states(self, channel: str, path: str) -> Iterator[tuple[str, bool]]:
         """Yield the reasons why keys on a channel would be of no use, and whether they hold."""
         owner = self.owner
         animation = self.armature.animation_data
-        curves = fcurves.existing_curves(self.armature)
+        curves = scene.fcurves.existing_curves(self.armature)
         keyed = [curve for curve in curves if curve.data_path == path]
         locked = any(getattr(owner, "lock_" + channel)) or any(curve.lock for curve in keyed)
         yield "locked", locked
@@ -127,9 +126,9 @@ class Carrier:
         move = np.eye(4)
         move[:3, 3] = TRIAL * known.size
         if turns:
-            move[:3, :3] = rotation_matrix([1.0, TRIAL, TRIAL, TRIAL])
+            move[:3, :3] = numerics.rotation_matrix([1.0, TRIAL, TRIAL, TRIAL])
             move[:3, 3] += before.center - move[:3, :3] @ before.center
-        stored = TransformChannels(self.owner)
+        stored = scene.transforms.TransformChannels(self.owner)
         with tracking_paused():
             place, turn = trial.wanted(move[None])
             self.owner.location = place[0]
@@ -144,32 +143,36 @@ class Carrier:
         off = (np.abs(after.matrices - expected)[:, :3] / units).max(axis=(1, 2))
         return before.names[int(off.argmax())] if off.max() > FOLLOWS else ""
 
-    def wanted(self, moves: NDArray) -> tuple[Array, Array]:
+    def wanted(self, moves: numerics.NDArray) -> tuple[numerics.Array, numerics.Array]:
         """Return the (s, 3) locations and (s, 4) continuous quaternions of the channels for a (4,
         4) move in the world at each time read.
         """
         world, basis = (np.array([frame[part] for frame in self.frames]) for part in (0, 1))
         wanted = basis @ np.linalg.inv(world) @ moves @ world
-        turns = quaternion(wanted[:, :3, :3] / self._old("scale")[:, None])
-        return wanted[:, :3, 3], continuous(turns)
+        turns = numerics.quaternion(wanted[:, :3, :3] / self._old("scale")[:, None])
+        return wanted[:, :3, 3], rig.continuous(turns)
 
-    def values(self, turns: NDArray, old: NDArray) -> Array:
+    def values(self, turns: numerics.NDArray, old: numerics.NDArray) -> numerics.Array:
         """Return the (s, k) values of the rotation's channels for (s, 4) quaternions.
 
         old: (s, k) values, which decide on the first of several and on lengths of no effect.
         """
-        values = rotation_values(rotation_matrix(turns), self.owner.rotation_mode, old[0])
+        values = rig.rotation_values(
+            numerics.rotation_matrix(turns), self.owner.rotation_mode, old[0]
+        )
         if self.rotation != "rotation_euler":
             part = slice(-3, None) if self.rotation == "rotation_axis_angle" else slice(None)
             norms = np.linalg.norm(old[:, part], axis=1, keepdims=True)
             values[:, part] *= np.maximum(norms, LEAST_NORM)
         return values
 
-    def _old(self, name: str) -> Array:
+    def _old(self, name: str) -> numerics.Array:
         """Return the (s, k) values of a channel at the times read."""
         return np.array([values[name] for _world, _basis, values in self.frames])
 
-    def key(self, moves: NDArray, times: NDArray, turns: bool, as_layer: bool) -> None:
+    def key(
+        self, moves: numerics.NDArray, times: numerics.NDArray, turns: bool, as_layer: bool
+    ) -> None:
         """Key (4, 4) moves at the nodes of frames, which begin and end at these times of F-curves.
 
         Frames have further keys between them if cubics would not follow the rotation.
@@ -180,28 +183,28 @@ class Carrier:
         places = np.arange(len(times)).astype(np.float64)
         if turns:
             mode = self.owner.rotation_mode
-            shortest = fcurves.JUMP / (times[1] - times[0])
-            places = divide_frames(quaternions, mode, old[self.rotation][0], shortest)
+            shortest = scene.fcurves.JUMP / (times[1] - times[0])
+            places = rig.divide_frames(quaternions, mode, old[self.rotation][0], shortest)
         times = np.interp(places, np.arange(len(times)), times)
         channels = {}
         for name, before in old.items():
-            fcurves.ensure_keyed(armature, self.path(name), before[0], times[0], as_layer)
-            before = in_pieces(before, places)
+            scene.fcurves.ensure_keyed(armature, self.path(name), before[0], times[0], as_layer)
+            before = rig.in_pieces(before, places)
             if name == "location":
-                new = in_pieces(locations, places)
+                new = rig.in_pieces(locations, places)
             else:
-                new = self.values(in_pieces(quaternions, places), before)
+                new = self.values(rig.in_pieces(quaternions, places), before)
             if as_layer and name == "rotation_quaternion":
-                first, last = rotation_matrix(before), rotation_matrix(new)
-                new = continuous(quaternion(first.swapaxes(1, 2) @ last))
+                first, last = numerics.rotation_matrix(before), numerics.rotation_matrix(new)
+                new = rig.continuous(numerics.quaternion(first.swapaxes(1, 2) @ last))
                 new *= np.sign(new[0, 0])
             elif as_layer:
                 new = new - before
             channels.update({(self.path(name), axis): rows for axis, rows in enumerate(new.T)})
         if as_layer:
-            strips.add_layer(armature, LAYER, times, channels)
+            scene.strips.add_layer(armature, LAYER, times, channels)
             return
-        for curve in fcurves.ensure_curves(armature):
+        for curve in scene.fcurves.ensure_curves(armature):
             rows = channels.get((curve.data_path, curve.array_index))
             if rows is not None:
-                fcurves.replace_section(curve, times, rows)
+                scene.fcurves.replace_section(curve, times, rows)

@@ -15,14 +15,11 @@ import numpy as np
 from bpy.types import Context, Depsgraph, Object, Scene
 from mathutils import Quaternion
 
-from ....core.numerics import Array, Mask, NDArray, quaternion, rotation_matrix
+from ....core import numerics, verdict
 from ....core.rig import Parts, motion, spin
-from ....core.verdict import EditRefusedError
-from ...read.rig import require_armature
-from ...read.tracking import tracking_paused
+from ... import read, write
 from ...scale import meters_per_unit
 from ...scene import fcurves
-from ...write.reports import Refused
 from ..balance_group import BalanceGroup
 from ..findings import NO_SUCH_NAME
 from ..stored import balance_groups
@@ -76,7 +73,7 @@ class CharacterMotion(BalanceGroup):
 
     def __init__(self, context: Context, frames: range):
         scene = context.scene
-        armature = require_armature(context.object)
+        armature = read.rig.require_armature(context.object)
         weight.require_gravity(scene)
         self.gravity = np.array(scene.gravity, np.float64)
         before = scene.frame_current
@@ -108,7 +105,7 @@ class CharacterMotion(BalanceGroup):
             self.carrier.read(depsgraph)
         if self._parts and parts.names != self._parts[0].names:
             several = set(parts.names).symmetric_difference(self._parts[0].names)
-            raise Refused(HELD_IN_PART, names=", ".join(sorted(several)))
+            raise write.reports.Refused(HELD_IN_PART, names=", ".join(sorted(several)))
         self._parts.append(parts)
         self.centers.append(parts.center)
 
@@ -122,7 +119,7 @@ class CharacterMotion(BalanceGroup):
         return motion.Course(self.step, self._parts[0].masses, centers, spreads, linear)
 
     @property
-    def touching(self) -> Mask:
+    def touching(self) -> numerics.Mask:
         """Mask (f,) of the frames in which the character touches the ground."""
         return np.array([support is not None for support in self.supports])
 
@@ -134,7 +131,7 @@ class CharacterMotion(BalanceGroup):
         bones = self.armature.pose.bones
         part = ""
         if name and name not in bones:
-            raise EditRefusedError(NO_SUCH_NAME, kind="bone", name=name)
+            raise verdict.EditRefusedError(NO_SUCH_NAME, kind="bone", name=name)
         roots = {
             [bones[known], *bones[known].parent_recursive][-1].name for known in self.known.names
         }
@@ -150,8 +147,8 @@ class CharacterMotion(BalanceGroup):
             if not part:
                 return
         if turns and (above := self.found.uneven_parent) is not None:
-            raise Refused(UNEVENLY_SCALED, name=owners[-1].name, above=above.name)
-        raise Refused(NOT_CARRIED, part=part, name=owners[0].name)
+            raise write.reports.Refused(UNEVENLY_SCALED, name=owners[-1].name, above=above.name)
+        raise write.reports.Refused(NOT_CARRIED, part=part, name=owners[0].name)
 
     def find_flight(self, scene: Scene) -> Iterator[int]:
         """Follow all frames, and find take-off and landing of the flight at the current frame, else
@@ -162,7 +159,9 @@ class CharacterMotion(BalanceGroup):
         frames = self.frames
         found = [flight for flight in motion.find_flights(touching) if touching[list(flight)].all()]
         if not found:
-            raise Refused(NO_FLIGHT, name=self.armature.name, start=frames[0], end=frames[-1])
+            raise write.reports.Refused(
+                NO_FLIGHT, name=self.armature.name, start=frames[0], end=frames[-1]
+            )
         current = scene.frame_current
         first, last = max(
             found,
@@ -184,7 +183,7 @@ class CharacterMotion(BalanceGroup):
         frames also followed.
         """
         if keep_height and self.is_layered:
-            raise Refused(LAYERED_TIMES)
+            raise write.reports.Refused(LAYERED_TIMES)
         if flight is None:
             yield from self.find_flight(scene)
         else:
@@ -199,7 +198,7 @@ class CharacterMotion(BalanceGroup):
         if self.landing != self.last:
             for curve in fcurves.existing_curves(self.armature):
                 if any(not one.mute for one in curve.modifiers):
-                    raise Refused(MODIFIED_TIMES, curve=curve.data_path)
+                    raise write.reports.Refused(MODIFIED_TIMES, curve=curve.data_path)
         self.before, self.after = before, after
         yield from self._sample(
             scene,
@@ -233,7 +232,7 @@ class CharacterMotion(BalanceGroup):
         assert self.carrier is not None
         return spin.CarriedParts.of_course(section, self.carrier.axes[rows])
 
-    def _moves(self, turns: bool) -> Array:
+    def _moves(self, turns: bool) -> numerics.Array:
         """Return (s, 4, 4) moves onto the arc between the ends, or turns of constant spin, blended
         around it.
         """
@@ -256,7 +255,7 @@ class CharacterMotion(BalanceGroup):
         # A turn about the momentum keeps it.
         axis = self.kept / max(float(np.linalg.norm(self.kept)), np.finfo(float).tiny)
         share = self.before / (self.before + self.after)
-        twist = quaternion(spun[-1])
+        twist = numerics.quaternion(spun[-1])
         back = spin.rotation(-2.0 * share * np.arctan2(twist[1:] @ axis, twist[0]) * axis)
         moves[flight, :3, :3] = back @ spun
         for rows, frames in (
@@ -264,10 +263,10 @@ class CharacterMotion(BalanceGroup):
             (slice(flight.stop, None), -self.after),
         ):
             edge = flight.start if frames > 0 else flight.stop - 1
-            whole = Quaternion(quaternion(moves[edge, :3, :3]))
+            whole = Quaternion(numerics.quaternion(moves[edge, :3, :3]))
             for row in range(len(moves))[rows]:
                 left = 1.0 - (places[edge] - places[row]) / frames
-                moves[row, :3, :3] = rotation_matrix(
+                moves[row, :3, :3] = numerics.rotation_matrix(
                     Quaternion().slerp(whole, left * left * (3.0 - 2.0 * left))
                 )
         moves[:, :3, 3] = centers - np.einsum("fij,fj->fi", moves[:, :3, :3], centers)
@@ -286,7 +285,7 @@ class CharacterMotion(BalanceGroup):
         frames = range(self.first - self.before, self.landing + self.after + 1)
         restore = fcurves.backup(self.armature)
         assert self.carrier is not None
-        with tracking_paused():
+        with read.tracking.tracking_paused():
             try:
                 if self.landing != self.last:
                     ends = scale * self.first, scale * self.last
@@ -299,7 +298,7 @@ class CharacterMotion(BalanceGroup):
                 if self.is_lost and not anyway:
                     owner = self.found.owner
                     is_quaternion = owner.rotation_mode == "QUATERNION"
-                    raise Refused(
+                    raise write.reports.Refused(
                         SPIN_LOST,
                         name=owner.name,
                         off=self.deviation,
@@ -312,7 +311,7 @@ class CharacterMotion(BalanceGroup):
         weight.keep(self.armature, *self._found)
         self._retrace(context)
 
-    def _check(self, off: NDArray, turns: bool) -> None:
+    def _check(self, off: numerics.NDArray, turns: bool) -> None:
         """Set the distance of the center at the keys, and the deviation of the momentum."""
         distance = float(np.linalg.norm(off[:: spin.LAST], axis=1).max())
         self.off = distance * self.unit if distance > FOLLOWS * self.known.size else 0.0

@@ -17,21 +17,14 @@ from dataclasses import dataclass, field
 import numpy as np
 from bpy.types import Context, Depsgraph, Object, Scene
 
+from ....core import numerics, statics, verdict
 from ....core.bodies import float64_matrix
 from ....core.inertia import COLUMNS, ROWS, PlainBody, principal_axes, tensor_rows
-from ....core.numerics import Array, Index, NDArray, second_of_inertia, shortest_decimal
 from ....core.rig import Parts
-from ....core.statics import Support, find_contacts, support_of_contacts
-from ....core.verdict import EditRefusedError, MeasureError, ReadError
+from ... import read, scale, write
 from ...bodies.findings import RIG_WITHOUT_PARTS, UNWEIGHTED_VERTICES
 from ...bodies.rig import Rig, measure_rig
-from ...read.bones import RestBones
-from ...read.mesh import vertex_points
-from ...read.rig import hanging_objects, held_objects, rest_pose, skinned_objects
-from ...scale import meters_per_unit
 from ...scene.rigid_world import down
-from ...write import properties
-from ...write.reports import Refused
 from .. import memory, stored
 from ..live.motion import Motion
 from ..tracking import handlers
@@ -58,8 +51,8 @@ class Contacts:
     above the ground; None without points.
     """
 
-    points: Array
-    bones: Index
+    points: numerics.Array
+    bones: numerics.Index
     names: tuple[str, ...]
     lifted: tuple[str, ...]
     height: float | None
@@ -76,8 +69,8 @@ class Weight:
 
     parts: Parts
     contacts: Contacts
-    support: Support | None
-    foot: Array
+    support: statics.Support | None
+    foot: numerics.Array
     body: PlainBody
 
 
@@ -92,7 +85,7 @@ class Character:
     size: float
     _motion: Motion = field(default_factory=lambda: Motion(1))  # of held objects
     # by session uid of a mesh object
-    _vertex_bones: dict[int, Index] = field(default_factory=dict)
+    _vertex_bones: dict[int, numerics.Index] = field(default_factory=dict)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -112,7 +105,7 @@ class Character:
         if not bodies:
             return None
         place = float64_matrix(armature.matrix_world)
-        frames = RestBones.read(armature).frames
+        frames = read.bones.RestBones.read(armature).frames
         centers = []
         spreads = []
         ends = []
@@ -121,7 +114,7 @@ class Character:
             (turn, head) = frames[name]
             to_bone = np.linalg.inv(place @ float64_matrix(bone.matrix_local))
             tensor = np.array(tensor_rows(body.inertia))
-            spread = second_of_inertia(tensor)
+            spread = numerics.second_of_inertia(tensor)
             linear = to_bone[:3, :3] @ turn / unit
             centers.append(linear @ body.center + to_bone[:3, :3] @ head + to_bone[:3, 3])
             spreads.append(linear @ spread @ linear.T)
@@ -137,20 +130,24 @@ class Character:
         row = {bone.name: index for index, bone in enumerate(bones)}
         matrices = bone_matrices(armature, depsgraph)[[row[name] for name in self.names]]
         shares = np.array([bones[name].body_moments.mass_from != "MASS" for name in self.names])
-        factors = self.model.factors_to(shortest_decimal(armature.body_moments_weight.mass), shares)
-        held = [self._held_part(obj, depsgraph) for obj, _ in held_objects(armature, depsgraph)]
+        factors = self.model.factors_to(
+            numerics.shortest_decimal(armature.body_moments_weight.mass), shares
+        )
+        held = [
+            self._held_part(obj, depsgraph) for obj, _ in read.rig.held_objects(armature, depsgraph)
+        ]
         return Parts.join([self.model.placed(matrices, factors), *held])
 
     def _held_part(self, obj: Object, depsgraph: Depsgraph) -> Parts:
         """Return a held object as a part at its own place, without mass if it cannot be
         measured.
         """
-        unit = meters_per_unit(depsgraph.scene)
+        unit = scale.meters_per_unit(depsgraph.scene)
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
         mass = np.zeros(1)
         center = matrix[:3, 3]
         spread = np.zeros((3, 3))
-        with suppress(MeasureError):
+        with suppress(verdict.MeasureError):
             moments = self._motion.mass_moments(obj, depsgraph)
             mass = np.array([moments.total])
             center = moments.center / unit
@@ -159,7 +156,7 @@ class Character:
 
     def stand(
         self, armature: Object, depsgraph: Depsgraph, ground: float
-    ) -> tuple[Parts, Contacts, Support | None]:
+    ) -> tuple[Parts, Contacts, statics.Support | None]:
         """Return the parts as evaluated, their contacts with the ground, and the support, None if
         nothing touches.
         """
@@ -168,7 +165,7 @@ class Character:
         gravity = down(depsgraph.scene)
         support = None
         if len(contacts.points):
-            support = support_of_contacts(contacts.points, parts.center, gravity, OUTLINE)
+            support = statics.support_of_contacts(contacts.points, parts.center, gravity, OUTLINE)
         return parts, contacts, support
 
     def contacts(self, armature: Object, depsgraph: Depsgraph, ground: float) -> Contacts:
@@ -186,10 +183,12 @@ class Character:
         bones = [np.zeros(0, np.intp)]
         for obj, bone in contact_objects(armature, depsgraph):
             evaluated = obj.evaluated_get(depsgraph)
-            points = vertex_points(evaluated.data)
+            points = read.mesh.vertex_points(evaluated.data)
             matrix = float64_matrix(evaluated.matrix_world)
             counts = may_touch[self._bones_of(obj, bone, names, depsgraph)] if named else True
-            near, touching, height = find_contacts(points, matrix, gravity, ground, reach, counts)
+            near, touching, height = statics.find_contacts(
+                points, matrix, gravity, ground, reach, counts
+            )
             lowest = min(lowest, height)
             places.append(touching)
             bones.append(self._bones_of(obj, bone, names, depsgraph, near))
@@ -205,8 +204,8 @@ class Character:
         bone: str | None,
         names: Sequence[str],
         depsgraph: Depsgraph,
-        rows: NDArray | None = None,
-    ) -> Index:
+        rows: numerics.NDArray | None = None,
+    ) -> numerics.Index:
         """Return the bone of most weight for each vertex of an object, as indices; rows: vertices,
         by default all.
         """
@@ -236,65 +235,59 @@ def measure(context: Context, armature: Object) -> Rig:
     """
     rig = measure_rig(context, armature)
     bare = [found for found in rig.measurement.findings if found.code == UNWEIGHTED_VERTICES]
-    meshes = skinned_objects(armature, rig.objects)
+    meshes = read.rig.skinned_objects(armature, rig.objects)
     if (
         meshes
         and len(bare) == len(meshes)
         and all(found.values["count"] == found.values["total"] for found in bare)
     ):
-        raise ReadError(RIG_WITHOUT_PARTS, subject=armature.name)
+        raise verdict.ReadError(RIG_WITHOUT_PARTS, subject=armature.name)
     return rig
 
 
 def character(armature: Object, unit: float) -> Character | None:
     """Return a measured character, None if its bones have not been measured."""
+    fingerprint = write.properties.fingerprint(armature)
+    known = memory.characters.get(armature)
+    if known is None or known[0] != fingerprint:
+        bodies = {bone.name: write.properties.stored(bone) for bone in armature.pose.bones}
+        known = fingerprint, Character.from_bodies(armature, bodies, unit)
+        memory.characters[armature] = known
+    return known[1]
 
-    def read() -> Character | None:
-        return Character.from_bodies(
-            armature, {bone.name: properties.stored(bone) for bone in bones}, unit
-        )
 
-    bones = armature.pose.bones
-    return memory.current_value(memory.characters, armature, properties.fingerprint(armature), read)
-
-
+@memory.until_change
 def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
     """Return a character as the dependency graph shows it, None if its bones have not been
     measured.
     """
-
-    def stand() -> Weight | None:
-        unit = meters_per_unit(depsgraph.scene)
-        known = character(armature, unit)
-        # removed in Edit Mode
-        if known is None or any(name not in armature.pose.bones for name in known.names):
-            return None
-        gravity = down(depsgraph.scene)
-        ground = armature.body_moments_weight.ground
-        parts, contacts, support = known.stand(armature, depsgraph, ground)
-        foot = (
-            parts.center - (parts.center @ gravity + ground) * gravity
-            if support is None
-            else support.foot
-        )
-        inertia = tuple((parts.inertia * unit**2)[ROWS, COLUMNS].tolist())
-        moments, axes, _ = principal_axes(inertia)
-        rest = properties.stored(armature) or PlainBody(0.0, 0.0, 0.0, 0.0, (), (), (), (), {})
-        center = tuple((parts.center * unit).tolist())
-        body = rest._replace(
-            mass=parts.mass, center=center, inertia=inertia, moments=moments, axes=axes
-        )
-        return Weight(parts, contacts, support, foot, body)
-
-    return memory.current_value(
-        memory.weights, armature, (memory.state.generation, depsgraph.scene.session_uid), stand
+    unit = scale.meters_per_unit(depsgraph.scene)
+    known = character(armature, unit)
+    # removed in Edit Mode
+    if known is None or any(name not in armature.pose.bones for name in known.names):
+        return None
+    gravity = down(depsgraph.scene)
+    ground = armature.body_moments_weight.ground
+    parts, contacts, support = known.stand(armature, depsgraph, ground)
+    foot = (
+        parts.center - (parts.center @ gravity + ground) * gravity
+        if support is None
+        else support.foot
     )
+    inertia = tuple((parts.inertia * unit**2)[ROWS, COLUMNS].tolist())
+    moments, axes, _ = principal_axes(inertia)
+    rest = write.properties.stored(armature) or PlainBody(0.0, 0.0, 0.0, 0.0, (), (), (), (), {})
+    center = tuple((parts.center * unit).tolist())
+    body = rest._replace(
+        mass=parts.mass, center=center, inertia=inertia, moments=moments, axes=axes
+    )
+    return Weight(parts, contacts, support, foot, body)
 
 
 def require_gravity(scene: Scene) -> None:
     """Raise Refused if a scene has no gravity."""
     if not (scene.use_gravity and any(scene.gravity)):
-        raise Refused(NO_GRAVITY)
+        raise write.reports.Refused(NO_GRAVITY)
 
 
 def find(context: Context, armature: Object) -> tuple[Character, float, Rig | None]:
@@ -303,7 +296,7 @@ def find(context: Context, armature: Object) -> tuple[Character, float, Rig | No
     Measure and find the ground only if necessary.
     """
     settings = armature.body_moments_weight
-    unit = meters_per_unit(context.scene)
+    unit = scale.meters_per_unit(context.scene)
     if not settings.show:
         require_gravity(context.scene)
     rig = _measure_outdated(context, armature)
@@ -317,7 +310,7 @@ def find(context: Context, armature: Object) -> tuple[Character, float, Rig | No
         }
         known = Character.from_bodies(armature, bodies, unit)
     if known is None:
-        raise ReadError(RIG_WITHOUT_PARTS, subject=armature.name)
+        raise verdict.ReadError(RIG_WITHOUT_PARTS, subject=armature.name)
     return known, settings.ground if settings.show else _find_ground(context, armature, known), rig
 
 
@@ -333,7 +326,7 @@ def store_rest(context: Context, armature: Object) -> None:
     """Measure the bones if necessary and possible, and store them: a posed character has its mass
     at rest.
     """
-    with suppress(MeasureError):
+    with suppress(verdict.MeasureError):
         rig = _measure_outdated(context, armature)
         if rig is not None:
             stored.results.store_rig(rig)
@@ -346,8 +339,8 @@ def keep(armature: Object, known: Character, ground: float, rig: Rig | None) -> 
         return
     try:
         stored.results.store_rig(rig)
-    except EditRefusedError:
-        memory.characters[armature] = properties.fingerprint(armature), known
+    except verdict.EditRefusedError:
+        memory.characters[armature] = write.properties.fingerprint(armature), known
         handlers.count_change(armature)
 
 
@@ -365,7 +358,7 @@ def _find_ground(context: Context, armature: Object, known: Character) -> float:
     The higher of the first two that is not above the posed character counts, else the posed lowest
     point.
     """
-    with rest_pose(context, armature) as depsgraph:
+    with read.rig.rest_pose(context, armature) as depsgraph:
         rest = known.contacts(armature, depsgraph, 0.0).height
     posed = known.contacts(armature, context.evaluated_depsgraph_get(), 0.0).height
     if rest is None or posed is None:
@@ -380,7 +373,10 @@ def contact_objects(armature: Object, depsgraph: Depsgraph) -> list[tuple[Object
     skinned meshes.
     """
     skinned = deformed_meshes(armature)
-    hanging = [*hanging_objects(armature, skinned), *held_objects(armature, depsgraph)]
+    hanging = [
+        *read.rig.hanging_objects(armature, skinned),
+        *read.rig.held_objects(armature, depsgraph),
+    ]
     return [
         (obj, bone)
         for obj, bone in [*((obj, None) for obj in skinned), *hanging]
@@ -388,7 +384,7 @@ def contact_objects(armature: Object, depsgraph: Depsgraph) -> list[tuple[Object
     ]
 
 
-def bone_matrices(armature: Object, depsgraph: Depsgraph) -> Array:
+def bone_matrices(armature: Object, depsgraph: Depsgraph) -> numerics.Array:
     """Return the (b, 4, 4) matrices of all pose bones in the world, as evaluated."""
     evaluated = armature.evaluated_get(depsgraph)
     posed = np.empty((len(evaluated.pose.bones), 4, 4), np.float32)

@@ -1,23 +1,17 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Objects with Live on and their current numbers: `measuring` makes them, the panels ask here."""
+"""Objects with Live on and their current numbers, as `memory.followed` keeps them."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-from bpy.types import Object
-
-from ....core import measurement as measuring
-from .. import memory, tracking
+from ....core import numerics, nurbs, verdict
 
 if TYPE_CHECKING:
     from ....core.measurement import Measurement
-    from ....core.numerics import Array
-    from ....core.nurbs import TrackedSolid
-    from ....core.verdict import Finding
     from .measuring import MovingSurface
 
 
@@ -30,64 +24,29 @@ class Lag(StrEnum):
     BEHIND = "behind"
 
 
-class LiveResult(NamedTuple):
-    """An object's current numbers.
-
-    measurement: None if it was refused. refusal: the reason for that. seconds: duration of the
-    measurement. settings: the digest of the object's settings.
-    """
-
-    measurement: Measurement | None
-    refusal: Finding | None
-    seconds: float
-    settings: str
-
-
 @dataclass(eq=False)
 class Followed:
     """An object with Live on.
 
-    matrix, transform, number: at the measurement, matrix_world, transform key and number of the
-    last update. tracked: the body, if edits are followed rather than measured anew. surface: the
-    faces, if a light pass can follow them. first_order: volume and center in the object's
-    coordinates by the last light pass. pass_seconds: its duration. shows_others: whether the object
-    shows instances. is_pending: whether the object changed since the measurement.
+    measurement: None if it was refused; refusal: the reason for that. seconds: duration of the
+    measurement. settings: the digest of the object's settings. matrix, transform, number: at the
+    measurement, matrix_world, transform key and number of the last update. tracked: the body, if
+    edits are followed rather than measured anew. surface: the faces, if a light pass can follow
+    them. first_order: volume and center in the object's coordinates by the last light pass.
+    pass_seconds: its duration. shows_others: whether the object shows instances. is_pending:
+    whether the object changed since the measurement.
     """
 
-    result: LiveResult | None = None
-    matrix: Array | None = None
+    measurement: Measurement | None = None
+    refusal: verdict.Finding | None = None
+    seconds: float = 0.0
+    settings: str = ""
+    matrix: numerics.Array | None = None
     transform: str = ""
     number: int = 0
-    tracked: TrackedSolid | None = None
+    tracked: nurbs.TrackedSolid | None = None
     surface: MovingSurface | None = None
-    first_order: tuple[float, Array] | None = None
+    first_order: tuple[float, numerics.Array] | None = None
     pass_seconds: float = 0.0
     shows_others: bool = False
     is_pending: bool = False
-
-
-def is_live(obj: Object) -> bool:
-    """Return whether Live is on for the object."""
-    return obj in memory.followed
-
-
-def current_numbers(obj: Object) -> LiveResult | None:
-    """Return the result of an object's last live measurement, or None if there is none or Live is
-    off.
-    """
-    current = memory.followed.get(obj)
-    return None if current is None else current.result
-
-
-def stamp_of(obj: Object) -> tracking.stamps.Stamp | None:
-    """Return a stamp of the settings of live numbers, as Blender does not report every change of a
-    setting.
-    """
-    now = current_numbers(obj)
-    return (
-        None
-        if now is None
-        else tracking.stamps.Stamp(
-            tracking.stamps.Kind.SETTINGS, measuring.settings.VERSION, settings=now.settings
-        )
-    )

@@ -36,7 +36,7 @@ def is_of_another_scale(obj: Object, current: Followed) -> bool:
     """Return whether the object was scaled since its measurement in a way that the numbers cannot
     follow.
     """
-    measured = None if current.result is None else current.result.measurement
+    measured = current.measurement
     if measured is None or read.fingerprint.has_transform(obj, current.transform):
         return False
     return _linear_map(obj, current, measured) is None

@@ -25,9 +25,7 @@ import bpy
 import numpy as np
 from bpy.types import Depsgraph, Object
 
-from ....core import bodies, mesh, numerics, nurbs, polyhedron
-from ....core.measurement import Body, Measurement
-from ....core.numerics import Integers
+from ....core import bodies, measurement, mesh, numerics, nurbs, polyhedron
 from ....core.verdict import MeasureError, Method, Procedure, ReadError, Source, internal_error
 from ...bodies.measure_body import measure_body
 from ...bodies.request import Request, measurement_of
@@ -40,7 +38,7 @@ from ...settings.preferences import preferences
 from .. import memory
 from ..stored import floating
 from ..tracking import handlers, updates
-from .following import Followed, LiveResult
+from .following import Followed
 
 BUDGET = 0.01  # s per redraw, if there are no preferences
 MAX_PASS = 5.0  # limit for the first pass of a redraw, in budgets
@@ -50,36 +48,31 @@ POLL = 0.1  # s between two checks whether these can begin
 FOLLOWED = {Procedure.EXACT, Procedure.CAPPED, Procedure.REORIENTED}
 
 
-def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:
+def update(obj: Object, depsgraph: Depsgraph) -> Followed:
     """Measure an object with Live on as it is now, and keep the outcome to be shown."""
     current = memory.followed[obj]
     start = time.thread_time()
-    measurement, refusal = None, None
+    current.measurement = current.refusal = None
     try:
-        measurement, current.surface = _measure(obj, current, depsgraph)
+        current.measurement, current.surface = _measure(obj, current, depsgraph)
     except MeasureError as error:
-        refusal = error.finding
+        current.refusal = error.finding
     except Exception as error:
-        refusal = internal_error.finding_of(error)
+        current.refusal = internal_error.finding_of(error)
         current.tracked = None  # a half-followed body is no start for the next edit
-    result = LiveResult(
-        measurement,
-        refusal,
-        time.thread_time() - start,
-        fingerprint.settings_hash(obj, depsgraph.scene),
-    )
-    current.result = result
+    current.seconds = time.thread_time() - start
+    current.settings = fingerprint.settings_hash(obj, depsgraph.scene)
     current.matrix = bodies.float64_matrix(obj.matrix_world)
     current.transform = fingerprint.transform_key(obj)
     current.first_order = None
     current.is_pending = False
     current.number = memory.state.updates
     handlers.count_change(obj)
-    return result
+    return current
 
 
-def start(obj: Object, depsgraph: Depsgraph) -> LiveResult:
-    """Turn Live on for an object, and return the result of its first measurement."""
+def start(obj: Object, depsgraph: Depsgraph) -> Followed:
+    """Turn Live on for an object, and return it with its first measurement."""
     memory.followed[obj] = Followed(shows_others=next(updates.shown_by(obj), None) is not None)
     return update(obj, depsgraph)
 
@@ -92,7 +85,7 @@ def stop(obj: Object) -> None:
 
 def _measure(
     obj: Object, current: Followed, depsgraph: Depsgraph
-) -> tuple[Measurement, MovingSurface | None]:
+) -> tuple[measurement.Measurement, MovingSurface | None]:
     plain = MeasureOptions(compare=False)
     request = Request.resolve(obj, depsgraph, plain)
     options = request.settings
@@ -118,7 +111,7 @@ def _measure(
     else:
         current.tracked.update(patches, stored)
     measure = current.tracked.measure
-    measured_body = Body(
+    measured_body = measurement.Body(
         measure.volume,
         measure.area,
         measure.health,
@@ -204,7 +197,9 @@ def _tick() -> float | None:
     budget = _budget()
     idle = time.monotonic() - memory.state.last_event >= IDLE and not is_playing
     waiting = False
-    for seconds, obj in sorted(((_seconds(obj), obj) for obj in due), key=itemgetter(0)):
+    for seconds, obj in sorted(
+        ((memory.followed[obj].seconds, obj) for obj in due), key=itemgetter(0)
+    ):
         if (seconds <= budget or idle) and not _is_stroking(obj):
             if obj.mode == "SCULPT":
                 obj.update_tag(refresh={"DATA"})
@@ -230,11 +225,6 @@ def _is_stroking(obj: Object) -> bool:
     )
 
 
-def _seconds(obj: Object) -> float:
-    result = memory.followed[obj].result
-    return 0.0 if result is None else result.seconds
-
-
 def _is_due(obj: Object) -> bool:
     """Return whether an object has to be measured again: more than its place has changed."""
     current = memory.followed[obj]
@@ -253,7 +243,7 @@ class MovingSurface:
     """
 
     surface: mesh.Surface
-    corners: Integers
+    corners: numerics.Integers
 
     @classmethod
     def from_measured(cls, measured: Measured) -> MovingSurface | None:

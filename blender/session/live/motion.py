@@ -17,7 +17,6 @@ from bpy.types import Depsgraph, Object
 
 from ....core import bodies, mesh, numerics, statics, verdict
 from ....core.moments import Measure, Moments, are_similarities, are_singular
-from ....core.numerics import Integers, NDArray
 from ... import read, scale, scene
 from ...bodies.measure_object import measure_object
 from ...bodies.mesh import object_hull
@@ -43,7 +42,7 @@ class _Followed:
     mixes: statics.Mixes | None = None
     density: float = 0.0
     keys: tuple[str, ...] = ()
-    triangles: Integers | None = None
+    triangles: numerics.Integers | None = None
     hull: tuple[int, mesh.ConvexHull] | None = (
         None  # the number of the geometry's last update, and the hull then
     )
@@ -175,7 +174,7 @@ def _coordinates(data) -> numerics.Array:
 
 
 def _mixed(
-    obj: Object, followed: _Followed, depsgraph: Depsgraph, matrix: NDArray, unit: float
+    obj: Object, followed: _Followed, depsgraph: Depsgraph, matrix: numerics.NDArray, unit: float
 ) -> tuple[float, numerics.Array] | None:
     """Return mass and center by the mix of shape keys; None if triangles changed, or the mesh is
     flat or inside out.
@@ -196,7 +195,7 @@ def _mixed(
 
 
 def _measured(
-    obj: Object, followed: _Followed, depsgraph: Depsgraph, matrix: NDArray, unit: float
+    obj: Object, followed: _Followed, depsgraph: Depsgraph, matrix: numerics.NDArray, unit: float
 ) -> Moments:
     """Measure an object, keep its moments if its matrices can map them, and return them in the
     world.
@@ -214,7 +213,7 @@ def _measured(
     return mass
 
 
-def _can_map(moments: Moments, matrix: NDArray) -> bool:
+def _can_map(moments: Moments, matrix: numerics.NDArray) -> bool:
     """Return whether a matrix can map the moments: it is not singular, and a similarity for areas
     and lengths.
     """

@@ -19,20 +19,10 @@ from ....core.bodies import DENSITY_DEFAULTED
 from ....core.inertia import TENSOR, PlainBody, add_bodies
 from ....core.measurement import digest, find_properties, table
 from ....core.verdict import Finding, Severity, finding, internal_error, of_severity, sentence
+from ... import read, scale, write
 from ...bodies.assembly.assembly import Assembly, MemberBody, assembly_measurement
 from ...bodies.findings import ASSEMBLY_MASS_GIVEN, MEMBERS_DENSITY_UNSET
 from ...bodies.stack import Measured
-from ...read.assembly import (
-    Member,
-    MemberKind,
-    Root,
-    is_assembly,
-    members_key,
-    members_of,
-    settings_of,
-)
-from ...scale import meters_per_unit
-from ...write import properties
 from ..tracking import handlers, staleness, stamps
 from . import reference, results
 
@@ -59,12 +49,12 @@ def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
     """
     scene = context.scene
     depsgraph = context.evaluated_depsgraph_get()
-    unit = meters_per_unit(scene)
+    unit = scale.meters_per_unit(scene)
     root = assembly.root.member.data
     about = reference.stored_choice(root)
-    properties.store(root, assembly.measurement)
+    write.properties.store(root, assembly.measurement)
     reference.follow(root, scene, about)
-    done: dict[Root, None] = {root: None}
+    done: dict[read.assembly.Root, None] = {root: None}
     failures: list[tuple[str, Finding]] = []
     measured: list[tuple[Object, Measured]] = []
     for (
@@ -76,9 +66,13 @@ def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
         done[data] = None
         if part.measured is not None:
             measured.append((data, part.measured))
-        elif part.member.kind in (MemberKind.COLLECTION, MemberKind.EMPTY) and part.masses:
+        elif (
+            part.member.kind
+            in (read.assembly.MemberKind.COLLECTION, read.assembly.MemberKind.EMPTY)
+            and part.masses
+        ):
             try:
-                properties.store(data, assembly_measurement(part, depsgraph, unit))
+                write.properties.store(data, assembly_measurement(part, depsgraph, unit))
             except Exception as error:
                 failures.append((data.name_full, internal_error.finding_of(error)))
     _write_rows(assembly)
@@ -88,13 +82,13 @@ def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
     ]
 
 
-def clear(root: Root) -> bool:
+def clear(root: read.assembly.Root) -> bool:
     """Remove the results of an assembly; return whether there were any; EditRefusedError if it
     cannot be changed.
     """
-    properties.require_storable(root)
-    settings_of(root).rows.clear()
-    return properties.clear(root)
+    write.properties.require_storable(root)
+    read.assembly.settings_of(root).rows.clear()
+    return write.properties.clear(root)
 
 
 @contextmanager
@@ -109,14 +103,16 @@ def kept_up_to_date(context: Context, member: Object | None = None) -> Iterator[
     scene = context.scene
     depsgraph = context.view_layer.depsgraph
     roots = [scene.collection, *scene.collection.children_recursive, *scene.objects]
-    stored = [root for root in roots if "body_fingerprint" in root and is_assembly(root)]
+    stored = [
+        root for root in roots if "body_fingerprint" in root and read.assembly.is_assembly(root)
+    ]
     if depsgraph is None or not stored:
         yield
         return
     if member is None:
         depsgraph = context.evaluated_depsgraph_get()
     before = {
-        root: _member_bodies(members_of(root, depsgraph))
+        root: _member_bodies(read.assembly.members_of(root, depsgraph))
         for root in stored
         if staleness.was_current(root, scene)
     }
@@ -127,8 +123,8 @@ def kept_up_to_date(context: Context, member: Object | None = None) -> Iterator[
         depsgraph = context.evaluated_depsgraph_get()
     for root, bodies in before.items():
         handlers.count_change(root)
-        tree = members_of(root, depsgraph)
-        stamp = stamps.of_results(root)
+        tree = read.assembly.members_of(root, depsgraph)
+        stamp = stamps.stamp_of(root)
         now = _member_bodies(tree)
         if (
             stamp is None
@@ -136,71 +132,75 @@ def kept_up_to_date(context: Context, member: Object | None = None) -> Iterator[
             or any(staleness.stale_reason(obj, scene) for obj in now)
         ):
             continue
-        key = members_key(tree, {obj: properties.fingerprint(obj) for obj in now})
+        key = read.assembly.members_key(
+            tree, {obj: write.properties.fingerprint(obj) for obj in now}
+        )
         text = stamp._replace(geometry=digest(key.encode())).text
         if all(_is_same(bodies[obj], now[obj]) for obj in now):
             root["body_fingerprint"] = text
             _follow_defaults(root, now)
         elif _is_sum(root, bodies) and (total := add_bodies([*now.values()])) is not None:
             matrix = getattr(root, "matrix_world", Matrix())
-            unit = meters_per_unit(scene)
-            properties.store_body(root, total.in_object(matrix, unit), text)
+            unit = scale.meters_per_unit(scene)
+            write.properties.store_body(root, total.in_object(matrix, unit), text)
             _scale_rows(
                 root, {obj.name: now[obj].mass - bodies[obj].mass for obj in now}, total.mass
             )
             _follow_defaults(root, now)
 
 
-def _follow_defaults(root: Root, members: Collection[Object]) -> None:
+def _follow_defaults(root: read.assembly.Root, members: Collection[Object]) -> None:
     """Let the warning about members of the default density follow the findings of these members."""
-    findings = properties.findings(root)
+    findings = write.properties.findings(root)
     known = {obj.name for obj in members}
     unset = [
         obj.name
         for obj in members
-        if DENSITY_DEFAULTED in [found.code for found in properties.findings(obj)]
+        if DENSITY_DEFAULTED in [found.code for found in write.properties.findings(obj)]
     ]
     for found in findings:
         if found.code == MEMBERS_DENSITY_UNSET:
             unset = [*(name for name in found.values["names"] if name not in known), *unset]
     warning = [finding(MEMBERS_DENSITY_UNSET, count=len(unset), names=unset)] if unset else []
-    properties.store_findings(
+    write.properties.store_findings(
         root, [*(found for found in findings if found.code != MEMBERS_DENSITY_UNSET), *warning]
     )
 
 
-def _is_sum(root: Root, bodies: dict[Object, PlainBody]) -> bool:
+def _is_sum(root: read.assembly.Root, bodies: dict[Object, PlainBody]) -> bool:
     """Return whether the stored total of an assembly is the sum of these bodies, in the world."""
     total = add_bodies([*bodies.values()])
-    own = properties.stored(root)
+    own = write.properties.stored(root)
     if total is None or own is None:
         return False
-    unit = meters_per_unit(bpy.context.scene)
+    unit = scale.meters_per_unit(bpy.context.scene)
     return _is_same(total, own.in_world(getattr(root, "matrix_world", Matrix()), unit))
 
 
-def _scale_rows(root: Root, gains: dict[str, float], mass: float) -> None:
+def _scale_rows(root: read.assembly.Root, gains: dict[str, float], mass: float) -> None:
     """Add the gains of objects, by name, to their rows and to those of the assemblies that they are
     in.
     """
     above: list[PropertyGroup] = []
-    for row in settings_of(root).rows:
+    for row in read.assembly.settings_of(root).rows:
         above = [*(upper for upper in above if upper.depth < row.depth), row]
-        gain = gains.get(row.name, 0.0) if row.member == MemberKind.OBJECT.value else 0.0
+        gain = (
+            gains.get(row.name, 0.0) if row.member == read.assembly.MemberKind.OBJECT.value else 0.0
+        )
         for part in above if gain else ():
             part.mass += gain
-    for row in settings_of(root).rows:
+    for row in read.assembly.settings_of(root).rows:
         row.share = row.mass / mass if row.is_counted else 0.0
 
 
-def _member_bodies(root: Member) -> dict[Object, PlainBody]:
-    unit = meters_per_unit(bpy.context.scene)
+def _member_bodies(root: read.assembly.Member) -> dict[Object, PlainBody]:
+    unit = scale.meters_per_unit(bpy.context.scene)
     objects = [
         member.data
         for member in root.walk()
-        if member.kind == MemberKind.OBJECT and member.is_measured
+        if member.kind == read.assembly.MemberKind.OBJECT and member.is_measured
     ]
-    stored = [(obj, properties.stored(obj)) for obj in objects]
+    stored = [(obj, write.properties.stored(obj)) for obj in objects]
     return {obj: body.in_world(obj.matrix_world, unit) for obj, body in stored if body is not None}
 
 
@@ -215,7 +215,7 @@ def _is_same(before: PlainBody, now: PlainBody) -> bool:
 
 
 def _write_rows(assembly: Assembly) -> None:
-    rows = settings_of(assembly.root.member.data).rows
+    rows = read.assembly.settings_of(assembly.root.member.data).rows
     rows.clear()
     mass = assembly.measurement.mass_properties.mass
     for depth, part, factor, counted in _tree(assembly.root, 0, 1.0, True):
@@ -227,7 +227,7 @@ def _write_rows(assembly: Assembly) -> None:
         row.is_counted = counted and own > 0.0
         row.mass = own
         row.share = own / mass if counted else 0.0
-        row.findings = properties.findings_text(_row_findings(part))
+        row.findings = write.properties.findings_text(_row_findings(part))
 
 
 def _tree(
@@ -238,7 +238,7 @@ def _tree(
     """
     yield depth, part, factor, counted
     below = sum([_own_mass(member) for member in part.parts], 0.0)
-    if part.member.kind == MemberKind.INSTANCE and below > 0.0:
+    if part.member.kind == read.assembly.MemberKind.INSTANCE and below > 0.0:
         factor *= _own_mass(part) / below
     given = any(found.code == ASSEMBLY_MASS_GIVEN for found in part.findings)
     for member in part.parts:

@@ -14,8 +14,7 @@ import bpy
 import numpy as np
 from bpy.types import Object
 
-from ....core.numerics import Array, Mask, NDArray
-from ....core.statics import Support
+from ....core import numerics, statics
 from ...scene import fcurves
 from ...write.properties import BALANCE_GROUP, BALANCE_SPANS
 from .. import memory, tracking
@@ -47,11 +46,11 @@ class Path:
     whether anything touches the ground, and whether momentum changes without that; None for groups.
     """
 
-    frames: Array
-    centers: Array
-    inside: Mask | None
-    contact: Mask | None = None
-    unexplained: Mask | None = None
+    frames: numerics.Array
+    centers: numerics.Array
+    inside: numerics.Mask | None
+    contact: numerics.Mask | None = None
+    unexplained: numerics.Mask | None = None
 
 
 def groups(scene: bpy.types.Scene) -> Iterator[Object]:
@@ -74,11 +73,11 @@ def group_text(objects: Iterable[Object]) -> str:
 
 def store(
     empty: Object,
-    frames: NDArray,
+    frames: numerics.NDArray,
     scale: float,
-    centers: NDArray,
-    signals: Mapping[str, NDArray],
-    supports: Sequence[Support | None],
+    centers: numerics.NDArray,
+    signals: Mapping[str, numerics.NDArray],
+    supports: Sequence[statics.Support | None],
     spans: Sequence[tuple[float, float, float, float]],
 ) -> None:
     """Put a path and (f,) or (f, 3) signals on the empty as keys, in place of earlier ones, and
@@ -136,11 +135,11 @@ def path(empty: Object) -> Path | None:
     return Path(keys[0][:, 0], centers, *known)
 
 
-def support(empty: Object, frame: int) -> Support | None:
+def support(empty: Object, frame: int) -> statics.Support | None:
     """Return the support polygon of a group at a frame, or None if none is cached."""
     return (memory.supports.get(empty) or {}).get(frame)
 
 
-def _keys(curves: Iterable[bpy.types.FCurve], channel: fcurves.Channel) -> Array | None:
+def _keys(curves: Iterable[bpy.types.FCurve], channel: fcurves.Channel) -> numerics.Array | None:
     curve = fcurves.find(curves, channel)
     return None if curve is None else fcurves.read(curve)["co"].astype(np.float64)

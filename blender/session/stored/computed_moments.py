@@ -9,11 +9,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ....core import inertia, measurement, numerics, polyhedron
+from ....core import inertia, measurement, numerics, polyhedron, verdict
 from ....core.flat import Plane, foot, plane_positions
 from ....core.moments import Invariant, flusser_invariants, hu_invariants, normalize
 from ....core.moments.moments import Moments, monomials
-from ....core.verdict import Finding, ReadError
 from ..findings import (
     INVARIANTS_ORDER,
     MASS_MOMENTS_UNKNOWN,
@@ -48,7 +47,7 @@ class ComputedMoments:
     rotation: numerics.Array
     location: numerics.Array
     flat: FlatMoments | None = None
-    not_flat: Finding | None = None
+    not_flat: verdict.Finding | None = None
 
     @property
     def order(self) -> int:
@@ -76,9 +75,9 @@ def invariants(computed: ComputedMoments, of: str, order: int) -> list[Invariant
     and lower orders.
     """
     if of != "FLAT":
-        raise ReadError(MOMENTS_UNAVAILABLE, fault=MOMENTS_OF_AREA_ONLY)
+        raise verdict.ReadError(MOMENTS_UNAVAILABLE, fault=MOMENTS_OF_AREA_ONLY)
     if order < HU_ORDER:
-        raise ReadError(MOMENTS_UNAVAILABLE, fault=INVARIANTS_ORDER)
+        raise verdict.ReadError(MOMENTS_UNAVAILABLE, fault=INVARIANTS_ORDER)
     moments = normalize(_select_moments(computed, of).truncate(order))
     with np.errstate(over="ignore", invalid="ignore"):
         found = [
@@ -88,7 +87,7 @@ def invariants(computed: ComputedMoments, of: str, order: int) -> list[Invariant
     if not np.isfinite(
         [(abs(one.value), one.rounding_error, one.input_error) for one in found]
     ).all():
-        raise ReadError(inertia.MOMENTS_OVERFLOW, order=order)
+        raise verdict.ReadError(inertia.MOMENTS_OVERFLOW, order=order)
     return found
 
 
@@ -115,7 +114,7 @@ def in_frame(
             moments = _select_moments(computed, of).truncate(order)
             moments = moments.in_frame(np.transpose(reference.axes), reference.origin)
     if not np.isfinite([moments.raw, moments.rounding_error, moments.input_error]).all():
-        raise ReadError(inertia.MOMENTS_OVERFLOW, order=order)
+        raise verdict.ReadError(inertia.MOMENTS_OVERFLOW, order=order)
     return moments
 
 
@@ -130,10 +129,10 @@ def _select_moments(computed: ComputedMoments, of: str) -> Moments:
     if moments is None:
         if of == "FLAT":
             assert computed.not_flat is not None
-            raise ReadError(computed.not_flat)
+            raise verdict.ReadError(computed.not_flat)
         if computed.volume is None:
-            raise ReadError(MOMENTS_UNAVAILABLE, fault=MOMENTS_OF_AREA_ONLY)
-        raise ReadError(MOMENTS_UNAVAILABLE, fault=MASS_MOMENTS_UNKNOWN)
+            raise verdict.ReadError(MOMENTS_UNAVAILABLE, fault=MOMENTS_OF_AREA_ONLY)
+        raise verdict.ReadError(MOMENTS_UNAVAILABLE, fault=MASS_MOMENTS_UNKNOWN)
     return moments
 
 

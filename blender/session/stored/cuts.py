@@ -15,26 +15,16 @@ import numpy as np
 from bpy.types import Context, Mesh, Object, Scene
 from mathutils import Vector
 
-from ....core import bodies, numerics, verdict
-from ....core.cuts import (
-    TABLE_ROWS,
-    CutFill,
-    Hollow,
-    PartBelow,
-    find_hollow,
-    partly_compared,
-    spill_tilt,
-    surface_cut_fill,
-)
-from ....core.numerics import Integers
+from ....core import bodies, cuts, numerics, verdict
 from ... import read, scale
 from ...bodies.cuts import cut_fill_against, world_surface
 from ...bodies.measure_body import THREADS, measure_body
 from ...bodies.mesh import mesh_body
 from ...scene.rigid_world import down
 from ...settings.options import object_settings
-from .. import memory, tracking
+from .. import memory
 from ..findings import NO_SUCH_NAME
+from ..tracking import staleness
 from ..tracking.stamps import Kind
 
 MAX_TILTED_TRIANGLES = 20_000  # of vessels whose spill tilt is computed
@@ -47,9 +37,9 @@ class Level:
     height: of its surface, against gravity. density: kg/m³. tilt: rad, None if not computed.
     """
 
-    hollow: Hollow
+    hollow: cuts.Hollow
     height: float
-    liquid: PartBelow
+    liquid: cuts.PartBelow
     density: float
     tilt: float | None
 
@@ -71,7 +61,7 @@ class Level:
     @cached_property
     def table(self) -> numerics.Array:
         """(33, 2) heights over the bottom and volumes."""
-        heights = np.linspace(self.hollow.bottom, self.hollow.spill, TABLE_ROWS)
+        heights = np.linspace(self.hollow.bottom, self.hollow.spill, cuts.TABLE_ROWS)
         volumes = self.hollow.below(heights).volume
         return np.stack([heights - self.hollow.bottom, volumes], axis=1)
 
@@ -113,11 +103,13 @@ class Level:
 class KnownCutFill:
     """Cut and fill of a surface, and findings about them."""
 
-    found: CutFill
+    found: cuts.CutFill
     findings: tuple[verdict.Finding, ...]
 
 
-def _vessel(obj: Object, context: Context) -> tuple[numerics.Array, Integers, numerics.Array]:
+def _vessel(
+    obj: Object, context: Context
+) -> tuple[numerics.Array, numerics.Integers, numerics.Array]:
     """Return points (m, world) and triangles of a vessel, and the direction against gravity."""
     depsgraph = context.evaluated_depsgraph_get()
     settings = object_settings(obj, context.scene)
@@ -143,17 +135,17 @@ def fill_vessel(context: Context, obj: Object, by: str, amount: float, density: 
     amount: height (m), volume (m³) or mass (kg), as `by` says: LEVEL, VOLUME, MASS.
     """
     points, triangles, up = _vessel(obj, context)
-    hollow = find_hollow(points, triangles, up)
+    hollow = cuts.find_hollow(points, triangles, up)
     height = amount
     if by != "LEVEL":
         height = hollow.level_of(amount / (density if by == "MASS" else 1.0))
     liquid = hollow.contents(height)
     tilt = None
     if len(triangles) <= MAX_TILTED_TRIANGLES:
-        tilt = spill_tilt(points, triangles, float(liquid.volume[0]), up)[0]
+        tilt = cuts.spill_tilt(points, triangles, float(liquid.volume[0]), up)[0]
     level = Level(hollow, min(height, hollow.spill), liquid, density, tilt)
     memory.levels[obj] = level
-    _remember(obj, Kind.LEVEL, context)
+    staleness.carry(obj, Kind.LEVEL, context.evaluated_depsgraph_get())
     return level
 
 
@@ -170,42 +162,21 @@ def measure_cut_fill(
             raise verdict.QueryError(NO_SUCH_NAME, kind="object", name=other)
         found = cut_fill_against(reference, surface, depsgraph, unit)
     else:
-        found = surface_cut_fill(surface, None if against == "RIM" else height)
-    known = KnownCutFill(found, partly_compared(found))
+        found = cuts.surface_cut_fill(surface, None if against == "RIM" else height)
+    known = KnownCutFill(found, cuts.partly_compared(found))
     memory.cut_fills[obj] = known
-    _remember(obj, Kind.CUT_FILL, context)
+    staleness.carry(obj, Kind.CUT_FILL, context.evaluated_depsgraph_get())
     return known
-
-
-def _remember(obj: Object, kind: Kind, context: Context) -> None:
-    scene = context.scene
-    stamp = tracking.stamps.carry(
-        obj,
-        kind,
-        memory.state.updates,
-        read.fingerprint.matrix_hash(obj),
-        read.fingerprint.settings_hash(obj, scene),
-        scale.meters_per_unit(scene),
-    )
-    tracking.staleness.mark_stamp(obj, stamp, context.evaluated_depsgraph_get())
-    tracking.handlers.count_change(obj)
 
 
 def level_of(obj: Object, scene: Scene) -> Level | None:
     """Return the remembered level; None if there is none or it is out of date."""
-    return memory.levels.get(obj) if not is_stale(obj, scene, Kind.LEVEL) else None
+    return None if staleness.stale_reason(obj, scene, Kind.LEVEL) else memory.levels.get(obj)
 
 
 def cut_fill_of(obj: Object, scene: Scene) -> KnownCutFill | None:
     """Return the remembered cut and fill; None if there are none or they are out of date."""
-    return memory.cut_fills.get(obj) if not is_stale(obj, scene, Kind.CUT_FILL) else None
-
-
-def is_stale(obj: Object, scene: Scene, kind: Kind) -> bool:
-    """Return whether a remembered result no longer holds."""
-    return bool(
-        tracking.staleness.stale_reason(obj, scene, partial(tracking.stamps.carried, kind=kind))
-    )
+    return None if staleness.stale_reason(obj, scene, Kind.CUT_FILL) else memory.cut_fills.get(obj)
 
 
 def add_surface(context: Context, obj: Object, level: Level) -> Object:

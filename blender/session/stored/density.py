@@ -17,9 +17,8 @@ from bpy.types import Context, Object, PropertyGroup, Scene
 from ....core.bodies import DENSITY_DEFAULTED
 from ....core.measurement import VERSION
 from ....core.verdict import EditRefusedError, Finding, finding
-from ... import bodies, read
+from ... import bodies, read, write
 from ...settings.density import default_density, unset_density
-from ...write import properties
 from .. import stored, tracking
 
 if TYPE_CHECKING:
@@ -52,23 +51,23 @@ def follow_density(obj: Object, scene: Scene) -> None:
     """Update stored results if the settings change them by a factor alone; else leave them out of
     date.
     """
-    stamp = tracking.stamps.of_results(obj)
+    stamp = tracking.stamps.stamp_of(obj)
     if stamp is None or stamp.version != VERSION or "body_density_from" in obj:
         return
     try:
-        properties.require_storable(obj)
+        write.properties.require_storable(obj)
     except EditRefusedError:
         return
-    numbers = properties.stored(obj)
+    numbers = write.properties.stored(obj)
     if numbers is None:
         return
-    extent = properties.optional(obj, "body_length") or numbers.volume
+    extent = write.properties.optional(obj, "body_length") or numbers.volume
     if not extent:
         return
     if any(
         (found.code, found.values.get("quantity"))
         == (bodies.findings.GIVEN, bodies.findings.INERTIA)
-        for found in properties.findings(obj)
+        for found in write.properties.findings(obj)
     ):
         return  # a given inertia does not follow the mass
     mass = numbers.mass
@@ -79,8 +78,8 @@ def follow_density(obj: Object, scene: Scene) -> None:
     now = present.digest
     findings = _findings(obj, scene)
     if now == stamp.settings:  # a measured density may have more digits than the setting holds
-        if findings != list(properties.findings(obj)):
-            properties.store_findings(obj, findings)
+        if findings != list(write.properties.findings(obj)):
+            write.properties.store_findings(obj, findings)
         return
     settings = obj.body_moments
     density = present.density if present.mass is None else present.mass / extent
@@ -88,7 +87,7 @@ def follow_density(obj: Object, scene: Scene) -> None:
     mass_now = density * extent
     if not 0.0 < mass_now < float("inf"):
         return
-    properties.store_scaled(
+    write.properties.store_scaled(
         obj,
         0.0 if settings.kind == "WIRE" else density,
         mass_now,
@@ -103,7 +102,7 @@ def follow_density(obj: Object, scene: Scene) -> None:
 def _findings(obj: Object, scene: Scene) -> list[Finding]:
     """Return the stored findings, with a note if the density is unset."""
     settings = obj.body_moments
-    kept = [found for found in properties.findings(obj) if found.code != DENSITY_DEFAULTED]
+    kept = [found for found in write.properties.findings(obj) if found.code != DENSITY_DEFAULTED]
     if settings.mass_from == "MASS":
         return kept
     name = "linear_density" if settings.kind == "WIRE" else "density"

@@ -19,29 +19,18 @@ import bpy
 import numpy as np
 from bpy.types import Context, Depsgraph, Object, Scene
 
+from ....core import floating, numerics, verdict
 from ....core.bodies import float64_matrix
-from ....core.floating import (
-    FLOAT_UNAVAILABLE,
-    NO_GRAVITY,
-    Flotation,
-    RightingCurve,
-    heel_and_trim,
-    righting_curve,
-    settle,
-)
-from ....core.numerics import Array
-from ....core.verdict import EditRefusedError, Finding, MeasureError
+from ... import settings, write
 from ...bodies.measure_body import measure_body
 from ...bodies.measure_object import measure_many
-from ...read import fingerprint, visibility
+from ...read import visibility
 from ...scale import meters_per_unit
 from ...scene import changes, fcurves, findings, reframe, rigid_world
 from ...scene.transforms import TransformChannels, world
-from ...settings.floating import liquid_density
-from ...settings.options import AS_SET, MeasureOptions
-from ...write import properties
-from .. import live, memory
-from ..tracking import handlers, staleness, stamps
+from .. import memory
+from ..tracking import handlers, staleness
+from ..tracking.stamps import Kind
 from . import results
 
 PLACE_RTOL = 1e-5  # of float32 matrices
@@ -61,12 +50,12 @@ class Afloat:
 
     uids: tuple[int, ...]
     name: str
-    places: Array
+    places: numerics.Array
     roles: tuple
-    rest: Flotation
-    curve: RightingCurve | None = None
-    rests: tuple[Flotation, ...] = ()
-    shown: tuple[tuple, Held | Finding | None] | None = None
+    rest: floating.Flotation
+    curve: floating.RightingCurve | None = None
+    rests: tuple[floating.Flotation, ...] = ()
+    shown: tuple[tuple, Held | verdict.Finding | None] | None = None
     seconds: float = 0.0
 
 
@@ -80,14 +69,14 @@ class Held:
     """
 
     afloat: Afloat
-    state: Flotation
-    matrix: Array
-    up: Array
+    state: floating.Flotation
+    matrix: numerics.Array
+    up: numerics.Array
     is_at_rest: bool
     heel: float
     trim: float
 
-    def to_world(self, points: Array) -> Array:
+    def to_world(self, points: numerics.Array) -> numerics.Array:
         """Return (..., 3) points in the world, m."""
         return points @ self.matrix[:3, :3].T + self.matrix[:3, 3]
 
@@ -115,9 +104,9 @@ def _carrier(obj: Object) -> Object:
     return obj
 
 
-def _up(scene: Scene) -> Array:
+def _up(scene: Scene) -> numerics.Array:
     if not rigid_world.has_gravity(scene):
-        raise MeasureError(FLOAT_UNAVAILABLE, fault=NO_GRAVITY)
+        raise verdict.MeasureError(floating.FLOAT_UNAVAILABLE, fault=floating.NO_GRAVITY)
     return -rigid_world.down(scene)
 
 
@@ -129,7 +118,7 @@ def _roles(members: Iterable[Object]) -> tuple:
 def read(
     depsgraph: Depsgraph,
     members: Sequence[Object],
-    options: MeasureOptions = AS_SET,
+    options: settings.options.MeasureOptions = settings.options.AS_SET,
     density: float | None = None,
 ) -> Afloat:
     """Read a floating body and settle it, without moving anything; MeasureError if it does not
@@ -140,7 +129,7 @@ def read(
     """
     start = time.thread_time()
     scene = depsgraph.scene
-    of_space = replace(AS_SET, unit_scale=options.unit_scale)
+    of_space = replace(settings.options.AS_SET, unit_scale=options.unit_scale)
     parts = {
         obj: measure_body(
             obj, depsgraph, options if obj.body_moments_tank.role == "BODY" else of_space
@@ -158,11 +147,11 @@ def read(
     shares = shares / (mass or 1.0)
     center = shares @ np.reshape([each.center for each in masses], (-1, 3))
     bounds = np.reshape([parts[obj].measurement.center_bounds for obj in having("BODY")], (-1, 2))
-    rest = settle(
+    rest = floating.settle(
         [parts[obj].body for obj in having("BODY")],
         mass,
         center,
-        liquid_density(scene) if density is None else density,
+        settings.floating.liquid_density(scene) if density is None else density,
         _up(scene),
         [
             (parts[obj].body, obj.body_moments_tank.fill / 100.0, parts[obj].measurement.density)
@@ -181,10 +170,7 @@ def remember(afloat: Afloat, members: Iterable[Object], depsgraph: Depsgraph) ->
     """Keep a body for the panel and the overlay."""
     for obj in members:
         memory.afloat[obj] = afloat
-        settings = fingerprint.settings_hash(obj, depsgraph.scene)
-        stamp = stamps.carry(obj, stamps.Kind.FLOATING, memory.state.updates, settings=settings)
-        staleness.mark_stamp(obj, stamp, depsgraph)
-        handlers.count_change(obj)
+        staleness.carry(obj, Kind.FLOATING, depsgraph)
 
 
 def _measure(context: Context, members: Iterable[Object]) -> None:
@@ -194,7 +180,7 @@ def _measure(context: Context, members: Iterable[Object]) -> None:
         for obj in members
         if visibility.measurable(obj)
         and obj.body_moments_tank.role == "BODY"
-        and (not properties.is_stored(obj) or staleness.stale_reason(obj, context.scene))
+        and (not write.properties.is_stored(obj) or staleness.stale_reason(obj, context.scene))
     ]
     results.store_measured(
         context,
@@ -208,7 +194,7 @@ def _measure(context: Context, members: Iterable[Object]) -> None:
 
 
 def float_body(
-    context: Context, members: Sequence[Object], position: int, notes: list[Finding]
+    context: Context, members: Sequence[Object], position: int, notes: list[verdict.Finding]
 ) -> bool:
     """Move the objects of a body to where it rests, from where it is (0) or in another position;
     return whether they had to move.
@@ -247,7 +233,7 @@ def float_body(
                 reframe.move(context, reframe.Plan(root, target, size, move_only=False))
         for member, target in zip(members, targets):
             if not _is_close(world(member), target, size):
-                raise EditRefusedError(findings.CHILD_NOT_HELD, object=member.name)
+                raise verdict.EditRefusedError(findings.CHILD_NOT_HELD, object=member.name)
     except BaseException:
         for channels in saved:
             channels.restore()
@@ -258,10 +244,10 @@ def float_body(
     return is_moved
 
 
-def _turn_since(afloat: Afloat, members: Sequence[Object], scene: Scene) -> Array | None:
+def _turn_since(afloat: Afloat, members: Sequence[Object], scene: Scene) -> numerics.Array | None:
     """Return the (4, 4) rigid motion of a body since it was read; None if more has changed."""
     if _roles(members) != afloat.roles or any(
-        staleness.stale_reason(member, scene, stamp_of) for member in members
+        staleness.stale_reason(member, scene, Kind.FLOATING) for member in members
     ):
         return None
     present = np.array([world(member) for member in members])
@@ -288,14 +274,14 @@ def _read_again(context: Context, members: Sequence[Object]) -> Afloat:
     turn = _turn_since(known, members, context.scene)
     if turn is not None:
         settle_at = afloat.rest.body.settle
-        with suppress(MeasureError):
+        with suppress(verdict.MeasureError):
             afloat.rests = tuple(settle_at(turn[:3, :3] @ rest.up) for rest in known.rests)
         if np.linalg.norm(turn[:3, :3] @ known.rest.up - afloat.rest.up) < SAME_REST:
             afloat.curve = known.curve
     return afloat
 
 
-def _is_close(places: Array, others: Array, size: float) -> bool:
+def _is_close(places: numerics.Array, others: numerics.Array, size: float) -> bool:
     """Return whether (..., 4, 4) matrices are equal up to rounding; size: of their body."""
     off = np.abs(places - others)
     far = float(np.spacing(np.float32(np.abs(others[..., 3]).max())))
@@ -314,10 +300,12 @@ def find_positions(context: Context, members: Sequence[Object]) -> Afloat:
     return afloat
 
 
-def heel(context: Context, members: Sequence[Object], angles: Array, free_trim: bool) -> Afloat:
+def heel(
+    context: Context, members: Sequence[Object], angles: numerics.Array, free_trim: bool
+) -> Afloat:
     """Compute the righting arms of a body from where it settles, and keep them."""
     afloat = _read_again(context, members)
-    afloat.curve = righting_curve(afloat.rest, angles, free_trim=free_trim)
+    afloat.curve = floating.righting_curve(afloat.rest, angles, free_trim=free_trim)
     _measure(context, members)
     remember(afloat, members, context.evaluated_depsgraph_get())
     return afloat
@@ -339,29 +327,19 @@ def add_curve(context: Context, afloat: Afloat) -> Object:
     return empty
 
 
-def stamp_of(obj: Object) -> stamps.Stamp | None:
-    """Return the stamp of an object's floating body."""
-    return stamps.carried(obj, stamps.Kind.FLOATING)
-
-
-def known_body(obj: Object) -> Afloat | None:
-    """Return the floating body of an object, if it was read."""
-    return memory.afloat.get(obj)
-
-
-def held_body(obj: Object, scene: Scene) -> Held | Finding | None:
+def held_body(obj: Object, scene: Scene) -> Held | verdict.Finding | None:
     """Return an object's floating body as it stands now, the reason if it does not float, or None
     if it was not read or is out of date.
     """
     afloat = memory.afloat.get(obj)
     if afloat is None:
         return None
-    liquid = scene.body_moments_liquid.level, liquid_density(scene)
+    liquid = scene.body_moments_liquid.level, settings.floating.liquid_density(scene)
     key = (memory.state.generation, scene.session_uid, *liquid)
     if afloat.shown is None or afloat.shown[0] != key:
         try:
             value = _read_held(obj, afloat, scene)
-        except MeasureError as refusal:
+        except verdict.MeasureError as refusal:
             value = refusal.finding
         afloat.shown = (key, value)
     return afloat.shown[1]
@@ -380,7 +358,7 @@ def follow(depsgraph: Depsgraph, budget: float) -> bool:
     waiting = False
     for afloat in {id(afloat): afloat for afloat in memory.afloat}.values():
         members = _members(afloat, depsgraph.scene)
-        if not any(map(live.following.is_live, members)) or (
+        if not any(member in memory.followed for member in members) or (
             _turn_since(afloat, members, depsgraph.scene) is not None
         ):
             continue
@@ -389,26 +367,26 @@ def follow(depsgraph: Depsgraph, budget: float) -> bool:
             continue
         try:
             remember(read(depsgraph, members), members, depsgraph)
-        except MeasureError as refusal:
+        except verdict.MeasureError as refusal:
             afloat.shown = ((), refusal.finding)
             handlers.count_change(members[0])
     return waiting
 
 
-def _read_held(obj: Object, afloat: Afloat, scene: Scene) -> Held | Finding | None:
+def _read_held(obj: Object, afloat: Afloat, scene: Scene) -> Held | verdict.Finding | None:
     members = _members(afloat, scene)
     if not members:
         return None
     turn = _turn_since(afloat, members, scene)
     if turn is None:
-        is_live = any(map(live.following.is_live, members))
+        is_live = any(member in memory.followed for member in members)
         return afloat.shown[1] if is_live and afloat.shown is not None else None
     unit = meters_per_unit(scene)
     turn[:3, 3] *= unit
     up = _up(scene)
     body = afloat.rest.body
-    if body.density != liquid_density(scene):
-        body = replace(body, density=liquid_density(scene))
+    if body.density != settings.floating.liquid_density(scene):
+        body = replace(body, density=settings.floating.liquid_density(scene))
     state = body.at(turn[:3, :3].T @ up)
     level = scene.body_moments_liquid.level * unit
     height = float(up @ turn[:3, 3]) + state.level
@@ -420,4 +398,4 @@ def _read_held(obj: Object, afloat: Afloat, scene: Scene) -> Held | Finding | No
     axes /= np.linalg.norm(axes, axis=0)
     if np.linalg.det(axes) < 0.0:
         axes[:, 0] *= -1.0
-    return Held(afloat, state, turn, up, is_at_rest, *heel_and_trim(up, axes))
+    return Held(afloat, state, turn, up, is_at_rest, *floating.heel_and_trim(up, axes))

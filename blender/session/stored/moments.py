@@ -17,12 +17,11 @@ from bpy.types import Context, Depsgraph, Object, Scene
 from ....core import inertia, verdict
 from ....core.moments import Invariant
 from ....core.moments.moments import Measure, Moments, monomial_count, monomials
-from ... import bodies, read, write
-from ...bodies.flat.flat import area_findings, clearer_refusal, flat_region
-from ...bodies.measure_object import measure_object
+from ... import bodies, write
 from ...settings.options import MeasureOptions
 from .. import memory
-from ..tracking import staleness, stamps
+from ..tracking import staleness
+from ..tracking.stamps import Kind
 from .computed_moments import ComputedMoments, FlatMoments, in_frame, invariants
 from .reference import ReferenceChoice
 
@@ -53,19 +52,19 @@ def compute_moments(
     flat = None
     not_flat = None
     try:
-        region = flat_region(obj, depsgraph)
+        region = bodies.flat.flat.flat_region(obj, depsgraph)
         flat = FlatMoments(region.moments(order), region.plane)
     except verdict.MeasureError as error:
         not_flat = error
     try:
-        measurement = measure_object(
+        measurement = bodies.measure_object.measure_object(
             obj,
             depsgraph,
             MeasureOptions(order=order, surface=True, threads=bodies.measure_body.THREADS),
         )
     except verdict.MeasureError as refusal:
         if not_flat is not None:
-            raise clearer_refusal(refusal, not_flat) from None
+            raise bodies.flat.flat.clearer_refusal(refusal, not_flat) from None
         measurement = None
     if measurement is None or measurement.length is not None:
         if region is None or flat is None:
@@ -73,7 +72,10 @@ def compute_moments(
         computed = ComputedMoments(
             obj.name, None, None, None, region.rotation, region.location, flat
         )
-        return computed, (*region.findings, *area_findings(region, flat.moments.total))
+        return computed, (
+            *region.findings,
+            *bodies.flat.flat.area_findings(region, flat.moments.total),
+        )
     area = measurement.area_moments.truncate(order)
     volume = measurement.volume_moments or replace(
         area * measurement.thickness, measure=Measure.VOLUME
@@ -88,27 +90,13 @@ def compute_moments(
 def cache_moments(obj: Object, computed: ComputedMoments, depsgraph: Depsgraph) -> None:
     """Cache an object's freshly computed moments."""
     memory.moments[obj] = computed
-    settings = read.fingerprint.settings_hash(obj, depsgraph.scene)
-    stamp = stamps.carry(
-        obj, stamps.Kind.MOMENTS, memory.state.updates, read.fingerprint.matrix_hash(obj), settings
-    )
-    staleness.mark_stamp(obj, stamp, depsgraph)
-
-
-def computed_moments(obj: Object) -> ComputedMoments | None:
-    """Return an object's computed moments; None if there are none."""
-    return memory.moments.get(obj)
-
-
-def stamp_of(obj: Object) -> stamps.Stamp | None:
-    """Return the stamp of an object's computed moments."""
-    return stamps.carried(obj, stamps.Kind.MOMENTS)
+    staleness.carry(obj, Kind.MOMENTS, depsgraph)
 
 
 def current_numbers(obj: Object, scene: Scene) -> Display:
     """Return the moments displayed by the scene's settings, and the reason if there are none."""
     settings = scene.body_moments
-    computed = computed_moments(obj)
+    computed = memory.moments.get(obj)
     if computed is None:
         return (), None
     of = settings.moments_of

@@ -18,8 +18,7 @@ from mathutils import Matrix
 
 from .... import core
 from ....core import inertia, numerics, verdict
-from ... import scale, write
-from ...read.findings import REFERENCE_OBJECT_MISSING
+from ... import read, scale, write
 from ..tracking import staleness
 
 Point = tuple[float, ...]
@@ -158,7 +157,7 @@ class ReferenceChoice:
         if self.about == "OBJECT":
             other = bpy.data.objects.get(self.object)
             if other is None:
-                raise verdict.QueryError(REFERENCE_OBJECT_MISSING)
+                raise verdict.QueryError(read.findings.REFERENCE_OBJECT_MISSING)
             return _frame(other.matrix_world, unit)
         if self.about == "AXIS" and len(self.points) == 2:
             return inertia.Reference.through_points(

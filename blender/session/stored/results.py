@@ -16,9 +16,7 @@ from bpy.types import Context, Object, Scene
 
 from .... import core
 from ....core.measurement import Measurement
-from ... import bodies, read, scale, settings
-from ...bodies.stack import Measured
-from ...write import properties, section
+from ... import bodies, read, scale, settings, write
 from .. import stored  # the sliders are imported when an object has them
 from ..tracking import armatures, staleness, stamps
 from . import density, faults, reference
@@ -27,7 +25,7 @@ MAX_STORED_ELEMENTS = 32  # of a symmetry: nobody reads more for a ball or a fin
 
 
 def store_many(
-    measured: Sequence[tuple[Object, Measured]],
+    measured: Sequence[tuple[Object, bodies.stack.Measured]],
     scene: Scene,
     shapes: Mapping[Object, bytes | None] = staleness.NO_SHAPES,
 ) -> Iterator[tuple[Object, Exception | None]]:
@@ -37,11 +35,13 @@ def store_many(
     """
     for stack, run in groupby(measured, key=lambda item: item[1].stack):
         items = list(run)
-        for (obj, found), values in zip(items, properties.values_of(_noted(items, stack, scene))):
+        for (obj, found), values in zip(
+            items, write.properties.values_of(_noted(items, stack, scene))
+        ):
             try:
                 staleness.note_edits(obj, shapes.get(obj))
                 about = reference.stored_choice(obj)
-                properties.store_values(obj, values)
+                write.properties.store_values(obj, values)
                 faults.remember(obj, found)
                 reference.follow(obj, scene, about)
                 if found.index is None:
@@ -53,7 +53,7 @@ def store_many(
 
 
 def _noted(
-    items: Sequence[tuple[Object, Measured]], stack: Measurement, scene: Scene
+    items: Sequence[tuple[Object, bodies.stack.Measured]], stack: Measurement, scene: Scene
 ) -> Measurement:
     """Return the objects' rows of a stack, with notes on unset densities."""
     obj, first = items[0]
@@ -73,7 +73,7 @@ def _noted(
 
 
 def store_measured(
-    context: Context, measured: Iterable[tuple[Object, Measured]]
+    context: Context, measured: Iterable[tuple[Object, bodies.stack.Measured]]
 ) -> dict[Object, Exception]:
     """Store measurements of the present scene; return the errors of objects that cannot hold their
     results.
@@ -136,10 +136,8 @@ def store_sections(
             read.fingerprint.matrix_hash(obj),
             read.fingerprint.settings_hash(obj, context.scene),
         )
-        section.store(obj, found, description, findings, mark, unit)
-    staleness.mark_stamps(
-        context, [(obj, stamp) for obj, _ in sections if (stamp := stamps.of_section(obj))]
-    )
+        write.section.store(obj, found, description, findings, mark, unit)
+    staleness.mark_stored(context, [obj for obj, _ in sections], stamps.Kind.SECTION)
 
 
 def store_rig(rig: bodies.rig.Rig) -> list[tuple[str, core.verdict.Finding]]:
@@ -147,18 +145,18 @@ def store_rig(rig: bodies.rig.Rig) -> list[tuple[str, core.verdict.Finding]]:
     without, and reasons.
     """
     armature = rig.armature
-    properties.store(armature, rig.measurement)
+    write.properties.store(armature, rig.measurement)
     parts = {part.name: part for part in rig.parts}
     failures: list[tuple[str, core.verdict.Finding]] = []
     for bone in armature.pose.bones:
         part = parts.get(bone.name)
         if part is None or part.measurement is None:
-            properties.clear(bone)
+            write.properties.clear(bone)
             if part is not None and part.refusal is not None:
                 failures.append((bone.name, part.refusal))
             continue
         try:
-            properties.store(bone, part.measurement)
+            write.properties.store(bone, part.measurement)
         except Exception as error:
             failures.append((bone.name, core.verdict.internal_error.finding_of(error)))
     armatures.watch(armature, rig.objects)
@@ -170,5 +168,5 @@ def clear_rig(armature: Object) -> bool:
     """Remove the results of all bones and of the whole, or raise EditRefusedError; return whether
     there were any.
     """
-    properties.require_storable(armature)
-    return any([properties.clear(owner) for owner in (armature, *armature.pose.bones)])
+    write.properties.require_storable(armature)
+    return any([write.properties.clear(owner) for owner in (armature, *armature.pose.bones)])

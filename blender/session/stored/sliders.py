@@ -134,7 +134,7 @@ def _current(
 
     scene: if given, it must also have the same unit scale, and the object no edits since.
     """
-    kept, stamp = cache.get(obj), stamps.of_results(obj)
+    kept, stamp = cache.get(obj), stamps.stamp_of(obj)
     if (
         kept is None
         or stamp is None

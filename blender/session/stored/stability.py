@@ -15,12 +15,12 @@ import bpy
 import numpy as np
 from bpy.types import Context, Depsgraph, Object, Scene
 
-from ....core import inertia, mesh, statics, verdict
-from ....core.numerics import Array, NDArray, rotation_matrix
+from ....core import inertia, mesh, numerics, statics, verdict
 from ... import bodies, read, write
 from ...scene import findings, reframe, rigid_world, transforms
 from .. import displayed, memory
-from ..tracking import handlers, staleness, stamps
+from ..tracking import staleness
+from ..tracking.stamps import Kind
 from . import results
 
 SAME_SHAPE_RTOL = (
@@ -35,17 +35,15 @@ class KnownHull:
     hull: in the object's coordinates. digest: of the shape that it is of, if it can be compared.
     earlier: those of earlier shapes, to which undo may return; sought_at: the generation at which
     the present shape was sought among them. shape: the (4, 3) scale and center for which `poses`
-    hold. support_key: the generation and the scene for which `support` holds.
+    hold.
     """
 
     hull: mesh.ConvexHull
     digest: bytes | None = None
     earlier: tuple[KnownHull, ...] = ()
     sought_at: int = -1
-    shape: NDArray | None = None
+    shape: numerics.NDArray | None = None
     poses: statics.RestingPoses | verdict.Finding | None = None
-    support_key: tuple = ()
-    support: statics.Support | None = None
 
 
 MAX_EARLIER = 8  # hulls of earlier shapes that are kept
@@ -56,20 +54,15 @@ def compute(obj: Object, depsgraph: Depsgraph) -> mesh.ConvexHull:
     hull = bodies.mesh.object_hull(obj, depsgraph)
     last = memory.hulls.get(obj)
     earlier = () if last is None else (*last.earlier, last)[-MAX_EARLIER:]
-    _remember(obj, KnownHull(hull, read.mesh.shape_digest(obj, depsgraph), earlier), depsgraph)
+    memory.hulls[obj] = KnownHull(hull, read.mesh.shape_digest(obj, depsgraph), earlier)
+    staleness.carry(obj, Kind.HULL, depsgraph)
     return hull
-
-
-def _remember(obj: Object, remembered: KnownHull, depsgraph: Depsgraph) -> None:
-    memory.hulls[obj] = remembered
-    staleness.mark_stamp(obj, stamps.carry(obj, stamps.Kind.HULL, memory.state.updates), depsgraph)
-    handlers.count_change(obj)
 
 
 def _up_to_date(obj: Object, scene: Scene) -> KnownHull | None:
     """Return what is cached for the object's present shape, also if undo brought the shape back."""
     last = memory.hulls.get(obj)
-    if last is None or not staleness.stale_reason(obj, scene, stamp_of):
+    if last is None or not staleness.stale_reason(obj, scene, Kind.HULL):
         return last
     depsgraph = bpy.context.view_layer.depsgraph
     if not last.earlier or last.sought_at == memory.state.generation or depsgraph is None:
@@ -80,58 +73,37 @@ def _up_to_date(obj: Object, scene: Scene) -> KnownHull | None:
     if not known:
         return None
     others = tuple(one for one in (*last.earlier, last) if one is not known[-1])
-    found = replace(known[-1], earlier=others, support_key=())
-    _remember(obj, found, depsgraph)
-    return found
+    memory.hulls[obj] = replace(known[-1], earlier=others)
+    staleness.carry(obj, Kind.HULL, depsgraph)
+    return memory.hulls[obj]
 
 
-def is_known(obj: Object) -> bool:
-    """Return whether a hull of the object is cached, because its stability was checked."""
-    return obj in memory.hulls
-
-
-def stamp_of(obj: Object) -> stamps.Stamp | None:
-    """Return the stamp of the cached hull."""
-    return stamps.carried(obj, stamps.Kind.HULL)
-
-
-def support(obj: Object, scene: Scene = None) -> statics.Support | None:
+@memory.until_change
+def support(obj: Object, scene: Scene) -> statics.Support | None:
     """Return an object's current support, in Blender's units and the world; None if unchecked or
     out of date.
     """
-    scene = scene or bpy.context.scene
     remembered = _up_to_date(obj, scene)
-    if remembered is None:
+    body = displayed.drawn(obj, scene)
+    if remembered is None or body is None:
         return None
-    key = (memory.state.generation, scene.session_uid)
-    if remembered.support_key != key:
-        remembered.support_key = key
-        remembered.support = None
-        body = displayed.drawn(obj, scene)
-        if body is not None:
-            matrix = np.array(obj.matrix_world, np.float64)
-            points = remembered.hull.points @ matrix[:3, :3].T + matrix[:3, 3]
-            center = np.array(body.world.center) / body.unit
-            # Relative to the extent, the height up to which points touch the ground; it exceeds the
-            # hull's gap.
-            gap = remembered.hull.gap * float(np.linalg.norm(matrix[:3, :3], 2))
-            tolerance = max(statics.CONTACT_RTOL, 2.0 * gap / float(np.ptp(points, axis=0).max()))
-            remembered.support = statics.find_support(
-                points, center, rigid_world.down(scene), tolerance
-            )
-    return remembered.support
+    matrix = np.array(obj.matrix_world, np.float64)
+    points = remembered.hull.points @ matrix[:3, :3].T + matrix[:3, 3]
+    center = np.array(body.world.center) / body.unit
+    # Relative to the extent, the height up to which points touch the ground; it exceeds the hull's
+    # gap.
+    gap = remembered.hull.gap * float(np.linalg.norm(matrix[:3, :3], 2))
+    tolerance = max(statics.CONTACT_RTOL, 2.0 * gap / float(np.ptp(points, axis=0).max()))
+    return statics.find_support(points, center, rigid_world.down(scene), tolerance)
 
 
-def poses(obj: Object, scene: Scene | None = None) -> statics.RestingPoses | verdict.Finding | None:
+def poses(obj: Object, scene: Scene) -> statics.RestingPoses | verdict.Finding | None:
     """Return stable resting poses (Blender's units, object frame), the reason if there are none, or
     None.
     """
-    scene = scene or bpy.context.scene
     remembered = _up_to_date(obj, scene)
-    if remembered is None:
-        return None
     body = displayed.drawn(obj, scene)
-    if body is None:
+    if remembered is None or body is None:
         return None
     location, rotation = frame(obj)
     scale = rotation.T @ np.array(obj.matrix_world.to_3x3(), np.float64)
@@ -148,10 +120,10 @@ def poses(obj: Object, scene: Scene | None = None) -> statics.RestingPoses | ver
     return remembered.poses
 
 
-def frame(obj: Object) -> tuple[Array, Array]:
+def frame(obj: Object) -> tuple[numerics.Array, numerics.Array]:
     """Return location, (3,), and rotation, (3, 3), of an object: the frame of `poses`."""
     location, rotation, _scale = obj.matrix_world.decompose()
-    return np.array(location, np.float64), rotation_matrix(rotation)
+    return np.array(location, np.float64), numerics.rotation_matrix(rotation)
 
 
 def check_stability(context: Context, obj: Object, measured: list[Object]) -> list[str]:
@@ -219,7 +191,9 @@ def lay_on_ground(context: Context, obj: Object, pose: int, ground: str, notes: 
     return bool(is_moved)
 
 
-def _ground(context: Context, obj: Object, ground: str, center: NDArray, gravity: NDArray) -> float:
+def _ground(
+    context: Context, obj: Object, ground: str, center: numerics.NDArray, gravity: numerics.NDArray
+) -> float:
     """Return the distance from the center down to the ground, in Blender's units."""
     if ground == "LOWEST":
         found = support(obj, context.scene)
@@ -231,7 +205,7 @@ def _ground(context: Context, obj: Object, ground: str, center: NDArray, gravity
     return float((point - center) @ gravity)
 
 
-def _shortest_turn(start: Array, end: Array) -> Array:
+def _shortest_turn(start: numerics.Array, end: numerics.Array) -> numerics.Array:
     middle = start + end
     length = np.linalg.norm(middle)
     if length < 1e-8:

@@ -25,18 +25,14 @@ def stands_for_meshes(obj: Object) -> bool:
     return obj.type == "ARMATURE" and obj.mode == "POSE"
 
 
+@memory.until_change
 def deformed_meshes(armature: Object) -> tuple[Object, ...]:
     """Return the meshes of the window's view layer that an original armature deforms, in the
     layer's order.
     """
     objects = bpy.context.view_layer.objects
-    return memory.current_value(
-        memory.deformed_meshes,
-        armature,
-        memory.state.generation,
-        lambda: tuple(
-            obj for obj in objects if obj.type == "MESH" and read.rig.is_skin_of(obj, armature)
-        ),
+    return tuple(
+        obj for obj in objects if obj.type == "MESH" and read.rig.is_skin_of(obj, armature)
     )
 
 

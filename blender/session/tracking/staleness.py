@@ -19,16 +19,14 @@ and at the latest before results are replaced, before undo, and before the file 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from types import MappingProxyType
-from typing import Any
 
 import bpy
 from bpy.types import Collection, Context, Depsgraph, Object, Scene
 
 from ....core import measurement
 from ... import read, scale, settings, write
-from ...read import fingerprint, tracking
 from .. import memory
 from . import handlers, stamps, updates
 from .stamps import EDITED, Kind, Stale, Stamp
@@ -40,12 +38,10 @@ NO_SHAPES: Mapping[Object, bytes | None] = MappingProxyType({})
 
 
 def stale_reason(
-    owner: Object | Collection,
-    scene: Scene,
-    stamp_of: Callable[[Any], Stamp | None] = stamps.of_results,
+    owner: Object | Collection, scene: Scene, kind: Kind = Kind.RESULTS
 ) -> Stale | None:
-    """Return the reason why stored data (of results, or `stamp_of`) are out of date, or None."""
-    stamp = stamp_of(owner)
+    """Return the reason why results, or other data of a kind, are out of date, or None."""
+    stamp = stamps.stamp_of(owner, kind)
     if stamp is None:
         return None
     if stamp.version != measurement.settings.VERSION:
@@ -57,7 +53,7 @@ def stale_reason(
 
 
 def _has_settings(obj: Object, stamp: Stamp, scene: Scene) -> bool:
-    return stamp.settings == fingerprint.settings_hash(obj, scene)
+    return stamp.settings == read.fingerprint.settings_hash(obj, scene)
 
 
 def _has_geometry(obj: Object, stamp: Stamp, _scene: Scene | None = None) -> bool:
@@ -71,7 +67,7 @@ def _is_unedited(obj: Object, stamp: Stamp, _scene: Scene | None = None) -> bool
 
 
 def _has_matrix(owner: Object | Collection, stamp: Stamp, _scene: Scene) -> bool:
-    return not isinstance(owner, Object) or stamp.transform == fingerprint.matrix_hash(owner)
+    return not isinstance(owner, Object) or stamp.transform == read.fingerprint.matrix_hash(owner)
 
 
 def _has_structure(root: Object | Collection, stamp: Stamp, scene: Scene) -> bool:
@@ -84,20 +80,11 @@ def _has_members(root: Object | Collection, stamp: Stamp, scene: Scene) -> bool:
     return parts is None or stamp.geometry == parts[1]
 
 
-def _digests_of_parts(root: Object | Collection, scene: Scene) -> tuple[str, str] | None:
-    """Return present digests of structure and members' results ("" if one is stale); None if
-    nothing is evaluated.
-    """
-    return memory.current_value(
-        memory.part_digests, root, memory.state.generation, lambda: _digest_parts(root, scene)
-    )
-
-
 def was_current(root: Object | Collection, scene: Scene) -> bool:
     """Return whether a total was up to date before the settings of members changed, which Blender
     reports later.
     """
-    stamp = stamps.of_results(root)
+    stamp = stamps.stamp_of(root)
     parts = _digest_parts(root, scene, (None, Stale.SETTINGS))
     if (
         stamp is None
@@ -111,8 +98,8 @@ def was_current(root: Object | Collection, scene: Scene) -> bool:
 def _digest_parts(
     root: Object | Collection, scene: Scene, current: tuple[Stale | None, ...] = (None,)
 ) -> tuple[str, str] | None:
-    """Compute `_digests_of_parts`. current: the reasons with which a member counts as up to
-    date.
+    """Return present digests of structure and members' results ("" if one is stale); None if
+    nothing is evaluated. current: the reasons with which a member counts as up to date.
     """
     if isinstance(root, Object) and root.type == "ARMATURE":
         return read.rig.rig_hash(root, read.rig.rig_objects(root, scene.objects), scene), ""
@@ -134,6 +121,8 @@ def _digest_parts(
     )
 
 
+_digests_of_parts = memory.until_change(_digest_parts)
+
 # Undo brings none of these back.
 IN_MEMORY = (Kind.MOMENTS, Kind.HULL, Kind.FLOATING, Kind.LEVEL, Kind.CUT_FILL)
 CHECKS = {
@@ -142,7 +131,7 @@ CHECKS = {
         (Stale.GEOMETRY, _has_geometry),
         (
             Stale.TRANSFORM,
-            lambda obj, stamp, _scene: fingerprint.has_transform(obj, stamp.transform),
+            lambda obj, stamp, _scene: read.fingerprint.has_transform(obj, stamp.transform),
         ),
     ),
     **dict.fromkeys(
@@ -160,7 +149,7 @@ CHECKS = {
         (Stale.GEOMETRY, _has_geometry),
         (
             Stale.SCALE,
-            lambda obj, stamp, _scene: stamp.transform == fingerprint.scale_hash(obj),
+            lambda obj, stamp, _scene: stamp.transform == read.fingerprint.scale_hash(obj),
         ),
     ),
     Kind.ASSEMBLY: (
@@ -179,20 +168,21 @@ CHECKS = {
     ),
     Kind.HULL: ((Stale.GEOMETRY, _has_geometry),),
     Kind.FLOATING: ((Stale.SETTINGS, _has_settings), (Stale.GEOMETRY, _has_geometry)),
-    Kind.SETTINGS: ((Stale.SETTINGS, _has_settings),),
+    Kind.LIVE: ((Stale.SETTINGS, _has_settings),),
     Kind.COLLIDERS: (
         (Stale.SETTINGS, _has_settings),
         (Stale.GEOMETRY, _has_geometry),
         (
             Stale.TRANSFORM,
-            lambda obj, stamp, _scene: fingerprint.has_scale(
+            lambda obj, stamp, _scene: read.fingerprint.has_scale(
                 obj, stamp.transform, [*obj[settings.given.COLLIDERS].get("scale", ())]
             ),
         ),
         (
             Stale.COLLIDERS,
             lambda obj, _stamp, _scene: (
-                obj[settings.given.COLLIDERS].get("digest") == fingerprint.colliders_digest(obj)
+                obj[settings.given.COLLIDERS].get("digest")
+                == read.fingerprint.colliders_digest(obj)
             ),
         ),
     ),
@@ -203,9 +193,9 @@ def is_edited(obj: Object) -> bool:
     """Return whether geometry or transform changed since the results were stored, or there are no
     results.
     """
-    stamp = stamps.of_results(obj)
+    stamp = stamps.stamp_of(obj)
     return stamp is None or not (
-        _has_geometry(obj, stamp) and fingerprint.has_transform(obj, stamp.transform)
+        _has_geometry(obj, stamp) and read.fingerprint.has_transform(obj, stamp.transform)
     )
 
 
@@ -224,22 +214,37 @@ def mark_up_to_date(
     for obj in objects:
         note_edits(obj)  # for its other stamps
         mark_object(obj)
-        if (stamp := stamps.of_results(obj)) is not None:
+        if (stamp := stamps.stamp_of(obj)) is not None:
             _remember_shape(obj, stamp, depsgraph, shapes.get(obj))
 
 
-def mark_stamps(context: Context, fresh: Iterable[tuple[Object, Stamp]]) -> None:
-    """Mark fresh data (objects and stamps), such as sections, as up to date, if nothing else was
+def mark_stored(context: Context, objects: Iterable[Object], kind: Kind) -> None:
+    """Mark fresh stored data of a kind, such as sections, as up to date, if nothing else was
     changed.
     """
-    with tracking.tracking_paused():
+    with read.tracking.tracking_paused():
         depsgraph = context.evaluated_depsgraph_get()
-    for obj, stamp in fresh:
-        mark_stamp(obj, stamp, depsgraph)
+    for obj in objects:
+        if (stamp := stamps.stamp_of(obj, kind)) is not None:
+            _mark_stamp(obj, stamp, depsgraph)
 
 
-def mark_stamp(obj: Object, stamp: Stamp, depsgraph: Depsgraph) -> None:
-    """Mark the data with a stamp as up to date with an evaluated original object."""
+def carry(obj: Object, kind: Kind, depsgraph: Depsgraph) -> None:
+    """Mark data in memory of a kind as those of an original object as it is now."""
+    stamp = Stamp(
+        kind,
+        measurement.settings.VERSION,
+        "{:s} {:d} {:d}".format(kind.value, obj.session_uid, memory.state.updates),
+        read.fingerprint.matrix_hash(obj),
+        read.fingerprint.settings_hash(obj, depsgraph.scene),
+        scale.meters_per_unit(depsgraph.scene),
+    )
+    memory.carried[obj] = {**(memory.carried.get(obj) or {}), kind: stamp}
+    _mark_stamp(obj, stamp, depsgraph)
+    handlers.count_change(obj)
+
+
+def _mark_stamp(obj: Object, stamp: Stamp, depsgraph: Depsgraph) -> None:
     note_edits(obj)
     set_edited(obj, stamp.text, False)
     _remember_shape(obj, stamp, depsgraph)
@@ -266,16 +271,16 @@ def pin(obj: Object) -> None:
     """Bind an object's results to its current place, after data that depend on the place were
     stored with them.
     """
-    stamp = stamps.of_results(obj)
-    if stamp is not None and stamp.version and fingerprint.has_transform(obj, stamp.transform):
-        obj["body_fingerprint"] = stamp._replace(transform=fingerprint.matrix_hash(obj)).text
+    stamp = stamps.stamp_of(obj)
+    if stamp is not None and stamp.version and read.fingerprint.has_transform(obj, stamp.transform):
+        obj["body_fingerprint"] = stamp._replace(transform=read.fingerprint.matrix_hash(obj)).text
         replace_stamp(obj, stamp.text)
 
 
 def mark_axes_changed(objects: Iterable[Object]) -> None:
     """Note that objects have new axes, so that stored directions are wrong."""
     for obj in objects:
-        if (stamp := stamps.of_symmetry(obj)) is not None:
+        if (stamp := stamps.stamp_of(obj, Kind.SYMMETRY)) is not None:
             set_edited(obj, stamp.text, True)
 
 

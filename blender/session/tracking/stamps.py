@@ -3,10 +3,10 @@
 """Stamps: digests of the inputs of stored data, which `staleness.stale_reason` compares with the
 present inputs.
 
-Results, a section and a symmetry carry theirs as text: version, geometry, transform and settings,
-joined by colons. In a saved file, EDITED stands in place of the geometry's digest if the geometry
-has changed since. Data in memory, such as hulls, have stamps of the same form, that the session
-carries for their objects.
+Results, a section, a symmetry and colliders carry theirs as text: version, geometry, transform and
+settings, joined by colons. In a saved file, EDITED stands in place of the geometry's digest if the
+geometry has changed since. Data in memory, such as hulls, have stamps of the same form, that the
+session carries for their objects (`staleness.carry`).
 """
 
 from __future__ import annotations
@@ -54,7 +54,11 @@ class Kind(Enum):
     LEVEL = "level"
     CUT_FILL = "cut and fill"
     FLOATING = "floating"
-    SETTINGS = "settings"  # live numbers and failed measurements
+    LIVE = "live"
+
+
+STORED = (Kind.RESULTS, Kind.SECTION, Kind.SYMMETRY, Kind.COLLIDERS)
+GROUPS = {Kind.SECTION: section.KEY, Kind.COLLIDERS: COLLIDERS}  # ID properties with a fingerprint
 
 
 class Stamp(NamedTuple):
@@ -82,37 +86,30 @@ class Stamp(NamedTuple):
         return ":".join(self[1:5])
 
 
-def carry(
-    obj: Object,
-    kind: Kind,
-    number: int,
-    transform: str = "",
-    settings: str = "",
-    extra: float | None = None,
-) -> Stamp:
-    """Attach a stamp to an original object's data in memory, and return it.
-
-    number: of the last update at their making.
+def stamp_of(owner: Object | Collection, kind: Kind = Kind.RESULTS) -> Stamp | None:
+    """Return the stamp of an owner's results, or of its other data of a kind; None if there are
+    none.
     """
-    stamp = Stamp(
-        kind,
-        measurement.settings.VERSION,
-        "{:s} {:d}".format(kind.value, number),
-        transform,
-        settings,
-        extra,
-    )
-    memory.carried[obj] = {**(memory.carried.get(obj) or {}), kind: stamp}
-    return stamp
+    if kind == Kind.RESULTS:
+        return _of_results(owner)
+    if kind == Kind.SECTION:
+        known = section.stored(owner)
+        return None if known is None else Stamp.parse(known.fingerprint, kind, known.unit)
+    if kind == Kind.LIVE:
+        followed = memory.followed.get(owner)
+        return followed and Stamp(kind, measurement.settings.VERSION, settings=followed.settings)
+    if kind not in STORED:
+        return (memory.carried.get(owner) or {}).get(kind)
+    text = ""
+    if kind == Kind.COLLIDERS:
+        group = owner.get(COLLIDERS)
+        text = str(group.get("fingerprint", "")) if hasattr(group, "get") else ""
+    elif owner.is_property_set("body_moments_symmetry"):  # reading a missing group creates it
+        text = owner.body_moments_symmetry.fingerprint
+    return Stamp.parse(text, kind) if text else None
 
 
-def carried(obj: Object, kind: Kind) -> Stamp | None:
-    """Return the stamp of an object's data in memory, if any."""
-    return (memory.carried.get(obj) or {}).get(kind)
-
-
-def of_results(owner: Object | Collection) -> Stamp | None:
-    """Return the stamp of the stored results, None if there are none."""
+def _of_results(owner: Object | Collection) -> Stamp | None:
     text = properties.fingerprint(owner)
     if not text and "body_mass" not in owner:
         return None
@@ -127,59 +124,30 @@ def of_results(owner: Object | Collection) -> Stamp | None:
     return Stamp.parse(text, kind)
 
 
-def of_section(obj: Object) -> Stamp | None:
-    """Return the stamp of the stored section, None if there is none."""
-    known = section.stored(obj)
-    return None if known is None else Stamp.parse(known.fingerprint, Kind.SECTION, known.unit)
-
-
-def of_symmetry(obj: Object) -> Stamp | None:
-    """Return the stamp of the stored symmetry, None if there is none."""
-    # Checked first, because reading a missing property group creates it.
-    text = (
-        obj.body_moments_symmetry.fingerprint
-        if obj.is_property_set("body_moments_symmetry")
-        else ""
-    )
-    return Stamp.parse(text, Kind.SYMMETRY) if text else None
-
-
-def of_colliders(obj: Object) -> Stamp | None:
-    """Return the stamp of the stored effects of an object's colliders, None if there is none."""
-    group = obj.get(COLLIDERS)
-    text = str(group.get("fingerprint", "")) if hasattr(group, "get") else ""
-    return Stamp.parse(text, Kind.COLLIDERS) if text else None
-
-
 def with_geometry(obj: Object) -> dict[str, Kind]:
     """Return the texts and kinds of an original object's stamps, except those of assemblies and
     bones.
     """
-    found = [*_stored(obj), *(memory.carried.get(obj) or {}).values()]
+    stored = [stamp_of(obj, kind) for kind in STORED]
     return {
         stamp.text: stamp.kind
-        for stamp in found
+        for stamp in [*stored, *(memory.carried.get(obj) or {}).values()]
         if stamp is not None and stamp.kind not in (Kind.ASSEMBLY, Kind.BONES)
     }
-
-
-def _stored(obj: Object) -> tuple[Stamp | None, ...]:
-    return of_results(obj), of_section(obj), of_symmetry(obj), of_colliders(obj)
 
 
 def write_edited(obj: Object, edited: Container[str]) -> None:
     """Put EDITED into the stored stamps of an original, editable object whose texts are in
     `edited`.
     """
-    for stamp in _stored(obj):
+    for kind in STORED:
+        stamp = stamp_of(obj, kind)
         if stamp is None or not stamp.version or stamp.text not in edited:
             continue
         text = stamp._replace(geometry=EDITED).text
-        if stamp.kind == Kind.SYMMETRY:
+        if kind == Kind.SYMMETRY:
             obj.body_moments_symmetry.fingerprint = text
-        elif stamp.kind == Kind.SECTION:
-            obj[section.KEY]["fingerprint"] = text
-        elif stamp.kind == Kind.COLLIDERS:
-            obj[COLLIDERS]["fingerprint"] = text
+        elif kind in GROUPS:
+            obj[GROUPS[kind]]["fingerprint"] = text
         else:
             obj["body_fingerprint"] = text

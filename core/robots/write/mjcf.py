@@ -8,12 +8,12 @@ moments of a `fullinertia` are off by rounding, so that it refuses thin plates.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from xml.etree.ElementTree import Element, SubElement
 
 from ...numerics import quaternion
 from ...verdict import Finding, finding
-from ..findings import MJCF_INERTIA_TOO_SMALL
+from ..findings import INERTIA_TOO_SMALL, RAISED
 from ..model import Inertial, Joint, Link, Pose, Robot, Shape
 from ..stated import StatedInertial
 from .joints import NAMES, lost_values
@@ -52,11 +52,13 @@ def raised_inertials(robot: Robot, limit: float) -> list[Finding]:
     """Return the finding about links whose mass or moments MuJoCo raises to a limit, empty if there
     are none.
     """
-    small = smallest_inertials(robot, limit)
-    if not small:
-        return []
-    values = {"count": len(small), "links": [*small], "least": min(small.values()), "limit": limit}
-    return [finding(MJCF_INERTIA_TOO_SMALL, **values)]
+    return too_small(smallest_inertials(robot, limit), limit, "MuJoCo", RAISED)
+
+
+def too_small(links: Iterable[str], limit: float, program: str, remedy: str) -> list[Finding]:
+    """Return the finding about links of too little inertia, empty if there are none."""
+    values = {"links": [*links], "limit": limit, "program": program, "remedy": remedy}
+    return [finding(INERTIA_TOO_SMALL, **values)] if values["links"] else []
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:

@@ -194,10 +194,11 @@ def test_the_panel_computes_moments_of_the_mass():
     settings = bpy.context.scene.body_moments
     settings.moments_order, settings.moments_of = 5, "MASS"
     assert bpy.ops.object.body_moments_compute_moments() == {"FINISHED"}
+    from body_moments.blender.session import memory
     from body_moments.blender.session.stored import computed_moments
     from body_moments.blender.session.stored import moments as table
 
-    computed = table.computed_moments(obj)
+    computed = memory.moments[obj]
     degrees, missing = table.current_numbers(obj, bpy.context.scene)
     assert missing is None and [degree.unit for degree in degrees][:3] == ["kg", "kg·m", "kg·m²"]
     assert close(computed.mass.total, 6.0 * 140.0, rel=1e-12) and computed.mass.order == 5

@@ -196,7 +196,7 @@ def test_parents_come_before_sides_and_loops_are_named():
     # The brace holds the hand by the order of names; the wrist would close a loop.
     assert (found["Shoulder"].parent, found["Shoulder"].child) == ("Base", "Arm")
     assert found["Brace"].parent == "Base" and len(found) == 2
-    (loop,) = [one for one in made.findings if one.code == "joints_close_loop"]
+    (loop,) = [one for one in made.findings if one.code == "joints_left_out"]
     assert loop.values["joints"] == ["Twist", "Wrist"]
 
 
@@ -245,7 +245,7 @@ def test_constraints_without_two_links_are_named():
     assert (joint.name, joint.parent) == ("Foot", "Ground") and made.robot.link(
         "Ground"
     ).inertial is None
-    (found,) = [one for one in made.findings if one.code == "joints_without_links"]
+    (found,) = [one for one in made.findings if one.code == "joints_left_out"]
     assert found.values["joints"] == ["Loose"] and made.robot.roots[0].is_fixed
 
 

@@ -11,6 +11,9 @@ from math import factorial
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.session import memory
+from body_moments.blender.session.stored import computed_moments
+from body_moments.blender.session.stored import moments as moments_table
 from body_moments.core.verdict import MeasureError, finding
 
 from tests.blender.flat_objects import sheet, text
@@ -25,12 +28,9 @@ L_SHAPE = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 2.5), (0, 2.5)]
 
 def table():
     """(the comment, the rows as they are)"""
-    from body_moments.blender.session.stored import computed_moments
-    from body_moments.blender.session.stored import moments as moments_table
-
     group = bpy.context.scene.body_moments
     text = computed_moments.as_csv(
-        moments_table.computed_moments(bpy.context.object),
+        memory.moments[bpy.context.object],
         group.moments_of,
         group.moments_about,
         group.frame,
@@ -199,8 +199,6 @@ def test_overflowing_invariants_are_refused():
 
 
 def test_flat_moments_are_about_foot_of_reference():
-    from body_moments.blender.session.stored import moments as moments_table
-
     obj = sheet(L_SHAPE)
     only(obj)
     settings(moments_of="FLAT", moments_about="REFERENCE")

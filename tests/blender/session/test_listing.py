@@ -14,6 +14,7 @@ pytest.importorskip("bpy")
 import bpy
 from body_moments.blender.session import displayed
 from body_moments.blender.session.displayed import SortBy, listed_masses, listing
+from body_moments.panels.texts import scene_units
 
 from tests.blender.boxes import box_mesh
 from tests.blender.objects import add, mesh_body, only, strip_mesh
@@ -78,7 +79,7 @@ def test_a_linked_object_of_the_same_name_has_its_own_mass(tmp_path):
         linked.name == light.name
         and linked["body_mass"] == heavy["body_mass"] != light["body_mass"]
     )
-    masses = listed_masses(bpy.context.scene, bpy.context.view_layer)
+    masses = listed_masses(bpy.context.scene, bpy.context.view_layer, scene_units())
     assert masses.keys() == {obj.session_uid for obj in (light, heavy, strip, linked)}
     assert masses[linked.session_uid] == masses[heavy.session_uid] != masses[light.session_uid]
 

@@ -22,7 +22,7 @@ from mathutils import Euler, Matrix
 
 from tests.blender.boxes import armature_with, update
 from tests.blender.grids import vdb_grid, volume_object
-from tests.blender.objects import add, arrays, measured, mesh_body, only
+from tests.blender.objects import add, after, arrays, measured, mesh_body, only
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -37,7 +37,7 @@ def _enough_time(monkeypatch):
 def start(*objects):
     only(*objects)
     assert bpy.ops.object.body_moments_live() == {"FINISHED"}
-    assert all(following.is_live(obj) for obj in objects)
+    assert all(obj in memory.followed for obj in objects)
 
 
 def tick(monkeypatch, idle=True):
@@ -104,7 +104,7 @@ def test_an_object_that_moves_is_not_measured(unit, given_mass, monkeypatch):
         assert_current(obj)
     assert tick(monkeypatch) is None
     assert_current(obj)
-    assert close(following.current_numbers(obj).measurement.area, measured(obj).area, 1e-12)
+    assert close(memory.followed[obj].measurement.area, measured(obj).area, 1e-12)
 
 
 def test_stretched_object_keeps_direction_of_axes():
@@ -154,12 +154,7 @@ def test_update_beyond_budget_is_late_and_marked(monkeypatch):
         Verdict.EXACT,
     ]
     for obj in objects:
-        memory.followed.get(obj).result = following.LiveResult(
-            following.current_numbers(obj).measurement,
-            None,
-            5.0,
-            following.current_numbers(obj).settings,
-        )
+        memory.followed[obj].seconds = 5.0
     assert tick(monkeypatch, idle=False) == live.POLL and memory.followed[objects[0]].is_pending
     assert tick(monkeypatch) is None
     for obj in objects:
@@ -193,13 +188,13 @@ def flipped(obj):
 def test_an_edit_measures_that_object_alone(change, monkeypatch):
     obj, other = add(mesh_body()), add(mesh_body(), "Other", (9, 0, 0))
     start(obj, other)
-    kept = following.current_numbers(other)
+    kept = memory.followed[other].measurement
     change(obj)
     update()
     assert memory.followed[obj].is_pending and not memory.followed[other].is_pending
     assert tick(monkeypatch) is None
     assert_current(obj)
-    assert following.current_numbers(other) is kept
+    assert memory.followed[other].measurement is kept
     if bpy.context.mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
 
@@ -293,7 +288,7 @@ def test_in_pose_mode_the_armature_stands_for_its_meshes(monkeypatch):
     bpy.ops.object.mode_set(mode="POSE")
     assert armatures.subjects([armature]) == meshes
     assert bpy.ops.object.body_moments_live() == {"FINISHED"}
-    assert [following.is_live(obj) for obj in (*meshes, other, armature)] == [
+    assert [obj in memory.followed for obj in (*meshes, other, armature)] == [
         True,
         True,
         False,
@@ -315,7 +310,7 @@ def test_in_pose_mode_the_armature_stands_for_its_meshes(monkeypatch):
         assert total(bpy.context).count == 2
         assert_bounds_hold(shown, [displayed(mesh, bpy.context.scene).world for mesh in meshes])
     bpy.ops.object.body_moments_live()
-    assert not any(following.is_live(obj) for obj in meshes)
+    assert not any(obj in memory.followed for obj in meshes)
     bpy.ops.object.mode_set(mode="OBJECT")
 
 
@@ -328,10 +323,8 @@ def test_undo_is_followed(monkeypatch):
     update()
     bpy.ops.ed.undo_push(message="Edited")
     tick(monkeypatch)
-    bpy.ops.ed.undo()
-    update()
-    obj = bpy.data.objects["Body"]
-    assert following.is_live(obj)
+    obj = after(bpy.ops.ed.undo)
+    assert obj in memory.followed
     tick(monkeypatch)
     assert_current(obj)
     assert memory.followed.get(obj).number == memory.state.updates

@@ -8,8 +8,10 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.session import memory
+from body_moments.blender.session.stored import computed_moments
 from body_moments.blender.session.tracking import staleness
-from body_moments.blender.session.tracking.stamps import Stale
+from body_moments.blender.session.tracking.stamps import Kind, Stale
 from body_moments.core.verdict import MeasureError, finding
 
 from tests.blender import batch_files as files
@@ -37,12 +39,9 @@ def drawn():
 
 
 def rows():
-    from body_moments.blender.session.stored import computed_moments
-    from body_moments.blender.session.stored import moments as moments_table
-
     group = bpy.context.scene.body_moments
     text = computed_moments.as_csv(
-        moments_table.computed_moments(bpy.context.object),
+        memory.moments[bpy.context.object],
         group.moments_of,
         group.moments_about,
         group.frame,
@@ -83,11 +82,10 @@ def test_frame_point_and_weight_change_without_computing_again(box):
 
 
 def test_computed_moments_become_stale_on_change(box):
-    from body_moments.blender.session.stored import moments as moments_table
 
     def reason():
         bpy.context.view_layer.update()
-        return staleness.stale_reason(box, bpy.context.scene, moments_table.stamp_of)
+        return staleness.stale_reason(box, bpy.context.scene, Kind.MOMENTS)
 
     compute()
     assert reason() is None
@@ -107,13 +105,11 @@ def test_computed_moments_become_stale_on_change(box):
 
 
 def test_flat_shell_has_sheet_and_outline_moments():
-    from body_moments.blender.session.stored.moments import computed_moments
-
     bpy.ops.mesh.primitive_plane_add(size=2.0)
     obj = bpy.context.object
     obj.body_moments.kind, obj.body_moments.thickness = "SHELL", 0.25
     compute(2)
-    found = computed_moments(obj)
+    found = memory.moments[obj]
     assert found.volume.total == pytest.approx(1.0, rel=1e-9)
     assert found.flat.moments.total == pytest.approx(4.0, rel=1e-9)
     assert found.not_flat is None
@@ -137,8 +133,6 @@ def test_overflowing_moments_are_refused(box, reported):
 
 
 def test_moments_of_undone_edit_are_stale(box):
-    from body_moments.blender.session.stored import moments as moments_table
-
     bpy.ops.ed.undo_push(message="As it was")
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.mesh.select_all(action="SELECT")
@@ -151,5 +145,5 @@ def test_moments_of_undone_edit_are_stale(box):
         assert bpy.ops.ed.undo() == {"FINISHED"}
     obj = bpy.data.objects[name]
     bpy.context.view_layer.update()
-    assert moments_table.computed_moments(obj).volume.total == pytest.approx(48.0)
-    assert staleness.stale_reason(obj, bpy.context.scene, moments_table.stamp_of) == Stale.GEOMETRY
+    assert memory.moments[obj].volume.total == pytest.approx(48.0)
+    assert staleness.stale_reason(obj, bpy.context.scene, Kind.MOMENTS) == Stale.GEOMETRY

@@ -10,10 +10,12 @@ pytest.importorskip("bpy")
 import bmesh
 import body_moments
 import bpy
-from body_moments.blender.session.tracking import staleness, stamps
-from body_moments.blender.session.tracking.stamps import Stale
+from body_moments.blender.session.tracking import staleness
+from body_moments.blender.session.tracking.stamps import Kind, Stale
+from body_moments.blender.write import text_report
+from body_moments.core.verdict import finding
 
-from tests.blender.objects import add, mesh_body, only
+from tests.blender.objects import add, after, mesh_body, only
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -74,13 +76,9 @@ def test_undone_results_are_stale_after_later_edit(stacked):
     measure(obj)
     bpy.ops.ed.undo_push(message="Measured Again")
     assert obj["body_volume"] != first
-    bpy.ops.ed.undo()
-    update()
-    obj = bpy.data.objects["Body"]
+    obj = after(bpy.ops.ed.undo)
     assert obj["body_volume"] == first and reason(obj) == Stale.GEOMETRY
-    bpy.ops.ed.redo()
-    update()
-    obj = bpy.data.objects["Body"]
+    obj = after(bpy.ops.ed.redo)
     assert obj["body_volume"] != first and reason(obj) is None
     measure(obj)
 
@@ -117,7 +115,7 @@ def test_reevaluation_without_change_keeps_results_current():
         update()
         assert [reason(one) for one in objects] == [None] * len(objects)
         assert [
-            staleness.stale_reason(one, bpy.context.scene, stamps.of_symmetry) for one in objects
+            staleness.stale_reason(one, bpy.context.scene, Kind.SYMMETRY) for one in objects
         ] == [None] * len(objects)
         if len(objects) == 2:
             edit(objects[1]) if objects[1].data != obj.data else bpy.data.objects.remove(objects[1])
@@ -142,13 +140,9 @@ def test_an_edit_that_is_taken_back_is_none():
     edit(obj)
     bpy.ops.ed.undo_push(message="Edited")
     assert reason(obj) == Stale.GEOMETRY
-    bpy.ops.ed.undo()
-    update()
-    obj = bpy.data.objects["Body"]
+    obj = after(bpy.ops.ed.undo)
     assert reason(obj) is None
-    bpy.ops.ed.redo()
-    update()
-    obj = bpy.data.objects["Body"]
+    obj = after(bpy.ops.ed.redo)
     assert reason(obj) == Stale.GEOMETRY
     obj.data.vertices[0].co.x += 1.0
     obj.data.update()
@@ -177,9 +171,7 @@ def test_undo_in_edit_mode_brings_no_numbers_back_and_is_an_edit():
     assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
     update()
     assert reason(obj) is None
-    bpy.ops.ed.undo()
-    update()
-    obj = bpy.data.objects["Body"]
+    obj = after(bpy.ops.ed.undo)
     assert bpy.context.mode == "EDIT_MESH" and reason(obj) == Stale.GEOMETRY
     bpy.ops.object.mode_set(mode="OBJECT")
 
@@ -189,11 +181,11 @@ def test_symmetry_is_stale_after_other_axes():
     only(obj)
     assert bpy.ops.object.body_moments_find_symmetry() == {"FINISHED"}
     assert bpy.ops.object.body_moments_origin_to_center() == {"FINISHED"}
-    assert staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) is None
+    assert staleness.stale_reason(obj, bpy.context.scene, Kind.SYMMETRY) is None
     assert bpy.ops.object.body_moments_axes_to_principal() == {"FINISHED"}
-    assert staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) is not None
+    assert staleness.stale_reason(obj, bpy.context.scene, Kind.SYMMETRY) is not None
     assert bpy.ops.object.body_moments_find_symmetry() == {"FINISHED"}
-    assert staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) is None
+    assert staleness.stale_reason(obj, bpy.context.scene, Kind.SYMMETRY) is None
 
 
 @pytest.mark.parametrize("source", ["MATERIALS", "ATTRIBUTE"])
@@ -226,7 +218,7 @@ def test_reenabled_add_on_keeps_edited_results_stale():
     body_moments.unregister()
     body_moments.register()
     assert (reason(obj), reason(other)) == (Stale.GEOMETRY,) * 2
-    assert staleness.stale_reason(other, bpy.context.scene, stamps.of_symmetry) == Stale.GEOMETRY
+    assert staleness.stale_reason(other, bpy.context.scene, Kind.SYMMETRY) == Stale.GEOMETRY
     assert reason(third) is None
     edit(third)  # updates are counted anew since then
     assert reason(third) == Stale.GEOMETRY
@@ -236,13 +228,13 @@ def test_measuring_edited_shape_keeps_symmetry_stale():
     obj = add(mesh_body())
     measure(obj)
     bpy.ops.object.body_moments_find_symmetry()
-    assert staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) is None
+    assert staleness.stale_reason(obj, bpy.context.scene, Kind.SYMMETRY) is None
     edit(obj)
     measure(obj)
-    assert staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) == Stale.GEOMETRY
+    assert staleness.stale_reason(obj, bpy.context.scene, Kind.SYMMETRY) == Stale.GEOMETRY
     bpy.ops.object.body_moments_find_symmetry()
     assert (
-        staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) is None
+        staleness.stale_reason(obj, bpy.context.scene, Kind.SYMMETRY) is None
         and reason(obj) is None
     )
 
@@ -357,9 +349,6 @@ def test_storing_evaluates_no_modifier_again():
     ],
 )
 def test_numbers_that_a_person_has_overwritten_break_nothing(key, value):
-    from body_moments.blender.write import text_report
-    from body_moments.core.verdict import finding
-
     from tests.panels.drawing import shown
 
     good, obj = add(mesh_body(), "Good"), add(mesh_body())
@@ -374,7 +363,6 @@ def test_numbers_that_a_person_has_overwritten_break_nothing(key, value):
 
 
 def test_symmetry_and_moments_of_instancer_become_stale():
-    from body_moments.blender.session.stored import moments as moments_table
 
     member = add(mesh_body(), "Member")
     shown = instancer("Instancer", member)
@@ -383,17 +371,15 @@ def test_symmetry_and_moments_of_instancer_become_stale():
     bpy.ops.object.body_moments_find_symmetry()
     assert bpy.ops.object.body_moments_compute_moments() == {"FINISHED"}
     assert (
-        staleness.stale_reason(shown, bpy.context.scene, stamps.of_symmetry),
-        staleness.stale_reason(shown, bpy.context.scene, moments_table.stamp_of),
+        staleness.stale_reason(shown, bpy.context.scene, Kind.SYMMETRY),
+        staleness.stale_reason(shown, bpy.context.scene, Kind.MOMENTS),
     ) == (
         None,
         None,
     )
     edit(member)
-    assert staleness.stale_reason(shown, bpy.context.scene, stamps.of_symmetry) == Stale.GEOMETRY
-    assert (
-        staleness.stale_reason(shown, bpy.context.scene, moments_table.stamp_of) == Stale.GEOMETRY
-    )
+    assert staleness.stale_reason(shown, bpy.context.scene, Kind.SYMMETRY) == Stale.GEOMETRY
+    assert staleness.stale_reason(shown, bpy.context.scene, Kind.MOMENTS) == Stale.GEOMETRY
 
 
 def test_becoming_a_rigid_body_is_no_change_of_the_shape():

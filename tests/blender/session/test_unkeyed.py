@@ -10,7 +10,6 @@ pytest.importorskip("bpy")
 import bpy
 import numpy as np
 from body_moments.blender.session import memory
-from body_moments.blender.session.live import following
 from body_moments.blender.session.live import measuring as live
 from body_moments.blender.session.tracking import staleness
 
@@ -166,12 +165,8 @@ def test_live_keeps_unkeyed_values_and_stops(monkeypatch):
     live._tick()
     bpy.context.view_layer.update()
     assert obj.scale.x == 2.0 and not memory.followed[obj].is_pending
-    assert following.current_numbers(obj).measurement.volume == pytest.approx(
-        obj["body_volume"], rel=1e-9
-    )
-    assert following.current_numbers(obj).measurement.volume == pytest.approx(
-        measured(obj).volume, rel=1e-9
-    )
+    assert memory.followed[obj].measurement.volume == pytest.approx(obj["body_volume"], rel=1e-9)
+    assert memory.followed[obj].measurement.volume == pytest.approx(measured(obj).volume, rel=1e-9)
 
 
 def test_wall_slider_keeps_unkeyed_values():

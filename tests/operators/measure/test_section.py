@@ -9,9 +9,11 @@ import math
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender import bodies
+from body_moments.blender.bodies.flat.flat import flat_region
 from body_moments.blender.read.section import read_section
-from body_moments.blender.session.tracking import staleness, stamps
-from body_moments.blender.session.tracking.stamps import Stale
+from body_moments.blender.session.tracking import staleness
+from body_moments.blender.session.tracking.stamps import Kind, Stale
 
 from tests.blender.findings import refused as refusal
 from tests.blender.findings import said
@@ -49,8 +51,6 @@ def text_of(body):
 
 
 def section_of(obj):
-    from body_moments.blender import bodies
-
     bpy.context.view_layer.update()
     return bodies.section_of(obj, bpy.context.evaluated_depsgraph_get())
 
@@ -69,7 +69,7 @@ def stored(obj):
 
 def outdated(obj):
 
-    return staleness.stale_reason(obj, bpy.context.scene, stamps.of_section)
+    return staleness.stale_reason(obj, bpy.context.scene, Kind.SECTION)
 
 
 @pytest.mark.parametrize(
@@ -338,8 +338,6 @@ def test_a_section_survives_the_file_and_clear_takes_it_away(tmp_path):
 
 
 def region_of(obj, **options):
-    from body_moments.blender.bodies.flat.flat import flat_region
-
     bpy.context.view_layer.update()
     return flat_region(obj, bpy.context.evaluated_depsgraph_get(), **options)
 

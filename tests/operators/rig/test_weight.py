@@ -7,6 +7,8 @@ nothing.
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.session.displayed import displayed
+from body_moments.panels.overlay.bodies import Bodies, body_lines, collect
 
 from tests.blender.box_character import HEIGHT, boxes, weight
 from tests.blender.figure import figure
@@ -130,9 +132,6 @@ def test_total_mass_shows_the_measured_one_until_it_is_set(scene):
 
 
 def test_shown_weight_is_one_mark_with_axes_on_request(scene):
-    from body_moments.panels.overlay.bodies import Bodies, collect
-    from body_moments.panels.overlay.lines import body_lines
-
     rig, _body = posed()
     for bone in rig.pose.bones:
         if hasattr(bone, "select"):
@@ -152,8 +151,6 @@ def test_shown_weight_is_one_mark_with_axes_on_request(scene):
 
 
 def test_measured_poses_have_the_mass_at_rest(scene):
-    from body_moments.blender.session.displayed import displayed
-
     rig, body = posed(held=False, show=False)
     masses = []
     for angle in (1.2, 0.0):

@@ -14,8 +14,9 @@ from body_moments.blender.session.colliders import collider_record
 from body_moments.blender.session.stored import outcome
 from body_moments.blender.session.stored.collider_tolerance import tolerance_remedy
 from body_moments.blender.session.tracking.staleness import stale_reason
-from body_moments.blender.session.tracking.stamps import Stale, of_colliders
+from body_moments.blender.session.tracking.stamps import Kind, Stale
 from body_moments.blender.settings.given import COLLIDER, COLLIDERS
+from body_moments.command.measure.measuring import objects_to_measure
 from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.polyhedron.integration import volume_and_center
 from mathutils import Euler, Vector
@@ -122,7 +123,7 @@ def test_linked_meshes_share_the_meshes_of_colliders():
 def test_stored_effect_goes_out_of_date():
     body = add(mesh_body(), "Body")
     make(shape="HULL")
-    stale = lambda: stale_reason(body, bpy.context.scene, of_colliders)  # noqa: E731
+    stale = lambda: stale_reason(body, bpy.context.scene, Kind.COLLIDERS)  # noqa: E731
     assert stale() is None and body[COLLIDERS]["volume_ratio"] > 1.0
     body.location.x = 5.0
     bpy.context.view_layer.update()
@@ -212,8 +213,6 @@ def test_instancer_gets_colliders_around_its_instances():
 
 
 def test_colliders_are_left_out_of_measuring():
-    from body_moments.command.measure.measuring import objects_to_measure
-
     body = add(mesh_body(), "Body")
     make(shape="PIECES")
     made = colliders(body)
@@ -371,7 +370,7 @@ def test_turning_a_sheared_body_keeps_its_colliders_valid():
     make(shape="HULL")
     parent.rotation_euler = 1, 2, 3
     bpy.context.view_layer.update()
-    assert stale_reason(body, bpy.context.scene, of_colliders) is None
+    assert stale_reason(body, bpy.context.scene, Kind.COLLIDERS) is None
     parent.scale = 1, 1, 1
     bpy.context.view_layer.update()
-    assert stale_reason(body, bpy.context.scene, of_colliders) == Stale.TRANSFORM
+    assert stale_reason(body, bpy.context.scene, Kind.COLLIDERS) == Stale.TRANSFORM

@@ -6,8 +6,10 @@ findings are notes.
 
 import bpy
 import pytest
+from body_moments.blender.bodies.measure_object import measure_object
+from body_moments.blender.session.tracking import staleness
 
-from tests.blender.objects import add, only
+from tests.blender.objects import add, editing, only
 from tests.close import close
 from tests.operators.overlapping_boxes import boxes
 from tests.panels.drawing import findings_of, labels, shown
@@ -45,12 +47,8 @@ def test_recalculate_outside_turns_faces_and_keeps_cavity():
     mesh.flip_normals()
     right_of_third = orders(mesh)[12:]
     mesh.flip_normals()
-    inside_out = bmesh.new()
-    inside_out.from_mesh(mesh)
-    inside_out.faces.ensure_lookup_table()
-    bmesh.ops.reverse_faces(inside_out, faces=inside_out.faces[12:])
-    inside_out.to_mesh(mesh)
-    inside_out.free()
+    with editing(mesh) as inside_out:
+        bmesh.ops.reverse_faces(inside_out, faces=inside_out.faces[12:])
     obj = add(mesh, location=(1.0, 2.0, 3.0), scale=(1.0, -2.0, 1.0))
     bpy.ops.object.body_moments_measure()
     volume = obj["body_volume"]
@@ -83,8 +81,6 @@ def test_union_and_shell_remedies_set_and_measure():
 
 
 def test_accepted_warning_stays_a_note_after_measuring():
-    from body_moments.blender.bodies.measure_object import measure_object
-    from body_moments.blender.session.tracking import staleness
     from body_moments.core.measurement import record
 
     obj, other = add(boxes(2.0, 1.0)), add(boxes(2.0, 1.0), "Other")

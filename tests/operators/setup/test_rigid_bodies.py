@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.session.tracking.staleness import stale_reason
-from body_moments.blender.session.tracking.stamps import of_colliders
+from body_moments.blender.session.tracking.stamps import Kind
 from mathutils import Matrix, Vector
 
 from tests.blender.boxes import box, boxes_inertia
@@ -236,7 +236,7 @@ def test_six_props_fall_and_rest_on_a_flat_floor(frame, shape, reported):
     assert make(frame=frame) == {"FINISHED"}
     scene = bpy.context.scene
     assert "rigid_body_center_elsewhere" not in reported.codes
-    assert all(stale_reason(obj, scene, of_colliders) is None for obj in bodies)
+    assert all(stale_reason(obj, scene, Kind.COLLIDERS) is None for obj in bodies)
     if frame == "ORIGIN":  # also of mirrored objects
         assert np.abs(np.subtract([obj.rotation_euler for obj in bodies], TURN)).max() < 1e-5
     bpy.ops.mesh.primitive_plane_add(size=400)

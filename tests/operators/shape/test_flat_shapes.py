@@ -8,8 +8,8 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.bodies.flat.flat_shape import flat_shape_of
-from body_moments.blender.session.tracking import stamps
-from body_moments.blender.session.tracking.stamps import Stale
+from body_moments.blender.session.tracking import staleness
+from body_moments.blender.session.tracking.stamps import Kind, Stale
 
 from tests.blender.findings import refused
 from tests.blender.flat_objects import MONOSPACED, converted, regular, sheet, text
@@ -122,16 +122,14 @@ def test_flat_symmetry_group_and_elements_are_found(make, group):
 
 
 def test_the_symmetry_of_a_changed_text_is_out_of_date():
-    from body_moments.blender.session.tracking import staleness
-
     obj = text("H")
     only(obj)
     run("find_symmetry")
     assert obj.body_moments_symmetry.group == "C2v"
-    assert staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) is None
+    assert staleness.stale_reason(obj, bpy.context.scene, Kind.SYMMETRY) is None
     obj.data.body = "R"
     bpy.context.view_layer.update()
-    assert staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) == Stale.GEOMETRY
+    assert staleness.stale_reason(obj, bpy.context.scene, Kind.SYMMETRY) == Stale.GEOMETRY
 
 
 @pytest.mark.parametrize("body", ["R", "Q", "4"])

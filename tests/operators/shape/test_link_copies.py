@@ -10,7 +10,7 @@ from body_moments.blender.session.tracking import staleness
 from mathutils import Matrix
 
 from tests.blender.boxes import box_mesh
-from tests.blender.objects import add, only
+from tests.blender.objects import add, editing, only
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -19,13 +19,12 @@ def blob(seed):
     """A closed mesh without symmetry, with UVs of its corners."""
     import bmesh
 
-    built, random = bmesh.new(), np.random.default_rng(seed)
-    bmesh.ops.create_icosphere(built, subdivisions=2, radius=1.0)
-    for vertex in built.verts:
-        vertex.co *= 1.0 + 0.2 * random.random()
+    random = np.random.default_rng(seed)
     mesh = bpy.data.meshes.new("Blob")
-    built.to_mesh(mesh)
-    built.free()
+    with editing(mesh) as built:
+        bmesh.ops.create_icosphere(built, subdivisions=2, radius=1.0)
+        for vertex in built.verts:
+            vertex.co *= 1.0 + 0.2 * random.random()
     uv = mesh.uv_layers.new(name="UVMap")
     uv.data.foreach_set("uv", random.random(2 * len(mesh.loops)).astype(np.float32))
     return mesh

@@ -5,8 +5,8 @@
 import bpy
 import numpy as np
 import pytest
-from body_moments.blender.session.tracking import stamps
-from body_moments.blender.session.tracking.stamps import Stale
+from body_moments.blender.session.tracking import staleness
+from body_moments.blender.session.tracking.stamps import Kind, Stale
 from body_moments.operators import batch
 
 from tests.blender.objects import add, mesh_body, only, place
@@ -244,24 +244,22 @@ def test_symmetry_group_of_blender_primitives_is_found(make, group):
 
 
 def test_symmetry_is_stale_after_edit_not_after_motion():
-    from body_moments.blender.session.tracking import staleness
-
     obj = wedge()
     run("measure")
     run("find_symmetry")
     scene = bpy.context.scene
     assert (
-        staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) is None
+        staleness.stale_reason(obj, bpy.context.scene, Kind.SYMMETRY) is None
         and staleness.stale_reason(obj, scene) is None
     )
     obj.location.x, obj.rotation_euler.y, obj.scale = 3.0, 1.0, (2, 2, 2)
     bpy.context.view_layer.update()
-    assert staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) is None
+    assert staleness.stale_reason(obj, bpy.context.scene, Kind.SYMMETRY) is None
     obj.scale.x = 1.5
     bpy.context.view_layer.update()
-    assert staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) == Stale.SCALE
+    assert staleness.stale_reason(obj, bpy.context.scene, Kind.SYMMETRY) == Stale.SCALE
     obj.data.vertices[0].co.x += 0.5
     obj.data.update()
     bpy.context.view_layer.update()
-    assert staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) == Stale.GEOMETRY
+    assert staleness.stale_reason(obj, bpy.context.scene, Kind.SYMMETRY) == Stale.GEOMETRY
     assert obj.body_moments_symmetry.group == "C1"

@@ -7,12 +7,13 @@ from contextlib import contextmanager
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.session.stored import stability
 from body_moments.blender.session.tracking import staleness
 from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.blender.write import properties
 from mathutils import Matrix
 
-from tests.blender.objects import add, measured, only
+from tests.blender.objects import add, editing, measured, only
 from tests.close import close
 from tests.operators.balancing import balance, bmesh, edit, figure, points
 
@@ -272,12 +273,10 @@ def test_other_users_of_balanced_mesh_become_stale(reported):
 
 def test_distant_fine_mesh_is_balanced_to_float32():
     mesh = bpy.data.meshes.new("Fine")
-    work = bmesh.new()
-    bmesh.ops.create_icosphere(
-        work, subdivisions=5, radius=1.0, matrix=Matrix.Diagonal((1.0, 1.5, 0.7, 1.0))
-    )
-    work.to_mesh(mesh)
-    work.free()
+    with editing(mesh) as work:
+        bmesh.ops.create_icosphere(
+            work, subdivisions=5, radius=1.0, matrix=Matrix.Diagonal((1.0, 1.5, 0.7, 1.0))
+        )
     obj = add(mesh, location=(1000.0, 0.0, 0.0))
     group(obj, lambda co: float(co.z > 0.0))
     assert balance(target="POINT", point=(1000.02, 0.01, 0.0)) == {"FINISHED"}
@@ -286,18 +285,16 @@ def test_distant_fine_mesh_is_balanced_to_float32():
 
 def bracket():
     """A body of three overlapping boxes that counts as a union."""
-    work = bmesh.new()
-    for center, size in (
-        ((0, 0, 0.1), (2, 1, 0.2)),
-        ((0.9, 0, 0.9), (0.2, 0.8, 1.8)),
-        ((1.7, 0, 1.7), (1.8, 0.6, 0.2)),
-    ):
-        bmesh.ops.create_cube(
-            work, matrix=Matrix.Translation(center) @ Matrix.Diagonal((*size, 1.0))
-        )
     mesh = bpy.data.meshes.new("Bracket")
-    work.to_mesh(mesh)
-    work.free()
+    with editing(mesh) as work:
+        for center, size in (
+            ((0, 0, 0.1), (2, 1, 0.2)),
+            ((0.9, 0, 0.9), (0.2, 0.8, 1.8)),
+            ((1.7, 0, 1.7), (1.8, 0.6, 0.2)),
+        ):
+            bmesh.ops.create_cube(
+                work, matrix=Matrix.Translation(center) @ Matrix.Diagonal((*size, 1.0))
+            )
     obj = add(mesh, "Bracket")
     obj.body_moments.overlap = "UNION"
     return obj
@@ -316,8 +313,6 @@ def test_union_of_overlapping_boxes_is_balanced(vertices):
 
 
 def test_stability_is_valid_after_undo_to_measured_shape():
-    from body_moments.blender.session.stored import stability
-
     obj = bracket()
     bpy.ops.object.body_moments_stability()
     bpy.ops.ed.undo_push(message="checked")

@@ -9,6 +9,7 @@ from itertools import product
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.session.tracking import staleness
 from mathutils import Matrix
 
 from tests.blender.objects import HEIGHT, POINTS, add, measured, mesh_body, only, place, seen
@@ -382,8 +383,6 @@ def test_align_to_the_world_origin_below_a_parent_with_a_child():
 
 
 def test_stored_results_are_kept_up_to_date(reported):
-    from body_moments.blender.session.tracking import staleness
-
     obj = add(mesh_body(), location=(1, 2, 3), rotation=(0.1, 0.2, 0.3))
     bpy.ops.object.body_moments_measure()
     assert run(AXES) == {"FINISHED"}
