@@ -51,14 +51,14 @@ class SurfaceBody:
     *Endpoint*.
 
     rounding: largest effect of the file's decimals on a point. color: red, green and blue in sRGB.
-    source: the compressed STEP file of this body alone, which `matrix` (4, 4) places.
+    source: returns the compressed file of this body alone, which `matrix` (4, 4) places.
     """
 
     name: str
     patches: tuple[Face, ...]
     rounding: float = 0.0
     color: tuple[float, ...] | None = None
-    source: bytes = b""
+    source: Callable[[], bytes] | None = None
     matrix: Array | None = None
 
 
