@@ -216,8 +216,8 @@ def _joint_values(
     for joint in above.values():
         for name, *_, leader, _ in joint.motions:
             if leader and (leader not in by_name or not is_mjcf and name not in values):
-                more = {"joint": name, "key": "mimic", "value": leader}
-                wrong.append((finding(JOINT_VALUE_UNUSABLE, **more), joint.place))
+                fault = finding(JOINT_VALUE_UNUSABLE, joint=name, key="mimic", value=leader)
+                wrong.append((fault, joint.place))
     return values, wrong
 
 
