@@ -7,33 +7,24 @@ from __future__ import annotations
 import numpy as np
 from bpy.types import Depsgraph, Object
 
-from ...core.cuts import (
-    CUT_FILL_UNAVAILABLE,
-    MIN_RIM_SPREAD,
-    PLANE_UPRIGHT,
-    CutFill,
-    cut_fill,
-    cut_fill_between,
-)
-from ...core.flat import fit_plane
-from ...core.mesh import Surface
+from ...core import cuts, flat, mesh, verdict
 from ...core.numerics import Array
-from ...core.verdict import MeasureError
-from ..read.objects import read_object
-from ..read.visibility import measurable
+from ..read import objects, visibility
 
 
-def world_surface(obj: Object, depsgraph: Depsgraph, unit: float) -> Surface:
+def world_surface(obj: Object, depsgraph: Depsgraph, unit: float) -> mesh.Surface:
     """Return the faces that an object shows, before any repair. unit: meters per Blender unit."""
-    surface = read_object(obj, depsgraph, edges=False).join()
+    surface = objects.read_object(obj, depsgraph, edges=False).join()
     return surface.transform(unit * np.eye(3), np.zeros(3))
 
 
-def cut_fill_against(other: Object, surface: Surface, depsgraph: Depsgraph, unit: float) -> CutFill:
+def cut_fill_against(
+    other: Object, surface: mesh.Surface, depsgraph: Depsgraph, unit: float
+) -> cuts.CutFill:
     """Return cut and fill of a surface against an object: its plane if it is flat or shows no
     faces (its X and Y axes), else its surface.
     """
-    if not measurable(other):
+    if not visibility.measurable(other):
         matrix = np.array(other.matrix_world, np.float64)
         normal = np.cross(matrix[:3, 0], matrix[:3, 1])
         return _against_plane(surface, normal, unit * matrix[:3, 3])
@@ -41,18 +32,20 @@ def cut_fill_against(other: Object, surface: Surface, depsgraph: Depsgraph, unit
     faces = shown.all_triangles()[0]
     try:
         error = float(shown.coordinate_error.max())
-        plane = fit_plane(shown.points, faces, np.eye(3), np.zeros(3), error)
-    except MeasureError:
-        return cut_fill_between(surface.points, surface.all_triangles()[0], shown.points, faces)
+        plane = flat.fit_plane(shown.points, faces, np.eye(3), np.zeros(3), error)
+    except verdict.MeasureError:
+        return cuts.cut_fill_between(
+            surface.points, surface.all_triangles()[0], shown.points, faces
+        )
     return _against_plane(surface, plane.axes[:, 2], plane.origin)
 
 
-def _against_plane(surface: Surface, normal: Array, place: Array) -> CutFill:
+def _against_plane(surface: mesh.Surface, normal: Array, place: Array) -> cuts.CutFill:
     """Return cut and fill against the plane through a place; its upper side counts as up."""
     size = float(np.linalg.norm(normal))
-    if not size > 0.0 or abs(normal[2]) < MIN_RIM_SPREAD * size:
-        raise MeasureError(CUT_FILL_UNAVAILABLE, fault=PLANE_UPRIGHT)
+    if not size > 0.0 or abs(normal[2]) < cuts.MIN_RIM_SPREAD * size:
+        raise verdict.MeasureError(cuts.CUT_FILL_UNAVAILABLE, fault=cuts.PLANE_UPRIGHT)
     normal = normal if normal[2] >= 0.0 else -normal
     triangles = surface.all_triangles()[0]
     offset = float(normal @ place)
-    return cut_fill(surface.points, triangles, normal, offset, surface.coordinate_error)
+    return cuts.cut_fill(surface.points, triangles, normal, offset, surface.coordinate_error)

@@ -12,8 +12,7 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ...core.bodies import WIRE_UNSUPPORTED, name_subject, to_si
-from ...core.flat import foot
+from ...core import bodies, flat, measurement, mesh, moments
 from ...core.fourier import (
     APPROXIMATE,
     FOURIER_OF_OPEN_SURFACE,
@@ -23,14 +22,10 @@ from ...core.fourier import (
     RegionTransform,
     Spectrum,
 )
-from ...core.measurement import WALL_UNSUPPORTED, ZERO_QUANTITY
-from ...core.mesh import Surface
-from ...core.moments import Measure, affine_matrices, placed_boxes
 from ...core.numerics import Array, NDArray
 from ...core.verdict import Finding, Procedure, ReadError, finding
+from ..read import objects, visibility
 from ..read.findings import DISPLAY_MESH_MEASURED
-from ..read.objects import read_object
-from ..read.visibility import shows_flat_region
 from ..settings.density import density_field
 from ..settings.options import MeasureOptions, object_settings
 from .findings import (
@@ -59,7 +54,7 @@ class ObjectTransform:
 
     def steps(self) -> Generator[float, None, None]:
         """Do the work and yield the fraction done, or raise MeasureError."""
-        with name_subject(self.name):
+        with bodies.name_subject(self.name):
             yield from self.transform.steps()
 
     def result(self) -> tuple[Spectrum, tuple[Finding, ...]]:
@@ -89,31 +84,33 @@ def object_transform(
     """
     resolved = object_settings(obj, depsgraph.scene, options)
     unit = resolved.unit
-    reading = read_object(obj, depsgraph)
+    reading = objects.read_object(obj, depsgraph)
     shell = resolved.kind == "shell"
-    with name_subject(obj.name):
+    with bodies.name_subject(obj.name):
         body = mesh_body(
             reading, unit, shell=shell, union=resolved.overlap == "union", threads=resolved.threads
         )
         if area or shell:
             if shell and not area and resolved.wall != "thin":
-                raise ReadError(WALL_UNSUPPORTED, quantity="The Fourier transform")
+                raise ReadError(measurement.WALL_UNSUPPORTED, quantity="The Fourier transform")
             if shell and not area and not resolved.thickness > 0.0:
-                raise ReadError(ZERO_QUANTITY, quantity="thickness")
-            parts = [(part.surface, to_si(part.matrices, unit)) for part in reading.parts]
-            of = Measure.AREA
+                raise ReadError(measurement.ZERO_QUANTITY, quantity="thickness")
+            parts = [(part.surface, bodies.to_si(part.matrices, unit)) for part in reading.parts]
+            of = moments.Measure.AREA
             total = body.area.total
         else:
             if resolved.kind == "wire":
-                raise ReadError(WIRE_UNSUPPORTED, quantity="The Fourier transform")
+                raise ReadError(bodies.WIRE_UNSUPPORTED, quantity="The Fourier transform")
             if body.method.procedure == Procedure.OPEN:
                 raise ReadError(FOURIER_OF_OPEN_SURFACE)
             parts = [(solid.repaired_surface, matrices) for solid, matrices in body.solids]
-            of = Measure.VOLUME
+            of = moments.Measure.VOLUME
             total = body.volume.total
         if frame == "object":
             axes = reading.rotation.T
-            turn = affine_matrices(axes, -axes @ reading.location * unit)  # to the object's frame
+            turn = moments.affine_matrices(
+                axes, -axes @ reading.location * unit
+            )  # to the object's frame
             parts = [(surface, turn @ matrices) for surface, matrices in parts]
         if callable(q):
             q = q(_extent(parts))
@@ -121,7 +118,7 @@ def object_transform(
         varies = not area and density_field(obj.body_moments) is not None
     factor = resolved.thickness if shell and not area else 1.0
     findings = [*reading.findings, *body.findings]
-    if reading.has_patches or (obj.type == "CURVE" and shell and shows_flat_region(obj)):
+    if reading.has_patches or (obj.type == "CURVE" and shell and visibility.shows_flat_region(obj)):
         findings.append(finding(DISPLAY_MESH_MEASURED, cause="a Fourier transform needs polygons"))
     if varies:
         findings.append(finding(FOURIER_OF_UNIFORM_DENSITY))
@@ -147,7 +144,7 @@ def flat_transform(
     region = flat_region(obj, depsgraph, selected=False, exact=False, unit=unit)
     findings = (*region.findings, *area_findings(region, region.moments(1).total))
     plane = region.plane
-    at = foot(plane, np.zeros(3) if frame == "world" else region.location)
+    at = flat.foot(plane, np.zeros(3) if frame == "world" else region.location)
     origin = plane.origin + plane.axes @ at
     if callable(q):
         q = q(float(np.ptp(region.used, axis=0).max()))
@@ -159,14 +156,14 @@ def flat_transform(
     )
 
 
-def _extent(parts: list[tuple[Surface, NDArray]]) -> float:
+def _extent(parts: list[tuple[mesh.Surface, NDArray]]) -> float:
     """Return the longest side, in m, of the box that holds the boxes of all parts, or raise
     ReadError if it is 0.
     """
     low = np.full(3, np.inf)
     high = np.full(3, -np.inf)
     for surface, matrices in parts:
-        center, extent = placed_boxes(surface.box, matrices)
+        center, extent = moments.placed_boxes(surface.box, matrices)
         low = np.minimum(low, (center - extent).min(axis=0))
         high = np.maximum(high, (center + extent).max(axis=0))
     size = float((high - low).max())

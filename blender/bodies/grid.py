@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core import measurement, moments, scans
 from ...core.bodies import (
     DENSITY_FROM_GRID,
     GRID_AS_SHELL,
@@ -29,13 +30,9 @@ from ...core.bodies import (
     to_si,
 )
 from ...core.density import Blocks, GridOptions, sample_positions, sum_labels
-from ...core.measurement import Body, Settings
-from ...core.moments import KNOWN_ORDER, affine_matrices
-from ...core.scans import AXES, LABEL_ABSENT, Positions
 from ...core.verdict import Method, ReadError, Source, finding
+from ..read import tracking, volume
 from ..read.findings import GRID_UNSUPPORTED, IS_LEVEL_SET
-from ..read.tracking import tracking_paused
-from ..read.volume import VolumeReading, volume_reading
 from ..settings.density import density_key, grid_key
 from .findings import LEVEL_SET_MEASURED
 from .mesh import mesh_body
@@ -44,15 +41,15 @@ from .request import Request
 MEASURED_AS = frozenset({"solid", "shell", "printed", "wire"})  # all but solids are refused
 
 
-def read(request: Request) -> VolumeReading | None:
+def read(request: Request) -> volume.VolumeReading | None:
     """Return the grid that an object shows; None if it shows polygons, or no volume."""
     obj = request.obj
     if obj.type != "VOLUME" and "NODES" not in [modifier.type for modifier in obj.modifiers]:
         return None
     with ExitStack() as opened:
-        opened.enter_context(tracking_paused())
+        opened.enter_context(tracking.tracking_paused())
         reading = opened.enter_context(
-            volume_reading(obj, request.depsgraph, obj.body_moments.grid)
+            volume.volume_reading(obj, request.depsgraph, obj.body_moments.grid)
         )
         if reading is None:
             return None
@@ -62,7 +59,7 @@ def read(request: Request) -> VolumeReading | None:
     return reading
 
 
-def body(reading: VolumeReading, request: Request) -> Body:
+def body(reading: volume.VolumeReading, request: Request) -> measurement.Body:
     """Return the body of one grid, or raise MeasureError if there is none."""
     obj = request.obj
     density = request.given.density
@@ -74,13 +71,15 @@ def body(reading: VolumeReading, request: Request) -> Body:
     return replace(made, density_from=source, density_key=key)
 
 
-def _grid_body(reading: VolumeReading, options: GridOptions, settings: Settings) -> Body:
+def _grid_body(
+    reading: volume.VolumeReading, options: GridOptions, settings: measurement.Settings
+) -> measurement.Body:
     """Return the body of one grid, with its mass moments to an order.
 
     Raises MeasureError if the grid has no body.
     """
     unit = settings.unit
-    order = KNOWN_ORDER if settings.order is None else settings.order
+    order = moments.KNOWN_ORDER if settings.order is None else settings.order
     if options.threshold is not None:
         options.needs_even_samples(reading.grid)
         return threshold_grid_body(threshold_grid(reading, unit), options, order=order)
@@ -92,7 +91,7 @@ def _grid_body(reading: VolumeReading, options: GridOptions, settings: Settings)
     if reading.level_set:
         raise ReadError(GRID_UNSUPPORTED, fault=IS_LEVEL_SET, grid=reading.grid)
     positions = sample_positions(options, reading.grid, reading.low, reading.shape)
-    first = affine_matrices(
+    first = moments.affine_matrices(
         np.eye(3), [low if row is None else 0.0 for low, row in zip(reading.low, positions)]
     )
     shape = [count if row is None else len(row) for count, row in zip(reading.shape, positions)]
@@ -100,7 +99,7 @@ def _grid_body(reading: VolumeReading, options: GridOptions, settings: Settings)
     density = finding(
         GRID_DENSITY, samples=list(reading.shape), cause=options.meaning().as_record()
     )
-    axes = [axis for axis, row in zip(AXES, positions) if row is not None]
+    axes = [axis for axis, row in zip(scans.AXES, positions) if row is not None]
     findings = (density, finding(SAMPLES_POSITIONED, axes=axes)) if axes else (density,)
     samples = Samples(
         _whole_axes(reading, positions),
@@ -113,18 +112,20 @@ def _grid_body(reading: VolumeReading, options: GridOptions, settings: Settings)
     return density_body(samples, findings, order=order)
 
 
-def _label(reading: VolumeReading, label: int, unit: float) -> Body:
+def _label(reading: volume.VolumeReading, label: int, unit: float) -> measurement.Body:
     """Return the body of the voxels of a label, or for 0 of all labels but 0."""
     sums = sum_labels(reading.blocks)
     chosen = [row for own, row in sums.items() if own and label in (0, own)]
     if not chosen:
         values = {"labels": [label], "others": sorted(sums.keys() - {0}), "remedy": "Label"}
-        raise ReadError(LABEL_ABSENT, file=reading.grid, **values)
+        raise ReadError(scans.LABEL_ABSENT, file=reading.grid, **values)
     matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object
-    return label_body(np.sum(chosen, axis=0), matrix @ affine_matrices(np.eye(3), reading.low))
+    return label_body(
+        np.sum(chosen, axis=0), matrix @ moments.affine_matrices(np.eye(3), reading.low)
+    )
 
 
-def _whole_axes(reading: VolumeReading, positions: Positions) -> Blocks:
+def _whole_axes(reading: volume.VolumeReading, positions: scans.Positions) -> Blocks:
     """Return the blocks of a grid, from the start of an axis if it has positions (outer samples
     need neighbors).
     """
@@ -137,7 +138,7 @@ def _whole_axes(reading: VolumeReading, positions: Positions) -> Blocks:
     return blocks if any(offset) else reading.blocks
 
 
-def _solid(reading: VolumeReading, unit: float, threads: int) -> MeshBody:
+def _solid(reading: volume.VolumeReading, unit: float, threads: int) -> MeshBody:
     """Return the body inside a level set, by its polygons."""
     if reading.level_set is False:
         raise ReadError(
@@ -155,7 +156,7 @@ def _solid(reading: VolumeReading, unit: float, threads: int) -> MeshBody:
     return replace(bounded, method=method, findings=(measured, *bounded.findings))
 
 
-def threshold_grid(reading: VolumeReading, unit: float) -> ThresholdGrid:
+def threshold_grid(reading: volume.VolumeReading, unit: float) -> ThresholdGrid:
     """Return the values of a grid as one array, or raise ReadError if it is a level set or too
     large.
     """
@@ -171,6 +172,6 @@ def threshold_grid(reading: VolumeReading, unit: float) -> ThresholdGrid:
     matrix = (
         to_si(reading.matrix[None], unit)[0]
         @ reading.to_object
-        @ affine_matrices(np.eye(3), reading.low)
+        @ moments.affine_matrices(np.eye(3), reading.low)
     )
     return ThresholdGrid(reading.grid, values, matrix, float(reading.background))

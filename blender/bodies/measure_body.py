@@ -17,11 +17,10 @@ import bpy
 
 from ...core.bodies import name_subject
 from ..settings.options import AS_SET, MeasureOptions
-from . import grid, mesh, nurbs, wire
+from . import grid, mesh, nurbs, stack, wire
 from .assembly.given import point_measurement, read_point, with_given
 from .flat import flat
 from .request import Request, measurement_of
-from .stack import Measured
 
 THREADS = os.cpu_count() or 1  # for long measurements
 KINDS = (grid, wire, flat, mesh, nurbs)
@@ -29,7 +28,7 @@ KINDS = (grid, wire, flat, mesh, nurbs)
 
 def measure_body(
     obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
-) -> Measured:
+) -> stack.Measured:
     """Return the measurement of one evaluated object with its reading and body, or raise
     MeasureError.
     """
@@ -38,11 +37,11 @@ def measure_body(
         point = read_point(request)
         if point is not None:
             measurement, body = point_measurement(point, request)
-            return Measured(measurement, reading=point, body=body)
+            return stack.Measured(measurement, reading=point, body=body)
         kinds = (kind for kind in KINDS if request.settings.kind in kind.MEASURED_AS)
         found = ((kind, kind.read(request)) for kind in kinds)
         # The last kind raises MeasureError in place of returning None.
         kind, reading = next((kind, reading) for kind, reading in found if reading is not None)
         body = with_given(kind.body(reading, request), reading, request)
         measurement = measurement_of(reading, body, request)
-        return Measured(measurement, reading=reading, body=body)
+        return stack.Measured(measurement, reading=reading, body=body)

@@ -13,24 +13,11 @@ from dataclasses import replace
 import numpy as np
 from bpy.types import Depsgraph, Object
 
-from ...core.bodies import (
-    MeshBody,
-    Reading,
-    drawn_names,
-    find_walls,
-    of_drawn,
-    print_body,
-    singular_instances_message,
-    sum_of_instances,
-    to_si,
-)
-from ...core.measurement import Body
+from ...core import bodies, measurement, verdict
 from ...core.mesh import ConvexHull, convex_hull
 from ...core.solid import HOLES_CAPPED, INVERTED_COMPONENTS, measure_solid
-from ...core.verdict import FLIPPED_FACES, EditRefusedError, Method, Procedure, ReadError, finding
+from ..read import objects, visibility
 from ..read.findings import DISPLAY_MESH_MEASURED, SCALE_ZERO_AXIS
-from ..read.objects import read_object
-from ..read.visibility import shows_flat_region
 from .density.varying_density import weigh
 from .findings import (
     OPEN_COMPONENTS_UNITED,
@@ -46,7 +33,7 @@ MEASURED_AS = frozenset({"solid", "shell", "printed"})
 # findings about the bodies before their union
 REPAIRS = {
     HOLES_CAPPED,
-    FLIPPED_FACES,
+    verdict.FLIPPED_FACES,
     INVERTED_COMPONENTS,
 }
 HULL_RTOL = 1e-6  # relative to the extent: points that are outside by less are left out
@@ -54,7 +41,7 @@ NOISE = 4.0  # half ulps of float32 coordinates: allowed unevenness of flat face
 MAX_CORNERS = 10000  # per hull: finely divided round bodies have more
 
 
-def read(request: Request) -> Reading | None:
+def read(request: Request) -> bodies.Reading | None:
     """Return the polygons that an object shows, or None if it has NURBS patches of one density (see
     `nurbs.py`).
     """
@@ -69,20 +56,20 @@ def read(request: Request) -> Reading | None:
             if density is None
             else "a varying density needs polygons"
         )
-        reading.findings.append(finding(DISPLAY_MESH_MEASURED, cause=cause))
+        reading.findings.append(verdict.finding(DISPLAY_MESH_MEASURED, cause=cause))
     elif (
         density is not None
         and request.settings.kind == "shell"
         and obj.type == "CURVE"
-        and shows_flat_region(obj)
+        and visibility.shows_flat_region(obj)
     ):
         reading.findings.append(
-            finding(DISPLAY_MESH_MEASURED, cause="a varying density needs polygons")
+            verdict.finding(DISPLAY_MESH_MEASURED, cause="a varying density needs polygons")
         )
     return reading
 
 
-def body(reading: Reading, request: Request) -> Body:
+def body(reading: bodies.Reading, request: Request) -> measurement.Body:
     """Return the body that polygons bound, weighed and with walls as set, or raise MeasureError."""
     settings = request.settings
     shell = settings.kind == "shell"
@@ -96,55 +83,57 @@ def body(reading: Reading, request: Request) -> Body:
     if request.density is not None:
         made = weigh(reading, made, request)
     if shell and settings.wall != "thin":
-        return find_walls(reading, made, settings.wall).body(settings.thickness)
+        return bodies.find_walls(reading, made, settings.wall).body(settings.thickness)
     if settings.kind != "printed":
         return made
-    return print_body(made, settings, to_si([reading.matrix], settings.unit)[0])
+    return bodies.print_body(made, settings, bodies.to_si([reading.matrix], settings.unit)[0])
 
 
-def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, threads: int) -> MeshBody:
+def mesh_body(
+    reading: bodies.Reading, unit: float, *, shell: bool, union: bool, threads: int
+) -> bodies.MeshBody:
     """Return the body bounded by an object's surfaces, united first if `union`, or with `shell`
     their sheets.
     """
     if shell:
-        return sum_of_instances(reading, unit, True, threads)
+        return bodies.sum_of_instances(reading, unit, True, threads)
     flat = reading.singular_instance_count
     if flat == reading.instance_count:
-        raise ReadError(ZERO_SCALE)
+        raise verdict.ReadError(ZERO_SCALE)
     made = (
         _boolean_union(reading, unit, threads)
         if union
-        else sum_of_instances(reading, unit, False, threads)
+        else bodies.sum_of_instances(reading, unit, False, threads)
     )
     return (
-        replace(made, findings=(singular_instances_message(reading), *made.findings))
+        replace(made, findings=(bodies.singular_instances_message(reading), *made.findings))
         if flat
         else made
     )
 
 
-def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
+def _boolean_union(reading: bodies.Reading, unit: float, threads: int) -> bodies.MeshBody:
     """Return the body of all parts in their places; parts with a volume are united by Blender's
     exact Boolean.
     """
-    before = sum_of_instances(reading, unit, False, threads)
+    before = bodies.sum_of_instances(reading, unit, False, threads)
     if not before.volume.total > 0.0:
         return before
     surface = unite(before)
     solid = measure_solid(surface, threads=threads) if surface.triangle_count else None
-    if solid is None or solid.method == Procedure.OPEN:
-        raise ReadError(UNION_FAILED)
-    findings = [finding(UNION_BY_BOOLEAN)]
+    if solid is None or solid.method == verdict.Procedure.OPEN:
+        raise verdict.ReadError(UNION_FAILED)
+    findings = [verdict.finding(UNION_BY_BOOLEAN)]
     procedure = before.method.procedure
-    if procedure == Procedure.OPEN:
-        findings.append(finding(OPEN_COMPONENTS_UNITED))
+    if procedure == verdict.Procedure.OPEN:
+        findings.append(verdict.finding(OPEN_COMPONENTS_UNITED))
     findings += [result for result in before.findings if result.code in REPAIRS]
-    findings += of_drawn(solid.findings, reading.parts, drawn_names(reading))
+    findings += bodies.of_drawn(solid.findings, reading.parts, bodies.drawn_names(reading))
     return replace(
         before,
         volume=solid.volume,
         area=solid.area,
-        method=Method(Procedure.UNION),
+        method=verdict.Method(verdict.Procedure.UNION),
         findings=tuple(findings),
         face_count=solid.face_count,
         solids=((solid, np.eye(4)[None]),),
@@ -155,9 +144,9 @@ def object_hull(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
     """Return the convex hull of an object with its instances, in its own coordinates, or raise
     MeasureError.
     """
-    reading = read_object(obj, depsgraph, edges=False)
+    reading = objects.read_object(obj, depsgraph, edges=False)
     if reading.is_singular:
-        raise EditRefusedError(SCALE_ZERO_AXIS)
+        raise verdict.EditRefusedError(SCALE_ZERO_AXIS)
     to_local = np.linalg.inv(reading.matrix)
     points = []
     noise = 0.0

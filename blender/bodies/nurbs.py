@@ -16,21 +16,8 @@ from typing import ClassVar, cast
 
 import numpy as np
 
-from ...core.bodies import (
-    MeshBody,
-    Part,
-    Reading,
-    SplineReading,
-    each_once,
-    extend_input_error,
-    findings_by_part,
-    instances_overlap,
-    merge_health,
-    singular_instances_message,
-    to_si,
-)
+from ...core import bodies, mesh, nurbs, solid, verdict
 from ...core.measurement import WALL_UNSUPPORTED, Body
-from ...core.mesh import Surface
 from ...core.moments import (
     Measure,
     Moments,
@@ -42,28 +29,6 @@ from ...core.moments import (
     sum_of_images,
 )
 from ...core.numerics import Array, NDArray
-from ...core.nurbs import (
-    ERROR_ESTIMATE_LARGE,
-    Face,
-    PatchIntegrals,
-    area_moments,
-    measure_patches,
-    measure_sheet,
-    sharpest_crease,
-    stored_area_moments,
-    volume_moments,
-)
-from ...core.solid import OVERLAP_OF_INSTANCES, UNCHECKED
-from ...core.verdict import (
-    Finding,
-    MeasureError,
-    Method,
-    Procedure,
-    ReadError,
-    Source,
-    finding,
-    least_trusted,
-)
 from ..read.findings import DISPLAY_MESH_MEASURED
 from .findings import WALL_CREASES, ZERO_SCALE
 from .mesh import mesh_body
@@ -91,28 +56,30 @@ class PatchBody(Body):
     any_order: ClassVar[bool] = True
     has_surface: ClassVar[bool] = True
 
-    reading: Reading = field(kw_only=True)
+    reading: bodies.Reading = field(kw_only=True)
     unit: float = field(kw_only=True)
-    pieces: tuple[tuple[Part, PatchIntegrals, Array], ...] = ()
-    polygons: MeshBody | None = None
+    pieces: tuple[tuple[bodies.Part, nurbs.PatchIntegrals, Array], ...] = ()
+    polygons: bodies.MeshBody | None = None
     threads: int = field(kw_only=True)
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
         """Return the moments of the volume and of the area (None without `area`) to an order."""
         volumes, areas = [], []
         for _, measure, matrices in self.pieces:
-            own = volume_moments(measure.patches, order, measure.volume.about)[0]
-            volumes.append(sum_of_images(extend_input_error(own, measure.volume), matrices))
+            own = nurbs.volume_moments(measure.patches, order, measure.volume.about)[0]
+            volumes.append(sum_of_images(bodies.extend_input_error(own, measure.volume), matrices))
         for part, measure, matrices in self.pieces if area else ():
-            of_part = area_moments(_patches(part), order, measure.area.about)[0]
-            areas.extend(_image_areas(part, extend_input_error(of_part, measure.area), matrices))
+            of_part = nurbs.area_moments(_patches(part), order, measure.area.about)[0]
+            areas.extend(
+                _image_areas(part, bodies.extend_input_error(of_part, measure.area), matrices)
+            )
         if self.polygons is not None:
             volume, faces = self.polygons.moments(order, area)
             volumes.append(volume)
             areas += [faces] if faces is not None else []
         return sum_moments(volumes), sum_moments(areas) if area else None
 
-    def surfaces(self, sheets: bool) -> Iterator[Surface]:
+    def surfaces(self, sheets: bool) -> Iterator[mesh.Surface]:
         """Yield the display mesh in its place, because callers need polygons."""
         return mesh_body(
             self.reading, self.unit, shell=sheets, union=False, threads=self.threads
@@ -128,15 +95,15 @@ class PatchSheetBody(Body):
     any_order: ClassVar[bool] = True
 
     unit: float = field(kw_only=True)
-    parts: tuple[Part, ...] = ()
-    polygons: MeshBody | None = None
+    parts: tuple[bodies.Part, ...] = ()
+    polygons: bodies.MeshBody | None = None
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments]:
         """Return zero moments of the volume, and the moments of the area."""
         areas = []
         for part in self.parts:
-            of_part = stored_area_moments(_patches(part), order, stored=_stored(part))
-            areas.extend(_image_areas(part, of_part, to_si(part.matrices, self.unit)))
+            of_part = nurbs.stored_area_moments(_patches(part), order, stored=_stored(part))
+            areas.extend(_image_areas(part, of_part, bodies.to_si(part.matrices, self.unit)))
         if self.polygons is not None:
             faces = self.polygons.moments(order, True)[1]
             areas += [faces] if faces is not None else []
@@ -145,23 +112,23 @@ class PatchSheetBody(Body):
         ), sum_moments(areas)
 
 
-def _patches(part: Part) -> tuple[Face, ...]:
+def _patches(part: bodies.Part) -> tuple[nurbs.Face, ...]:
     """Return the patches of a part, which must have some."""
-    return cast(SplineReading, part.splines).patches
+    return cast(bodies.SplineReading, part.splines).patches
 
 
-def _stored(part: Part) -> float:
-    return cast(SplineReading, part.splines).stored
+def _stored(part: bodies.Part) -> float:
+    return cast(bodies.SplineReading, part.splines).stored
 
 
-def read(request: Request) -> Reading:
+def read(request: Request) -> bodies.Reading:
     """Return the surfaces, at least one of them a patch, of an object of one density, or raise
     MeasureError.
     """
     return request.surfaces
 
 
-def body(reading: Reading, request: Request) -> Body:
+def body(reading: bodies.Reading, request: Request) -> Body:
     """Return the body that patches bound, or their sheets or walls, or raise MeasureError if there
     is none.
     """
@@ -170,10 +137,11 @@ def body(reading: Reading, request: Request) -> Body:
     if settings.kind == "shell":
         return _sheet_body(reading, unit, settings.wall, settings.thickness, threads)
     if reading.all_singular:
-        raise ReadError(ZERO_SCALE)
+        raise verdict.ReadError(ZERO_SCALE)
     patch_parts, meshes = _split_parts(reading)
     measures = [
-        measure_patches(_patches(part), area_order=3, stored=_stored(part)) for part in patch_parts
+        nurbs.measure_patches(_patches(part), area_order=3, stored=_stored(part))
+        for part in patch_parts
     ]
     if settings.overlap == "union" and (
         reading.instance_count > 1 or measures[0].health.components > 1
@@ -182,7 +150,7 @@ def body(reading: Reading, request: Request) -> Body:
         return replace(
             united,
             findings=(
-                finding(DISPLAY_MESH_MEASURED, cause="a union needs polygons"),
+                verdict.finding(DISPLAY_MESH_MEASURED, cause="a union needs polygons"),
                 *united.findings,
             ),
         )
@@ -190,7 +158,8 @@ def body(reading: Reading, request: Request) -> Body:
         mesh_body(meshes, unit, shell=False, union=False, threads=threads) if meshes.parts else None
     )
     pieces = [
-        (part, measure, to_si(part.matrices, unit)) for part, measure in zip(patch_parts, measures)
+        (part, measure, bodies.to_si(part.matrices, unit))
+        for part, measure in zip(patch_parts, measures)
     ]
     volumes = [sum_of_images(measure.volume, matrices) for _, measure, matrices in pieces]
     areas = [
@@ -201,7 +170,7 @@ def body(reading: Reading, request: Request) -> Body:
         (measure.health, len(part.matrices), faces.total)
         for (part, measure, _), faces in zip(pieces, areas)
     ]
-    procedures = [Procedure(measure.method) for measure in measures]
+    procedures = [verdict.Procedure(measure.method) for measure in measures]
     if rest:
         volumes.append(rest.volume)
         areas.append(rest.area)
@@ -209,16 +178,18 @@ def body(reading: Reading, request: Request) -> Body:
         procedures.append(rest.method.procedure)
     display = None
     if settings.compare:
-        with suppress(MeasureError):  # a display mesh that cannot be measured compares with nothing
+        with suppress(
+            verdict.MeasureError
+        ):  # a display mesh that cannot be measured compares with nothing
             display = mesh_body(
                 reading, unit, shell=False, union=False, threads=threads
             ).volume.total
     return PatchBody(
         sum_moments(volumes),
         sum_moments(areas),
-        merge_health(healths),
-        Method(least_trusted(procedures), _source(reading)),
-        tuple(each_once(_solid_findings(reading, pieces, rest))),
+        bodies.merge_health(healths),
+        verdict.Method(verdict.least_trusted(procedures), _source(reading)),
+        tuple(bodies.each_once(_solid_findings(reading, pieces, rest))),
         display_volume=display,
         estimated=True,
         reading=reading,
@@ -230,20 +201,22 @@ def body(reading: Reading, request: Request) -> Body:
 
 
 def _solid_findings(
-    reading: Reading, pieces: list[tuple[Part, PatchIntegrals, NDArray]], rest: MeshBody | None
-) -> list[Finding]:
+    reading: bodies.Reading,
+    pieces: list[tuple[bodies.Part, nurbs.PatchIntegrals, NDArray]],
+    rest: bodies.MeshBody | None,
+) -> list[verdict.Finding]:
     by_part = [(part.source_object_name, measure.findings) for part, measure, _ in pieces]
-    findings = findings_by_part(by_part, reading.name)
+    findings = bodies.findings_by_part(by_part, reading.name)
     if rest:
         findings += rest.findings
     if reading.singular_instance_count:
-        findings.append(singular_instances_message(reading))
-    if instances_overlap(reading):
-        findings.append(finding(UNCHECKED, subject=OVERLAP_OF_INSTANCES))
+        findings.append(bodies.singular_instances_message(reading))
+    if bodies.instances_overlap(reading):
+        findings.append(verdict.finding(solid.UNCHECKED, subject=solid.OVERLAP_OF_INSTANCES))
     return findings
 
 
-def _split_parts(reading: Reading) -> tuple[list[Part], Reading]:
+def _split_parts(reading: bodies.Reading) -> tuple[list[bodies.Part], bodies.Reading]:
     """Return the parts that are patches, and a reading of the others."""
     return (
         [part for part in reading.parts if part.splines is not None],
@@ -251,12 +224,16 @@ def _split_parts(reading: Reading) -> tuple[list[Part], Reading]:
     )
 
 
-def _source(reading: Reading) -> Source:
+def _source(reading: bodies.Reading) -> verdict.Source:
     """Return the source of the measurement: NURBS if all parts are patches, else polygons."""
-    return Source.NURBS if all(part.splines for part in reading.parts) else Source.POLYGONS
+    return (
+        verdict.Source.NURBS
+        if all(part.splines for part in reading.parts)
+        else verdict.Source.POLYGONS
+    )
 
 
-def _image_areas(part: Part, area: Moments, matrices: NDArray) -> Iterator[Moments]:
+def _image_areas(part: bodies.Part, area: Moments, matrices: NDArray) -> Iterator[Moments]:
     """Yield the area moments of each place of a part."""
     even = are_similarities(matrices[:, :3, :3])
     if even.any():
@@ -264,24 +241,26 @@ def _image_areas(part: Part, area: Moments, matrices: NDArray) -> Iterator[Momen
     stored = _stored(part) * float(np.linalg.norm(matrices[:, :3, :3], 2, axis=(1, 2)).max())
     for patches, translations_of_image in _distinct_images(_patches(part), matrices[~even]):
         yield sum_of_images(
-            stored_area_moments(patches, area.order, stored=stored), translations_of_image
+            nurbs.stored_area_moments(patches, area.order, stored=stored), translations_of_image
         )
 
 
-def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, threads: int) -> Body:
+def _sheet_body(
+    reading: bodies.Reading, unit: float, wall: str, thickness: float, threads: int
+) -> Body:
     """Return the body of thin sheets, or of walls inside, outside or on both sides of the
     surfaces.
     """
     patch_parts, meshes = _split_parts(reading)
     if meshes.parts and wall != "thin":
-        raise ReadError(WALL_UNSUPPORTED, quantity="A mixture of NURBS surfaces and meshes")
+        raise verdict.ReadError(WALL_UNSUPPORTED, quantity="A mixture of NURBS surfaces and meshes")
     sheets = []
     areas = []
     healths = []
     by_part = []
     for part in patch_parts:
-        matrices = to_si(part.matrices, unit)
-        measure = measure_patches(_patches(part), area_order=3, stored=_stored(part))
+        matrices = bodies.to_si(part.matrices, unit)
+        measure = nurbs.measure_patches(_patches(part), area_order=3, stored=_stored(part))
         grown_by = np.cbrt(np.linalg.det(matrices[:, :3, :3])) ** 2
         healths.append((measure.health, len(matrices), measure.area.total * float(grown_by.sum())))
         if wall == "thin":
@@ -291,28 +270,30 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
             patch.reverse_orientation() if sign < 0.0 else patch
             for patch, sign in zip(_patches(part), measure.signs)
         ]
-        sharpest = sharpest_crease(_patches(part), measure.topology)
+        sharpest = nurbs.sharpest_crease(_patches(part), measure.topology)
         if sharpest > MIN_CREASE_ANGLE:
             by_part.append(
                 (
                     part.source_object_name,
-                    [finding(WALL_CREASES, angle=float(np.degrees(sharpest)))],
+                    [verdict.finding(WALL_CREASES, angle=float(np.degrees(sharpest)))],
                 )
             )
         inner, outer = (thickness * height for height in HEIGHTS[wall])
         for patches, translations_of_image in _distinct_images(outward, matrices):
             grown = unit * float(np.linalg.norm(part.matrices[:, :3, :3], 2, axis=(1, 2)).max())
-            sheet, area, fine = measure_sheet(patches, inner, outer, stored=_stored(part) * grown)
+            sheet, area, fine = nurbs.measure_sheet(
+                patches, inner, outer, stored=_stored(part) * grown
+            )
             sheets.append(sum_of_images(sheet, translations_of_image))
             areas.append(sum_of_images(area, translations_of_image))
             if not fine:
                 by_part.append(
                     (
                         part.source_object_name,
-                        [finding(ERROR_ESTIMATE_LARGE, quantity="wall's volume")],
+                        [verdict.finding(nurbs.ERROR_ESTIMATE_LARGE, quantity="wall's volume")],
                     )
                 )
-    findings = findings_by_part(by_part, reading.name)
+    findings = bodies.findings_by_part(by_part, reading.name)
     polygons = None
     if meshes.parts:
         polygons = mesh_body(meshes, unit, shell=True, union=False, threads=threads)
@@ -324,9 +305,9 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
     common = (
         nothing,
         area,
-        merge_health(healths),
-        Method(Procedure.SHELL, _source(reading)),
-        tuple(each_once(findings)),
+        bodies.merge_health(healths),
+        verdict.Method(verdict.Procedure.SHELL, _source(reading)),
+        tuple(bodies.each_once(findings)),
     )
     if wall != "thin":
         return Body(*common, wall=sum_moments(sheets), estimated=True)
@@ -336,8 +317,8 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
 
 
 def _distinct_images(
-    patches: Sequence[Face], matrices: NDArray
-) -> Iterator[tuple[list[Face], NDArray]]:
+    patches: Sequence[nurbs.Face], matrices: NDArray
+) -> Iterator[tuple[list[nurbs.Face], NDArray]]:
     """Yield the patches under each distinct linear map, facing as before, with (k, 4, 4)
     translations to the places.
     """

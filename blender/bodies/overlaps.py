@@ -13,29 +13,21 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 import numpy as np
 from bpy.types import Depsgraph, Object
 
-from ...core.bodies import float64_matrix
-from ...core.mesh import BoundarySum, Surface, join_surfaces, overlapping_box_pairs, sort_components
+from ...core import bodies, mesh, solid, verdict
 from ...core.numerics import Array, Mask, cross_rows
-from ...core.solid import classify_pairs
-from ...core.verdict import (
-    CLOSED_SHEET_VOLUME_RTOL,
-    Finding,
-    MeasureError,
-    finding,
-    welding_tolerance,
-)
 from .. import read  # most objects need not be read again
 from ..read.assembly import copies_caveats, copies_in_place, operands_of
-from .findings import BODIES_OVERLAP
-from .stack import Measured
+from . import findings, stack
 
-NOT_MEASURED: Mapping[Object, Measured] = {}
+NOT_MEASURED: Mapping[Object, stack.Measured] = {}
 MAX_PAIRS = 4_000
 MAX_TRIANGLES = 100_000
 MAX_NAMED = 100  # pairs in the values of a finding
 
 
-def shared_space_caveats(objects: Collection[Object], depsgraph: Depsgraph) -> list[Finding]:
+def shared_space_caveats(
+    objects: Collection[Object], depsgraph: Depsgraph
+) -> list[verdict.Finding]:
     """Return a warning about copies left in place, and a note about other solids that overlap."""
     return [*copies_caveats(objects), *overlap_caveats(objects, depsgraph)]
 
@@ -43,8 +35,8 @@ def shared_space_caveats(objects: Collection[Object], depsgraph: Depsgraph) -> l
 def overlap_caveats(
     objects: Collection[Object],
     depsgraph: Depsgraph,
-    measured: Mapping[Object, Measured] = NOT_MEASURED,
-) -> list[Finding]:
+    measured: Mapping[Object, stack.Measured] = NOT_MEASURED,
+) -> list[verdict.Finding]:
     """Return a note if solids overlap, other than copies left in place and operands of Booleans.
 
     measured: fresh measurements, whose surfaces need not be read again.
@@ -59,11 +51,11 @@ def overlap_caveats(
         return []
     first, second = pairs[0]
     values = {"first": first, "second": second, "pairs": pairs[:MAX_NAMED]}
-    return [finding(BODIES_OVERLAP, count=len(pairs), **values)]
+    return [verdict.finding(findings.BODIES_OVERLAP, count=len(pairs), **values)]
 
 
 def _overlapping_pairs(
-    objects: Sequence[Object], read_surface: Callable[[Object, int], Surface | None]
+    objects: Sequence[Object], read_surface: Callable[[Object, int], mesh.Surface | None]
 ) -> list[list[str]]:
     """Return the names of the pairs of closed solids that certainly share space, sorted."""
     solids = [
@@ -75,14 +67,14 @@ def _overlapping_pairs(
     if len(solids) < 2:
         return []
     corners = np.array([[corner[:] for corner in obj.bound_box] for obj in solids], np.float64)
-    matrices = np.array([float64_matrix(obj.matrix_world) for obj in solids])
+    matrices = np.array([bodies.float64_matrix(obj.matrix_world) for obj in solids])
     corners = corners @ matrices[:, :3, :3].transpose(0, 2, 1) + matrices[:, None, :3, 3]
     low, high = corners.min(axis=1), corners.max(axis=1)
     size = float(np.linalg.norm(high.max(axis=0) - low.min(axis=0)))
-    margin = welding_tolerance(size, float(np.spacing(np.float32(np.abs(corners).max()))))
-    first, second, _ = overlapping_box_pairs(low, high, margin, MAX_PAIRS)
+    margin = verdict.welding_tolerance(size, float(np.spacing(np.float32(np.abs(corners).max()))))
+    first, second, _ = mesh.overlapping_box_pairs(low, high, margin, MAX_PAIRS)
     meet = _boxes_meet(corners[first], corners[second])
-    surfaces: dict[str, Surface] = {}
+    surfaces: dict[str, mesh.Surface] = {}
     left = MAX_TRIANGLES
     for i in np.unique([first[meet], second[meet]]).tolist():
         surface = read_surface(solids[i], left)
@@ -92,13 +84,15 @@ def _overlapping_pairs(
     if len(surfaces) < 2:
         return []
     names = [*surfaces]
-    joined = join_surfaces([*surfaces.values()])
+    joined = mesh.join_surfaces([*surfaces.values()])
     sizes = [len(surface.triangles) for surface in surfaces.values()]
     component = np.repeat(np.arange(len(sizes)), sizes)
-    components = sort_components(joined.points, joined.triangles, component, len(sizes))
+    components = mesh.sort_components(joined.points, joined.triangles, component, len(sizes))
     extent = np.linalg.norm(components.high - components.low, axis=1)
-    is_solid = np.abs(components.volume) > CLOSED_SHEET_VOLUME_RTOL * extent * components.area
-    relations = classify_pairs(joined.points, components, is_solid, margin)
+    is_solid = (
+        np.abs(components.volume) > verdict.CLOSED_SHEET_VOLUME_RTOL * extent * components.area
+    )
+    relations = solid.classify_pairs(joined.points, components, is_solid, margin)
     pairs = np.sort(np.concatenate([relations.contained_in, relations.intersecting]), axis=1)
     return [[names[i], names[j]] for i, j in np.unique(pairs, axis=0).tolist()]
 
@@ -117,8 +111,8 @@ def _boxes_meet(first: Array, second: Array) -> Mask:
 
 
 def _closed_surface(
-    obj: Object, depsgraph: Depsgraph, limit: int, measured: Measured | None
-) -> Surface | None:
+    obj: Object, depsgraph: Depsgraph, limit: int, measured: stack.Measured | None
+) -> mesh.Surface | None:
     """Return the triangles of a closed object in the world, None if it is open or has more than
     `limit`.
     """
@@ -128,13 +122,13 @@ def _closed_surface(
             if measured is None or measured.reading.has_patches
             else measured.reading
         )
-    except MeasureError:  # such as a grid of densities
+    except verdict.MeasureError:  # such as a grid of densities
         return None
     count = sum(part.surface.triangle_count * len(part.matrices) for part in reading.parts)
     if not 0 < count <= limit:
         return None
     for part in [] if measured is not None and measured.is_faultless else reading.parts:
-        boundary = BoundarySum()
+        boundary = mesh.BoundarySum()
         boundary.add(part.surface)
         if not boundary.is_zero:
             return None

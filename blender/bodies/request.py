@@ -12,11 +12,9 @@ from functools import cached_property
 
 import bpy
 
-from ...core.bodies import Reading, measure_reading
+from ...core import bodies, verdict
 from ...core.measurement import Body, Measurement, Settings
-from ...core.verdict import Finding
-from ..read.fingerprint import transform_key
-from ..read.objects import read_object
+from ..read import fingerprint, objects
 from ..settings.accepted import accepted_codes, with_acceptance
 from ..settings.density import DensityField, density_field
 from ..settings.options import AS_SET, MeasureOptions, object_settings
@@ -36,7 +34,7 @@ class Request:
     obj: bpy.types.Object = None
     depsgraph: bpy.types.Depsgraph = None
     opened: ExitStack = field(default_factory=ExitStack)
-    findings: list[Finding] = field(default_factory=list)
+    findings: list[verdict.Finding] = field(default_factory=list)
 
     @classmethod
     def resolve(
@@ -71,12 +69,12 @@ class Request:
         return density_field(properties)
 
     @cached_property
-    def surfaces(self) -> Reading:
+    def surfaces(self) -> bodies.Reading:
         """The object's surfaces, polygons and patches, with the attributes for its density; may
         raise MeasureError.
         """
         density = self.density
-        reading = read_object(
+        reading = objects.read_object(
             self.obj,
             self.depsgraph,
             materials=density is not None and density.kind == "materials",
@@ -88,12 +86,12 @@ class Request:
         return reading
 
 
-def measurement_of(reading: Reading, body: Body, request: Request) -> Measurement:
+def measurement_of(reading: bodies.Reading, body: Body, request: Request) -> Measurement:
     """Return the results of measuring a body, or raise MeasureError if it has no mass or unknown
     moments.
     """
-    transform = "" if request.obj is None else transform_key(request.obj)
-    measurement = measure_reading(reading, body, request.settings, transform)
+    transform = "" if request.obj is None else fingerprint.transform_key(request.obj)
+    measurement = bodies.measure_reading(reading, body, request.settings, transform)
     accepted = frozenset() if request.obj is None else accepted_codes(request.obj)
     return (
         replace(measurement, findings=with_acceptance(measurement.findings, accepted))

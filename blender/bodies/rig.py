@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from bpy.types import Context, Depsgraph, Object
 
-from ...core.bodies import Part, to_si
+from ...core import bodies, polyhedron
 from ...core.measurement import (
     DENSITY_FROM,
     DENSITY_FROM_MASS,
@@ -28,7 +28,6 @@ from ...core.measurement import (
 from ...core.mesh import Surface
 from ...core.moments import KNOWN_ORDER, Measure, Moments, are_similarities, sum_moments
 from ...core.numerics import Array, Integers, NDArray, shortest_decimal
-from ...core.polyhedron import polyhedron_moments
 from ...core.rig import bone_pieces, bones_of_caps, dominant_bones
 from ...core.solid import measure_solid
 from ...core.verdict import (
@@ -239,7 +238,7 @@ class _Measuring:
         if by_value and not self.is_given and is_density_unset(own, self.depsgraph.scene):
             self.unset.append(obj.name)
 
-    def _pieces(self, obj: Object, part: Part, shell: bool) -> Iterator[tuple]:
+    def _pieces(self, obj: Object, part: bodies.Part, shell: bool) -> Iterator[tuple]:
         """Yield (bone, SI world volume or area moments, area, surface, map, procedure) of each
         piece of a surface.
         """
@@ -269,7 +268,7 @@ class _Measuring:
         for matrix in part.matrices:
             points = surface.points.astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
             bone, _ = dominant_bones(pairs[:, 0], pairs[:, 1], points, weights, self.bones.segments)
-            metric = to_si(matrix[None], self.unit)[0]
+            metric = bodies.to_si(matrix[None], self.unit)[0]
             if shell:
                 yield from self._sheets(surface, triangles, bone[face], metric)
                 continue
@@ -367,7 +366,9 @@ class _Measuring:
 def _area(sheet: Surface, metric: Array, order: int) -> Moments:
     """Return the area moments of a sheet mapped to its place in the world."""
     if are_similarities(metric[None, :3, :3])[0]:  # the mapped points would be rounded once more
-        return polyhedron_moments(sheet, 0, area_order=order, allow_open=True)[1].transform(metric)
-    return polyhedron_moments(
+        return polyhedron.polyhedron_moments(sheet, 0, area_order=order, allow_open=True)[
+            1
+        ].transform(metric)
+    return polyhedron.polyhedron_moments(
         sheet.transform(metric[:3, :3], metric[:3, 3]), 0, area_order=order, allow_open=True
     )[1]

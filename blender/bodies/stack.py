@@ -15,8 +15,7 @@ from typing import Any, NamedTuple
 import bpy
 import numpy as np
 
-from ...core.bodies import MeshBody, Part, Reading, to_si
-from ...core.inertia import MassProperties, has_certain_total
+from ...core import bodies, inertia, mesh, moments, polyhedron
 from ...core.inertia.third_moment_frames import third_moment_frames
 from ...core.measurement import (
     DENSITY_FROM_MASS,
@@ -28,10 +27,7 @@ from ...core.measurement import (
     find_large_bounds,
     fingerprint,
 )
-from ...core.mesh import Surface
-from ...core.moments import Moments, are_similarities, are_singular, image
 from ...core.numerics import Array, Index, NDArray, rotation_matrix
-from ...core.polyhedron import area_of_images
 from ...core.solid import SmallSolid, SolidStack, measure_again
 from ...core.verdict import Finding, Method, Procedure
 from ..read.fingerprint import transform_key
@@ -87,7 +83,7 @@ class Measured:
         return isinstance(solid, SmallSolid) and solid.method is Procedure.EXACT
 
     @property
-    def surface(self) -> Surface | None:
+    def surface(self) -> mesh.Surface | None:
         """The object's surface as it was read, None if it has several or none."""
         if self.index is not None:
             return self.shapes.surfaces[self.member.shape]
@@ -108,31 +104,31 @@ class Measured:
         row = self.measurement
         member = self.member
         solid = self.shapes[member.shape]
-        return MeshBody(
+        return bodies.MeshBody(
             row.mass_moments[0],
             row.area_moments,
             row.health,
             row.method,
             row.findings,
             face_count=solid.face_count,
-            solids=((solid, to_si(member.matrix[None], member.settings.unit)),),
+            solids=((solid, bodies.to_si(member.matrix[None], member.settings.unit)),),
             threads=1,
         )
 
     @cached_property
-    def reading(self) -> Reading:
+    def reading(self) -> bodies.Reading:
         member = self.member
-        return Reading(
+        return bodies.Reading(
             member.obj.name,
             member.obj.type,
             member.matrix,
             self.stack.rotation[self.index],
             np.array(member.location),
-            [Part(self.shapes.surfaces[member.shape], member.matrix[None])],
+            [bodies.Part(self.shapes.surfaces[member.shape], member.matrix[None])],
         )
 
 
-def measure_members(members: list[Member], surfaces: list[Surface]) -> list[Measured]:
+def measure_members(members: list[Member], surfaces: list[mesh.Surface]) -> list[Measured]:
     """Return the measurements of the members with certain volume and mass, as one stack; all
     members have the same unit.
     """
@@ -143,14 +139,14 @@ def measure_members(members: list[Member], surfaces: list[Surface]) -> list[Meas
     matrices = np.array([member.matrix for member in members], np.float64)
     usable = np.isfinite(matrices).all(axis=(1, 2))
     usable &= own.raw[which, 0] > own.rounding_error[which, 0]
-    usable[usable] = ~are_singular(matrices[usable, :3, :3])
+    usable[usable] = ~moments.are_singular(matrices[usable, :3, :3])
     members = _chosen(members, usable)
     matrices = matrices[usable]
     which = which[usable]
     if not members:
         return []
     matrices[:, :3] *= unit
-    volume = image(own.at(which), matrices)
+    volume = moments.image(own.at(which), matrices)
     area = _areas(solids, which, matrices)
     density, mass = np.array(
         [(member.settings.density, member.settings.mass) for member in members], np.float64
@@ -158,7 +154,7 @@ def measure_members(members: list[Member], surfaces: list[Surface]) -> list[Meas
     from_mass = ~np.isnan(mass)
     with np.errstate(divide="ignore", invalid="ignore"):
         density = np.where(from_mass, mass / volume.raw[:, 0], density)
-    certain = has_certain_total(volume) & (density > 0.0) & (density < np.inf)
+    certain = inertia.has_certain_total(volume) & (density > 0.0) & (density < np.inf)
     rows = np.flatnonzero(certain)
     fixed = third_moment_frames(volume.at(rows))
     if not fixed.is_body.all():  # the others are refused by themselves
@@ -174,7 +170,7 @@ def measure_members(members: list[Member], surfaces: list[Surface]) -> list[Meas
         from_mass = from_mass[rows]
         volume, area = volume.at(rows), area.at(rows)
     rotation = rotation_matrix([member.quaternion for member in members])
-    properties = MassProperties.of_stack(volume, density, rotation, fixed)
+    properties = inertia.MassProperties.of_stack(volume, density, rotation, fixed)
     geometry = np.ascontiguousarray(np.concatenate([volume.raw, area.raw], axis=1))
     stack = build_measurement(
         name=[member.obj.name for member in members],
@@ -216,19 +212,21 @@ def _chosen(members: list[Member], which: NDArray) -> list[Member]:
     return [members[i] for i in (np.flatnonzero(which) if which.dtype == bool else which).tolist()]
 
 
-def _areas(solids: SolidStack, which: Index, matrices: NDArray) -> Moments:
+def _areas(solids: SolidStack, which: Index, matrices: NDArray) -> moments.Moments:
     """Return the areas of surfaces mapped by matrices; surfaces are measured again if a matrix is
     no similarity.
     """
     area = solids.area.at(which)
-    even = are_similarities(matrices[:, :3, :3])
+    even = moments.are_similarities(matrices[:, :3, :3])
     if even.all():
-        return image(area, matrices)
+        return moments.image(area, matrices)
     regular = matrices.copy()
     regular[~even, :3, :3] = np.eye(3)
-    placed = image(area, regular)
+    placed = moments.image(area, regular)
     for i in np.flatnonzero(~even).tolist():
-        found = area_of_images(solids[int(which[i])].given_surface, matrices[i : i + 1, :3, :3])
+        found = polyhedron.area_of_images(
+            solids[int(which[i])].given_surface, matrices[i : i + 1, :3, :3]
+        )
         for name in ("raw", "rounding_error", "input_error", "about"):
             getattr(placed, name)[i] = getattr(found, name)
     return placed

@@ -15,12 +15,10 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
-from ...core.bodies import MeshBody
+from ...core import bodies, polyhedron, verdict
 from ...core.mesh import Surface, join_surfaces, overlapping_box_pairs
 from ...core.numerics import Array, Index, Integers
-from ...core.polyhedron import volume_and_center
 from ...core.solid import CAVITIES_BREAK_THROUGH, NON_MANIFOLD_COMPONENTS, measure_solid
-from ...core.verdict import Intersection, Procedure
 from ..read.mesh import mesh_surface
 
 MAX_PAIRS = 2_000_000  # of boxes; if there are more, all shells are united at once
@@ -31,7 +29,7 @@ MARKER_FACES = np.array([(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])
 Part = tuple[Array, Integers]  # points and triangles
 
 
-def unite(body: MeshBody) -> Surface:
+def unite(body: bodies.MeshBody) -> Surface:
     """Return the surface around the union of a body's shells, each in all its places."""
     surfaces = []
     shells = []
@@ -47,8 +45,8 @@ def unite(body: MeshBody) -> Surface:
     states = {solid.health.self_intersection for solid, _ in body.solids}
     codes = {found.code for solid, _ in body.solids for found in solid.findings}
     is_simple = (
-        body.method.procedure != Procedure.OPEN
-        and states <= {Intersection.EXCLUDED, Intersection.NOT_FOUND}
+        body.method.procedure != verdict.Procedure.OPEN
+        and states <= {verdict.Intersection.EXCLUDED, verdict.Intersection.NOT_FOUND}
         and not codes & {CAVITIES_BREAK_THROUGH, NON_MANIFOLD_COMPONENTS}
     )
     joined = join_surfaces(surfaces)
@@ -117,8 +115,8 @@ def _by_manifold(layers: Sequence[Surface]) -> Surface | None:
         return None
     united = _with_triangles(found, triangles[is_body])
     united = united.transform(scale * np.eye(3), middle)
-    volume = volume_and_center(united)[0]
-    known = [volume_and_center(layer)[0] for layer in layers]
+    volume = polyhedron.volume_and_center(united)[0]
+    known = [polyhedron.volume_and_center(layer)[0] for layer in layers]
     slack = VOLUME_RTOL * sum(known)
     if not max(known) - slack <= volume <= sum(known) + slack:
         return None
@@ -161,11 +159,11 @@ def subtract(body: Surface, cutters: Sequence[Surface]) -> Surface | None:
     left = left.transform(scale * np.eye(3), middle)
     left = replace(left, displacement=2.0 * left.coordinate_error + body.coordinate_error)
     solid = measure_solid(left)
-    before = volume_and_center(body)[0]
-    least = before - sum(volume_and_center(cutter)[0] for cutter in cutters)
+    before = polyhedron.volume_and_center(body)[0]
+    least = before - sum(polyhedron.volume_and_center(cutter)[0] for cutter in cutters)
     slack = VOLUME_RTOL * before
     is_right = least - slack <= solid.volume.total <= before + slack
-    return left if is_right and solid.method == Procedure.EXACT else None
+    return left if is_right and solid.method == verdict.Procedure.EXACT else None
 
 
 def _evaluate(

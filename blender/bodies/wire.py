@@ -9,15 +9,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...core.bodies import Reading
-from ...core.measurement import Body
+from ...core import bodies, measurement, nurbs, polyhedron, verdict
 from ...core.moments import FLOAT32_HALF_ULP, KNOWN_ORDER, Moments, U, monomials
 from ...core.numerics import Array
-from ...core.nurbs import Curve, length_moments
-from ...core.polyhedron import nothing
-from ...core.verdict import MeshHealth, Method, Procedure, ReadError
-from ..read.findings import NO_SPLINE_LENGTH, NOTHING_TO_MEASURE
-from ..read.objects import read_lines
+from ..read import findings, objects
 from .request import Request
 
 MEASURED_AS = frozenset({"wire"})
@@ -27,14 +22,14 @@ CLOSED_RTOL = 1e-9  # relative to the wire's reach: ends that are nearer count a
 
 
 @dataclass(frozen=True, eq=False)
-class WireBody(Body):
+class WireBody(measurement.Body):
     """Curves as a wire, without volume or area."""
 
     any_order: ClassVar[bool] = True
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments]:
         """Return zero moments of the volume and of the area, to an order."""
-        return nothing(order, self.volume.about)
+        return polyhedron.nothing(order, self.volume.about)
 
     def third_order(self) -> Moments:
         """Return the moments of the length, to third order."""
@@ -42,36 +37,38 @@ class WireBody(Body):
         return self.length
 
 
-def read(request: Request) -> Reading:
+def read(request: Request) -> bodies.Reading:
     """Return the curves of an object that is measured as a wire, or raise MeasureError if it has
     none.
     """
-    return read_lines(request.obj, request.depsgraph)
+    return objects.read_lines(request.obj, request.depsgraph)
 
 
-def body(reading: Reading, request: Request) -> Body:
+def body(reading: bodies.Reading, request: Request) -> measurement.Body:
     """Return the curves as a wire, or raise MeasureError if they have no length."""
     curves, stored = curves_in_world(reading.curves, reading.matrix, request.settings.unit)
-    length = length_moments(curves)
+    length = nurbs.length_moments(curves)
     if not length.total > 0.0:
-        raise ReadError(NOTHING_TO_MEASURE, cause=NO_SPLINE_LENGTH)
+        raise verdict.ReadError(findings.NOTHING_TO_MEASURE, cause=findings.NO_SPLINE_LENGTH)
     # an estimate for smooth curves: a length changes with its ends, and as much again by its
     # turning
     reach = max(float(np.abs(curve.points - length.about).max()) for curve in curves)
     moved = stored * (2.0 * len(curves) + 8.0 * length.total / reach) * reach**DEGREE
     return WireBody(
-        *nothing(KNOWN_ORDER, length.about),
-        MeshHealth(
+        *polyhedron.nothing(KNOWN_ORDER, length.about),
+        verdict.MeshHealth(
             closed=all(_is_closed(curve, reach) for curve in curves), components=len(curves)
         ),
-        Method(Procedure.WIRE),
+        verdict.Method(verdict.Procedure.WIRE),
         (),
         length=replace(length, input_error=moved),
         estimated=True,
     )
 
 
-def curves_in_world(curves: list[Curve], matrix: Array, unit: float) -> tuple[list[Curve], float]:
+def curves_in_world(
+    curves: list[nurbs.Curve], matrix: Array, unit: float
+) -> tuple[list[nurbs.Curve], float]:
     """Return curves mapped to the world in m by a (4, 4) matrix in Blender units, and the points'
     float32 error.
     """
@@ -82,7 +79,7 @@ def curves_in_world(curves: list[Curve], matrix: Array, unit: float) -> tuple[li
     return [curve.transform(scaled) for curve in curves], stored
 
 
-def _is_closed(curve: Curve, reach: float) -> bool:
+def _is_closed(curve: nurbs.Curve, reach: float) -> bool:
     """Return whether a curve ends at its start, within the rounding by its size and distance from
     the origin.
     """

@@ -13,31 +13,11 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from .. import files, nurbs, scans, solid, streams
 from ..density import POSITIONS_ONLY_AS_DENSITY, GridOptions, sum_labels
-from ..files import DEFAULT_LIMITS, Limits
 from ..measurement import DENSITY_FROM, NO_VOLUME, Body, Measurement, Settings
 from ..moments import KNOWN_ORDER, Moments, affine_matrices
 from ..numerics import Array, NDArray
-from ..nurbs import Face, measure_patches
-from ..scans import (
-    LABEL_ABSENT,
-    SCAN_UNSTATED,
-    Label,
-    Scan,
-    place_samples,
-    read_all_positions,
-    read_scan,
-    sample_matrix,
-)
-from ..solid import INVERTED_COMPONENTS
-from ..streams import (
-    FileMesh,
-    MeshFile,
-    StreamIntegrals,
-    box_of_blocks,
-    measure_stream,
-    open_mesh_file,
-)
 from ..verdict import (
     NO_FACES,
     SELF_INTERSECTION,
@@ -49,6 +29,7 @@ from ..verdict import (
     Source,
     finding,
 )
+from . import mesh_body, printed, wall
 from .findings import (
     GIVEN_DENSITY_IGNORED,
     GRID_AS_SHELL,
@@ -69,15 +50,12 @@ from .grid import (
     label_value,
     threshold_grid_body,
 )
-from .mesh_body import MeshBody, sum_of_instances
-from .printed import print_body
 from .reading import Part, Reading, about_file, bare_reading, measure_reading
-from .wall import WallBody, find_walls
 
 COUNTED = "boundary_edges", "non_manifold_edges", "inconsistent_edges", "components"
 
 
-def read_mesh(mesh: FileMesh, upright: Array) -> Reading:
+def read_mesh(mesh: streams.FileMesh, upright: Array) -> Reading:
     """Return the reading of a file's mesh in a place, (4, 4): a rotation.
 
     FileError if a coordinate is too large, ReadError if there are no faces.
@@ -85,18 +63,18 @@ def read_mesh(mesh: FileMesh, upright: Array) -> Reading:
     if not len(mesh.sides):
         raise ReadError(NO_FACES)
     with np.errstate(over="ignore"):
-        box_of_blocks([mesh.points.astype(np.float32)], "vertex")
+        streams.box_of_blocks([mesh.points.astype(np.float32)], "vertex")
     part = Part(mesh.surface(), upright[None])
     return Reading(mesh.name, "MESH", upright, upright[:3, :3], np.zeros(3), [part])
 
 
-def body_of_mesh(reading: Reading, settings: Settings) -> MeshBody | WallBody:
+def body_of_mesh(reading: Reading, settings: Settings) -> mesh_body.MeshBody | wall.WallBody:
     """Return the solid or sheet that the faces bound, with walls as set, or raise MeasureError."""
     is_shell = settings.kind == "shell"
-    body = sum_of_instances(reading, settings.unit, is_shell, settings.threads)
+    body = mesh_body.sum_of_instances(reading, settings.unit, is_shell, settings.threads)
     if is_shell and settings.wall != "thin":
-        return find_walls(reading, body, settings.wall).body(settings.thickness)
-    return print_body(body, settings) if settings.kind == "printed" else body
+        return wall.find_walls(reading, body, settings.wall).body(settings.thickness)
+    return printed.print_body(body, settings) if settings.kind == "printed" else body
 
 
 class StreamHealth(MeshHealth):
@@ -118,7 +96,7 @@ class StreamBody(Body):
 
     any_order: ClassVar[bool] = True
 
-    mesh: MeshFile = field(kw_only=True)
+    mesh: streams.MeshFile = field(kw_only=True)
     unit: float = field(kw_only=True)
     threads: int = field(kw_only=True)
 
@@ -128,7 +106,7 @@ class StreamBody(Body):
         """
         if order <= self.volume.order and (not area or order <= self.area.order):
             return self.volume.truncate(order), self.area.truncate(order) if area else None
-        found = measure_stream(self.mesh, order, order if area else 0, self.threads)
+        found = streams.measure_stream(self.mesh, order, order if area else 0, self.threads)
         volume, areas = _in_meters(found, self.unit)
         return volume, areas if area else None
 
@@ -139,19 +117,19 @@ class FaceBody(Body):
 
     any_order: ClassVar[bool] = True
 
-    faces: tuple[Face, ...] = field(kw_only=True)
+    faces: tuple[nurbs.Face, ...] = field(kw_only=True)
     stored: float = field(kw_only=True)
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
         """Return the moments to an order."""
-        found = measure_patches(
+        found = nurbs.measure_patches(
             self.faces, order=order, area_order=order if area else 0, stored=self.stored
         )
         return found.volume, found.area if area else None
 
 
 def measure_faces(
-    name: str, faces: Sequence[Face], rounding: float, settings: Settings
+    name: str, faces: Sequence[nurbs.Face], rounding: float, settings: Settings
 ) -> Measurement:
     """Return the mass properties of a solid or a thin sheet of faces, or raise MeasureError.
 
@@ -160,7 +138,7 @@ def measure_faces(
     scale = np.diag([*[settings.unit] * 3, 1.0])
     placed = tuple(face.transform(scale) for face in faces)
     stored = settings.unit * rounding
-    found = measure_patches(placed, area_order=3, stored=stored)
+    found = nurbs.measure_patches(placed, area_order=3, stored=stored)
     is_shell = settings.kind == "shell"
     body = FaceBody(
         found.volume * 0.0 if is_shell else found.volume,
@@ -189,8 +167,8 @@ def measure_mesh_file(
     order = max(settings.order or KNOWN_ORDER, KNOWN_ORDER)
     area_order = order if kind == "shell" or settings.surface else 0
     with about_file(name):
-        mesh = open_mesh_file(path)
-        found = measure_stream(mesh, order, area_order, settings.threads, progress)
+        mesh = streams.open_mesh_file(path)
+        found = streams.measure_stream(mesh, order, area_order, settings.threads, progress)
         volume, area = _in_meters(found, unit)
         notes = [*findings, finding(MESH_STREAMED, count=found.face_count)]
         verdict = Procedure.EXACT
@@ -199,7 +177,9 @@ def measure_mesh_file(
             notes += [finding(STREAMED_OPEN)] if kind == "solid" else []
         elif found.volume.total < 0.0:
             verdict = Procedure.REORIENTED
-            notes += [finding(INVERTED_COMPONENTS, count=1, total=1)] if kind == "solid" else []
+            notes += (
+                [finding(solid.INVERTED_COMPONENTS, count=1, total=1)] if kind == "solid" else []
+            )
         body = StreamBody(
             volume,
             area,
@@ -217,7 +197,7 @@ def measure_mesh_file(
         return measure_reading(bare_reading(name, "MESH"), body, replace(settings, unit=1.0))
 
 
-def _in_meters(found: StreamIntegrals, unit: float) -> tuple[Moments, Moments]:
+def _in_meters(found: streams.StreamIntegrals, unit: float) -> tuple[Moments, Moments]:
     """Return the moments of volume and area, in SI units; a negative volume is reversed, as if
     faces were outward.
     """
@@ -242,7 +222,7 @@ class ArrayOptions:
     density_scale: float = 1.0
     threshold: float | None = None
     unit_scale: float | None = None
-    limits: Limits = DEFAULT_LIMITS
+    limits: files.Limits = files.DEFAULT_LIMITS
     positions: Mapping[str, str] = field(default_factory=dict)
 
 
@@ -252,7 +232,7 @@ def measure_labels(
     array: ArrayOptions,
     settings: Settings,
     wanted: Sequence[int] | None,
-    table: Mapping[int, Label],
+    table: Mapping[int, scans.Label],
 ) -> list[tuple[Measurement, dict[str, Any]]]:
     """Return the measurement of each label of a file's samples, and its entry `label` of the
     record.
@@ -265,8 +245,8 @@ def measure_labels(
     if array.positions:
         raise ReadError(POSITIONS_ONLY_AS_DENSITY, grid=name)
     with about_file(name):
-        scan = read_scan(path, array.limits)
-        matrix, placing = sample_matrix(scan, array.spacing, array.origin, array.unit_scale)
+        scan = scans.read_scan(path, array.limits)
+        matrix, placing = scans.sample_matrix(scan, array.spacing, array.origin, array.unit_scale)
         samples, matrix = in_file_order(scan.samples, matrix)
         sums = {
             label_value(label, scan.slope, scan.intercept): row
@@ -275,16 +255,18 @@ def measure_labels(
         chosen = sorted(sums.keys() - {0}) if wanted is None else [*dict.fromkeys(wanted)]
         if absent := [label for label in chosen if label not in sums]:
             values = {"labels": absent, "others": sorted(sums), "remedy": "--label"}
-            raise ReadError(LABEL_ABSENT, file=os.path.basename(path), **values)
+            raise ReadError(scans.LABEL_ABSENT, file=os.path.basename(path), **values)
         if not chosen:
             raise ReadError(GRID_EMPTY)
         known = {**scan.labels, **table}
-        names = [known.get(label, Label()).name or "{} {}".format(name, label) for label in chosen]
+        names = [
+            known.get(label, scans.Label()).name or "{} {}".format(name, label) for label in chosen
+        ]
         measured = []
         for label, own_name in zip(chosen, names):
             if names.count(own_name) > 1:
                 own_name = "{} ({})".format(own_name, label)
-            about = known.get(label, Label())
+            about = known.get(label, scans.Label())
             own = settings
             if about.density is not None:
                 own = replace(settings, density=about.density, mass=None)
@@ -309,13 +291,13 @@ def measure_array(
     if settings.kind == "shell":
         raise ReadError(GRID_AS_SHELL, subject=name)
     with about_file(name):
-        scan = read_scan(path, array.limits)
-        matrix, findings = sample_matrix(scan, array.spacing, array.origin, array.unit_scale)
-        positions = read_all_positions(array.positions, scan.samples.shape)
-        matrix, positions = place_samples(matrix, positions, array.unit_scale or 1.0)
+        scan = scans.read_scan(path, array.limits)
+        matrix, findings = scans.sample_matrix(scan, array.spacing, array.origin, array.unit_scale)
+        positions = scans.read_all_positions(array.positions, scan.samples.shape)
+        matrix, positions = scans.place_samples(matrix, positions, array.unit_scale or 1.0)
         if array.positions:
             # unknown, if two axes have positions
-            unspaced = finding(SCAN_UNSTATED, part="spacing", option="spacing")
+            unspaced = finding(scans.SCAN_UNSTATED, part="spacing", option="spacing")
             findings = [one for one in findings if len(array.positions) < 3 or one != unspaced]
             findings.append(finding(SAMPLES_POSITIONED, axes=sorted(array.positions)))
         findings = (*scan.findings, *findings)
@@ -347,7 +329,7 @@ def in_file_order(samples: NDArray, matrix: Array) -> tuple[NDArray, Array]:
 
 def _threshold_body(
     name: str,
-    scan: Scan,
+    scan: scans.Scan,
     matrix: Array,
     array: ArrayOptions,
     settings: Settings,

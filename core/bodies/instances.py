@@ -13,17 +13,8 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from ..mesh import Surface, boxes_overlap, sort_components
-from ..moments import (
-    Moments,
-    affine_matrices,
-    are_similarities,
-    placed_boxes,
-    similarity_groups,
-    sum_of_images,
-)
+from .. import mesh, moments, polyhedron, verdict
 from ..numerics import Array, Index, NDArray
-from ..polyhedron import area_of_images
 from ..solid import (
     COMPONENTS_NESTED,
     COMPONENTS_OVERLAP,
@@ -32,48 +23,39 @@ from ..solid import (
     SolidIntegrals,
     classify_pairs,
 )
-from ..verdict import (
-    CLOSED_SHEET_VOLUME_RTOL,
-    NEGLIGIBLE,
-    SELF_INTERSECTION,
-    DefectiveElements,
-    Finding,
-    Intersection,
-    MeshHealth,
-    finding,
-    welding_tolerance,
-)
 from .findings import FLAT_SURFACES
 from .reading import Reading
 
 
-def singular_instances_message(reading: Reading) -> Finding:
+def singular_instances_message(reading: Reading) -> verdict.Finding:
     """Return the finding that some instances enclose nothing."""
-    return finding(
+    return verdict.finding(
         FLAT_SURFACES, count=reading.singular_instance_count, total=reading.instance_count
     )
 
 
-def findings_by_part(parts: Iterable[tuple[str, Iterable[Finding]]], whole: str) -> list[Finding]:
+def findings_by_part(
+    parts: Iterable[tuple[str, Iterable[verdict.Finding]]], whole: str
+) -> list[verdict.Finding]:
     """Return findings of parts, (object's name, findings), with equal ones joined, and those of
     `whole` as they are.
     """
     parts = list(parts)
     if len(parts) == 1 and parts[0][0] in ("", whole):
         return each_once(parts[0][1])
-    merged: dict[tuple, tuple[Finding, dict[str, None]]] = {}
+    merged: dict[tuple, tuple[verdict.Finding, dict[str, None]]] = {}
     for name, findings in parts:
         for result in findings:
             merged.setdefault(_identity(result), (result, {}))[1][name or whole] = None
     return [result.of_sources(list(names)) for result, names in merged.values()]
 
 
-def each_once(findings: Iterable[Finding]) -> list[Finding]:
+def each_once(findings: Iterable[verdict.Finding]) -> list[verdict.Finding]:
     """Return the findings in their order, without repetitions about the same elements."""
     return list({_identity(result): result for result in findings}.values())
 
 
-def _identity(result: Finding) -> tuple[Finding, object]:
+def _identity(result: verdict.Finding) -> tuple[verdict.Finding, object]:
     elements = result.elements
     return result, elements.tobytes() if isinstance(elements, np.ndarray) else repr(elements)
 
@@ -137,16 +119,18 @@ def compare_places(solids: Sequence[tuple[SolidIntegrals, Array]]) -> PlaceCompa
     place = np.concatenate(place)
     closed = np.concatenate(closed)
     corners = np.concatenate([image.reshape(-1, 3) for image in points])
-    components = sort_components(
+    components = mesh.sort_components(
         corners,
         np.concatenate([image.reshape(-1, 3) for image in triangles]),
         np.concatenate([image.ravel() for image in component]),
         number,
     )
     size = float(np.linalg.norm(np.ptp(corners, axis=0)))
-    tolerance = welding_tolerance(size, displacement)
+    tolerance = verdict.welding_tolerance(size, displacement)
     extent = np.linalg.norm(components.high - components.low, axis=1)
-    flattened = np.abs(components.volume) <= CLOSED_SHEET_VOLUME_RTOL * extent * components.area
+    flattened = (
+        np.abs(components.volume) <= verdict.CLOSED_SHEET_VOLUME_RTOL * extent * components.area
+    )
     relations = classify_pairs(corners, components, closed & ~flattened, tolerance)
     inner, outer = relations.contained_in.T
     elsewhere = place[inner] != place[outer]
@@ -158,7 +142,7 @@ def compare_places(solids: Sequence[tuple[SolidIntegrals, Array]]) -> PlaceCompa
     nested = nested[components.volume[nested] > 0.0]
     pairs = relations.intersecting
     pairs = pairs[place[pairs[:, 0]] != place[pairs[:, 1]]]
-    negligible = NEGLIGIBLE * components.volume.sum() / size
+    negligible = verdict.NEGLIGIBLE * components.volume.sum() / size
     return PlaceComparison(
         owner[nested],
         owner[np.unique(pairs)],
@@ -170,7 +154,7 @@ def compare_places(solids: Sequence[tuple[SolidIntegrals, Array]]) -> PlaceCompa
 
 def overlap_findings(
     reading: Reading, solids: Sequence[SolidIntegrals], comparison: PlaceComparison
-) -> list[Finding]:
+) -> list[verdict.Finding]:
     """Return findings about places that overlap or contain each other, with [face, source name] as
     elements.
     """
@@ -188,17 +172,19 @@ def overlap_findings(
                     parts.face >= 0
                 )
                 elements += [[face, name] for face in np.unique(parts.face[of_these]).tolist()]
-            findings.append(finding(code, elements, slight=slight, count=len(components)))
+            findings.append(verdict.finding(code, elements, slight=slight, count=len(components)))
     if comparison.undecided_pairs:
         findings.append(
-            finding(UNCHECKED, subject=OVERLAP_OF_COMPONENTS, count=comparison.undecided_pairs)
+            verdict.finding(
+                UNCHECKED, subject=OVERLAP_OF_COMPONENTS, count=comparison.undecided_pairs
+            )
         )
     return findings
 
 
 def instances_overlap(reading: Reading) -> bool:
     """Return whether the boxes around any two places of parts share more than a boundary."""
-    return boxes_overlap(*_boxes(reading))
+    return mesh.boxes_overlap(*_boxes(reading))
 
 
 def instances_size(reading: Reading) -> float:
@@ -210,49 +196,51 @@ def instances_size(reading: Reading) -> float:
 def _boxes(reading: Reading) -> tuple[Array, Array]:
     """Return (k, 3) middles and (k, 3) half sides of the boxes around the places of parts."""
     centers, extents = zip(
-        *[placed_boxes(part.surface.box, part.matrices) for part in reading.parts]
+        *[moments.placed_boxes(part.surface.box, part.matrices) for part in reading.parts]
     )
     return np.concatenate(centers), np.concatenate(extents)
 
 
 def area_of_instances(
-    surface: Surface,
-    area: Moments,
+    surface: mesh.Surface,
+    area: moments.Moments,
     matrices: NDArray,
-    measured: Callable[[Surface], Moments] | None,
-) -> Iterator[Moments]:
+    measured: Callable[[mesh.Surface], moments.Moments] | None,
+) -> Iterator[moments.Moments]:
     """Yield the area moments of a surface's images, `measured` once for each uneven map, or None
     for totals alone.
     """
     if measured is None:
-        even = are_similarities(matrices[:, :3, :3])
+        even = moments.are_similarities(matrices[:, :3, :3])
         if even.any():
-            yield sum_of_images(area, matrices[even])
+            yield moments.sum_of_images(area, matrices[even])
         if not even.all():
-            yield area_of_images(surface, matrices[~even, :3, :3])
+            yield polyhedron.area_of_images(surface, matrices[~even, :3, :3])
         return
     for image, matrices_of_image, _ in group_by_similarity(surface, matrices):
-        yield sum_of_images(area if image is surface else measured(image), matrices_of_image)
+        yield moments.sum_of_images(
+            area if image is surface else measured(image), matrices_of_image
+        )
 
 
 def group_by_similarity(
-    surface: Surface, matrices: NDArray
-) -> Iterator[tuple[Surface, NDArray, NDArray]]:
+    surface: mesh.Surface, matrices: NDArray
+) -> Iterator[tuple[mesh.Surface, NDArray, NDArray]]:
     """Yield (surface, (j, 4, 4) similarities, (j,) rows of `matrices`), with a mapped surface for
     each uneven map.
     """
-    for rows, is_even in similarity_groups(matrices):
+    for rows, is_even in moments.similarity_groups(matrices):
         if is_even:
             yield surface, matrices[rows], rows
         else:
             yield (
                 surface.transform(matrices[rows[0], :3, :3]),
-                affine_matrices(np.eye(3), matrices[rows, :3, 3]),
+                moments.affine_matrices(np.eye(3), matrices[rows, :3, 3]),
                 rows,
             )
 
 
-def merge_health(healths: Iterable[tuple[MeshHealth, int, float]]) -> MeshHealth:
+def merge_health(healths: Iterable[tuple[verdict.MeshHealth, int, float]]) -> verdict.MeshHealth:
     """Return the summed health of parts (health, instances, area); only a single part keeps its
     faulty elements.
     """
@@ -262,18 +250,18 @@ def merge_health(healths: Iterable[tuple[MeshHealth, int, float]]) -> MeshHealth
         return first
     area = sum(part_area for *_, part_area in healths)
     total = {
-        "defective_elements": DefectiveElements(),
+        "defective_elements": verdict.DefectiveElements(),
         "closed": all(h.closed for h, *_ in healths),
         "welded": any(h.welded for h, *_ in healths),
-        SELF_INTERSECTION: min(
-            (h.self_intersection for h, *_ in healths), key=list(Intersection).index
+        verdict.SELF_INTERSECTION: min(
+            (h.self_intersection for h, *_ in healths), key=list(verdict.Intersection).index
         ),
         "volume_spread": sum(h.volume_spread for h, *_ in healths),
         "cap_area_share": sum(h.cap_area_share * part_area for h, _, part_area in healths) / area
         if area > 0.0
         else 0.0,
     }
-    for field in fields(MeshHealth):
+    for field in fields(verdict.MeshHealth):
         if field.name not in total:
             total[field.name] = sum(getattr(h, field.name) * k for h, k, _ in healths)
-    return MeshHealth(**total)
+    return verdict.MeshHealth(**total)

@@ -13,11 +13,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..measurement import Body
-from ..mesh import Surface, normals
+from .. import measurement, mesh, polyhedron
 from ..moments import Moments, monomials, sum_moments, sum_of_images
 from ..numerics import Array, Integers
-from ..polyhedron import polyhedron_moments
 from ..solid import (
     DUPLICATE_FACES_COUNTED,
     NON_PLANAR_FACES,
@@ -49,7 +47,7 @@ MAX_COMPARED_TRIANGLES = 200_000  # triangles up to which instances are compared
 
 
 @dataclass(frozen=True, eq=False)
-class MeshBody(Body):
+class MeshBody(measurement.Body):
     """A body bounded by polygons, or the sheets of these polygons.
 
     `solids`: the measured surfaces, each with the (k, 4, 4) maps to its places.
@@ -69,8 +67,8 @@ class MeshBody(Body):
         # up to third order the area is found on the way, and makes bounds smaller
         alone = 0 if order <= 3 else None
 
-        def measured(surface: Surface) -> Moments:
-            return polyhedron_moments(
+        def measured(surface: mesh.Surface) -> Moments:
+            return polyhedron.polyhedron_moments(
                 surface, order, area_order=order, exact=True, threads=self.threads, allow_open=True
             )[1]
 
@@ -82,7 +80,7 @@ class MeshBody(Body):
                 and not solid.health.duplicate_faces
                 and solid.repaired_surface.triangle_count == surface.triangle_count
             )
-            volume, faces = polyhedron_moments(
+            volume, faces = polyhedron.polyhedron_moments(
                 solid.repaired_surface,
                 order,
                 area_order=order if area and same else alone,
@@ -106,7 +104,7 @@ class MeshBody(Body):
             ]
         )
 
-    def surfaces(self, sheets: bool) -> Iterator[Surface]:
+    def surfaces(self, sheets: bool) -> Iterator[mesh.Surface]:
         """Yield the surfaces in world coordinates, repaired, or with `sheets` as they were before
         repair.
         """
@@ -147,8 +145,10 @@ def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -
     parts = []
     drawn = drawn_names(reading)
 
-    def measured_area(surface: Surface) -> Moments:
-        return polyhedron_moments(surface, area_order=3, threads=threads, allow_open=True)[1]
+    def measured_area(surface: mesh.Surface) -> Moments:
+        return polyhedron.polyhedron_moments(
+            surface, area_order=3, threads=threads, allow_open=True
+        )[1]
 
     measured = measured_area if shell else None
     surfaces = [part.surface for part in reading.parts]
@@ -219,9 +219,9 @@ def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -
     )
 
 
-def _copies_of_shell(surface: Surface, copies: Integers) -> Finding:
+def _copies_of_shell(surface: mesh.Surface, copies: Integers) -> Finding:
     triangles, faces = surface.all_triangles()
-    area = np.linalg.norm(normals(surface.points.astype(np.float64), triangles), axis=1)
+    area = np.linalg.norm(mesh.normals(surface.points.astype(np.float64), triangles), axis=1)
     slight = bool(area[np.isin(faces, copies)].sum() < NEGLIGIBLE * area.sum())
     return finding(DUPLICATE_FACES_COUNTED, copies, slight=slight, count=len(copies))
 

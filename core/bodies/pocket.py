@@ -9,21 +9,22 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..mesh import Surface, join_surfaces, tree_of_all
-from ..moments import Measure, Moments, monomials
+from .. import mesh, moments
 from ..numerics import Array
 
 ROUNDINGS = 8.0  # relative bound of a ball's moments, in units of float64
 
 
-def ball_moments(center: Array, radius: float, order: int) -> Moments:
+def ball_moments(center: Array, radius: float, order: int) -> moments.Moments:
     """Return the moments of the volume of a ball about its center."""
-    exponents = monomials(order)
+    exponents = moments.monomials(order)
     degree = exponents.sum(axis=1) + 3
     gammas = np.array([math.gamma((n + 1) / 2.0) for n in range(order + 4)])
     raw = 2.0 * gammas[exponents].prod(axis=1) / gammas[degree - 1] * radius**degree / degree
     raw[(exponents % 2).any(axis=1)] = 0.0
-    return Moments(raw, center, Measure.VOLUME, ROUNDINGS * np.finfo(float).eps * raw)
+    return moments.Moments(
+        raw, center, moments.Measure.VOLUME, ROUNDINGS * np.finfo(float).eps * raw
+    )
 
 
 class PocketRoom:
@@ -32,10 +33,12 @@ class PocketRoom:
     low, high: (3,) the box of the cores.
     """
 
-    def __init__(self, cores: Sequence[Surface], outsides: Sequence[Surface], line: float) -> None:
+    def __init__(
+        self, cores: Sequence[mesh.Surface], outsides: Sequence[mesh.Surface], line: float
+    ) -> None:
         self.line = line
-        joined = join_surfaces(cores), join_surfaces(outsides)
-        self._trees = [tree_of_all(one.points, one.all_triangles()[0]) for one in joined]
+        joined = mesh.join_surfaces(cores), mesh.join_surfaces(outsides)
+        self._trees = [mesh.tree_of_all(one.points, one.all_triangles()[0]) for one in joined]
         self.low, self.high = joined[0].points.min(axis=0), joined[0].points.max(axis=0)
 
     def radii(self, places: Array) -> Array:

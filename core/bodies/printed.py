@@ -10,13 +10,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..measurement import DENSITY_FROM, WALL_UNSUPPORTED, PrintSettings, Settings
-from ..mesh import Surface
-from ..moments import KNOWN_ORDER, Measure, sum_moments
+from .. import measurement, mesh, moments, polyhedron, verdict, wall
 from ..numerics import Array
-from ..polyhedron import polyhedron_moments
-from ..verdict import NEGLIGIBLE, Procedure, ReadError, finding
-from ..wall import PRINT_UNFIT, PrintCore, find_core
 from .findings import WALL_THICKNESS_VARIES
 from .mesh_body import MeshBody
 from .pocket import PocketRoom, ball_moments
@@ -26,21 +21,25 @@ LEAST_CORE = 1e-9  # relative to the volume
 POCKET_RTOL = 1e-5  # relative to its radius
 
 
-def find_cores(body: MeshBody, printed: PrintSettings) -> tuple[list[PrintCore], list[Surface]]:
+def find_cores(
+    body: MeshBody, printed: measurement.PrintSettings
+) -> tuple[list[wall.PrintCore], list[mesh.Surface]]:
     """Return the cores of a body, and the surfaces of its outside. Raises MeasureError."""
     cores, outsides = [], []
     for solid, matrices in body.solids:
-        if solid.method == Procedure.OPEN:
-            raise ReadError(PRINT_UNFIT, fault="its surface is open. Close it")
+        if solid.method == verdict.Procedure.OPEN:
+            raise verdict.ReadError(wall.PRINT_UNFIT, fault="its surface is open. Close it")
         for matrix in matrices:
             surface = solid.repaired_surface.transform(matrix[:3, :3], matrix[:3, 3])
             heights = np.array([printed.top, printed.bottom]) * printed.layer_height
-            cores.append(find_core(surface, printed.wall, *heights.tolist()))
+            cores.append(wall.find_core(surface, printed.wall, *heights.tolist()))
             outsides.append(surface)
     return cores, outsides
 
 
-def print_body(body: MeshBody, settings: Settings, place: Array | None = None) -> MeshBody:
+def print_body(
+    body: MeshBody, settings: measurement.Settings, place: Array | None = None
+) -> MeshBody:
     """Return the body as it is printed upward along z, with mass moments of its densities.
 
     place: (4, 4) map from the object's coordinates to the body's; by default they are the same.
@@ -49,16 +48,20 @@ def print_body(body: MeshBody, settings: Settings, place: Array | None = None) -
     printed = settings.printed
     printed.check()
     if body.mass is not None:
-        raise ReadError(WALL_UNSUPPORTED, quantity="A varying density")
-    order = max(KNOWN_ORDER, settings.order or 0)
+        raise verdict.ReadError(measurement.WALL_UNSUPPORTED, quantity="A varying density")
+    order = max(moments.KNOWN_ORDER, settings.order or 0)
     cores, outsides = find_cores(body, printed)
-    core = sum_moments(
-        [polyhedron_moments(one.surface, order, exact=True, allow_open=True)[0] for one in cores]
+    core = moments.sum_moments(
+        [
+            polyhedron.polyhedron_moments(one.surface, order, exact=True, allow_open=True)[0]
+            for one in cores
+        ]
     )
-    volume = body.third_order() if order == KNOWN_ORDER else body.moments(order, False)[0]
+    volume = body.third_order() if order == moments.KNOWN_ORDER else body.moments(order, False)[0]
     if not core.total > LEAST_CORE * volume.total:
-        raise ReadError(
-            PRINT_UNFIT, fault="its walls and layers are thicker than the part. Use Kind: Solid"
+        raise verdict.ReadError(
+            wall.PRINT_UNFIT,
+            fault="its walls and layers are thicker than the part. Use Kind: Solid",
         )
     filled = volume + core * (printed.infill / 100.0 - 1.0)
     findings = body.findings
@@ -66,31 +69,33 @@ def print_body(body: MeshBody, settings: Settings, place: Array | None = None) -
     maximum = max(one.maximum for one in cores)
     if minimum < 1.0 - REPORTED or maximum > 1.0 + REPORTED:
         misplaced = sum(one.misplaced for one in cores) * (1.0 - printed.infill / 100.0)
-        slight = misplaced < NEGLIGIBLE * volume.total
-        varies = finding(WALL_THICKNESS_VARIES, slight=slight, minimum=minimum, maximum=maximum)
+        slight = misplaced < verdict.NEGLIGIBLE * volume.total
+        varies = verdict.finding(
+            WALL_THICKNESS_VARIES, slight=slight, minimum=minimum, maximum=maximum
+        )
         findings = (*findings, varies)
     record = printed.record()
     ballast = None
     if (pocket := printed.pocket) is not None:
         if settings.mass is not None:
             fault = "beside a pocket it needs a density, not a mass. Set Density"
-            raise ReadError(PRINT_UNFIT, fault=fault)
+            raise verdict.ReadError(wall.PRINT_UNFIT, fault=fault)
         place = np.eye(4) if place is None else place
         center = place[:3, :3] @ pocket.center + place[:3, 3]
         room = PocketRoom([one.surface for one in cores], outsides, printed.line_width)
         if pocket.radius > float(room.radii(center[None])[0]) * (1.0 + POCKET_RTOL):
             fault = "its pocket reaches out of the core. Make it smaller, or remove it"
-            raise ReadError(PRINT_UNFIT, fault=fault)
+            raise verdict.ReadError(wall.PRINT_UNFIT, fault=fault)
         ball = ball_moments(center, pocket.radius, order)
         filled = filled + ball * (-printed.infill / 100.0)
-        ballast = replace(ball, measure=Measure.MASS) * pocket.density
+        ballast = replace(ball, measure=moments.Measure.MASS) * pocket.density
         record |= {
             "pocket_center": center.tolist(),
             "pocket_radius": pocket.radius,
             "pocket_density": pocket.density,
             "pocket_mass": ballast.total,
         }
-    mass = replace(filled, measure=Measure.MASS) * (settings.density or 1.0)
+    mass = replace(filled, measure=moments.Measure.MASS) * (settings.density or 1.0)
     record |= {"core_volume": core.total, "material_volume": filled.total}
     kilograms = settings.mass or mass.total
     if ballast is not None:
@@ -100,8 +105,10 @@ def print_body(body: MeshBody, settings: Settings, place: Array | None = None) -
     return replace(
         body,
         findings=findings,
-        mass=mass.truncate(KNOWN_ORDER),
-        higher_mass=mass if order > KNOWN_ORDER else None,
-        density_from=finding(DENSITY_FROM, source="walls and infill of a print"),
+        mass=mass.truncate(moments.KNOWN_ORDER),
+        higher_mass=mass if order > moments.KNOWN_ORDER else None,
+        density_from=verdict.finding(
+            measurement.DENSITY_FROM, source="walls and infill of a print"
+        ),
         printed=record,
     )

@@ -12,13 +12,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ..files import FILE_UNREADABLE
+from .. import files, mesh, nurbs, verdict
 from ..measurement import Body, Measurement, Settings, fingerprint, measure_body
-from ..mesh import Surface, join_surfaces
 from ..moments import are_singular
 from ..numerics import Array, ArrayLike, Integers
-from ..nurbs import Curve, Face
-from ..verdict import Finding, MeasureError, ReadError, system_reason
 
 NO_SLOTS = np.empty(0, np.intp)
 NO_VALUES = np.empty(0)
@@ -46,9 +43,9 @@ class SplineReading:
     file. stored: largest effect of rounding in storage on their points. findings: the decisions.
     """
 
-    patches: tuple[Face, ...]
+    patches: tuple[nurbs.Face, ...]
     stored: float
-    findings: tuple[Finding, ...]
+    findings: tuple[verdict.Finding, ...]
 
 
 @dataclass
@@ -61,7 +58,7 @@ class Part:
     B-spline patches, if `surface` is but their display mesh.
     """
 
-    surface: Surface
+    surface: mesh.Surface
     matrices: Array
     attributes: FaceAttributes = field(default_factory=FaceAttributes)
     splines: SplineReading | None = None
@@ -88,8 +85,8 @@ class Reading:
     rotation: Array
     location: Array
     parts: list[Part] = field(default_factory=list)
-    curves: list[Curve] = field(default_factory=list)
-    findings: list[Finding] = field(default_factory=list)
+    curves: list[nurbs.Curve] = field(default_factory=list)
+    findings: list[verdict.Finding] = field(default_factory=list)
 
     @property
     def has_patches(self) -> bool:
@@ -113,9 +110,9 @@ class Reading:
     def instance_count(self) -> int:
         return sum([len(part.matrices) for part in self.parts])
 
-    def join(self) -> Surface:
+    def join(self) -> mesh.Surface:
         """Return all parts, in their places, as one surface of triangles in the world, float64."""
-        return join_surfaces(
+        return mesh.join_surfaces(
             [
                 part.surface.transform(matrix[:3, :3], matrix[:3, 3])
                 for part in self.parts
@@ -124,7 +121,7 @@ class Reading:
         )
 
 
-def attribute_to_source(result: Finding, source: str, whole: str) -> Finding:
+def attribute_to_source(result: verdict.Finding, source: str, whole: str) -> verdict.Finding:
     """Return a finding about a surface of the object `whole`, naming the surface's own object if it
     is different.
     """
@@ -182,7 +179,7 @@ def name_subject(name: str) -> Iterator[None]:
     """Add the name of an object or file to errors without a subject."""
     try:
         yield
-    except MeasureError as error:
+    except verdict.MeasureError as error:
         error.about(name)
         raise
 
@@ -194,4 +191,6 @@ def about_file(name: str) -> Iterator[None]:
         with name_subject(name):
             yield
     except OSError as error:
-        raise ReadError(FILE_UNREADABLE, subject=name, error=system_reason(error)) from error
+        raise verdict.ReadError(
+            files.FILE_UNREADABLE, subject=name, error=verdict.system_reason(error)
+        ) from error

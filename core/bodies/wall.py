@@ -17,9 +17,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..cuts import LEVEL_UNAVAILABLE, SHARED_SPACE, SURFACE_NEEDED
+from .. import cuts, mesh, polyhedron
 from ..measurement import WALL_UNSUPPORTED, ZERO_QUANTITY, Body
-from ..mesh import Surface, boxes_overlap, join_surfaces
 from ..moments import (
     KNOWN_ORDER,
     Measure,
@@ -30,7 +29,6 @@ from ..moments import (
     sum_of_images,
 )
 from ..numerics import Array
-from ..polyhedron import polyhedron_moments
 from ..solid import (
     COMPONENTS_OVERLAP,
     INVERTED_COMPONENTS,
@@ -49,6 +47,7 @@ from ..verdict import (
     unique,
 )
 from ..wall import WALL_MEASURED, OffsetSolid, offset_solid, split_thickness, wall_moments
+from . import instances, mesh_body
 from .findings import (
     WALL_FACES_WITHOUT_AREA,
     WALL_FOLDS,
@@ -56,8 +55,6 @@ from .findings import (
     WALL_UNORIENTED,
     WALLS_OVERLAP,
 )
-from .instances import group_by_similarity
-from .mesh_body import MeshBody
 from .reading import Reading
 
 OPENED = Procedure.OPEN, Procedure.CAPPED, Procedure.SHELL
@@ -96,7 +93,7 @@ class WallPiece:
         )
         return sum_of_images(own, self.matrices)
 
-    def surfaces(self, side: str, thickness: float) -> Iterator[Surface]:
+    def surfaces(self, side: str, thickness: float) -> Iterator[mesh.Surface]:
         """Yield the closed surfaces of the wall in its places, in m."""
         wall = self.offset.surface(*split_thickness(side, thickness / self.scale))
         return (wall.transform(matrix[:3, :3], matrix[:3, 3]) for matrix in self.matrices)
@@ -214,7 +211,7 @@ class Walls:
             findings.append(finding(WALLS_OVERLAP))
         else:
             centers, extents = zip(*(piece.boxes(self.side, thickness) for piece in self.pieces))
-            if boxes_overlap(np.concatenate(centers), np.concatenate(extents)):
+            if mesh.boxes_overlap(np.concatenate(centers), np.concatenate(extents)):
                 findings.append(finding(UNCHECKED, subject=OVERLAP_OF_INSTANCES))
         return findings
 
@@ -253,28 +250,28 @@ class WallBody(Body):
         )
         return wall, walls.thin.moments(order, True)[1] if area else None
 
-    def surfaces(self, sheets: bool) -> Iterator[Surface]:
+    def surfaces(self, sheets: bool) -> Iterator[mesh.Surface]:
         """Yield the closed surfaces of the walls in world coordinates; no `sheets`."""
         for piece in () if sheets else self.walls.pieces:
             yield from piece.surfaces(self.walls.side, self.thickness)
 
 
-def vessel_surface(body: Body) -> Surface:
+def vessel_surface(body: Body) -> mesh.Surface:
     """Return the walls of a body as a vessel, whose holes are open; MeasureError if it has none, or
     components overlap.
     """
-    solids = body.solids if isinstance(body, MeshBody) else ()
+    solids = body.solids if isinstance(body, mesh_body.MeshBody) else ()
     findings = [*body.findings, *(each for solid, _ in solids for each in solid.findings)]
     if any(each.code == COMPONENTS_OVERLAP for each in findings):
-        raise MeasureError(LEVEL_UNAVAILABLE, fault=SHARED_SPACE)
+        raise MeasureError(cuts.LEVEL_UNAVAILABLE, fault=cuts.SHARED_SPACE)
     is_whole = isinstance(body, WallBody) or body.method.procedure not in OPENED
     surfaces = [*body.surfaces(not is_whole)]
     if not surfaces:
-        raise MeasureError(LEVEL_UNAVAILABLE, fault=SURFACE_NEEDED)
-    return join_surfaces(surfaces)
+        raise MeasureError(cuts.LEVEL_UNAVAILABLE, fault=cuts.SURFACE_NEEDED)
+    return mesh.join_surfaces(surfaces)
 
 
-def find_walls(reading: Reading, body: MeshBody, side: str) -> Walls:
+def find_walls(reading: Reading, body: mesh_body.MeshBody, side: str) -> Walls:
     """Return the walls of an object measured as a thin shell, or raise MeasureError if a surface
     has no sides.
     """
@@ -283,7 +280,7 @@ def find_walls(reading: Reading, body: MeshBody, side: str) -> Walls:
     pieces, findings = [], []
     for part, (solid, matrices) in zip(reading.parts, body.solids):
         surface = _orient_outward(part.surface, solid, findings)
-        for image, image_matrices, _ in group_by_similarity(surface, matrices):
+        for image, image_matrices, _ in instances.group_by_similarity(surface, matrices):
             offset = offset_solid(image)
             scale = np.cbrt(np.abs(np.linalg.det(image_matrices[:, :3, :3])))
             _, which = np.unique(np.round(np.log(scale) / SAME_SCALE_RTOL), return_inverse=True)
@@ -295,10 +292,14 @@ def find_walls(reading: Reading, body: MeshBody, side: str) -> Walls:
     return Walls(body, side, tuple(pieces), unique(findings))
 
 
-def _orient_outward(surface: Surface, solid: SolidIntegrals, findings: list[Finding]) -> Surface:
+def _orient_outward(
+    surface: mesh.Surface, solid: SolidIntegrals, findings: list[Finding]
+) -> mesh.Surface:
     """Return the surface with faces outward if it is closed, else unchanged with a finding."""
     if solid.method in (Procedure.EXACT, Procedure.REORIENTED):
-        area = polyhedron_moments(solid.repaired_surface, area_order=0, allow_open=True)[1].total
+        area = polyhedron.polyhedron_moments(solid.repaired_surface, area_order=0, allow_open=True)[
+            1
+        ].total
         # else the repair has removed faces
         if abs(area - solid.area.total) <= SAME_AREA_RTOL * solid.area.total:
             findings += [

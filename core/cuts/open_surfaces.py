@@ -14,7 +14,6 @@ each piece is a body by itself.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -36,11 +35,10 @@ from ..numerics import (
     Integers,
     Mask,
     NDArray,
-    batches,
     connected_components,
     float_array,
     index_array,
-    segment_ranges,
+    rectangle_pairs,
     sums_by_index,
     unit_vector,
 )
@@ -57,8 +55,6 @@ from .findings import (
 )
 from .part_below import measure_below
 
-PAIRS_PER_BLOCK = 1 << 15
-MAX_CELLS = 2048  # of the grid along an axis
 MIN_RIM_SPREAD = 1e-6  # least width of a rim by its length
 UPRIGHT = 1e-9  # share of an area that counts as none if seen from above
 
@@ -261,7 +257,9 @@ def cut_fill_between(
         surfaces.append(corners[~upright])
     sums: list[list[Moments]] = [[], []]
     areas = np.zeros(2)
-    for pieces in _overlay(*surfaces):
+    boxes = [(each[..., :2].min(axis=1), each[..., :2].max(axis=1)) for each in surfaces]
+    for i, j, _ in rectangle_pairs(*boxes):
+        pieces = _cut_pairs(surfaces[0][i], surfaces[1][j])
         above = pieces[..., 2] - pieces[..., 3]
         for side, sign in enumerate((1.0, -1.0)):
             part, count = _clip(pieces, sign * above)
@@ -328,52 +326,9 @@ def _doubled_area(corners: NDArray) -> Array:
     return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
 
 
-def _overlay(first: Array, second: Array) -> Iterator[Array]:
-    """Yield blocks of (p, 6, 4) convex pieces x, y and both heights, where triangles of the first
-    surface lie over or under triangles of the second. first, second: (t, 3, 3) corners.
-    """
-    low, high = second[..., :2].min(axis=1), second[..., :2].max(axis=1)
-    origin, extent = low.min(axis=0), np.ptp(second[..., :2], axis=(0, 1))
-    cell = np.maximum((high - low).mean(axis=0), extent / MAX_CELLS)
-    cell = np.where(cell > 0.0, cell, 1.0)
-    size = np.floor(extent / cell).astype(np.intp) + 1
-
-    def cells(corners: Array) -> tuple[Index, Index]:
-        """Return the cells that boxes of triangles touch, and the triangle of each."""
-        start, stop = (
-            np.clip(np.floor((ends - origin) / cell), -1, size).astype(np.intp)
-            for ends in (corners.min(axis=1), corners.max(axis=1))
-        )
-        start, stop = np.maximum(start, 0), np.minimum(stop, size - 1)
-        counts = np.maximum(stop - start + 1, 0)
-        number = counts.prod(axis=1)
-        owner = np.repeat(np.arange(len(corners)), number)
-        row, column = np.divmod(segment_ranges(number), counts[owner, 1])
-        return (start[owner, 0] + row) * size[1] + start[owner, 1] + column, owner
-
-    cell_of, triangle = cells(second[..., :2])
-    order = np.argsort(cell_of, kind="stable")
-    cell_of, triangle = cell_of[order], triangle[order]
-    wanted, asking = cells(first[..., :2])
-    begin = np.searchsorted(cell_of, wanted, "left")
-    counts = np.searchsorted(cell_of, wanted, "right") - begin
-    own_low, own_high = first[..., :2].min(axis=1), first[..., :2].max(axis=1)
-    for part in batches(counts, PAIRS_PER_BLOCK):
-        i = np.repeat(asking[part], counts[part])
-        j = triangle[np.repeat(begin[part], counts[part]) + segment_ranges(counts[part])]
-        corner = np.maximum(own_low[i], low[j])
-        # A pair is taken in the cell of the lowest corner that both boxes share.
-        place = np.clip(np.floor((corner - origin) / cell), 0, size - 1).astype(np.intp)
-        taken = place @ (size[1], 1) == np.repeat(wanted[part], counts[part])
-        taken &= (corner < np.minimum(own_high[i], high[j])).all(axis=1)
-        i, j = i[taken], j[taken]
-        if len(i):
-            yield _cut_pairs(first[i], second[j])
-
-
 def _cut_pairs(first: Array, second: Array) -> Array:
-    """Return (p, 6, 4) pieces of p triangles within p others, seen from above, with both
-    heights.
+    """Return (p, 6, 4) convex pieces x, y and both heights of p triangles, (p, 3, 3), within p
+    others, seen from above.
     """
     pieces = np.concatenate([first, first[..., 2:]], axis=2)
     for k in range(3):

@@ -31,7 +31,7 @@ from ..numerics import (
     connected_components,
     float_array,
     index_array,
-    segment_ranges,
+    rectangle_pairs,
     sums_by_index,
 )
 from ..polyhedron import SimplexMoments, enclosed_moments, multi_indices
@@ -46,7 +46,6 @@ SAMPLES_PER_OUTLINE = (
 MAX_EDGE_PAIRS = 10_000_000
 PAIRS_PER_BLOCK = 1 << 18  # Pairs at a time.
 RAYS_PER_BLOCK = 64  # neighboring rays at a time, which meet much the same edges
-GRID_CELLS = 1024  # along a side of the grid that edges are compared in
 TOUCH_RTOL = (
     1e-9  # Relative to the polygon's size: edges that pass each other by less than this touch.
 )
@@ -258,64 +257,32 @@ def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int,
     are too many.
     """
     start, end = points[edges[:, 0]], points[edges[:, 1]]
-    low = np.minimum(start, end)
-    high = np.maximum(start, end)
-    span = np.abs(end - start)
-    length = np.hypot(*span.T)
+    length = np.hypot(*(end - start).T)
     length[length == 0.0] = 1.0
-    size = float((high.max(axis=0) - low.min(axis=0)).max()) or 1.0
-    cell = max(2.0 * float(span.mean()), size / GRID_CELLS)
-    low, high = (np.floor(corner / cell).astype(np.int64) for corner in (low - touch, high + touch))
-    wide, tall = (high - low + 1).T
-    entered = wide * tall
-    if entered.sum() > MAX_EDGE_PAIRS:
-        return 0, 0.0, True
-    edge = np.repeat(np.arange(len(edges)), entered)
-    within = segment_ranges(entered)
-    key = (
-        (low[edge, 0] + within // tall[edge]) * (2 * GRID_CELLS)
-        + low[edge, 1]
-        + within % tall[edge]
-    )
-    order = np.argsort(key)
-    edge, key = edge[order], key[order]
-    active = np.arange(len(edge))
-    crossings = [np.zeros(0, np.int64)]
-    opposed = {}
-    compared_count = 0
-    for step in range(1, len(edge)):
-        active = active[active < len(edge) - step]
-        active = active[key[active + step] == key[active]]
-        compared_count += len(active)
-        if not len(active) or compared_count > MAX_EDGE_PAIRS:
+    boxes = np.minimum(start, end) - touch, np.maximum(start, end) + touch
+    crossings = tested = 0
+    opposed = 0.0
+    for i, j, count in rectangle_pairs(boxes, boxes):
+        tested += count
+        if tested > 2 * MAX_EDGE_PAIRS:  # each pair comes twice
             break
-        i = edge[active]
-        j = edge[active + step]
+        i, j = i[i < j], j[i < j]
         sides = []
         for p, q, target in ((i, j, start), (i, j, end), (j, i, start), (j, i, end)):
             span = end[p] - start[p]
             to = target[q] - start[p]
             sides.append((span[:, 0] * to[:, 1] - span[:, 1] * to[:, 0]) / length[p])
         sides = np.array(sides)
-        pair = np.minimum(i, j) * len(edges) + np.maximum(i, j)
-        crossings.append(
-            pair[
-                (sides[0] * sides[1] < 0.0)
-                & (sides[2] * sides[3] < 0.0)
-                & (np.abs(sides) > touch).all(axis=0)
-            ]
-        )
+        crosses = (sides[0] * sides[1] < 0.0) & (sides[2] * sides[3] < 0.0)
+        crossings += int((crosses & (np.abs(sides) > touch).all(axis=0)).sum())
         along = (np.abs(sides) <= touch).all(axis=0)
-        i, j, pair = (values[along] for values in (i, j, pair))
+        i, j = i[along], j[along]
         unit = (end[i] - start[i]) / length[i, None]
         first, last = (((point[j] - start[i]) * unit).sum(axis=1) for point in (start, end))
         # For opposite edges first is beyond last.
         common = np.minimum(first, length[i]) - np.maximum(last, 0.0)
-        opposed.update(
-            zip(pair[common > 4.0 * touch].tolist(), common[common > 4.0 * touch].tolist())
-        )
-    crossing_count = len(np.unique(np.concatenate(crossings)))
-    return crossing_count, float(sum(opposed.values())), compared_count > MAX_EDGE_PAIRS
+        opposed += float(common[common > 4.0 * touch].sum())
+    return crossings, opposed, tested > 2 * MAX_EDGE_PAIRS
 
 
 @lru_cache

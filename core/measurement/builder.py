@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from .. import mesh, wall
 from ..inertia import (
     CHOICES,
     MOMENTS_OVERFLOW,
@@ -19,7 +20,6 @@ from ..inertia import (
     PrincipalFrame,
     has_certain_total,
 )
-from ..mesh import Surface
 from ..moments import (
     KNOWN_ORDER,
     Measure,
@@ -31,7 +31,6 @@ from ..numerics import IDENTITY_3, Array, ArrayLike, NDArray, PerBody
 from ..polyhedron import MAX_TRIANGLES_EXACT_THIRD
 from ..solid.measure import SolidIntegrals, measure_solid
 from ..verdict import Finding, MeshHealth, Method, Procedure, ReadError, finding
-from ..wall import NO_FACE_AREA
 from .findings import (
     DENSITY_FROM,
     DENSITY_FROM_MASS,
@@ -232,7 +231,7 @@ def find_extent(body: Body, settings: Settings) -> Moments:
     )
     if not volume.raw[0] > 0.0:
         if body.face_count and not body.area.total > 0.0:
-            raise ReadError(NO_FACE_AREA)
+            raise ReadError(wall.NO_FACE_AREA)
         if settings.kind == "shell" and body.area.total > 0.0:
             raise ReadError(ZERO_QUANTITY, quantity="thickness")
         raise ReadError(NO_VOLUME)
@@ -375,7 +374,7 @@ def mass_properties(points: ArrayLike, triangles: ArrayLike, *, density: float) 
     >>> str(body.method), round(found.mass, 9), found.center.round(9).tolist()
     ('exact', 1000.0, [0.25, 0.25, 0.25])
     """
-    surface = Surface.from_triangles(points, triangles)
+    surface = mesh.Surface.from_triangles(points, triangles)
     solid = measure_solid(surface)
     body = _SurfaceBody(
         solid.volume,

@@ -12,16 +12,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from ..inertia import MassProperties
-from ..mesh import Surface
+from .. import inertia, mesh, verdict
 from ..moments import Measure, Moments
 from ..numerics import Array
-from ..verdict import (
-    Finding,
-    MeshHealth,
-    Method,
-    ReadError,
-)
 from .findings import DENSITY_FROM_VALUE, UNIFORM_DENSITIES, WALL_UNSUPPORTED
 
 
@@ -45,12 +38,12 @@ class Body:
 
     volume: Moments
     area: Moments
-    health: MeshHealth
-    method: Method
-    findings: tuple[Finding, ...]
+    health: verdict.MeshHealth
+    method: verdict.Method
+    findings: tuple[verdict.Finding, ...]
     mass: Moments | None = None
     higher_mass: Moments | None = None
-    density_from: Finding | None = None
+    density_from: verdict.Finding | None = None
     density_key: str = ""
     materials: tuple[str, ...] = ()
     wall: Moments | None = None
@@ -64,7 +57,9 @@ class Body:
         """Return the moments of the volume, and of the area if wanted, to an order; ReadError if
         they are unknown.
         """
-        raise ReadError(WALL_UNSUPPORTED, quantity="A moment above third order or of the area")
+        raise verdict.ReadError(
+            WALL_UNSUPPORTED, quantity="A moment above third order or of the area"
+        )
 
     def third_order(self) -> Moments:
         """Return the moments of a solid or a wire that its principal frame is computed from, with
@@ -72,7 +67,7 @@ class Body:
         """
         return self.volume
 
-    def surfaces(self, sheets: bool) -> Iterator[Surface]:
+    def surfaces(self, sheets: bool) -> Iterator[mesh.Surface]:
         """Yield the surfaces of the solid, or the unchanged sheets, in world coordinates as
         float64.
         """
@@ -108,22 +103,22 @@ class Measurement:
     name: str
     type: str
     kind: str
-    method: Method
+    method: verdict.Method
     density: float = 0.0
     thickness: float = 0.0
     volume: float
     area: float
-    mass_properties: MassProperties
+    mass_properties: inertia.MassProperties
     volume_moments: Moments | None
     area_moments: Moments
     mass_moments: tuple[Moments, float]
-    health: MeshHealth
-    findings: tuple[Finding, ...]
+    health: verdict.MeshHealth
+    findings: tuple[verdict.Finding, ...]
     rotation: Array
     location: Array
     error_bound: dict
     fingerprint: str
-    density_from: Finding = DENSITY_FROM_VALUE
+    density_from: verdict.Finding = DENSITY_FROM_VALUE
     materials: tuple[str, ...] = ()
     length: float | None = None
     display_volume: float | None = None
@@ -135,7 +130,7 @@ class Measurement:
         """Return one measurement of a stack, without its health, or a stack of some of them."""
 
         def pick(value: Any) -> Any:
-            if isinstance(value, (Moments, MassProperties)):
+            if isinstance(value, (Moments, inertia.MassProperties)):
                 return value.at(which)
             if isinstance(value, dict):
                 return {name: pick(entry) for name, entry in value.items()}
@@ -151,7 +146,7 @@ class Measurement:
                 )
             return value
 
-        return Measurement(**{name: pick(value) for name, value in vars(self).items()})
+        return replace(self, **{name: pick(value) for name, value in vars(self).items()})
 
     def moments_of_mass(self, order: int) -> Moments | None:
         """Return the moments of the mass, kg, to an order; None if they are not known to that
@@ -177,6 +172,6 @@ class Measurement:
         bound = self.error_bound
         return bound["center_of_mass"], bound["input"]["center_of_mass"]
 
-    def in_object_frame(self) -> MassProperties:
+    def in_object_frame(self) -> inertia.MassProperties:
         """Return the mass properties in the object's own frame."""
         return self.mass_properties.in_frame(self.rotation, self.location)

@@ -20,8 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from ..flat import Plane, foot, plane_positions
-from ..inertia import MassProperties, combine
+from .. import flat, inertia, polyhedron
 from ..moments import (
     Invariant,
     Moments,
@@ -30,7 +29,6 @@ from ..moments import (
     monomials,
 )
 from ..numerics import Array, NDArray
-from ..polyhedron import multi_indices
 from ..verdict import Finding, MeasureError, Severity, find_verdict, sentence, severity
 from .documents import TOTAL, plain
 from .findings import UNIFORM_DENSITIES
@@ -167,12 +165,14 @@ def total(measurements: Sequence[Measurement], findings: Iterable[Finding] = ())
         entry["area"] = math.fsum(one.area for one in measurements)
         with suppress(MeasureError):  # together they have no mass, and so no center
             entry.update(
-                _inertial(combine([measurement.mass_moments for measurement in measurements]))
+                _inertial(
+                    inertia.combine([measurement.mass_moments for measurement in measurements])
+                )
             )
     return plain(entry) | described(findings)
 
 
-def _inertial(properties: MassProperties) -> dict[str, Any]:
+def _inertial(properties: inertia.MassProperties) -> dict[str, Any]:
     principal = properties.principal
     return {
         "center_of_mass": properties.center,
@@ -187,7 +187,7 @@ def _inertial(properties: MassProperties) -> dict[str, Any]:
 def _point(
     about: str | Sequence[float] | None,
     measurement: Measurement,
-    properties: MassProperties,
+    properties: inertia.MassProperties,
     frame: str,
 ) -> Array:
     """Return the (3,) coordinates of the point `about` in the frame, by default the frame's
@@ -244,7 +244,7 @@ def _moments_record(
 def flat_record(
     name: str,
     kind: str,
-    plane: Plane,
+    plane: flat.Plane,
     moments: Moments,
     findings: Iterable[Finding],
     *,
@@ -281,10 +281,10 @@ def flat_record(
     }
     if order is not None:
         point = _plane_point(about, centroid, axes, location, frame[2])
-        placed = moments.truncate(order).about_point(foot(plane, point))
-        powers = multi_indices(2, order)
+        placed = moments.truncate(order).about_point(flat.foot(plane, point))
+        powers = polyhedron.multi_indices(2, order)
         entry["moments"] = _moments_record(
-            order, placed.about[:2], {"area": placed}, powers, plane_positions(order)
+            order, placed.about[:2], {"area": placed}, powers, flat.plane_positions(order)
         )
     if invariants:
         entry["invariants"] = [

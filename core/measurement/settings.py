@@ -13,8 +13,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from ..numerics import shortest_decimal
-from ..verdict import ReadError
+from .. import numerics, verdict
 from ..wall import PRINT_UNFIT
 
 VERSION = "v1"
@@ -54,10 +53,12 @@ class PrintSettings(NamedTuple):
     def check(self) -> None:
         """Raise ReadError if nothing can be printed with these settings."""
         if not 0.0 <= self.infill <= 100.0:
-            raise ReadError(PRINT_UNFIT, fault="its infill is not from 0 to 100 %")
+            raise verdict.ReadError(PRINT_UNFIT, fault="its infill is not from 0 to 100 %")
         is_counted = min(self.walls, self.top, self.bottom) >= 0
         if not (is_counted and min(self.line_width, self.layer_height, self.spool) > 0.0):
-            raise ReadError(PRINT_UNFIT, fault="a count, width, height or weight is not positive")
+            raise verdict.ReadError(
+                PRINT_UNFIT, fault="a count, width, height or weight is not positive"
+            )
 
     def record(self) -> dict[str, Any]:
         """Return the entry `print` of a record, without the price of the spool and the pocket."""
@@ -101,7 +102,8 @@ class Settings:
         density = None if self.varying else self.density
         # Blender's properties hold values with the shortest decimals.
         density, mass = [
-            None if value is None else shortest_decimal(value) for value in (density, self.mass)
+            None if value is None else numerics.shortest_decimal(value)
+            for value in (density, self.mass)
         ]
         printed = list(self.printed[:-1])
         if (pocket := self.printed.pocket) is not None:

@@ -56,6 +56,7 @@ from .quadrature import gauss_legendre as gauss_legendre
 from .quadrature import gauss_legendre_with_ends as gauss_legendre_with_ends
 from .quadrature import spread_directions as spread_directions
 from .quadrature import triangle_rule as triangle_rule
+from .rectangles import rectangle_pairs as rectangle_pairs
 from .rotations import along_x as along_x
 from .rotations import polar_rotation as polar_rotation
 from .rotations import quaternion as quaternion

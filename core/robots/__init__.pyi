@@ -11,7 +11,8 @@ from .findings import DESCRIPTION_UNKNOWN as DESCRIPTION_UNKNOWN
 from .findings import JOINT_VALUE_UNUSABLE as JOINT_VALUE_UNUSABLE
 from .findings import ROBOT_SCALED as ROBOT_SCALED
 from .findings import ROBOT_WITHOUT_LINKS as ROBOT_WITHOUT_LINKS
-from .findings import USD_UNIT_SCALE as USD_UNIT_SCALE
+from .findings import UNIT_SCALE as UNIT_SCALE
+from .findings import USD_SCALED as USD_SCALED
 from .formats import AUDITED_SUFFIXES as AUDITED_SUFFIXES
 from .formats import FORMATS as FORMATS
 from .formats import RobotFormat as RobotFormat

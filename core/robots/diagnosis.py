@@ -10,7 +10,7 @@ with the factor of the inertia.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import permutations, product
 from math import degrees, hypot, radians
@@ -27,8 +27,6 @@ from .findings import (
     AUDIT_FRAME_NOT_MEANT,
     AUDIT_INERTIA_ELSEWHERE,
     AUDIT_INERTIA_OF_UNIT,
-    AUDIT_INERTIA_SHIFTED_TWICE,
-    AUDIT_MIRRORED,
     AUDIT_NOT_UNIFORM,
     AUDIT_ORDER,
     AUDIT_SIGN,
@@ -167,7 +165,7 @@ class Diagnosis:
 def diagnose(
     stated: StatedInertial,
     references: Sequence[Reference],
-    otherwise: Sequence[tuple[Finding, Reference]] = (),
+    otherwise: Iterable[tuple[Finding, Reference]] = (),
     center_is_wrong: bool = False,
 ) -> list[Diagnosis]:
     """Return the changes that correct an inertial, or a note about the place of the mass; empty if
@@ -398,12 +396,19 @@ def _points(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
     the wrong sign.
     """
     term = stated.mass * _square(stated.center)
-    yield AUDIT_INERTIA_ELSEWHERE, {"part": "link"}, stated.along_link(stated.inertia - term)
-    yield AUDIT_INERTIA_SHIFTED_TWICE, {}, stated.along_link(stated.inertia + term)
+    for part, changed in (
+        ("the origin of the link", stated.inertia - term),
+        ("another point, by a parallel-axis term of the wrong sign", stated.inertia + term),
+    ):
+        yield AUDIT_INERTIA_ELSEWHERE, {"part": part}, stated.along_link(changed)
     for origin in reference.origins:
         term = stated.mass * _square(stated.center - origin)
         changed = stated.along_link(stated.inertia - term)
-        yield AUDIT_INERTIA_ELSEWHERE, {"part": "mesh", "point": origin.tolist()}, changed
+        yield (
+            AUDIT_INERTIA_ELSEWHERE,
+            {"part": "the origin of the mesh", "point": origin.tolist()},
+            changed,
+        )
 
 
 def _square(arm: NDArray) -> Array:
@@ -464,11 +469,8 @@ def _signs(stated: StatedInertial, keeps: bool) -> Iterator[Change]:
             names = [name for name, sign in zip(PRODUCT_NAMES, signs) if sign == -1.0]
             yield AUDIT_SIGN, {"part": PRODUCTS, "axes": names}, changed
     for axis in range(3):
-        yield (
-            AUDIT_MIRRORED,
-            {"axis": "xyz"[axis]},
-            _mapped(stated, np.diag(1.0 - 2.0 * np.eye(3)[axis]))[2],
-        )
+        values = {"part": "inertial", "change": "mirrored along", "axis": "xyz"[axis]}
+        yield AUDIT_TURNED, values, _mapped(stated, np.diag(1.0 - 2.0 * np.eye(3)[axis]))[2]
 
 
 def _mapped(
@@ -504,8 +506,9 @@ def _orders(stated: StatedInertial, keeps: bool) -> Iterator[Change]:
         tensor, _, both = _mapped(
             stated, np.outer(along, along) + way * np.cross(along, np.eye(3)).T
         )
-        yield AUDIT_TURNED, {"part": "inertial", "axis": "xyz"[axis]}, both
-        yield AUDIT_TURNED, {"part": "inertia", "axis": "xyz"[axis]}, tensor
+        for part, turned in (("inertial", both), ("inertia", tensor)):
+            values = {"part": part, "change": "turned by 90 degrees about", "axis": "xyz"[axis]}
+            yield AUDIT_TURNED, values, turned
     if keeps and (stated.rotation != np.eye(3)).any():
         for order in AXES:
             for values, tensor in _reordered(stated.tensor, order, " in its own frame"):

@@ -34,21 +34,10 @@ URDF_ROOT_WITHOUT_MASS = note(
     "PyBullet fixes the root {name} to the world, as it has no mass. Parent the parts to one of "
     "them, or load the file with a root of your own.",
 )
-JOINTS_CLOSE_LOOP = warning(
-    "joints_close_loop",
-    "A robot is a tree. {joints} would close a loop and is left out. Add it to the file as a "
-    "constraint.",
-    "A robot is a tree. {count} joints would close loops and are left out: {joints}. Add them to "
-    "the file as "
-    "constraints.",
-)
-JOINTS_WITHOUT_LINKS = warning(
-    "joints_without_links",
-    "{joints} holds an object that is no link, and is left out. Set both objects of the "
-    "constraint, and export them.",
-    "{count} joints hold an object that is no link, and are left out: {joints}. Set both objects "
-    "of the constraints, "
-    "and export them.",
+JOINTS_LEFT_OUT = warning("joints_left_out", "Left out: {joints}. {cause:word}.")
+CLOSE_LOOP = "A robot is a tree, and they would close a loop. Add them to the file as constraints"
+WITHOUT_LINK = (
+    "They hold an object that is no link. Set both objects of the constraint, and export them"
 )
 JOINTS_ALL_FIXED = note(
     "joints_all_fixed",
@@ -62,9 +51,8 @@ JOINT_VALUES_LOST = warning(
 )
 JOINT_VALUE_UNUSABLE = warning(
     "joint_value_unusable",
-    "{joint}: {key} is {value}, and is ignored. Set a positive number; joint_mimic takes the name "
-    "of another joint "
-    "about one axis, for a joint about one axis.",
+    "{joint}: {key} is {value}, and is ignored. Set a positive number; a mimic takes the name of "
+    "another joint about one axis, for a joint about one axis.",
 )
 ROBOT_SCALED = warning(
     "robot_scaled",
@@ -77,16 +65,13 @@ GLTF_NODE_MISSING = warning(
     "{count} link has no node of its own in the file: {links}.",
     "{count} links have no nodes of their own in the file: {links}.",
 )
-GLTF_UNIT_SCALE = note(
-    "gltf_unit_scale",
-    "Blender writes its units to glTF as meters: a node above all others scales them by {scale:g}. "
-    "Readers differ "
-    "about bodies that are scaled.",
+UNIT_SCALE = note("unit_scale", "The file is in units of {scale:g} m: {cause:word}.")
+GLTF_SCALED = (
+    "a node above all others scales them to meters. Readers differ about bodies that are scaled"
 )
-USD_UNIT_SCALE = note(
-    "usd_unit_scale",
-    "The stage is in units of {scale:g} m (metersPerUnit). Newton 1.8 reads that and converts "
-    "nothing: set the scene's unit scale to 1, or export with --links or --geometry of your own.",
+USD_SCALED = (
+    "Newton 1.8 reads metersPerUnit and converts nothing. Set the scene's unit scale to 1, or "
+    "export with --links or --geometry of your own"
 )
 ROBOT_LINKS_BARE = note(
     "robot_links_bare",
@@ -100,21 +85,13 @@ SDF_FRAMES_ADDED = note(
     "SDF has no joints along such axes: {joints}. Added links, with {part:.3g} of the mass, stand "
     "between their axes.",
 )
-MJCF_INERTIA_TOO_SMALL = warning(
-    "mjcf_inertia_too_small",
-    "MuJoCo takes no mass or principal moment below {limit:g} kg or kg·m², and raises that of "
-    "{links}, {least:.3g}. "
-    "Fix it to its parent, or model in larger units.",
-    "MuJoCo takes no mass or principal moment below {limit:g} kg or kg·m², and raises those of "
-    "{count} links: {links}, "
-    "down to {least:.3g}. Fix them to their parents, or model in larger units.",
+INERTIA_TOO_SMALL = warning(
+    "inertia_too_small",
+    "The mass or a principal moment of {links} is below the {limit:.3g} kg or kg·m² that {program} "
+    "holds. {remedy:word}.",
 )
-USD_INERTIA_TOO_SMALL = warning(
-    "usd_inertia_too_small",
-    "The inertia of {links} is too small for the single precision of PhysicsMassAPI. Read "
-    "newton:inertia, or use "
-    "a stage in smaller units.",
-)
+RAISED = "It is raised. Fix the link to its parent, or model in larger units"
+TOO_SMALL_FOR_SINGLE = "Read newton:inertia, or use a stage in smaller units"
 DESCRIPTION_INVALID = error(
     "description_invalid", "The file is not {format}: line {line}, {error}."
 )
@@ -136,7 +113,6 @@ DESCRIPTION_UNKNOWN = error(
 INCLUDE_UNREADABLE = error(
     "include_unreadable", "A file that it includes cannot be read: {name}. {cause}"
 )
-INCLUDE_TWICE = error("include_twice", "It includes a file twice: {name}.")
 DESCRIPTION_NUMBER = warning(
     "description_number",
     "Line {line}: <{element}> has “{text}”, which the audit cannot use. Correct it; nothing is "
@@ -192,11 +168,8 @@ INERTIAL_TOO_DENSE = error(
     "Impossible: no matter is that dense. This mass with this inertia takes at least "
     "{density:.3g} kg/m³; osmium has {limit:g}.",
 )
-AUDIT_UNIFORM_INSTEAD = warning(
-    "audit_uniform_instead",
-    "State the inertia of the geometry, filled evenly with the stated mass. Keep a possible "
-    "center.",
-)
+AUDIT_INSTEAD = warning("audit_instead", "State {source:word}.")
+UNIFORM = "the inertia of the geometry, filled evenly with the stated mass. Keep a possible center"
 AUDIT_NOT_UNIFORM = note(
     "audit_not_uniform",
     "Not an even filling of the {part:word}. Filled evenly, that has {volume:percent} of the drawn "
@@ -221,9 +194,6 @@ AUDIT_TWINS = warning(
     "audit_twins",
     "{first} and {second} are twins, but their {part:word} differ by {apart:percent}. Correct one.",
 )
-AUDIT_TWIN_INSTEAD = warning(
-    "audit_twin_instead", "State the inertial of its twin {twin}, mirrored as the links are."
-)
 AUDIT_COPIED = warning(
     "audit_copied", "One inertial stands at links of different geometry: {links}. State their own."
 )
@@ -240,12 +210,7 @@ AUDIT_INERTIA_OF_UNIT = warning(
 )
 AUDIT_INERTIA_ELSEWHERE = warning(
     "audit_inertia_elsewhere",
-    "The inertia is about the origin of the {part:word}. State it about the center of mass.",
-)
-AUDIT_INERTIA_SHIFTED_TWICE = warning(
-    "audit_inertia_shifted_twice",
-    "The inertia was shifted away from the center of mass with the wrong sign. Add the "
-    "parallel-axis term.",
+    "The inertia is about {part:word}. State it about the center of mass.",
 )
 AUDIT_ANGLES = warning(
     "audit_angles", "The angles of the {part:word} are in {unit:word}. State them in {wanted:word}."
@@ -261,10 +226,5 @@ AUDIT_SIGN = warning(
     "Wrong sign: {part:word}, {axes}. Change it; products of inertia in a tensor are negative "
     "integrals, -∫xy dm.",
 )
-AUDIT_MIRRORED = warning(
-    "audit_mirrored", "The inertial is that of the mirror image along {axis}. Mirror it."
-)
 AUDIT_ORDER = warning("audit_order", "Wrong order: {part:word}. Put them in the order {order}.")
-AUDIT_TURNED = warning(
-    "audit_turned", "The {part:word} is turned by 90 degrees about {axis}. Turn it back."
-)
+AUDIT_TURNED = warning("audit_turned", "The {part:word} is {change:word} {axis}. Undo that.")

@@ -15,11 +15,12 @@ from ..measurement import Measurement
 from ..numerics import quaternion, rotation_matrix
 from ..verdict import Finding, finding
 from .findings import (
+    CLOSE_LOOP,
     JOINT_VALUE_UNUSABLE,
-    JOINTS_CLOSE_LOOP,
-    JOINTS_WITHOUT_LINKS,
+    JOINTS_LEFT_OUT,
     ROBOT_LINKS_LEFT_OUT,
     ROBOT_WITHOUT_LINKS,
+    WITHOUT_LINK,
 )
 from .model import FreeAxis, Inertial, Joint, Link, Mimic, Pose, Robot, Shape
 
@@ -98,10 +99,9 @@ def assemble_robot(
     )
     joints, findings = _check_mimics(_directed_joints(links, edges))
     left_out = [one.name for one in candidates if one.link is None]
-    if loose:
-        findings.append(finding(JOINTS_WITHOUT_LINKS, count=len(loose), joints=loose))
-    if loops:
-        findings.append(finding(JOINTS_CLOSE_LOOP, count=len(loops), joints=loops))
+    for unused, cause in ((loose, WITHOUT_LINK), (loops, CLOSE_LOOP)):
+        if unused:
+            findings.append(finding(JOINTS_LEFT_OUT, joints=unused, cause=cause))
     if left_out:
         findings.append(finding(ROBOT_LINKS_LEFT_OUT, count=len(left_out), links=left_out))
     if not links:

@@ -214,6 +214,14 @@ class StatedLink:
     overridden: StatedInertial | None = None
     pose: Pose | None = None
 
+    @property
+    def is_frame(self) -> bool:
+        """True for a frame without geometry, mass and inertia, whose zeros are stated."""
+        inertial = self.inertial
+        return bool(
+            inertial and not self.shapes and not inertial.mass and not inertial.tensor.any()
+        )
+
 
 class Motion(NamedTuple):
     """One motion of a child link relative to its parent.

@@ -17,7 +17,7 @@ import numpy as np
 
 from ..numerics import Array
 from ..verdict import Finding, finding
-from .findings import AUDIT_JOINT, AUDIT_TOTAL
+from .findings import AUDIT_JOINT, AUDIT_TOTAL, JOINT_VALUE_UNUSABLE
 from .model import Pose
 from .plausibility import LARGEST
 from .stated import Description, Place, StatedInertial, StatedJoint, StatedLink
@@ -213,6 +213,11 @@ def _joint_values(
         if not more:
             break
         values |= more
+    for joint in () if is_mjcf else above.values():  # MuJoCo leaves such an equality out.
+        for name, *_, leader, _ in joint.motions:
+            if leader and (leader not in by_name or name not in values):
+                fault = finding(JOINT_VALUE_UNUSABLE, joint=name, key="mimic", value=leader)
+                wrong.append((fault, joint.place))
     return values, wrong
 
 
@@ -252,7 +257,7 @@ def add_up(tree: Tree, used: Sequence[tuple[StatedLink, bool]]) -> Totals:
         if inertial is None:
             is_frame = not link.shapes and not link.findings
             groups["frames" if is_frame else "missing"].append(link.name)
-        elif not link.shapes and not inertial.mass and not inertial.tensor.any():
+        elif link.is_frame:
             groups["frames"].append(link.name)
         elif not 0.0 < inertial.mass <= LARGEST:
             groups["left_out"].append(link.name)

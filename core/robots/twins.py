@@ -24,7 +24,7 @@ from .stated import StatedInertial
 from .totals import Tree
 
 if TYPE_CHECKING:
-    from .audit import LinkAudit
+    from .judgment import LinkAudit
 
 TOLERANCE = 0.05  # of masses, relative to the larger one, and of tensors
 EQUAL = 0.01  # Equal geometry under two maps differs less.
@@ -34,15 +34,18 @@ _WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|\d+|[^A-Za-z\d]+")
 _SIDES = {"left": ["right"], "l": ["r"]}
 _SIDES |= {place + "l": [place + "r"] for place in "frhbm"}
 _SIDES |= {"l" + place: ["r" + place] for place in "fhbmr"}
-_OWN_MAPS = [np.diag(signs) for signs in ((1, 1, 1), (-1, 1, 1), (1, -1, 1), (1, 1, -1))]
+_OWN_MAPS = [
+    Pose(rotation=np.diag(signs))
+    for signs in ((1.0, 1.0, 1.0), (-1.0, 1.0, 1.0), (1.0, -1.0, 1.0), (1.0, 1.0, -1.0))
+]
 
 
 class Pair(NamedTuple):
-    """Indices of two links. is_copy: True if they are equal, not mirrored."""
+    """Indices of two links, and the maps of the first to the second, the likeliest first."""
 
     first: int
     second: int
-    is_copy: bool = False
+    maps: Sequence[Pose]
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,34 +61,66 @@ class Plane:
         return Pose(turn @ pose.position + 2.0 * self.offset * self.normal, turn @ pose.rotation)
 
 
-def find_pairs(audits: Sequence[LinkAudit], tree: Tree) -> tuple[list[Pair], Plane | None]:
-    """Return the pairs of links with inertials, and the mirror plane if it is known."""
+def find_pairs(audits: Sequence[LinkAudit], tree: Tree) -> list[Pair]:
+    """Return the pairs of links with inertials, and all maps that fit their geometry."""
     indices = {one.link.name: index for index, one in enumerate(audits) if one.link.inertial}
-    pairs = [
-        Pair(indices[name], indices[other])
+    places = [tree.poses[one.link.name] for one in audits]
+    sides = [
+        (indices[name], indices[other])
         for name in indices
         for other in _other_sides(name)
         if other in indices
     ]
-    plane = _plane([_places(audits, tree, pair) for pair in pairs])
-    paired = {index for pair in pairs for index in pair[:2]}
+    plane = _plane([(places[first], places[second]) for first, second in sides])
+
+    def mirror(first: int, second: int) -> list[Pose]:
+        """Return the map by the plane, if it is known."""
+        start, end = places[first], places[second]
+        if plane is None or start is None or end is None:
+            return []
+        return [end.inverse() @ plane.mirror(start)]
+
+    def pair(first: int, second: int, maps: Sequence[Pose], within: float) -> Pair:
+        return Pair(first, second, _fitting_maps(audits[first], audits[second], maps, within))
+
+    pairs = [pair(*side, [*mirror(*side), *_OWN_MAPS], TOLERANCE) for side in sides]
+    paired = {index for side in sides for index in side}
     groups: dict[str, list[int]] = {}
+    rest: dict[int, Reference] = {}
     for name, index in indices.items():
-        if index not in paired and re.search(r"\d", name):
-            groups.setdefault(re.sub(r"\d+", "#", name), []).append(index)
+        reference = audits[index].reference
+        if reference is not None and index not in paired:
+            rest[index] = reference
+            if re.search(r"\d", name):
+                groups.setdefault(re.sub(r"\d+", "#", name), []).append(index)
     for first, *others in groups.values():
-        pairs += [
-            Pair(first, other, True) for other in others if _is_copy(audits[first], audits[other])
-        ]
-    rest = [index for index in indices.values() if index not in paired and audits[index].volume]
-    rest.sort(key=lambda index: audits[index].volume)
-    near = [
-        Pair(first, second)
-        for first, second in zip(rest, rest[1:])
-        if audits[second].volume <= (1.0 + ALIKE) * audits[first].volume
-        and audits[first].geometry is not None
-    ]
-    return pairs + [pair for pair in near if _is_mirrored(audits, tree, pair, plane)], plane
+        pairs += [pair(first, other, _OWN_MAPS[:1], EQUAL) for other in others]
+    ordered = sorted(rest, key=lambda index: rest[index].volume)
+    for first, second in zip(ordered, ordered[1:]):
+        is_near = rest[second].volume <= (1.0 + ALIKE) * rest[first].volume
+        maps = mirror(first, second) if is_near else []
+        if maps and pair(first, second, maps, EQUAL).maps:
+            ends = [pose.apply(rest[i].center) for i in (first, second) if (pose := places[i])]
+            if np.linalg.norm(ends[0] - ends[1]) > np.sqrt(np.trace(rest[second].inertia)):
+                pairs.append(pair(first, second, [*maps, *_OWN_MAPS], TOLERANCE))
+    return [one for one in pairs if one.maps]
+
+
+def _fitting_maps(
+    first: LinkAudit, second: LinkAudit, maps: Sequence[Pose], within: float
+) -> Sequence[Pose]:
+    """Return the maps that lay the first link's geometry onto the second's; all of them if the
+    geometry is unknown.
+    """
+    own = first.reference
+    other = second.reference
+    if own is None or other is None:
+        return maps
+    low, high = sorted((own.volume, other.volume))
+    apart = [other.compare(mapped(own.uniform(1.0), pose)) for pose in maps]
+    if high > (1.0 + within) * low or min(apart) > within:
+        return []
+    return [pose for pose, value in zip(maps, apart) if value <= min(apart) + EQUAL]
 
 
 def _other_sides(name: str) -> Iterator[str]:
@@ -104,14 +139,10 @@ def _cased(word: str, like: str) -> str:
     return word.capitalize() if like[0].isupper() else word
 
 
-def _places(audits: Sequence[LinkAudit], tree: Tree, pair: Pair) -> tuple[Array, Array] | None:
-    first, second = (tree.poses[audits[index].link.name] for index in pair[:2])
-    return None if first is None or second is None else (first.position, second.position)
-
-
-def _plane(places: Sequence[tuple[Array, Array] | None]) -> Plane | None:
-    """Return the plane between most of the pairs of (3,) places."""
-    known = [place for place in places if place is not None and (place[0] != place[1]).any()]
+def _plane(pairs: Sequence[tuple[Pose | None, Pose | None]]) -> Plane | None:
+    """Return the plane between most of the pairs of places."""
+    places = [(one.position, other.position) for one, other in pairs if one and other]
+    known = [place for place in places if (place[0] != place[1]).any()]
     if not known:
         return None
     first, second = (np.array(several) for several in zip(*known))
@@ -123,57 +154,11 @@ def _plane(places: Sequence[tuple[Array, Array] | None]) -> Plane | None:
     return Plane(normal, float(offsets[half] + offsets[-1 - half]) / 2.0)
 
 
-def _is_copy(first: LinkAudit, second: LinkAudit) -> bool:
-    """Return whether two links have equal geometry along their own axes."""
-    low, high = sorted((first.volume, second.volume))
-    if not low or high > (1.0 + EQUAL) * low or not first.geometry or not second.geometry:
-        return False
-    return _reference(second).compare(first.geometry) <= EQUAL
-
-
-def _reference(audit: LinkAudit) -> Reference:
-    geometry = audit.geometry
-    assert geometry is not None
-    return Reference(1.0, geometry.center, geometry.inertia / geometry.mass)
-
-
-def _is_mirrored(audits: Sequence[LinkAudit], tree: Tree, pair: Pair, plane: Plane | None) -> bool:
-    """Return whether the geometry of two links is mirrored by the plane, not within it."""
-    first, second = (audits[index] for index in pair[:2])
-    start, end = (tree.poses[one.link.name] for one in (first, second))
-    if plane is None or start is None or end is None or not first.geometry or not second.geometry:
-        return False
-    image = mapped(first.geometry, end.inverse() @ plane.mirror(start))
-    apart = np.linalg.norm(start.apply(first.geometry.center) - end.apply(second.geometry.center))
-    size = np.sqrt(np.trace(_reference(second).inertia))
-    return bool(apart > size) and _reference(second).compare(image) <= EQUAL
-
-
 def mapped(inertial: StatedInertial, pose: Pose) -> StatedInertial:
     """Return an inertial in another frame, in which its own frame, perhaps mirrored, has a pose."""
     turn = pose.rotation
     inertia = turn @ inertial.inertia @ turn.T
     return inertial.along_link(inertia, center=turn @ inertial.center + pose.position)
-
-
-def images(
-    first: LinkAudit, second: LinkAudit, pair: Pair, tree: Tree, plane: Plane | None
-) -> list[Pose] | None:
-    """Return the maps of the first link to the second that fit their geometry, the likeliest
-    first; all of them if the geometry is unknown, None if it differs.
-    """
-    maps = [Pose(rotation=turn.astype(float)) for turn in _OWN_MAPS[: 1 if pair.is_copy else None]]
-    start, end = (tree.poses[one.link.name] for one in (first, second))
-    if plane is not None and start is not None and end is not None and not pair.is_copy:
-        maps.insert(0, end.inverse() @ plane.mirror(start))
-    if first.geometry is None or second.geometry is None:
-        return maps
-    low, high = sorted((first.volume, second.volume))
-    reference = _reference(second)
-    apart = [reference.compare(mapped(first.geometry, pose)) for pose in maps]
-    if high > (1.0 + TOLERANCE) * low or min(apart) > TOLERANCE:
-        return None
-    return [pose for pose, value in zip(maps, apart) if value <= min(apart) + EQUAL]
 
 
 def disagreement(
@@ -203,15 +188,12 @@ def find_copies(audits: Sequence[LinkAudit]) -> Iterator[list[int]]:
             is_drawn = any(shape.role == "visual" for shape in one.link.shapes)
             groups.setdefault((numbers.tobytes(), is_drawn), []).append(index)
     for group in groups.values():
-        first, *others = (audits[index] for index in group)
-        size = np.sqrt(np.trace(_reference(first).inertia))
+        first, *others = (one for index in group if (one := audits[index].reference))
+        size = np.trace(first.inertia)
         if any(
             abs(one.volume / first.volume - 1.0) > TOLERANCE
-            or np.linalg.norm(_moments(one) - _moments(first)) > TOLERANCE * size**2
+            or np.linalg.norm(np.linalg.eigvalsh(one.inertia) - np.linalg.eigvalsh(first.inertia))
+            > TOLERANCE * size
             for one in others
         ):
             yield group
-
-
-def _moments(audit: LinkAudit) -> Array:
-    return np.asarray(np.linalg.eigvalsh(_reference(audit).inertia), np.float64)

@@ -12,26 +12,14 @@ from functools import partial
 
 import numpy as np
 
-from ..mesh import Planarity, PlanarityAccumulator, Surface, closed_side_faces, faces_beside_edges
-from ..moments import Moments
+from .. import mesh, moments, verdict
 from ..numerics import (
     Index,
     connected_components,
     indices_in_range,
 )
 from ..polyhedron import polyhedron_moments, third_order
-from ..verdict import (
-    MAX_COORDINATE,
-    NO_FACES,
-    OBJECT_SIZE,
-    TOO_LARGE,
-    MeasureError,
-    MeshHealth,
-    check_size,
-    welding_tolerance,
-)
-from .findings import INVALID_FACES, NON_FINITE_VERTICES
-from .repaired_mesh import RepairedMesh
+from . import findings, repaired_mesh
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +31,7 @@ class CheckedSurface:
     which points touch.
     """
 
-    surface: Surface
+    surface: mesh.Surface
     vertices: Index | None
     size: float
     error: float
@@ -57,22 +45,22 @@ class GivenIntegrals:
     `proven`: the mesh if its own edges prove it closed and oriented, else None.
     """
 
-    volume: Moments
-    area: Moments
-    planarity: Planarity
-    proven: RepairedMesh | None
+    volume: moments.Moments
+    area: moments.Moments
+    planarity: mesh.Planarity
+    proven: repaired_mesh.RepairedMesh | None
 
 
-def check_surface(surface: Surface) -> CheckedSurface:
+def check_surface(surface: mesh.Surface) -> CheckedSurface:
     """Check that a surface can be measured, or raise MeasureError; leave out vertices that no face
     uses.
     """
     faces = [corners for corners in (surface.quads, surface.triangles) if len(corners)]
     if not faces:
-        raise MeasureError(NO_FACES)
+        raise verdict.MeasureError(verdict.NO_FACES)
     total = len(surface.points)
     if not all([indices_in_range(corners, total) for corners in faces]):
-        raise MeasureError(INVALID_FACES)
+        raise verdict.MeasureError(findings.INVALID_FACES)
     used = np.zeros(total, bool)
     for column in (0, 2, 1, 3):  # opposite corners first: they reach most vertices
         for corners in faces:
@@ -100,14 +88,16 @@ def check_surface(surface: Surface) -> CheckedSurface:
         misplaced = np.flatnonzero(~np.isfinite(surface.points).all(axis=1))
         if len(misplaced):
             elements = misplaced if vertices is None else vertices[misplaced]
-            raise MeasureError(
-                NON_FINITE_VERTICES, elements=elements, count=len(misplaced), total=total
+            raise verdict.MeasureError(
+                findings.NON_FINITE_VERTICES, elements=elements, count=len(misplaced), total=total
             )
-    if not max(size, float(np.abs([low, high]).max())) < MAX_COORDINATE:
-        raise MeasureError(OBJECT_SIZE, fault=TOO_LARGE)
-    check_size(*(high - low).tolist())
+    if not max(size, float(np.abs([low, high]).max())) < verdict.MAX_COORDINATE:
+        raise verdict.MeasureError(verdict.OBJECT_SIZE, fault=verdict.TOO_LARGE)
+    verdict.check_size(*(high - low).tolist())
     error = float(np.linalg.norm(surface.coordinate_error))
-    return CheckedSurface(surface, vertices, size, error, tolerance=welding_tolerance(size, error))
+    return CheckedSurface(
+        surface, vertices, size, error, tolerance=verdict.welding_tolerance(size, error)
+    )
 
 
 def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> GivenIntegrals:
@@ -115,7 +105,7 @@ def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> G
     prove closedness.
     """
     surface = checked.surface
-    accumulator = PlanarityAccumulator(surface, checked.error)
+    accumulator = mesh.PlanarityAccumulator(surface, checked.error)
     integrate = partial(
         polyhedron_moments,
         surface,
@@ -135,7 +125,7 @@ def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> G
     return GivenIntegrals(volume, area, accumulator.planarity(), proven)
 
 
-def prove_closed(surface: Surface) -> RepairedMesh | None:
+def prove_closed(surface: mesh.Surface) -> repaired_mesh.RepairedMesh | None:
     """Return the mesh if its own edges prove it closed and oriented, without triangles if one
     component; else None.
     """
@@ -147,7 +137,7 @@ def prove_closed(surface: Surface) -> RepairedMesh | None:
     face = component[:0]
     if component_count > 1:
         triangles, face = surface.all_triangles()
-    return RepairedMesh(
+    return repaired_mesh.RepairedMesh(
         surface.points,
         triangles,
         face,
@@ -156,21 +146,21 @@ def prove_closed(surface: Surface) -> RepairedMesh | None:
         component_count,
         np.zeros(component_count, bool),
         np.zeros((component_count, 3)),
-        report=MeshHealth(closed=True, components=component_count),
+        report=verdict.MeshHealth(closed=True, components=component_count),
     )
 
 
-def _components_of_closed(surface: Surface) -> tuple[Index, int] | None:
+def _components_of_closed(surface: mesh.Surface) -> tuple[Index, int] | None:
     """Return the component of each mesh face and their number; None if not proven closed and
     oriented.
     """
     if surface.corner_edges is not None:
-        sides = closed_side_faces(surface)
+        sides = mesh.closed_side_faces(surface)
         return None if sides is None else connected_components(int(sides.max()) + 1, *sides)
     if surface.triangle_faces is not None or surface.quad_faces is not None:
         return None
     if len(surface.triangles) and len(surface.quads):
         return None
     faces = surface.triangles if len(surface.triangles) else surface.quads
-    sides = faces_beside_edges(faces, len(surface.points))
+    sides = mesh.faces_beside_edges(faces, len(surface.points))
     return None if sides is None else connected_components(len(faces), *sides)

@@ -32,15 +32,7 @@ from ..numerics import (
     sums_by_index,
 )
 from ..verdict import Finding, finding
-from .boundary_loops import (
-    OwnedLoops,
-    distinct_vertex_pairs,
-    find_loops,
-    has_distinct_vertices,
-    join_sides,
-    side_ends,
-    vertex_pairs,
-)
+from . import boundary_loops, weld_open_parts
 from .findings import (
     DUPLICATE_FACES_COUNTED,
     NON_MANIFOLD_COMPONENTS,
@@ -48,7 +40,6 @@ from .findings import (
     T_JUNCTIONS,
 )
 from .repaired_mesh import NO_INDICES, FoldedLoops, RepairedMesh, ZeroAreaLoops, copy_with
-from .weld_open_parts import is_duplicated
 
 FLAT_RTOL = 1e-9  # Relative to the area: allowed shortfall of the sum of a flat piece's normals.
 NO_LINKS = NO_INDICES, NO_INDICES
@@ -57,11 +48,11 @@ NO_LINKS = NO_INDICES, NO_INDICES
 def find_t_junctions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     """Find the boundary loops without area, across which the surface closes in space."""
     side = mesh.state.edges.boundary_sides()
-    start, stop = side_ends(mesh.triangles, side)
+    start, stop = boundary_loops.side_ends(mesh.triangles, side)
     begin = mesh.points[start].astype(np.float64)
     end = mesh.points[stop].astype(np.float64)
-    links = join_sides(begin, end, start, stop, directed=False)
-    loops = find_loops(begin, end, links)
+    links = boundary_loops.join_sides(begin, end, start, stop, directed=False)
+    loops = boundary_loops.find_loops(begin, end, links)
     closed = loops.complete & ~loops.has_area(tolerance)
     within = closed[loops.of_side]
     linked = within[links[0]]
@@ -101,7 +92,7 @@ def orient_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     is_open[component[twisted]] = True
     report = copy_with(mesh.report, components=number)
     if misoriented.any():
-        sides = distinct_vertex_pairs(
+        sides = boundary_loops.distinct_vertex_pairs(
             mesh.state.given, np.concatenate([first[misoriented], second[misoriented]])
         )
         elements = copy_with(report.defective_elements, inconsistent_edges=sides)
@@ -170,14 +161,14 @@ def close_gaps(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     if number:
         sides = np.concatenate([gaps.sides, np.flatnonzero(closed_already)])
         mesh = mesh.with_findings(
-            finding(T_JUNCTIONS, distinct_vertex_pairs(given, sides), count=number)
+            finding(T_JUNCTIONS, boundary_loops.distinct_vertex_pairs(given, sides), count=number)
         )
     boundary = edges.first[(edges.count == 1) & ~_edges_along(mesh)]
     boundary = boundary[~closed_already[boundary]]
     if len(boundary):
         mesh = mesh.with_report(
             boundary_edges=len(boundary),
-            elements={"boundary_edges": distinct_vertex_pairs(given, boundary)},
+            elements={"boundary_edges": boundary_loops.distinct_vertex_pairs(given, boundary)},
         )
 
     boundary = mesh.state.component_edges.boundary_sides()
@@ -192,7 +183,7 @@ def close_gaps(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     caps = np.concatenate([np.stack([stop, start, apex[loop[filled]]], axis=1), folded.caps])
     owner = np.concatenate([boundary[filled] // 3, folded.sides // 3])
     if len(caps):
-        useful = has_distinct_vertices(caps)
+        useful = boundary_loops.has_distinct_vertices(caps)
         mesh = mesh.with_caps(caps[useful], owner[useful])
     return mesh.with_state(uncapped_sides=boundary[~filled])
 
@@ -203,7 +194,7 @@ def cap_holes(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     if not len(side):
         return mesh
     component = mesh.component[side // 3]
-    found = OwnedLoops.of_sides(mesh.points, *mesh.oriented_ends(side), component)
+    found = boundary_loops.OwnedLoops.of_sides(mesh.points, *mesh.oriented_ends(side), component)
     is_open = mesh.open.copy()
     is_open[found.owner[~found.loops.complete]] = True
     apexes, caps, under = found.cones()
@@ -212,7 +203,7 @@ def cap_holes(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
         points=np.concatenate([mesh.points, apexes]),
         open=is_open,
         caps=found.count_caps(np.full(mesh.number, tolerance), ~is_open),
-        capped_edges=vertex_pairs(mesh.state.given, side),
+        capped_edges=boundary_loops.vertex_pairs(mesh.state.given, side),
         capped_component=component,
     ).with_caps(caps, side[under] // 3)
 
@@ -270,11 +261,11 @@ def _find_folded_loops(
     side = edges.first[edge]
     if not len(side):
         return FoldedLoops(unclosable, side, np.empty((0, 3), np.intp), 0)
-    start, stop = side_ends(mesh.triangles, side)
+    start, stop = boundary_loops.side_ends(mesh.triangles, side)
     reversed_side = edges.upward[side] != (signed_count[edge] > 0.0)
     start, stop = np.where(reversed_side, stop, start), np.where(reversed_side, start, stop)
     component = mesh.component[side // 3]
-    loops = OwnedLoops.of_sides(mesh.points, start, stop, component).loops
+    loops = boundary_loops.OwnedLoops.of_sides(mesh.points, start, stop, component).loops
     closes = unclosable.copy()
     closes[component[(~loops.complete | loops.has_area(tolerance))[loops.of_side]]] = False
     caps = np.stack([stop, start, loops.of_each(start)[loops.of_side]], axis=1)
@@ -374,7 +365,7 @@ def _layers(
     faces.
     """
     group = same_vertices_groups(triangles, face)
-    layer = is_duplicated(group, face).astype(np.intp) + (group != face)
+    layer = weld_open_parts.is_duplicated(group, face).astype(np.intp) + (group != face)
     vector = normals(points, triangles)
     number = int(piece.max()) + 1
     total = np.stack([np.bincount(piece, vector[:, k], number) for k in range(3)], axis=1)

@@ -12,9 +12,8 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ..mesh import Edges
+from .. import mesh, verdict
 from ..numerics import Array, Floats, Index, Integers, Mask, NDArray
-from ..verdict import Finding, MeshHealth
 from .boundary_loops import side_ends
 
 NO_EDGES = np.empty((0, 2), np.intp)
@@ -89,8 +88,8 @@ class RepairState:
     """
 
     given: Index
-    edges: Edges = UNKNOWN
-    component_edges: Edges = UNKNOWN
+    edges: mesh.Edges = UNKNOWN
+    component_edges: mesh.Edges = UNKNOWN
     open_parts: OpenParts | None = None
     gaps: ZeroAreaLoops = UNKNOWN
     folded: FoldedLoops = UNKNOWN
@@ -122,13 +121,13 @@ class RepairedMesh:
     number: int
     open: Mask
     caps: Array
-    report: MeshHealth
+    report: verdict.MeshHealth
     topology_changed: bool = False
     max_displacement: float = 0.0
     left_out: Integers = field(default_factory=NO_INDICES.view)
     capped_edges: Index = field(default_factory=NO_EDGES.view)
     capped_component: Index = field(default_factory=NO_INDICES.view)
-    findings: tuple[Finding, ...] = ()
+    findings: tuple[verdict.Finding, ...] = ()
     state: RepairState = UNKNOWN
 
     def with_state(self, **changes: Any) -> RepairedMesh:
@@ -145,7 +144,7 @@ class RepairedMesh:
             counts["defective_elements"] = copy_with(self.report.defective_elements, **elements)
         return copy_with(self, report=copy_with(self.report, **counts))
 
-    def with_findings(self, *findings: Finding) -> RepairedMesh:
+    def with_findings(self, *findings: verdict.Finding) -> RepairedMesh:
         """Return the mesh with more findings."""
         return copy_with(self, findings=(*self.findings, *findings))
 

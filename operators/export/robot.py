@@ -21,7 +21,7 @@ from ...blender import session
 from ...blender.write import reports
 from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...core import files, verdict
-from ...core.robots import FORMATS, ROBOT_SCALED, USD_UNIT_SCALE, RobotFormat, write
+from ...core.robots import FORMATS, ROBOT_SCALED, UNIT_SCALE, USD_SCALED, RobotFormat, write
 from .. import selection
 from ..findings import ROBOT_GEOMETRY_NOT_WRITTEN, ROBOT_NAMES_ALIKE
 from ..measure.copy import VIEW3D_MT_body_moments_copy
@@ -238,7 +238,7 @@ class UsdExport(GeometryExport):
         if scaled:
             findings.append(verdict.finding(ROBOT_SCALED, count=len(scaled), links=scaled))
         if made.unit != 1.0:
-            findings.append(verdict.finding(USD_UNIT_SCALE, scale=made.unit))
+            findings.append(verdict.finding(UNIT_SCALE, scale=made.unit, cause=USD_SCALED))
         remarks = list(map(verdict.sentence, findings))
         text = usd.write_over(robot, paths, "./" + geometry.name, made.unit, remarks)
         selection.write_file(path, [text])

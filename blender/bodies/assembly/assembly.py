@@ -60,6 +60,7 @@ from ...read.objects import locate
 from ...settings.density import unset_density
 from ...settings.given import GivenPart
 from ...settings.options import AS_SET, MeasureOptions
+from .. import measure_object, overlaps, stack
 from ..findings import (
     ASSEMBLY_MASS_GIVEN,
     ASSEMBLY_WITHOUT_MEMBERS,
@@ -73,14 +74,11 @@ from ..findings import (
     MEMBERS_LEFT_OUT,
     MEMBERS_NOT_MEASURED,
 )
-from ..measure_object import measure_many
-from ..overlaps import shared_space_caveats
-from ..stack import Measured
 from .given import given_moments
 
 NOTHING: Extent = (0.0, 0.0, 0.0)
 POWERS = {"solid": 3, "printed": 3, "shell": 2, "wire": 1, "point": 0}
-Results = dict[Object, Measured | Finding]
+Results = dict[Object, stack.Measured | Finding]
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,7 +95,7 @@ class MemberBody:
     masses: Mapping[int, Moments] = field(default_factory=dict)
     volume: Extent = NOTHING
     area: Extent = NOTHING
-    measured: Measured | None = None
+    measured: stack.Measured | None = None
     measurement: Measurement | None = None
     refusal: Finding | None = None
     parts: tuple[MemberBody, ...] = ()
@@ -145,7 +143,7 @@ def measure_members(
     objects = {
         member.data: None for member in root.walk() if member.is_measured or _is_sheared(member)
     }
-    for together in measure_many(list(objects), depsgraph, options):
+    for together in measure_object.measure_many(list(objects), depsgraph, options):
         for obj, outcome in together:
             results[obj] = (
                 internal_error.finding_of(outcome) if isinstance(outcome, Exception) else outcome
@@ -236,7 +234,7 @@ def _shared_space(whole: MemberBody, depsgraph: Depsgraph) -> Iterator[Finding]:
             yield from copies_caveats([part.member.data for part in inside])
         else:
             waiting += body.parts
-    yield from shared_space_caveats(sorted(placed, key=lambda obj: obj.name), depsgraph)
+    yield from overlaps.shared_space_caveats(sorted(placed, key=lambda obj: obj.name), depsgraph)
 
 
 def findings_of(whole: MemberBody, scene: bpy.types.Scene) -> Iterator[Finding]:
@@ -282,7 +280,7 @@ _LEFT_OUT: dict[str, str] = {
 }
 
 
-def _object_body(member: Member, result: Measured | Finding) -> MemberBody:
+def _object_body(member: Member, result: stack.Measured | Finding) -> MemberBody:
     if isinstance(result, Finding):
         return MemberBody(member, refusal=result)
     measurement = result.measurement

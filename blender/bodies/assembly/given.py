@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ....core.bodies import Reading, to_si
+from ....core import bodies, moments, verdict
 from ....core.measurement import (
     DENSITY_FROM_MASS,
     ZERO_QUANTITY,
@@ -23,33 +23,31 @@ from ....core.measurement import (
     fingerprint,
     measure_total,
 )
-from ....core.moments import KNOWN_ORDER, placed_boxes
 from ....core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count
 from ....core.numerics import Array, NDArray, shortest_decimal
-from ....core.verdict import Finding, Method, Procedure, ReadError, finding
 from ...read.fingerprint import matrix_hash
 from ...read.objects import locate
 from ...settings.given import GivenPart, is_point_mass
 from ..findings import CENTER_OUTSIDE, GIVEN, GIVEN_CENTER, GIVEN_INERTIA_IMPOSSIBLE, INERTIA
 from ..request import Request
 
-COUNT = monomial_count(KNOWN_ORDER)
+COUNT = monomial_count(moments.KNOWN_ORDER)
 GIVEN_RTOL = 1e-6  # slack for values typed with few digits, relative to the trace or the box
 
 
 def given_moments(
     mass: float, given: GivenPart, rotation: NDArray, location: NDArray, geometry: Moments | None
-) -> tuple[Moments, list[Finding]]:
+) -> tuple[Moments, list[verdict.Finding]]:
     """Return mass moments (SI, world, about the center) of a part with given mass, center and
     inertia, and findings.
     """
     if not mass > 0.0:
-        raise ReadError(ZERO_QUANTITY, quantity="mass")
+        raise verdict.ReadError(ZERO_QUANTITY, quantity="mass")
     raw, rounding, inputs = np.zeros((3, COUNT))
     raw[0], center = mass, location
     if geometry is not None:
         factor = mass / geometry.total
-        central = geometry.truncate(KNOWN_ORDER).about_center()
+        central = geometry.truncate(moments.KNOWN_ORDER).about_center()
         raw = central.raw * factor
         rounding = central.rounding_error * factor
         inputs = central.input_error * factor
@@ -63,7 +61,7 @@ def given_moments(
         raw[1:4] = 0.0
         rounding[1:4] = 0.0
         inputs[1:4] = 0.0
-        findings.append(finding(GIVEN, quantity="center of mass"))
+        findings.append(verdict.finding(GIVEN, quantity="center of mass"))
     if given.inertia is not None:
         raw[4:] = 0.0
         rounding[4:] = 0.0
@@ -71,7 +69,7 @@ def given_moments(
         second = rotation @ _second_moments(np.array(given.inertia)) @ rotation.T
         raw[SECOND_MOMENT_INDEX] = (second + second.T) / 2.0
         rounding[4:10] = 16.0 * U * np.trace(given.inertia)
-        findings.append(finding(GIVEN, quantity=INERTIA))
+        findings.append(verdict.finding(GIVEN, quantity=INERTIA))
     return Moments(raw, np.asarray(center, np.float64), Measure.MASS, rounding, inputs), findings
 
 
@@ -81,13 +79,13 @@ def _second_moments(inertia: NDArray) -> Array:
     """
     values, axes = np.linalg.eigh(np.trace(inertia) / 2.0 * np.eye(3) - inertia)
     if values[0] < -GIVEN_RTOL * np.trace(inertia) or not np.isfinite(values).all():
-        raise ReadError(
+        raise verdict.ReadError(
             GIVEN_INERTIA_IMPOSSIBLE, moments=np.sort(np.linalg.eigvalsh(inertia)).tolist()
         )
     return (axes * np.maximum(values, 0.0)) @ axes.T
 
 
-def with_given(body: Body, reading: Reading, request: Request) -> Body:
+def with_given(body: Body, reading: bodies.Reading, request: Request) -> Body:
     """Return the body with the center and inertia of its settings, or raise ReadError if they are
     impossible.
     """
@@ -103,30 +101,30 @@ def with_given(body: Body, reading: Reading, request: Request) -> Body:
         request.settings.mass, given, reading.rotation, location, geometry
     )
     if given.center is not None and _is_outside(mass.about, reading, request.settings.unit):
-        findings.append(finding(GIVEN_CENTER, fault=CENTER_OUTSIDE))
+        findings.append(verdict.finding(GIVEN_CENTER, fault=CENTER_OUTSIDE))
     key = body.density_key + GivenPart.from_settings(request.obj.body_moments, 1.0).key
     return replace(body, mass=mass, density_key=key, findings=(*body.findings, *findings))
 
 
-def _is_outside(point: NDArray, reading: Reading, unit: float) -> bool:
+def _is_outside(point: NDArray, reading: bodies.Reading, unit: float) -> bool:
     """Return whether a point is outside every box around a part of the reading; False if there are
     no parts.
     """
     for part in getattr(reading, "parts", ()):
-        center, half = placed_boxes(part.surface.box, to_si(part.matrices, unit))
+        center, half = moments.placed_boxes(part.surface.box, bodies.to_si(part.matrices, unit))
         if (np.abs(point - center) <= half * (1.0 + GIVEN_RTOL)).all(axis=1).any():
             return False
     return bool(getattr(reading, "parts", ()))
 
 
-def read_point(request: Request) -> Reading | None:
+def read_point(request: Request) -> bodies.Reading | None:
     """Return the frame of a point mass, or None for any other object; may raise MeasureError."""
     if not is_point_mass(request.obj):
         return None
     return locate(request.obj.original, request.depsgraph)
 
 
-def point_measurement(reading: Reading, request: Request) -> tuple[Measurement, Body]:
+def point_measurement(reading: bodies.Reading, request: Request) -> tuple[Measurement, Body]:
     """Return the results of a part without geometry, and its body, or raise ReadError if it has no
     mass.
     """
@@ -146,7 +144,7 @@ def point_measurement(reading: Reading, request: Request) -> tuple[Measurement, 
         name=reading.name,
         type=reading.type,
         kind="point",
-        method=Method(Procedure.GIVEN),
+        method=verdict.Method(verdict.Procedure.GIVEN),
         findings=(*reading.findings, *findings),
         rotation=reading.rotation,
         location=location,

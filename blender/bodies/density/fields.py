@@ -15,19 +15,7 @@ from itertools import product
 
 import numpy as np
 
-from ....core.bodies import (
-    DENSITY_FROM_GRID,
-    GRID_DENSITY,
-    GRID_EMPTY,
-    GRID_TOO_LARGE,
-    MASS_OVERFLOW,
-    MAX_MASS_MOMENT,
-    MeshBody,
-    Reading,
-    attribute_to_source,
-    group_by_similarity,
-    to_si,
-)
+from ....core import bodies, measurement, mesh, polyhedron
 from ....core.density import (
     MAX_VOXELS,
     GridOptions,
@@ -38,11 +26,8 @@ from ....core.density import (
     local_coordinates,
     polynomial_mass_of_images,
 )
-from ....core.measurement import Settings
-from ....core.mesh import Surface
 from ....core.moments import Measure, Moments, affine_matrices
 from ....core.numerics import Array, NDArray, polar_rotation
-from ....core.polyhedron import polyhedron_moments
 from ....core.solid.measure import SolidIntegrals
 from ....core.verdict import (
     NEGLIGIBLE,
@@ -83,14 +68,18 @@ class _Piece:
     about: the point that an open surface is closed to.
     """
 
-    surface: Surface
+    surface: mesh.Surface
     matrices: Array
     fields: Array
     about: Array | None = None
 
 
 def polynomial_mass_result(
-    reading: Reading, body: MeshBody, density: DensityField, settings: Settings, order: int
+    reading: bodies.Reading,
+    body: bodies.MeshBody,
+    density: DensityField,
+    settings: measurement.Settings,
+    order: int,
 ) -> tuple[list[Moments], list[Finding]]:
     """Return the mass moments of all parts to an order (of a shell per meter of thickness), and the
     findings.
@@ -113,7 +102,7 @@ def polynomial_mass_result(
     parts = []
     order += polynomial.degree
     for piece in pieces:
-        volume, area = polyhedron_moments(
+        volume, area = polyhedron.polyhedron_moments(
             piece.surface,
             order,
             area_order=order if shell else None,
@@ -128,7 +117,7 @@ def polynomial_mass_result(
 
 
 def _solid_pieces(
-    reading: Reading, body: MeshBody, in_world: bool, unit: float
+    reading: bodies.Reading, body: bodies.MeshBody, in_world: bool, unit: float
 ) -> Iterator[_Piece]:
     """Yield the repaired surfaces around the body."""
     is_united = body.method.procedure == Procedure.UNION
@@ -137,7 +126,7 @@ def _solid_pieces(
     for solid, matrices in body.solids:
         fields = matrices
         if not in_world:  # a union is in the world
-            place = to_si(reading.parts[0].matrices, unit)
+            place = bodies.to_si(reading.parts[0].matrices, unit)
             fields = local_coordinates(matrices)
             if is_united:  # world coordinates, in meters, along the axes of the place
                 axes = polar_rotation(place)[0].transpose(0, 2, 1)
@@ -145,13 +134,13 @@ def _solid_pieces(
         yield _Piece(solid.repaired_surface, matrices, fields, solid.volume.about)
 
 
-def _sheet_pieces(reading: Reading, in_world: bool, unit: float) -> Iterator[_Piece]:
+def _sheet_pieces(reading: bodies.Reading, in_world: bool, unit: float) -> Iterator[_Piece]:
     """Yield the surfaces before repair; unevenly stretched images become surfaces of their own."""
     for part in reading.parts:
-        matrices = to_si(part.matrices, unit)
+        matrices = bodies.to_si(part.matrices, unit)
         fields = local_coordinates(matrices)
         axes = polar_rotation(matrices)[0]
-        for surface, image_matrices, which in group_by_similarity(part.surface, matrices):
+        for surface, image_matrices, which in bodies.group_by_similarity(part.surface, matrices):
             to_local = fields[which]
             if surface is not part.surface:  # mapped already: only the turn is left
                 to_local = affine_matrices(axes[which].transpose(0, 2, 1))
@@ -197,7 +186,7 @@ def _negative_density_note(
     return [finding(DENSITY_POSSIBLY_NEGATIVE)] if is_doubtful else []
 
 
-def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
+def filled_by_volume(body: bodies.MeshBody, request: Request, order: int) -> bodies.MeshBody:
     """Return the solid with the density of the Volume object that its settings name, or raise
     MeasureError.
     """
@@ -209,7 +198,7 @@ def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
             if volume is None:
                 raise ReadError(NO_SCALAR_GRID, grids="none")
             filled = voxel_filled_body(body, volume, grid, request.settings.unit, name, order)
-            origin = finding(DENSITY_FROM_GRID, grid=volume.grid).of_sources([source.name])
+            origin = finding(bodies.DENSITY_FROM_GRID, grid=volume.grid).of_sources([source.name])
             return replace(filled, density_from=origin)
     except MeasureError as error:
         if error.subject == name:  # the error is about the solid already
@@ -220,8 +209,13 @@ def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
 
 
 def voxel_filled_body(
-    body: MeshBody, reading: VolumeReading, options: GridOptions, unit: float, name: str, order: int
-) -> MeshBody:
+    body: bodies.MeshBody,
+    reading: VolumeReading,
+    options: GridOptions,
+    unit: float,
+    name: str,
+    order: int,
+) -> bodies.MeshBody:
     """Return the body of the object `name` with mass moments to an order, from the grid's densities
     inside it.
     """
@@ -233,9 +227,9 @@ def voxel_filled_body(
         raise ReadError(GRID_UNSUPPORTED, fault=IS_LEVEL_SET, subject=name, **names)
     # from corners of voxels, not from their centers
     corner = affine_matrices(np.eye(3), reading.low - 0.5)
-    matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ corner
+    matrix = bodies.to_si(reading.matrix[None], unit)[0] @ reading.to_object @ corner
     if min(reading.shape) < 1 or not abs(np.linalg.det(matrix[:3, :3])) > 0.0:
-        raise ReadError(GRID_EMPTY, subject=name, **names)
+        raise ReadError(bodies.GRID_EMPTY, subject=name, **names)
     inverse = np.linalg.inv(matrix)
     triangles = np.concatenate(
         [_corners(solid, inverse @ place) for solid, matrices in body.solids for place in matrices]
@@ -245,7 +239,7 @@ def voxel_filled_body(
     )
     high = np.clip(np.ceil(triangles.max(axis=(0, 1))), low + 1, reading.shape).astype(np.int64)
     if np.prod((high - low).astype(float)) > MAX_VOXELS:
-        raise ReadError(GRID_TOO_LARGE, subject=name, **names, samples=(high - low).tolist())
+        raise ReadError(bodies.GRID_TOO_LARGE, subject=name, **names, samples=(high - low).tolist())
     moments, volume = inside_moments(
         triangles - low, _box_densities(reading, options, low, high), order
     )
@@ -253,15 +247,15 @@ def voxel_filled_body(
     matrix = matrix @ affine_matrices(np.eye(3), low)
     mass = replace(replace(moments, measure=Measure.VOLUME).transform(matrix), measure=Measure.MASS)
     mass = replace(mass, input_error=_input_error(body, mass))
-    if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
-        raise ReadError(MASS_OVERFLOW)
+    if not np.abs(mass.raw).max() < bodies.MAX_MASS_MOMENT:
+        raise ReadError(bodies.MASS_OVERFLOW)
     if not mass.total > mass.rounding_error[0]:
         raise ReadError(DENSITY_GRID_ELSEWHERE, subject=name, **names)
     meaning = options._replace(spline_order=1).meaning()
     findings = [
-        finding(GRID_DENSITY, samples=list(reading.shape), cause=meaning.as_record()).of_sources(
-            [reading.name]
-        ),
+        finding(
+            bodies.GRID_DENSITY, samples=list(reading.shape), cause=meaning.as_record()
+        ).of_sources([reading.name]),
         *empty_background_note(options, reading.background),
     ]
     outside = float(1.0 - volume / body.volume.total)
@@ -275,7 +269,10 @@ def voxel_filled_body(
         findings=(
             *body.findings,
             *findings,
-            *(attribute_to_source(result, reading.name, name) for result in reading.findings),
+            *(
+                bodies.attribute_to_source(result, reading.name, name)
+                for result in reading.findings
+            ),
         ),
     )
 
@@ -304,7 +301,7 @@ def _box_densities(
     return densities
 
 
-def _input_error(body: MeshBody, mass: Moments) -> Array:
+def _input_error(body: bodies.MeshBody, mass: Moments) -> Array:
     """Return the solid's input error, scaled by the ratio of largest moments or of totals,
     whichever is larger.
     """

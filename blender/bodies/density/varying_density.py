@@ -14,17 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from ....core.bodies import (
-    GRID_AS_SHELL,
-    MASS_OVERFLOW,
-    MAX_MASS_MOMENT,
-    MeshBody,
-    Reading,
-    area_of_instances,
-    attribute_to_source,
-    findings_by_part,
-    to_si,
-)
+from ....core import bodies, measurement, mesh, polyhedron
 from ....core.density import (
     PartDensities,
     part_densities,
@@ -32,11 +22,8 @@ from ....core.density import (
     solid_mass_moments,
     to_mass_moments,
 )
-from ....core.measurement import find_extent
-from ....core.mesh import Surface
 from ....core.moments import KNOWN_ORDER, Moments, similarity_groups, sum_moments, sum_of_images
 from ....core.numerics import Array, NDArray
-from ....core.polyhedron import polyhedron_moments
 from ....core.solid import ClosedParts, SolidIntegrals
 from ....core.verdict import NEGLIGIBLE, Finding, Procedure, ReadError, finding, truncate_findings
 from ...settings.density import DensityField, density_key, material_density
@@ -75,15 +62,17 @@ class _Weighed:
     materials: tuple[str, ...] = ()
 
 
-def weigh(reading: Reading, body: MeshBody, request: Request) -> MeshBody:
+def weigh(reading: bodies.Reading, body: bodies.MeshBody, request: Request) -> bodies.MeshBody:
     """Return the body with mass moments to the requested order, or raise MeasureError if a density
     is impossible.
     """
-    find_extent(body, request.settings)  # raises MeasureError before anything is weighed
+    measurement.find_extent(
+        body, request.settings
+    )  # raises MeasureError before anything is weighed
     order = request.settings.order
     if _field(request).kind == "volume":
         if request.settings.kind == "shell":
-            raise ReadError(GRID_AS_SHELL)
+            raise ReadError(bodies.GRID_AS_SHELL)
         filled = filled_by_volume(body, request, KNOWN_ORDER)
         higher = (
             filled_by_volume(body, request, order).mass
@@ -106,7 +95,9 @@ def weigh(reading: Reading, body: MeshBody, request: Request) -> MeshBody:
     )
 
 
-def _weigh(reading: Reading, body: MeshBody, request: Request, order: int) -> _Weighed:
+def _weigh(
+    reading: bodies.Reading, body: bodies.MeshBody, request: Request, order: int
+) -> _Weighed:
     kind = _field(request).kind
     if kind == "polynomial":
         return _by_polynomial(reading, body, request, order)
@@ -128,16 +119,18 @@ def _thickness(request: Request) -> float:
     return request.settings.thickness if request.settings.kind == "shell" else 1.0
 
 
-def _by_polynomial(reading: Reading, body: MeshBody, request: Request, order: int) -> _Weighed:
+def _by_polynomial(
+    reading: bodies.Reading, body: bodies.MeshBody, request: Request, order: int
+) -> _Weighed:
     density = _field(request)
     parts, findings = polynomial_mass_result(reading, body, density, request.settings, order)
     mass = sum_moments(parts) * _thickness(request)
-    if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
-        raise ReadError(MASS_OVERFLOW)
+    if not np.abs(mass.raw).max() < bodies.MAX_MASS_MOMENT:
+        raise ReadError(bodies.MASS_OVERFLOW)
     return _Weighed(mass, density.polynomial_source(), findings)
 
 
-def _by_attribute(reading: Reading, request: Request, order: int) -> _Weighed:
+def _by_attribute(reading: bodies.Reading, request: Request, order: int) -> _Weighed:
     attribute = _field(request).attribute or ""
     if request.settings.kind != "shell":
         raise ReadError(DENSITY_ATTRIBUTE_OF_SOLID)
@@ -152,7 +145,9 @@ def _by_attribute(reading: Reading, request: Request, order: int) -> _Weighed:
     return _Weighed(to_mass_moments(total, _thickness(request)), source)
 
 
-def _by_material(reading: Reading, body: MeshBody, request: Request, order: int) -> _Weighed:
+def _by_material(
+    reading: bodies.Reading, body: bodies.MeshBody, request: Request, order: int
+) -> _Weighed:
     shell = request.settings.kind == "shell"
     if body.method.procedure == Procedure.UNION:
         raise ReadError(UNION_LACKS, data="materials")
@@ -169,7 +164,7 @@ def _by_material(reading: Reading, body: MeshBody, request: Request, order: int)
             names = [*(material.name if material else "" for material in slots), ""]
             volume = solid.volume
             if order > volume.order:
-                volume = polyhedron_moments(
+                volume = polyhedron.polyhedron_moments(
                     solid.repaired_surface,
                     order,
                     about=volume.about,
@@ -181,7 +176,7 @@ def _by_material(reading: Reading, body: MeshBody, request: Request, order: int)
             )
             parts += weighed
             by_part.append((reading.parts[i].source_object_name, findings))
-    findings = [*face_densities.missing_note(), *findings_by_part(by_part, reading.name)]
+    findings = [*face_densities.missing_note(), *bodies.findings_by_part(by_part, reading.name)]
     health = body.health
     densities = np.concatenate(face_densities.values)
     if not shell and health.nested_components + health.overlapping_components and np.ptp(densities):
@@ -199,7 +194,7 @@ class _FaceDensities:
     each part.
     """
 
-    def __init__(self, reading: Reading, default_density: float):
+    def __init__(self, reading: bodies.Reading, default_density: float):
         self.default_density = default_density
         self.values: list[NDArray] = []
         self.slots: list[tuple[NDArray, tuple]] = []
@@ -313,7 +308,7 @@ def _mixed_parts_notes(
     return [finding(MIXED_MATERIALS, first, slight=slight, **values)]
 
 
-def _vertex_density(reading: Reading, i: int, name: str) -> Array:
+def _vertex_density(reading: bodies.Reading, i: int, name: str) -> Array:
     """Return (n,) densities of a part's vertices; raise ReadError if a vertex with faces has a
     wrong value.
     """
@@ -323,26 +318,34 @@ def _vertex_density(reading: Reading, i: int, name: str) -> Array:
     wrong = ~((values[used] >= 0.0) & (values[used] < np.inf))
     if wrong.any():
         found = finding(ATTRIBUTE_VALUES, used[wrong], attribute=name, count=int(wrong.sum()))
-        raise ReadError(attribute_to_source(found, part.source_object_name, reading.name))
+        raise ReadError(bodies.attribute_to_source(found, part.source_object_name, reading.name))
     return values
 
 
 def _sheet_moments(
-    reading: Reading, i: int, values: NDArray, request: Request, order: int, by_vertex: bool = False
+    reading: bodies.Reading,
+    i: int,
+    values: NDArray,
+    request: Request,
+    order: int,
+    by_vertex: bool = False,
 ) -> Iterator[Moments]:
     """Yield moments ∫ρ dA of a part's images; `values` are densities of mesh faces, or with
     `by_vertex` of vertices.
     """
     part = reading.parts[i]
 
-    def measured(surface: Surface) -> Moments:
+    def measured(surface: mesh.Surface) -> Moments:
         triangles, faces = surface.all_triangles()
         density = values[triangles] if by_vertex else values[faces]
-        area = polyhedron_moments(
+        area = polyhedron.polyhedron_moments(
             surface, area_order=order, threads=request.settings.threads, allow_open=True
         )[1]
         return sheet_mass_moments(surface.points, triangles, density, area, stored=by_vertex)
 
-    return area_of_instances(
-        part.surface, measured(part.surface), to_si(part.matrices, request.settings.unit), measured
+    return bodies.area_of_instances(
+        part.surface,
+        measured(part.surface),
+        bodies.to_si(part.matrices, request.settings.unit),
+        measured,
     )

@@ -17,13 +17,7 @@ from typing import ClassVar
 import bpy
 import numpy as np
 
-from ....core.bodies import (
-    DRAWN_AS_POLYGONS,
-    SHAPE_OF_OPEN_SURFACE,
-    Reading,
-    extend_input_error,
-    name_subject,
-)
+from ....core import bodies, inertia, measurement, nurbs, solid, verdict
 from ....core.flat import (
     SECTION_NOT_FLAT,
     Plane,
@@ -38,28 +32,11 @@ from ....core.flat import (
     region,
     region_moments,
 )
-from ....core.inertia import MOMENTS_OVERFLOW, NO_CERTAIN_VOLUME
-from ....core.measurement import NO_VOLUME, Body
 from ....core.moments import Measure, Moments, affine_matrices, monomial_count, monomials
 from ....core.numerics import Array, Index
-from ....core.nurbs import Curve, length_moments, planar_region, plane_moments
-from ....core.solid import UNCHECKED
-from ....core.verdict import (
-    NEGLIGIBLE,
-    NO_FACES,
-    Finding,
-    MeasureError,
-    MeshHealth,
-    Method,
-    Procedure,
-    ReadError,
-    Source,
-    finding,
-)
+from ...read import objects, visibility
 from ...read.findings import FLAT_UNSUITABLE, NOT_FILLED, RENDER_DIFFERS, SECTION_FILL
-from ...read.objects import read_lines
 from ...read.section import SectionReading, read_outline_curves, read_section
-from ...read.visibility import shows_flat_region
 from ...scale import meters_per_unit
 from ..findings import (
     CURVE_FILL_MEASURED,
@@ -75,10 +52,15 @@ from ..wire import DEGREE, curves_in_world
 FILL_AREA_RTOL = 1e-4  # if Blender's fill and the outlines differ by more, the fill is wrong
 # Codes of refusals: that an object is no body; and that it is not flat either, so that the first
 # refusal is shown.
-NO_BODY = {NO_VOLUME, NO_CERTAIN_VOLUME, NO_FACES, SHAPE_OF_OPEN_SURFACE}
+NO_BODY = {
+    measurement.NO_VOLUME,
+    inertia.NO_CERTAIN_VOLUME,
+    verdict.NO_FACES,
+    bodies.SHAPE_OF_OPEN_SURFACE,
+}
 NOT_FLAT = {SECTION_NOT_FLAT, FLAT_UNSUITABLE}
 NORMAL = np.array([0.0, 0.0, 1.0])  # in the plane's own axes
-MeasuredSection = tuple[Section, str, tuple[Finding, ...]]
+MeasuredSection = tuple[Section, str, tuple[verdict.Finding, ...]]
 MEASURED_AS = frozenset({"shell"})
 
 
@@ -106,8 +88,8 @@ class FlatRegion:
     drawn_area: float | None
     rotation: Array
     location: Array
-    curves: tuple[Curve, ...]
-    findings: tuple[Finding, ...]
+    curves: tuple[nurbs.Curve, ...]
+    findings: tuple[verdict.Finding, ...]
 
     @property
     def rounded(self) -> float:
@@ -131,7 +113,7 @@ class FlatRegion:
                     self.points, self.edges, order, rounded=self.rounded, stored=self.stored
                 )
         if not np.isfinite([moments.raw, moments.rounding_error, moments.input_error]).all():
-            raise ReadError(MOMENTS_OVERFLOW, order=order)
+            raise verdict.ReadError(inertia.MOMENTS_OVERFLOW, order=order)
         return moments
 
 
@@ -149,13 +131,13 @@ def flat_region(
     """
     reading = read_section(obj, depsgraph, selected=selected, resolution=resolution)
     unit = unit or meters_per_unit(depsgraph.scene)
-    with name_subject(obj.name):
+    with bodies.name_subject(obj.name):
         found = _region_of(reading, obj.type, unit)
         outlines = _curves(obj, depsgraph, reading, found.plane, unit) if exact else None
     if outlines is None:
         return found
     curves, stored = outlines
-    drawn = {DRAWN_AS_POLYGONS, RENDER_DIFFERS}
+    drawn = {bodies.DRAWN_AS_POLYGONS, RENDER_DIFFERS}
     kept = [one for one in found.findings if one.code not in drawn]
     return replace(found, curves=curves, stored=max(stored, found.stored), findings=tuple(kept))
 
@@ -169,7 +151,9 @@ def section_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Measure
     return section, found.description, (*found.findings, *area_findings(found, section.area))
 
 
-def clearer_refusal(no_body: MeasureError, not_flat: MeasureError) -> MeasureError:
+def clearer_refusal(
+    no_body: verdict.MeasureError, not_flat: verdict.MeasureError
+) -> verdict.MeasureError:
     """Return the more helpful of two refusals: that the object is no body, or that it is no flat
     shape.
     """
@@ -190,16 +174,18 @@ def _region_of(reading: SectionReading, kind: str, unit: float) -> FlatRegion:
     else:
         edges, flipped = region(plane, points, reading.triangles, reading.faces, error)
         if flipped:
-            findings.append(finding(SECTION_FACES_REVERSED, count=flipped))
+            findings.append(verdict.finding(SECTION_FACES_REVERSED, count=flipped))
     defects = find_defects(flat, edges, error)
     are_crossed = defects.crossings or defects.overlapping
     if defects.negative or (reading.loops is not None and are_crossed):
-        raise ReadError(OUTLINES_CROSS)
+        raise verdict.ReadError(OUTLINES_CROSS)
     if are_crossed:
-        findings.append(finding(SECTION_FACES_OVERLAP))
+        findings.append(verdict.finding(SECTION_FACES_OVERLAP))
     if defects.too_many_pairs:
         findings.append(
-            finding(UNCHECKED, subject="the overlap of some edges, as there are too many")
+            verdict.finding(
+                solid.UNCHECKED, subject="the overlap of some edges, as there are too many"
+            )
         )
     return FlatRegion(
         reading.name,
@@ -219,7 +205,7 @@ def _region_of(reading: SectionReading, kind: str, unit: float) -> FlatRegion:
     )
 
 
-def area_findings(found: FlatRegion, area: float) -> list[Finding]:
+def area_findings(found: FlatRegion, area: float) -> list[verdict.Finding]:
     """Return findings that need a region's area: points off the plane, and faces that Blender fills
     wrongly.
     """
@@ -227,9 +213,11 @@ def area_findings(found: FlatRegion, area: float) -> list[Finding]:
     off = found.plane.out_of_plane
     if off > 4.0 * found.stored:
         share = float(off / np.sqrt(area))
-        findings.append(finding(SECTION_PROJECTED, slight=share < NEGLIGIBLE, share=share))
+        findings.append(
+            verdict.finding(SECTION_PROJECTED, slight=share < verdict.NEGLIGIBLE, share=share)
+        )
     if found.drawn_area is not None and abs(found.drawn_area - area) > FILL_AREA_RTOL * area:
-        findings.append(finding(SECTION_FILL_WRONG, share=float(found.drawn_area / area)))
+        findings.append(verdict.finding(SECTION_FILL_WRONG, share=float(found.drawn_area / area)))
     return findings
 
 
@@ -239,7 +227,7 @@ def _curves(
     reading: SectionReading,
     plane: Plane,
     unit: float,
-) -> tuple[tuple[Curve, ...], float] | None:
+) -> tuple[tuple[nurbs.Curve, ...], float] | None:
     """Return the outlines along the plane's axes and their float32 error, or None if only the
     polygons are usable.
     """
@@ -249,18 +237,20 @@ def _curves(
         curves, matrix = read_outline_curves(obj, depsgraph)
         to_plane = affine_matrices(plane.axes.T, -plane.axes.T @ plane.origin)
         placed, stored = curves_in_world(curves, matrix, unit)
-        boundary, _ = planar_region([curve.transform(to_plane) for curve in placed], stored)
-    except MeasureError:
+        boundary, _ = nurbs.planar_region([curve.transform(to_plane) for curve in placed], stored)
+    except verdict.MeasureError:
         return None
     if len(boundary) != len(reading.loops):  # polygons leave out some loops
         return None
-    is_left = plane_moments(boundary, NORMAL, 1).total > 0.0
+    is_left = nurbs.plane_moments(boundary, NORMAL, 1).total > 0.0
     return tuple(boundary if is_left else [curve.reverse() for curve in boundary]), stored
 
 
-def _curve_moments(curves: tuple[Curve, ...], order: int, rounded: float, stored: float) -> Moments:
-    about = plane_moments(curves, NORMAL, 1).center * [1.0, 1.0, 0.0]
-    moments = plane_moments(curves, NORMAL, order, about)
+def _curve_moments(
+    curves: tuple[nurbs.Curve, ...], order: int, rounded: float, stored: float
+) -> Moments:
+    about = nurbs.plane_moments(curves, NORMAL, 1).center * [1.0, 1.0, 0.0]
+    moments = nurbs.plane_moments(curves, NORMAL, order, about)
     lengths = [np.hypot(*np.diff(curve.points[:, :2], axis=0).T).sum() for curve in curves]
     corners = np.concatenate([curve.points[:, :2] for curve in curves])
     reach = np.append(np.abs(corners - about[:2]).max(axis=0) + 2.0 * (rounded + stored), 1.0)
@@ -281,32 +271,32 @@ def _curve_moments(curves: tuple[Curve, ...], order: int, rounded: float, stored
 
 
 @dataclass
-class RegionReading(Reading):
+class RegionReading(bodies.Reading):
     """A curve object, and the region that its curves bound.
 
     `boundary`: in the world, m; holes run against the outline. `normal`: (3,) normal of the curves'
     plane. `stored`: largest effect of float32 on the points, m.
     """
 
-    boundary: tuple[Curve, ...] = ()
+    boundary: tuple[nurbs.Curve, ...] = ()
     normal: Array = field(kw_only=True)
     stored: float = field(kw_only=True)
 
 
 @dataclass(frozen=True, eq=False)
-class RegionBody(Body):
+class RegionBody(measurement.Body):
     """A flat region without thickness of its own."""
 
     any_order: ClassVar[bool] = True
 
-    boundary: tuple[Curve, ...] = ()
+    boundary: tuple[nurbs.Curve, ...] = ()
     normal: Array = field(kw_only=True)
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments]:
         """Return zero moments of the volume, and the moments of the area."""
         volume = Moments(np.zeros(monomial_count(order)), self.area.about, Measure.VOLUME)
-        of_region = plane_moments(self.boundary, self.normal, order, self.area.about)
-        return volume, extend_input_error(of_region, self.area)
+        of_region = nurbs.plane_moments(self.boundary, self.normal, order, self.area.about)
+        return volume, bodies.extend_input_error(of_region, self.area)
 
 
 def read(request: Request) -> RegionReading | None:
@@ -316,35 +306,37 @@ def read(request: Request) -> RegionReading | None:
     obj, options = request.obj, request.settings
     if obj.type != "CURVE" or options.wall != "thin":
         return None
-    if request.density is not None or not shows_flat_region(obj):
+    if request.density is not None or not visibility.shows_flat_region(obj):
         return None
-    reading = read_lines(obj, request.depsgraph)
+    reading = objects.read_lines(obj, request.depsgraph)
     is_filled = obj.data.dimensions == "2D" and obj.data.fill_mode != "NONE"
     if not is_filled:
-        reading.findings.append(finding(SECTION_FILL, treatment=NOT_FILLED))
+        reading.findings.append(verdict.finding(SECTION_FILL, treatment=NOT_FILLED))
     try:
         curves, stored = curves_in_world(reading.curves, reading.matrix, request.settings.unit)
-        boundary, normal = planar_region(curves, stored)
-    except MeasureError as error:
+        boundary, normal = nurbs.planar_region(curves, stored)
+    except verdict.MeasureError as error:
         if not is_filled:
             raise
-        request.findings.append(finding(CURVE_FILL_MEASURED, cause=error.finding.as_record()))
+        request.findings.append(
+            verdict.finding(CURVE_FILL_MEASURED, cause=error.finding.as_record())
+        )
         return None
     return RegionReading(**vars(reading), boundary=tuple(boundary), normal=normal, stored=stored)
 
 
-def body(reading: RegionReading, request: Request) -> Body:
+def body(reading: RegionReading, request: Request) -> measurement.Body:
     """Return the flat region, without its holes, as a sheet."""
     curves = list(reading.boundary)
-    area = plane_moments(curves, reading.normal)
-    boundary_length = length_moments(curves, 0).total
+    area = nurbs.plane_moments(curves, reading.normal)
+    boundary_length = nurbs.length_moments(curves, 0).total
     reach = max(float(np.abs(curve.points - area.about).max()) for curve in curves)
     area = replace(area, input_error=2.0 * reading.stored * boundary_length * reach**DEGREE)
     return RegionBody(
         Moments(np.zeros_like(area.raw), area.about, Measure.VOLUME),
         area,
-        MeshHealth(closed=False, components=len(curves)),
-        Method(Procedure.SHELL, Source.NURBS),
+        verdict.MeshHealth(closed=False, components=len(curves)),
+        verdict.Method(verdict.Procedure.SHELL, verdict.Source.NURBS),
         (),
         estimated=True,
         boundary=tuple(curves),

@@ -15,10 +15,8 @@ from typing import TypeVar
 import bpy
 import numpy as np
 
-from ....core.bodies import FAR_FROM_ORIGIN, SHAPE_UNAVAILABLE, name_subject
-from ....core.inertia import NOISE_LEVEL
+from ....core import bodies, inertia, mesh, verdict
 from ....core.measurement import fingerprint
-from ....core.mesh import Surface
 from ....core.moments import Moments, monomials
 from ....core.numerics import Array, Complex, NDArray
 from ....core.shape import (
@@ -34,7 +32,6 @@ from ....core.shape import (
     holds_by_outline,
     match_flat,
 )
-from ....core.verdict import MeasureError, ReadError
 from ...read.fingerprint import matrix_hash, settings_hash
 from ..shape.shape import Shape, surface_shape_of
 from ..shape.surface_distance import EXACT_DISTANCE, SURFACE_SAMPLES, SurfaceDistance, thinned
@@ -105,7 +102,7 @@ class FlatShape:
         found = flat_signature(scaled, self.radius / scale)
         return replace(found, size=found.size * scale)
 
-    def pieces(self) -> Iterator[Surface]:
+    def pieces(self) -> Iterator[mesh.Surface]:
         """Yield a wall along the outline, one `size` high on both sides, as far from points as the
         outline.
         """
@@ -122,7 +119,7 @@ class FlatShape:
         triangles = np.concatenate(
             [np.stack([a, b, b + above], axis=1), np.stack([a, b + above, a + above], axis=1)]
         )
-        yield Surface.from_triangles(points, triangles)
+        yield mesh.Surface.from_triangles(points, triangles)
 
     def match(self, target: FlatShape, residual: Residual) -> RigidMatch:
         """Return the motion that lays this shape onto another one, front on front; `residual` as
@@ -145,7 +142,7 @@ class FlatShape:
             return skin.distance(points @ self.axes.T + self.center, within=near)
 
         outline = holds_by_outline((skin.points - self.center) @ self.axes, distance, near)
-        moments = holds_by_moments(zernike, POSE_ORDER, max(NOISE_LEVEL, tolerance))
+        moments = holds_by_moments(zernike, POSE_ORDER, max(inertia.NOISE_LEVEL, tolerance))
         find = partial(flat_symmetry, zernike, POSE_ORDER, self.corners, self.axes)
         return find(outline), find(moments)
 
@@ -179,10 +176,12 @@ def flat_shape_of(
     mark = fingerprint(
         region.points.tobytes(), matrix_hash(obj), settings_hash(obj, depsgraph.scene)
     )
-    with name_subject(obj.name):
+    with bodies.name_subject(obj.name):
         shape = FlatShape(region, region.moments(MAX_ORDER_BY_MOMENTS), mark)
     if np.finfo(np.float64).eps * np.abs(shape.center).max() > EXACT_DISTANCE * shape.size:
-        raise ReadError(SHAPE_UNAVAILABLE, cause=FAR_FROM_ORIGIN, subject=obj.name)
+        raise verdict.ReadError(
+            bodies.SHAPE_UNAVAILABLE, cause=bodies.FAR_FROM_ORIGIN, subject=obj.name
+        )
     return shape
 
 
@@ -208,14 +207,14 @@ def body_or_flat(
     shape is tried first.
     """
     if flat:
-        with suppress(MeasureError):
+        with suppress(verdict.MeasureError):
             return flat_shape_of(obj, depsgraph)
     try:
         return of_body(obj)
-    except MeasureError as refusal:
+    except verdict.MeasureError as refusal:
         if refusal.finding.code not in NO_BODY:
             raise
         try:
             return flat_shape_of(obj, depsgraph)
-        except MeasureError as error:
+        except verdict.MeasureError as error:
             raise clearer_refusal(refusal, error) from None

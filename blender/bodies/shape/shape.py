@@ -17,21 +17,10 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ....core.bodies import (
-    FAR_FROM_ORIGIN,
-    NEEDS_POLYGONS,
-    SHAPE_OF_GRID,
-    SHAPE_OF_OPEN_SURFACE,
-    SHAPE_UNAVAILABLE,
-    WIRE_UNSUPPORTED,
-    with_input_error,
-)
-from ....core.inertia import EQUAL_AXES, NOISE_LEVEL, PrincipalFrame, pose_matrix
+from ....core import bodies, inertia, mesh, polyhedron, verdict
 from ....core.measurement import WALL_UNSUPPORTED, Body, Measurement
-from ....core.mesh import Surface, join_surfaces
 from ....core.moments import Moments, are_similarities
 from ....core.numerics import Array, NDArray, segment_starts
-from ....core.polyhedron import extend_small_moments, polyhedron_moments, small_moments
 from ....core.shape import (
     MAX_AXIS_ORDER,
     MAX_DESCRIPTOR_ERROR,
@@ -58,11 +47,9 @@ from ....core.shape.axial_harmonics import (
 )
 from ....core.shape.signatures import Signature, signature, signatures
 from ....core.solid import SmallSolid
-from ....core.verdict import OBJECT_SIZE, TOO_LARGE, Finding, Procedure, ReadError, Source, finding
 from ...settings.options import MeasureOptions
+from .. import measure_object, stack
 from ..measure_body import THREADS, measure_body
-from ..measure_object import measured_in_turn
-from ..stack import Measured
 from .surface_distance import EXACT_DISTANCE
 
 EQUAL_AXES_ATOL = 1e-12  # cosine: harmonics about axes nearer to each other are equal
@@ -109,7 +96,7 @@ class Shape:
         """True if the pieces are the display mesh of a smooth body, whose moments differ a
         little.
         """
-        return self.measurement.method.source == Source.NURBS
+        return self.measurement.method.source == verdict.Source.NURBS
 
     @property
     def center(self) -> Array:
@@ -130,9 +117,9 @@ class Shape:
             volume, area = self.body.moments(MAX_ORDER, self._sheets)
         found = volume if area is None else area
         if not np.isfinite([found.raw, found.rounding_error]).all():
-            raise ReadError(OBJECT_SIZE, fault=TOO_LARGE)
+            raise verdict.ReadError(verdict.OBJECT_SIZE, fault=verdict.TOO_LARGE)
         known = self.body.area if self._sheets else self.body.volume
-        return with_input_error(found, known).about_center()
+        return bodies.with_input_error(found, known).about_center()
 
     def piece_moments(self) -> Moments:
         """Return moments like `moments`, but of the polygons, which replace a smooth surface in
@@ -140,7 +127,7 @@ class Shape:
         """
         if not self.is_display_mesh:
             return self.moments
-        volume, area = polyhedron_moments(
+        volume, area = polyhedron.polyhedron_moments(
             self.pieces(),
             MAX_ORDER,
             area_order=MAX_ORDER if self._sheets else None,
@@ -154,11 +141,11 @@ class Shape:
     def _sheets(self) -> bool:
         return self.measurement.kind == "shell"
 
-    def pieces(self) -> Iterator[Surface]:
+    def pieces(self) -> Iterator[mesh.Surface]:
         """Yield the surfaces of the body in world coordinates."""
         return self.body.surfaces(self._sheets)
 
-    def principal_frame(self) -> PrincipalFrame:
+    def principal_frame(self) -> inertia.PrincipalFrame:
         """Return the frame that moments to sixth order fix; the measured one if the density
         varies.
         """
@@ -189,7 +176,9 @@ class Shape:
                     factors = ()
             pose = self._point_group()
         angle = (
-            alike.tilt if EQUAL_AXES[body.principal.symmetry] else body.axes_bound(MATRIX_STRAIN)
+            alike.tilt
+            if inertia.EQUAL_AXES[body.principal.symmetry]
+            else body.axes_bound(MATRIX_STRAIN)
         )
         if (
             constant
@@ -200,13 +189,13 @@ class Shape:
         position = body.rounding_error["center"] + body.input_error["center"]
         unique = unique and max(angle, position / self.size) <= MAX_POSE_BOUND
         for factor in factors if unique else ():
-            each = equivalent_frames(moments, factor * NOISE_LEVEL)
+            each = equivalent_frames(moments, factor * inertia.NOISE_LEVEL)
             is_same = (
                 len(each.frames) == 1 and np.abs(each.frames[0] - axes).max() < MAX_FRAME_CHANGE
             )
             unique = unique and bool(is_same) and not each.revolution_axes
         return {
-            "matrix": pose_matrix(body.center, axes),
+            "matrix": inertia.pose_matrix(body.center, axes),
             "unique": unique,
             "angle_bound": angle,
             "position_bound": position,
@@ -247,8 +236,8 @@ class Shape:
             max(float(np.linalg.norm(piece.coordinate_error)) for piece in self.pieces())
             / self.size
         )
-        near = NOISE_LEVEL + 4.0 * moved
-        far = 4.0 * NOISE_LEVEL + 16.0 * moved
+        near = inertia.NOISE_LEVEL + 4.0 * moved
+        far = 4.0 * inertia.NOISE_LEVEL + 16.0 * moved
         if far > MAX_MISFIT:
             return None
         placed = self._placed_triangles(near, far)
@@ -293,13 +282,13 @@ class Shape:
         radius /= scale
         sheets = self._sheets
 
-        def pieces() -> Iterator[Surface]:
+        def pieces() -> Iterator[mesh.Surface]:
             return (
                 piece.transform(np.eye(3) / scale, -self.center / scale) for piece in self.pieces()
             )
 
         known = min(order, MAX_ORDER_BY_MOMENTS)
-        volume, area = polyhedron_moments(
+        volume, area = polyhedron.polyhedron_moments(
             pieces(),
             known,
             area_order=known if sheets else None,
@@ -310,7 +299,7 @@ class Shape:
         )
         result = signature(volume if area is None else area, radius)
         if (order > MAX_ORDER_BY_MOMENTS or result.error > MAX_DESCRIPTOR_ERROR) and not sheets:
-            whole = join_surfaces(list(pieces()))
+            whole = mesh.join_surfaces(list(pieces()))
             triangles = whole.all_triangles()[0]
             result = signature(
                 volume, radius, zernike_quadrature(whole.points / radius, triangles, order)
@@ -328,7 +317,7 @@ class Shape:
         the size.
         """
         # The tolerance for moments is the same as for the surface.
-        allowed = symmetry(self.piece_moments(), max(NOISE_LEVEL, tolerance))
+        allowed = symmetry(self.piece_moments(), max(inertia.NOISE_LEVEL, tolerance))
         placed = self._placed_triangles(tolerance, tolerance)
         found = allowed
         is_round = placed.is_round(allowed, tolerance)
@@ -345,15 +334,15 @@ class Shape:
 
     def _placed_triangles(self, near: float, far: float) -> PlacedTriangles:
         """Return the triangles about the center, in units of the size."""
-        whole = join_surfaces(list(self.pieces()))
+        whole = mesh.join_surfaces(list(self.pieces()))
         points = (whole.points.astype(np.float64) - self.center) / self.size
         return PlacedTriangles(points, whole.all_triangles()[0], near, far)
 
 
-class NoShapeError(ReadError):
+class NoShapeError(verdict.ReadError):
     """The refusal of an object that can be measured, but has no shape of its own."""
 
-    def __init__(self, reason: str | Finding, measurement: Measurement):
+    def __init__(self, reason: str | verdict.Finding, measurement: Measurement):
         super().__init__(reason, subject=measurement.name)
         self.measurement = measurement
 
@@ -365,13 +354,16 @@ def surface_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> S
     return surface_shape(measure_body(obj, depsgraph, SURFACE_OPTIONS))
 
 
-def surface_shape(measured: Measured) -> Shape:
+def surface_shape(measured: stack.Measured) -> Shape:
     """Return the shape of a body that was measured with SURFACE_OPTIONS, which must have
     polygons.
     """
     shape = shape_of_measured(measured, SURFACE_OPTIONS.threads)
     if not shape.has_surface:
-        raise NoShapeError(finding(SHAPE_UNAVAILABLE, cause=NEEDS_POLYGONS), shape.measurement)
+        raise NoShapeError(
+            verdict.finding(bodies.SHAPE_UNAVAILABLE, cause=bodies.NEEDS_POLYGONS),
+            shape.measurement,
+        )
     return shape
 
 
@@ -385,19 +377,21 @@ def shape_of(
     return shape_of_measured(measure_body(obj, depsgraph, options), options.threads)
 
 
-def shape_of_measured(measured: Measured, threads: int) -> Shape:
+def shape_of_measured(measured: stack.Measured, threads: int) -> Shape:
     """Return the shape of a measured body, or raise NoShapeError if it has none."""
     measurement, body = measured.measurement, measured.body
     if body.mass is not None and not body.has_surface:
-        raise NoShapeError(SHAPE_OF_GRID, measurement)
+        raise NoShapeError(bodies.SHAPE_OF_GRID, measurement)
     if body.wall is not None or body.length is not None:
-        code = WALL_UNSUPPORTED if body.length is None else WIRE_UNSUPPORTED
-        raise NoShapeError(finding(code, quantity="A pose or signature"), measurement)
-    if measurement.method.procedure == Procedure.OPEN:
-        raise NoShapeError(SHAPE_OF_OPEN_SURFACE, measurement)
+        code = WALL_UNSUPPORTED if body.length is None else bodies.WIRE_UNSUPPORTED
+        raise NoShapeError(verdict.finding(code, quantity="A pose or signature"), measurement)
+    if measurement.method.procedure == verdict.Procedure.OPEN:
+        raise NoShapeError(bodies.SHAPE_OF_OPEN_SURFACE, measurement)
     shape = Shape(measurement, body, threads)
     if np.finfo(np.float64).eps * np.abs(shape.center).max() > EXACT_DISTANCE * shape.size:
-        raise NoShapeError(finding(SHAPE_UNAVAILABLE, cause=FAR_FROM_ORIGIN), measurement)
+        raise NoShapeError(
+            verdict.finding(bodies.SHAPE_UNAVAILABLE, cause=bodies.FAR_FROM_ORIGIN), measurement
+        )
     return shape
 
 
@@ -407,7 +401,7 @@ def signed_in_turn(
     """Return a function from an object to its signature, or to its `Shape` if it was measured
     outside a stack.
     """
-    measured = measured_in_turn(objects, depsgraph, SURFACE_OPTIONS)
+    measured = measure_object.measured_in_turn(objects, depsgraph, SURFACE_OPTIONS)
     known: dict[Measurement, list[Signature | None]] = {}
 
     def signed(obj: bpy.types.Object) -> Signature | Shape:
@@ -422,7 +416,7 @@ def signed_in_turn(
     return signed
 
 
-def stack_signatures(row: Measured, order: int) -> list[Signature | None]:
+def stack_signatures(row: stack.Measured, order: int) -> list[Signature | None]:
     """Return the signatures of all members of a row's stack; None for repaired, distant and
     ill-conditioned members.
     """
@@ -490,8 +484,8 @@ def _signatures(
     reach = np.maximum.reduceat(np.abs(places), starts)
     nothing = np.zeros((len(solids), 3))
     joined = np.concatenate(triangles)
-    volume = small_moments(
+    volume = polyhedron.small_moments(
         places, joined, counts, nothing, reach, nothing, area=False, area_moments=False
     )[0]
-    volume = extend_small_moments(volume, order, places, joined, counts, reach)
+    volume = polyhedron.extend_small_moments(volume, order, places, joined, counts, reach)
     return signatures(volume, radius / scale), scale

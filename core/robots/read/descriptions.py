@@ -33,7 +33,6 @@ from ...verdict import FileError, system_reason
 from ..findings import (
     DESCRIPTION_INVALID,
     DESCRIPTION_UNKNOWN,
-    INCLUDE_TWICE,
     INCLUDE_UNREADABLE,
     MESH_MISSING,
     MESH_OUTSIDE,
@@ -42,7 +41,7 @@ from ..findings import (
 )
 from ..formats import AUDITED
 from ..stated import Description, Place
-from .xml import MAX_ELEMENTS, Node, check_size, parse
+from .xml import MAX_ELEMENTS, Node, check_names, check_size, parse
 
 _WIDE = {
     codecs.BOM_UTF16_LE: "utf-16",
@@ -58,6 +57,7 @@ _QUEUE = ThreadPoolExecutor(1)  # One file at a time: xacro keeps what it reads 
 MAX_DESCRIPTION = 64 << 20  # bytes
 MAX_LINKS = 100_000
 MAX_INCLUDES = 1000
+INCLUDED = "It is included already."
 # Schemes of one letter are drives.
 _SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)", re.DOTALL)
 PATHS = "ROS_PACKAGE_PATH"
@@ -192,25 +192,12 @@ def read_description(path: Path, roots: Roots | None = None) -> Description:
     if description.format in ("urdf", "mjcf"):
         links = [(link.name, link.place) for link in description.links]
         joints = [(one.name, joint.place) for joint in description.joints for one in joint.motions]
-        _check_names(description, links)
-        _check_names(description, joints)
+        check_names(description.format, links)
+        check_names(description.format, joints)
     # MuJoCo and Gazebo load models without bodies; a URDF needs a link
     if not description.links and description.format not in ("mjcf", "sdf"):
         raise FileError(FILE_WITHOUT_OBJECTS, content="links")
     return description
-
-
-def _check_names(description: Description, named: Sequence[tuple[str, Place]]) -> None:
-    """Raise FileError if two links, or two joints, have one name. "" is none."""
-    names: set[str] = set()
-    for name, place in named:
-        if name in names:
-            error = "“{}” is the name of two elements. Give each its own".format(name)
-            values = {"line": place.line, "column": place.column, "source": place.file}
-            form = description.format.upper()
-            raise FileError(DESCRIPTION_INVALID, format=form, error=error, **values)
-        if name:
-            names.add(name)
 
 
 def _bytes(path: Path) -> bytes:
@@ -304,7 +291,7 @@ def _include(root: Node, roots: Roots, own: Path) -> None:
             # A model of MuJoCo includes a file once; all models may repeat, but not include
             # themselves.
             if path in (model if is_mjcf and not is_attached else above) or files > MAX_INCLUDES:
-                raise FileError(INCLUDE_TWICE, name=name, **place)
+                raise FileError(INCLUDE_UNREADABLE, name=name, cause=INCLUDED, **place)
             there = here if is_mjcf and not is_attached else here.at(path.parent)
             inside = (*above, path)
             if is_attached:

@@ -32,6 +32,7 @@ from .xml import (
     Node,
     attempt,
     axis_of,
+    check_names,
     number,
     numbers,
     read_shapes,
@@ -46,6 +47,9 @@ HINGES = ("revolute", "continuous", "universal", "revolute2")
 def read(root: Node, data: bytes) -> Description:
     """Return a description from the element `sdf`: all links, wherever their models are."""
     models = [node for node in root.walk() if node.tag == "model"]
+    for node in root.walk():  # Siblings have names of their own.
+        for tag in ("model", "link", "joint"):
+            check_names("sdf", [(one.get("name"), one.place) for one in node.all(tag)])
     scopes: dict[Node, _Scope] = {}
     outer = {inner: model for model in models for inner in model.all("model")}
     scopes.update((model, _Scope(model, scopes)) for model in models)

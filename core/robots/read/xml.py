@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeVar, cast
 from xml.parsers import expat
@@ -78,6 +78,18 @@ def check_size(depth: int, count: int) -> None:
         raise FileError(FILE_TOO_LARGE, limit=MAX_DEPTH, content="nested elements")
     if count > MAX_ELEMENTS:
         raise FileError(FILE_TOO_LARGE, limit=MAX_ELEMENTS, content="elements")
+
+
+def check_names(form: str, named: Iterable[tuple[str, Place]]) -> None:
+    """Raise FileError if two elements of a kind have one name. "" is none."""
+    names: set[str] = set()
+    for name, place in named:
+        if name in names:
+            error = "“{}” is the name of two elements. Give each its own".format(name)
+            values = {"line": place.line, "column": place.column, "source": place.file}
+            raise FileError(DESCRIPTION_INVALID, format=form.upper(), error=error, **values)
+        if name:
+            names.add(name)
 
 
 def _end_of_tag(data: bytes, start: int) -> int:

@@ -16,8 +16,9 @@ import numpy as np
 
 from ...measurement import counted, plain, table, visible
 from ...verdict import Finding, Severity, sentence, severity
-from ..audit import Audit, Entry, LinkAudit
+from ..audit import Audit
 from ..findings import INERTIAL_CENTER_OUTSIDE, INERTIAL_SPREAD_OUTSIDE
+from ..judgment import Entry, LinkAudit
 from ..stated import StatedInertial
 from ..totals import Body
 from .annotations import to_github, to_sarif
@@ -143,10 +144,12 @@ def _entry(one: Entry, link: LinkAudit | None, file: str) -> dict[str, Any]:
     place = {"file": one.place.file or file, "line": one.place.line, "column": one.place.column}
     head = _finding(one.finding) | {"severity": str(one.severity), "message": one.message} | place
     compared = link if one.compares else None
-    geometry = compared.geometry if compared and compared.density else None
+    inertial = compared and compared.link.inertial
+    reference = compared.reference if compared and compared.density else None
+    geometry = reference.uniform(inertial.mass) if reference and inertial else None
     return head | {
         "reasons": [_finding(reason) for reason in one.reasons],
-        "stated": compared and _inertial(compared.link.inertial),
+        "stated": compared and _inertial(inertial),
         "geometry": geometry and _inertial(geometry),
         "change": None if one.change is None else sentence(one.change),
         "certainty": one.certainty or None,

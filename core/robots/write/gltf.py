@@ -17,7 +17,7 @@ import numpy as np
 
 from ...numerics import ArrayLike, quaternion
 from ...verdict import Finding, finding
-from ..findings import GLTF_NODE_MISSING, GLTF_UNIT_SCALE, ROBOT_SCALED
+from ..findings import GLTF_NODE_MISSING, GLTF_SCALED, ROBOT_SCALED, UNIT_SCALE
 from ..model import Inertial, Robot
 
 KHR, OMI = "KHR_physics_rigid_bodies", "OMI_physics_body"
@@ -82,7 +82,7 @@ def add_rigid_bodies(
     if scaled:
         findings.append(finding(ROBOT_SCALED, count=len(scaled), links=scaled))
     if meters_per_unit != 1.0:
-        findings.append(finding(GLTF_UNIT_SCALE, scale=meters_per_unit))
+        findings.append(finding(UNIT_SCALE, scale=meters_per_unit, cause=GLTF_SCALED))
         for scene in [scene for scene in document.get("scenes", []) if scene.get("nodes")]:
             nodes.append(
                 {"name": "Meters", "scale": [meters_per_unit] * 3, "children": scene["nodes"]}

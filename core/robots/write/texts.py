@@ -9,17 +9,11 @@ from pathlib import Path
 
 from ...mesh import Surface
 from ...verdict import Finding, finding, sentence
-from ..findings import JOINTS_ALL_FIXED, MJCF_INERTIA_TOO_SMALL, USD_INERTIA_TOO_SMALL
+from ..findings import INERTIA_TOO_SMALL, JOINTS_ALL_FIXED
 from ..formats import FORMATS
 from ..model import Robot
 from .shapes import with_meshes
 from .stl import write_meshes
-
-# All other findings are about geometry and joints.
-OF_INERTIALS = {
-    MJCF_INERTIA_TOO_SMALL,
-    USD_INERTIA_TOO_SMALL,
-}
 
 
 def with_geometry(
@@ -55,6 +49,6 @@ def check(robot: Robot, format_name: str, *, inertial_only: bool = False) -> lis
     """Return findings about a robot in a format."""
     findings = FORMATS[format_name].writer_module.check(robot)
     if inertial_only:
-        return [one for one in findings if one.code in OF_INERTIALS]
+        return [one for one in findings if one.code == INERTIA_TOO_SMALL]
     is_stiff = robot.joints and not any(joint.free for joint in robot.joints)
     return [*([finding(JOINTS_ALL_FIXED)] if is_stiff else []), *findings]

@@ -18,12 +18,13 @@ import numpy as np
 
 from ...mesh import Surface
 from ...numerics import ArrayLike, NDArray, along_x, quaternion
-from ...verdict import Finding, finding
-from ..findings import USD_INERTIA_TOO_SMALL
+from ...verdict import Finding
+from ..findings import TOO_SMALL_FOR_SINGLE
 from ..model import FreeAxis, Inertial, Joint, Pose, Robot, Shape
 from ..stated import Description, StatedInertial, StatedLink
 from .joints import NAMES, lost_values, split_frames
 from .marker import MARKER
+from .mjcf import too_small
 from .text import number, unique_names
 
 ROOT = "Robot"
@@ -44,9 +45,9 @@ def check(robot: Robot) -> list[Finding]:
     small = [
         link.name
         for link in robot.links
-        if link.inertial is not None and not link.inertial.moments[0] * 0.5 > LEAST
+        if link.inertial is not None and not link.inertial.moments[0] > 2.0 * LEAST
     ]
-    findings = [finding(USD_INERTIA_TOO_SMALL, count=len(small), links=small)] if small else []
+    findings = too_small(small, 2.0 * LEAST, "PhysicsMassAPI", TOO_SMALL_FOR_SINGLE)
     # Spherical joints have no drives.
     return findings + lost_values(
         robot, "USD", lambda joint, stated: stated if joint.is_ball else set()

@@ -15,7 +15,6 @@ pytest.importorskip("bpy")
 from body_moments.core.files import gltf_document, replace_gltf_document, to_glb
 from body_moments.core.robots.model import Link, Robot
 from body_moments.core.robots.write import mjcf, stl, text, usd
-from body_moments.core.verdict import finding
 
 from tests.blender.documents import of_box
 
@@ -39,8 +38,9 @@ def test_too_small_mujoco_inertials_are_named():
         Link("large", of_box(2.0, (1.0, 2.0, 4.0))),
     ]
     assert mjcf.check(Robot("r", tuple(links[:2]))) == mjcf.check(Robot("r", ())) == []
-    values = {"count": 2, "links": ["light", "thin"], "least": 0.25 * least, "limit": 1e-15}
-    assert mjcf.check(Robot("r", tuple(links))) == [finding("mjcf_inertia_too_small", **values)]
+    (found,) = mjcf.check(Robot("r", tuple(links)))
+    assert (found.code, found.values["links"]) == ("inertia_too_small", ["light", "thin"])
+    assert (found.values["limit"], found.values["program"]) == (1e-15, "MuJoCo")
 
 
 def test_too_small_usd_inertials_are_named():
@@ -55,7 +55,10 @@ def test_too_small_usd_inertials_are_named():
     ]
     assert usd.check(Robot("r", tuple(links[:2]))) == usd.check(Robot("r", ())) == []
     (found,) = usd.check(Robot("r", tuple(links)))
-    assert found == finding("usd_inertia_too_small", count=3, links=["small", "zero", "unknown"])
+    assert (found.code, found.values["links"]) == (
+        "inertia_too_small",
+        ["small", "zero", "unknown"],
+    )
 
 
 def test_rounded_largest_moment_is_within_sum_of_others():

@@ -114,11 +114,13 @@ def mistakes():
     yield "unit", {"part": WHOLE_IMPERIAL, **in_pounds}, replace(stated, center=CENTER / INCH)
     yield "inertia_of_unit", {"part": "mass", "factor": MASS}, of_inertia(INERTIA / MASS)
     yield "inertia_of_unit", {"part": "density", "factor": DENSITY}, of_inertia(INERTIA / DENSITY)
-    yield "inertia_elsewhere", {"part": "link"}, of_inertia(INERTIA + square(CENTER))
-    yield "inertia_shifted_twice", {}, of_inertia(INERTIA - square(CENTER))
+    values = {"part": "the origin of the link"}
+    yield "inertia_elsewhere", values, of_inertia(INERTIA + square(CENTER))
+    values = {"part": "another point, by a parallel-axis term of the wrong sign"}
+    yield "inertia_elsewhere", values, of_inertia(INERTIA - square(CENTER))
     yield (
         "inertia_elsewhere",
-        {"part": "mesh", "point": ORIGIN.tolist()},
+        {"part": "the origin of the mesh", "point": ORIGIN.tolist()},
         of_inertia(INERTIA + square(CENTER - ORIGIN)),
     )
     turn = rotation_of_angles(*ANGLES)
@@ -150,7 +152,9 @@ def mistakes():
         )
     for axis, way in product(range(3), (np.pi / 2.0, -np.pi / 2.0)):
         mirror, values = np.diag(1.0 - 2.0 * np.eye(3)[axis]), {"axis": "xyz"[axis]}
-        yield "mirrored", values, of_inertia(mirror @ INERTIA @ mirror, mirror @ CENTER)
+        mirrored = {"part": "inertial", "change": "mirrored along", **values}
+        yield "turned", mirrored, of_inertia(mirror @ INERTIA @ mirror, mirror @ CENTER)
+        values["change"] = "turned by 90 degrees about"
         turned = rotation_of_angles(*way * np.eye(3)[axis])
         tensor = turned @ INERTIA @ turned.T
         yield "turned", {"part": "inertial", **values}, of_inertia(tensor, turned @ CENTER)

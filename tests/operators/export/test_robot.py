@@ -140,7 +140,7 @@ def test_gltf_bodies_include_fixed_children(tmp_path, unit, reported):
     document = gltf_document((tmp_path / "robot.glb").read_bytes())
     nodes = {node["name"]: node for node in document["nodes"]}
     assert {*document["extensionsUsed"]} >= {"KHR_physics_rigid_bodies", "OMI_physics_body"}
-    assert "extensions" not in nodes["Fore.001"] and ("gltf_unit_scale" in reported.codes) == (
+    assert "extensions" not in nodes["Fore.001"] and ("unit_scale" in reported.codes) == (
         unit != 1.0
     )
     motion = nodes["Upper"]["extensions"]["KHR_physics_rigid_bodies"]["motion"]
