@@ -85,27 +85,25 @@ def test_bounds_cover_numbers_of_points_stored_as_float32(slope):
     assert 0.0 < np.abs(off).max() <= bounds["gm"] < 0.1
 
 
-@pytest.mark.parametrize("share", [0.05, 0.1, 0.2, 0.211, 0.789, 0.8, 0.95])
-def test_light_and_heavy_logs_float_flat(share):
-    rest = log(20.0, 1.0, 1.0, share).settle([0.0, 0.01, 1.0])
-    assert rest.up == pytest.approx([0.0, 0.0, 1.0], abs=1e-9)
-
-
-@pytest.mark.parametrize("share", [0.22, 0.235, 0.25, 0.75, 0.765, 0.78])
-def test_log_tilts_by_wall_sided_formula(share):
-    rest = log(20.0, 1.0, 1.0, share).settle([0.0, 0.01, 1.0])
-    light = min(share, 1.0 - share)
-    radius = 1.0 / (12.0 * light)
-    height = light / 2.0 + radius - 0.5
-    tangent = np.sqrt(-2.0 * height / radius)
-    assert abs(rest.up[1] / rest.up[2]) == pytest.approx(tangent, rel=1e-9)
-    assert rest.residual < 1e-9
-
-
-@pytest.mark.parametrize("share", [0.282, 0.35, 0.5, 0.65, 0.718])
-def test_medium_log_floats_on_its_edge(share):
-    rest = log(20.0, 1.0, 1.0, share).settle([0.0, 0.01, 1.0])
-    assert abs(rest.up[1]) == pytest.approx(np.sqrt(0.5), abs=1e-8)
+@pytest.mark.parametrize(
+    ("shares", "tilt"),
+    [
+        ((0.05, 0.1, 0.2, 0.211, 0.789, 0.8, 0.95), 0.0),
+        ((0.22, 0.235, 0.25, 0.75, 0.765, 0.78), None),  # by the wall-sided formula
+        ((0.282, 0.35, 0.5, 0.65, 0.718), np.pi / 4.0),
+    ],
+    ids=["flat", "tilted", "on an edge"],
+)
+def test_log_floats_flat_tilted_or_on_its_edge(shares, tilt):
+    for share in shares:
+        rest = log(20.0, 1.0, 1.0, share).settle([0.0, 0.01, 1.0])
+        light = min(share, 1.0 - share)
+        radius = 1.0 / (12.0 * light)
+        height = light / 2.0 + radius - 0.5
+        expected = np.arctan(np.sqrt(-2.0 * height / radius)) if tilt is None else tilt
+        found = np.arctan2(*np.abs(rest.up[1:]))
+        assert found == pytest.approx(expected, rel=1e-8, abs=1e-8)
+        assert rest.residual < 1e-9
 
 
 @pytest.mark.parametrize("share", [0.25, 0.3, 0.5])
