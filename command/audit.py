@@ -30,7 +30,7 @@ from ..core.verdict import FileError, MeasureError, declared, internal_error, sy
 from . import audit_gate
 from .files import output
 from .options import option_types
-from .parser import COMMANDS, Parser, UsageError
+from .parser import COMMANDS, Parser, UsageError, choice, flag, value
 from .supervisor.progress import Progress
 
 NO_DESCRIPTION = "there is no robot description in {}"
@@ -57,82 +57,66 @@ def parse(argv: list[str]) -> argparse.Namespace:
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
-    add = parser.add_argument
-    add("command", metavar="audit")
-    add("files", nargs="+", type=Path, metavar="FILE")
-    where = "packages and meshes may be in it; repeatable"
-    for name, told in (("--package-path", where), ("--root", argparse.SUPPRESS)):
-        add(name, dest="root", action="append", type=Path, default=[], metavar="FOLDER", help=told)
-    add("--allow-outside", action="store_true", help="meshes may be anywhere (refused)")
-    add(
-        "--repair",
+    parser.add_argument("command", metavar="audit")
+    parser.add_argument("files", nargs="+", type=Path, metavar="FILE")
+    parser.add_argument(
+        "--package-path",
+        dest="root",
+        action="append",
         type=Path,
+        default=[],
         metavar="FOLDER",
-        help="write repaired copies there, of what has a repair",
+        help="packages and meshes may be in it; repeatable",
     )
-    formats = "{" + ",".join(audit_report.FORMATS) + "}"
-    add(
-        "--format",
-        choices=tuple(audit_report.FORMATS),
-        default="json",
-        metavar=formats,
-        help="(json)",
-    )
-    add("--output", type=Path, metavar="PATH", help="(standard output)")
-    levels = tuple(audit_gate.FAILING)
-    metavar = "{" + ",".join(levels) + "}"
-    add(
-        "--fail-on",
-        choices=levels,
-        default="warning",
-        metavar=metavar,
-        help="findings that give exit code 1 (warning)",
-    )
-    add(
-        "--ignore",
-        action="append",
-        default=[],
-        metavar="CODE",
-        help="leave out findings of this code; repeatable",
-    )
-    add("--light-links", type=option_types.positive, default=0.0, metavar="KG",
-        help="findings of links of this mass or less are notes (0)")  # fmt: skip
-    add(
-        "--baseline",
-        type=Path,
-        metavar="FILE",
-        help="only findings that are not in this file count",
-    )
-    add(
-        "--write-baseline",
-        type=Path,
-        metavar="FILE",
-        help="write the present findings, for --baseline",
-    )
-    add(
-        "--joint",
-        action="append",
-        type=_joint_value,
-        default=[],
-        metavar="NAME=VALUE",
-        help="position of a joint for the totals, radians or meters (0; MJCF: ref); repeatable",
-    )
-    add("--expect-mass", type=_mass, metavar="KG", help="total mass; kg, or with the unit g, lb, t")
-    add("--expect-center", type=option_types.triple, metavar="X,Y,Z",
-        help="center of mass of the whole model, m")  # fmt: skip
-    add("--within", type=_part, default=0.01, metavar="PERCENT",
-        help="tolerance of both, the center's per radius of gyration (1%%)")  # fmt: skip
-    add(
-        "--jobs",
-        type=option_types.count,
-        default=1,
-        metavar="N",
-        help="files that are audited at a time (1)",
-    )
-    add(
-        "--force",
-        action="store_true",
-        help="replace any file at --output and in --repair (only results)",
+    parser.add_options(
+        {
+            "--root": value(Path, "FOLDER", argparse.SUPPRESS, action="append", default=[]),
+            "--allow-outside": flag("meshes may be anywhere (refused)"),
+            "--repair": value(Path, "FOLDER", "write repaired copies there, of what has a repair"),
+            "--format": choice([*audit_report.FORMATS], "(json)", default="json"),
+            "--output": value(Path, "PATH", "(standard output)"),
+            "--fail-on": choice(
+                [*audit_gate.FAILING],
+                "findings that give exit code 1 (warning)",
+                default="warning",
+            ),
+            "--ignore": value(
+                str,
+                "CODE",
+                "leave out findings of this code; repeatable",
+                action="append",
+                default=[],
+            ),
+            "--light-links": value(
+                option_types.positive,
+                "KG",
+                "findings of links of this mass or less are notes (0)",
+                default=0.0,
+            ),
+            "--baseline": value(Path, "FILE", "only findings that are not in this file count"),
+            "--write-baseline": value(Path, "FILE", "write the present findings, for --baseline"),
+            "--joint": value(
+                _joint_value,
+                "NAME=VALUE",
+                "position of a joint for the totals, radians or meters (0; MJCF: ref); repeatable",
+                action="append",
+                default=[],
+            ),
+            "--expect-mass": value(_mass, "KG", "total mass; kg, or with the unit g, lb, t"),
+            "--expect-center": value(
+                option_types.triple, "X,Y,Z", "center of mass of the whole model, m"
+            ),
+            "--within": value(
+                _part,
+                "PERCENT",
+                "tolerance of both, the center's per radius of gyration (1%%)",
+                default=0.01,
+            ),
+            "--jobs": value(
+                option_types.count, "N", "files that are audited at a time (1)", default=1
+            ),
+            "--force": flag("replace any file at --output and in --repair (only results)"),
+        }
     )
     options = parser.parse_intermixed_args(argv)
     for code in options.ignore:

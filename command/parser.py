@@ -49,24 +49,30 @@ class HelpRequested(Exception):
     """The request for help by --help, with the text to print."""
 
 
+def flag(text: str) -> dict[str, Any]:
+    """Return an option without a value. text: its help."""
+    return {"action": "store_true", "help": text}
+
+
+def value(kind: Callable[[str], Any], metavar: str, text: str, **more: Any) -> dict[str, Any]:
+    """Return an option with a value of a kind, the value's name, and its help."""
+    return {"type": kind, "metavar": metavar, "help": text} | more
+
+
+def choice(choices: Sequence[str], text: str, **more: Any) -> dict[str, Any]:
+    """Return an option with one of several words, and its help."""
+    return {"choices": choices, "help": text} | more
+
+
 class Parser(argparse.ArgumentParser):
     """A parser that escapes control characters in its messages, and raises HelpRequested instead of
     printing help.
     """
 
-    def flag(self, name: str, text: str) -> None:
-        """Add an option without a value, and its help."""
-        self.add_argument(name, action="store_true", help=text)
-
-    def value(
-        self, name: str, kind: Callable[[str], Any], metavar: str, text: str, **more: Any
-    ) -> None:
-        """Add an option with a value of a kind, the value's name, and its help."""
-        self.add_argument(name, type=kind, metavar=metavar, help=text, **more)
-
-    def choice(self, name: str, choices: Sequence[str], text: str, **more: Any) -> None:
-        """Add an option with one of several words, and its help."""
-        self.add_argument(name, choices=choices, help=text, **more)
+    def add_options(self, options: dict[str, dict[str, Any]]) -> None:
+        """Add options by their names."""
+        for name, settings in options.items():
+            self.add_argument(name, **settings)
 
     def print_help(self, file: object = None) -> NoReturn:
         raise HelpRequested(self.format_help())

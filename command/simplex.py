@@ -18,7 +18,7 @@ from ..core.verdict import MeasureError, finding, system_reason
 from .findings import SIMPLEX_OPEN
 from .options import arguments
 from .options import option_types as types
-from .parser import COMMANDS, Parser, UsageError
+from .parser import COMMANDS, Parser, UsageError, flag, value
 
 MAX_DIMENSION = 12
 MAX_MOMENTS = 1 << 20
@@ -45,9 +45,13 @@ def parse(argv: list[str]) -> argparse.Namespace:
     )
     parser.add_argument("command", metavar="simplex")
     parser.add_argument("file", type=Path, metavar="FILE.npz")
-    parser.value("--order", types.order, "N", "all |α| up to this (2)", default=2)
-    parser.value("--about", _point, "X,Y,...", "the point that they are about (the origin)")
-    parser.flag("--boundary", "add the moments of the boundary itself: length, area, …")
+    parser.add_options(
+        {
+            "--order": value(types.order, "N", "all |α| up to this (2)", default=2),
+            "--about": value(_point, "X,Y,...", "the point that they are about (the origin)"),
+            "--boundary": flag("add the moments of the boundary itself: length, area, …"),
+        }
+    )
     return parser.parse_intermixed_args(arguments.join_negative_values(argv))
 
 

@@ -603,18 +603,20 @@ HEAD = """# Faults Found, and Alarms
 The robots are those of [Published Robots, Audited](robots-audited.md) in URDF and MJCF. The command
 `python3 tests/project.py alarms` puts faults into them, and made this page.
 
-Each kind of fault is put into up to three links of each URDF. These links have no alarm. Their
-inertial differs from that of their evenly filled geometry by less than 0.5 %. A fault is used only
-if it changes the inertial by more than 2 %.
+Each kind of fault is put into up to three links of each URDF. Before that, these links have no
+alarm, and their inertial differs from that of their evenly filled geometry by less than 0.5 %. A
+fault is used only if it changes the inertial by more than 2 %.
 
 - *Planted* is the number of links with the fault.
 - *Found* is the number of links for which the audit then gives an error or a warning.
-- *Undone* is the number of links for which the repair leads back to the right inertial within 2 %.
+- *Undone* is the number of links whose repaired inertial differs from the right inertial by at most
+  2 %.
 
-The last five kinds of faults concern several links. They are used at most once in each URDF. Twins
-need no evenly filled geometry, and their faults are undone within 10 %. If a fault removes the
-mass, no repair can find it again. If two units explain the same numbers, such as kg·in² and lb·in²,
-the audit proposes the likelier unit.
+The last five kinds of faults concern several links. They are used at most once in each URDF. For
+twins, the inertial may differ from that of the evenly filled geometry, and a repaired inertial may
+differ from the right one by 10 %. If a fault removes the mass, no repair can find the mass again.
+If two units explain the same numbers, such as kg·in² and lb·in², the audit proposes the likelier
+unit.
 
 | fault | planted | found | undone |
 |---|---|---|---|

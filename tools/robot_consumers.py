@@ -90,34 +90,37 @@ PROBES = {
 }
 HEAD = """# Robots in the Programs That Read Them
 
-{count} random robots of 12 links are exported. They have joints of all kinds, and a mesh for each
-link. The options are the defaults, with and without *Merge Fixed Links*. The newest release of each
-program loads the files. The command `python3 tests/project.py consumers` made this page.
+The command `python3 tests/project.py consumers` made this page. It exports {count} random robots of
+12 links, with joints of all kinds and a mesh for each link. Each robot is exported twice: with and
+without *Merge Fixed Links*. All other options have their default values. Then the newest release of
+each program reads the files.
 
-The table compares total mass, center and inertia with the exact numbers. It shows the largest
-relative difference over all files of a format. The difference of two centers is divided by the
-radius of gyration. If the distance of the center from the origin is larger, it is divided by this
-distance.
+The first table compares the total mass, center and inertia in each program with the exact numbers.
+It shows the largest relative difference over all files of a format. The difference of the centers
+is relative to the radius of gyration. If the center is farther from the origin than this radius,
+the difference is relative to the distance from the origin.
 
 The remaining differences come from the programs, not from the files:
 
-- Newton computes in single precision, and the numbers of each body agree to 1e-6. But Newton
-  multiplies quaternions and never normalizes them. After some joints, their lengths are therefore
-  wrong by up to 1e-6. The effect is largest with Newton's MJCF importer. If the same joint frames
-  are multiplied in double precision, the places agree to 1e-6 of their distance.
-- PyBullet turns a tensor to its axes step by step. As soon as all products are below 1e-6 of the
-  trace, PyBullet makes only one more step. Its moments agree to 3e-12, and its axes to 6e-7.
+- Newton computes in single precision. Mass, center and inertia of each single body are right to
+  1e-6. But Newton multiplies the rotations of the joints as quaternions, and never normalizes them.
+  After some joints, the length of a quaternion is therefore wrong by up to 1e-6. This error moves
+  the bodies. It is largest with Newton's MJCF importer.
+- PyBullet finds the principal axes of an inertia tensor step by step. As soon as all products of
+  inertia are below 1e-6 of the trace, PyBullet makes only one more step. The principal moments are
+  then right to 3e-12, and the directions of the axes to 6e-7 radians.
 
 | program | format | files read | mass | center | inertia | remark |
 |---|---|---|---|---|---|---|
 {rows}
-The next table shows how readers of URDF load a link whose collider is a unit cube. The table has a
-column for each of three inertials:
+The next table shows the mass and the principal moments (kg·m²) that programs give to a link of a
+URDF file. The collider of this link is a cube of 1 m. There is a column for each of three
+inertials:
 
 - no inertial;
-- the moments 1, 2 and 3 kg·m², but the largest moment is increased by a factor of 1 + 1e-12, so
-  that A + B < C;
-- the moments 1, 1 and 9 kg·m², which no body has.
+- a mass of 1 kg, and the moments A = 1, B = 2 and C = 3 · (1 + 1e-12) kg·m², so that A + B is
+  slightly smaller than C;
+- a mass of 1 kg, and the moments 1, 1 and 9 kg·m², which no body can have.
 
 | program | no inertial | A + B < C by 1e-12 | 1, 1, 9 |
 |---|---|---|---|

@@ -206,8 +206,8 @@ def show_bodies(
         matrix[:3, 3] -= obj.location
         faces = tuple(face.transform(matrix) for face in body.patches)
         readings[obj.data] = SplineReading(faces, factor * body.rounding, ())
-        if body.matrix is not None:
-            keep_source(obj.data, body.source, (matrix @ body.matrix).ravel().tolist())
+        if body.source and body.matrix is not None:
+            keep_source(obj.data, body.source(), (matrix @ body.matrix).ravel().tolist())
         if body.color:
             obj.data.materials.append(_material(body.color))
         collection.objects.link(obj)

@@ -86,7 +86,7 @@ def references(path: str, opened: Iterable[str] = ()) -> set[Path]:
 
 def _of_nrrd(path: Path) -> Iterator[str]:
     fields, _ = scans.read_header(path, files.file_limits())
-    yield scans.data_file(fields) or path.name
+    yield fields.get("data file") or path.name
 
 
 def _of_gltf(path: Path) -> Iterator[str]:

@@ -15,11 +15,40 @@ from typing import Any
 
 from ...core import measurement, verdict
 from ..options.option_types import count, positive
-from ..parser import COMMANDS, Parser, UsageError
+from ..parser import COMMANDS, Parser, UsageError, flag, value
 from ..supervisor import journal, listing
 from . import compare
 
 _LISTED = 10  # files in each part of a summary
+_OPTIONS = {
+    "--output": value(Path, "PATH", "(standard output)"),
+    "--force": flag("replace any file at --output (only results)"),
+}
+_OWN_OPTIONS = {
+    "manifest": {
+        "--parts": value(
+            count,
+            "N",
+            "divide the list into this many parts, for `measure --part K` (1)",
+            default=1,
+        )
+    },
+    "merge": {
+        "--manifest": value(
+            Path,
+            "LIST",
+            "refuse results in which a file of this list is missing or has two documents, or with "
+            "other files",
+        )
+    },
+    "compare": {
+        "--quiet": flag("print only what differs by more than it may"),
+        "--tolerance": value(
+            positive, "TOLERANCE", "relative to each number's own size (0)", default=0.0
+        ),
+        "--align": flag("compare in each body's own pose: it may have moved (needs --pose)"),
+    },
+}
 # a document, and its `attempts` and `seconds` from a journal
 Entry = tuple[dict[str, Any], dict[str, Any]]
 
@@ -40,23 +69,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     )
     parser.add_argument("command", metavar=command)
     parser.add_argument("paths", nargs="+", metavar=names)
-    parser.value("--output", Path, "PATH", "(standard output)")
-    parser.flag("--force", "replace any file at --output (only results)")
-    if command == "manifest":
-        parts = "divide the list into this many parts, for `measure --part K` (1)"
-        parser.value("--parts", count, "N", parts, default=1)
-    if command == "merge":
-        whole = (
-            "refuse results in which a file of this list is missing or has two documents, or with "
-            "other files"
-        )
-        parser.value("--manifest", Path, "LIST", whole)
-    if command == "compare":
-        parser.flag("--quiet", "print only what differs by more than it may")
-        parser.add_argument(
-            "--tolerance", type=positive, default=0.0, help="relative to each number's own size (0)"
-        )
-        parser.flag("--align", "compare in each body's own pose: it may have moved (needs --pose)")
+    parser.add_options(_OPTIONS | _OWN_OPTIONS.get(command, {}))
     return parser.parse_args(argv)
 
 
@@ -171,44 +184,56 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
     """Return lines with counts by status and method, findings, slowest files and widest bounds; and
     exit code 0.
     """
-    statuses: Counter[str] = Counter()
-    methods: Counter[str] = Counter()
-    codes: Counter[tuple[str, str]] = Counter()
-    slowest: list[tuple[float, str]] = []
-    widest: list[tuple[float, str]] = []
-    failed: list[str] = []
-    for document, about in _read(options.paths):
-        file = document["file"] or "-"
-        statuses[document["status"]] += 1
-        if document["status"] != "ok":
-            reason = document["errors"][0]["reason"] if document["errors"] else "-"
-            failed.append("{}  {}: {}".format(document["status"], file, reason))
-        if about.get("seconds") is not None:
-            slowest = sorted([*slowest, (float(about["seconds"]), str(file))], reverse=True)[
-                :_LISTED
-            ]
-        codes += measurement.count_findings(document)
-        for entry in (*document["objects"], *document.get("flat", ())):
-            methods[entry.get("method", "flat")] += 1
-            name = "volume" if entry.get("volume") else "area"
-            bound = measurement.bound_of(entry, name)
-            size = entry[name]
-            if bound is not None and size:
-                share = bound / abs(size), "{}: {}".format(file, entry["name"])
-                widest = sorted([*widest, share], reverse=True)[:_LISTED]
-    lines = ["{}: {}".format(measurement.counted(statuses.total(), "file"), _counted(statuses))]
-    lines += ["{}: {}".format(measurement.counted(methods.total(), "object"), _counted(methods))]
+    entries = _read(options.paths)
+    objects = [
+        (document["file"] or "-", entry)
+        for document, _ in entries
+        for entry in (*document["objects"], *document.get("flat", ()))
+    ]
+    statuses = Counter(document["status"] for document, _ in entries)
+    methods = Counter(entry.get("method", "flat") for _, entry in objects)
+    codes = sum((measurement.count_findings(document) for document, _ in entries), Counter())
+    slowest = [
+        (float(about["seconds"]), str(document["file"] or "-"))
+        for document, about in entries
+        if about.get("seconds") is not None
+    ]
+    shares = [(_share(entry), "{}: {}".format(file, entry["name"])) for file, entry in objects]
+    widest = [(share, name) for share, name in shares if share is not None]
+    slowest, widest = (sorted(rows, reverse=True)[:_LISTED] for rows in (slowest, widest))
+    failed = [
+        "{}  {}: {}".format(
+            document["status"],
+            document["file"] or "-",
+            document["errors"][0]["reason"] if document["errors"] else "-",
+        )
+        for document, _ in entries
+        if document["status"] != "ok"
+    ]
     more = ["and {} more".format(len(failed) - _LISTED)] if len(failed) > _LISTED else []
-    lines += ["", "Not measured:", *failed[:_LISTED], *more] if failed else []
-    if codes:
-        lines += ["", "Findings, by how many objects or files have them:"]
-        lines += ["{:>8}  {:<8} {}".format(count, *one) for one, count in codes.most_common()]
-    if slowest:
-        lines += ["", "Slowest, in seconds:", *("{:>10.3f}  {}".format(*one) for one in slowest)]
-    if widest:
-        lines += ["", "Widest bounds of the volume or area, of its size:"]
-        lines += ["{:>10.1e}  {}".format(*one) for one in widest]
+    sections = {
+        "Not measured:": [*failed[:_LISTED], *more],
+        "Findings, by how many objects or files have them:": [
+            "{:>8}  {:<8} {}".format(count, *one) for one, count in codes.most_common()
+        ],
+        "Slowest, in seconds:": ["{:>10.3f}  {}".format(*one) for one in slowest],
+        "Widest bounds of the volume or area, of its size:": [
+            "{:>10.1e}  {}".format(*one) for one in widest
+        ],
+    }
+    lines = [
+        "{}: {}".format(measurement.counted(statuses.total(), "file"), _counted(statuses)),
+        "{}: {}".format(measurement.counted(methods.total(), "object"), _counted(methods)),
+        *(line for title, rows in sections.items() if rows for line in ("", title, *rows)),
+    ]
     return (measurement.visible(line) + "\n" for line in lines), 0
+
+
+def _share(entry: dict[str, Any]) -> float | None:
+    """Return the bound of a record's volume, else of its area, relative to its size."""
+    name = "volume" if entry.get("volume") else "area"
+    bound = measurement.bound_of(entry, name)
+    return bound / abs(entry[name]) if bound is not None and entry[name] else None
 
 
 def _compare(options: argparse.Namespace) -> tuple[Iterable[str], int]:

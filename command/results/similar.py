@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ...core import measurement, shape, verdict
 from ..options.option_types import count
-from ..parser import Parser, UsageError
+from ..parser import Parser, UsageError, flag, value
 
 _COLUMNS = "{:>12} {:>10}  {:<27} {}\n"
 
@@ -29,10 +29,14 @@ def parse(argv: list[str]) -> argparse.Namespace:
     parser.add_argument("command", metavar="similar")
     parser.add_argument("libraries", nargs="+", type=Path, metavar="LIBRARY")
     text = "the body's name, or FILE:NAME where several files have one of that name"
-    parser.value("--to", str, "NAME", text, required=True)
-    parser.flag("--any-size", "copies of another size are as near")
-    parser.flag("--any-hand", "mirror images are as near")
-    parser.value("--count", count, "N", "how many are printed (10)", default=10)
+    parser.add_options(
+        {
+            "--to": value(str, "NAME", text, required=True),
+            "--any-size": flag("copies of another size are as near"),
+            "--any-hand": flag("mirror images are as near"),
+            "--count": value(count, "N", "how many are printed (10)", default=10),
+        }
+    )
     return parser.parse_args(argv)
 
 

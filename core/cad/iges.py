@@ -15,6 +15,7 @@ import math
 import zlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import TypeAlias, TypeVar
 
@@ -156,7 +157,7 @@ class Boundary:
 class IgesReader:
     """A reader of the faces of a file."""
 
-    def __init__(self, path: Path, _for_blender: bool, data: bytes | None = None) -> None:
+    def __init__(self, path: Path, data: bytes | None = None) -> None:
         self._data = path.read_bytes() if data is None else data
         self._text = IgesText(self._data)
         self._entries = self._text.entries
@@ -198,7 +199,7 @@ class IgesReader:
         if self._turning and patches:
             reach = max(float(np.abs(face.points).max()) for face in patches)
             self._rounding += self._turning * reach
-        source = b"" if all(map(is_storable, patches)) else zlib.compress(self._data)
+        source = None if all(map(is_storable, patches)) else partial(zlib.compress, self._data)
         body = SurfaceBody(
             self._name, tuple(patches), self._rounding, source=source, matrix=np.eye(4)
         )

@@ -398,20 +398,38 @@ def _round(z: float, center: NDArray, begin: NDArray, end: NDArray) -> list[Curv
         raise ValueError("an arc without radius")
     turn = (angles[1] - angles[0]) % (2.0 * math.pi)
     turn = 2.0 * math.pi if np.array_equal(begin, end) or not turn else turn
-    steps = math.ceil(turn / MAX_ARC)
-    half = turn / steps / 2.0
-    curves = []
-    for step in range(steps):
-        middle = angles[0] + (2 * step + 1) * half
-        ring = [(middle - half, 1.0), (middle, 1.0 / math.cos(half)), (middle + half, 1.0)]
-        points = [
-            (*(center + radius * far * np.array([math.cos(at), math.sin(at)])), z)
-            for at, far in ring
-        ]
-        curves.append(
-            Curve(clamped_space(3), np.array(points), np.array([1.0, math.cos(half), 1.0]))
-        )
-    return curves
+    frame = np.eye(4)
+    frame[:3, 3] = *center, z
+    return conic_pieces(frame, (radius, radius), (angles[0], angles[0] + turn))
+
+
+def conic_pieces(
+    frame: NDArray,
+    sizes: tuple[float, float],
+    ends: tuple[float, float],
+    kind: str = "ELLIPSE",
+) -> list[Curve]:
+    """Return a part of a conic in a frame (4, 4), between two parameters of ISO 10303-42, as
+    quadratic pieces with weights. The middle control point is the meet of a piece's end tangents.
+
+    sizes: both half axes, or both sizes of a hyperbola, or the focal length twice.
+    """
+    steps = math.ceil((ends[1] - ends[0]) / MAX_ARC - 1e-9) if kind == "ELLIPSE" else 1
+    marks = np.linspace(*ends, steps + 1)
+    pieces = []
+    for low, high in zip(marks[:-1], marks[1:]):
+        middle, half = (low + high) / 2.0, (high - low) / 2.0
+        t = np.array([low, middle, high])
+        if kind == "PARABOLA":
+            plane = np.array([[low**2, low * high, high**2], 2.0 * t])
+            weight = 1.0
+        else:
+            cosine, sine = (np.cos, np.sin) if kind == "ELLIPSE" else (np.cosh, np.sinh)
+            weight = float(cosine(half))
+            plane = np.array([cosine(t), sine(t)]) / [1.0, weight, 1.0]
+        points = (plane.T * sizes) @ frame[:3, :2].T + frame[:3, 3]
+        pieces.append(Curve(clamped_space(3), points, np.array([1.0, weight, 1.0])))
+    return pieces
 
 
 def _conic(fields: list[str]) -> list[Curve] | None:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 import zlib
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -23,7 +23,7 @@ from ..files import FILE_TOO_LARGE
 from ..numerics import Array, NDArray, clamped_space
 from ..nurbs import Curve, Face, close_pairs, patches_size, reverse_curves
 from ..verdict import WELDING_RTOL, FileError, finding
-from .findings import SURFACE_DAMAGED, SURFACES_HIDDEN
+from .findings import CURVES_LEFT_OUT, SURFACE_DAMAGED, SURFACES_HIDDEN
 from .iges_entities import MAX_DEPTH
 from .part21 import Part21, Reference
 from .step_shapes import MISSING, EntityError, Shapes, blame
@@ -39,7 +39,8 @@ SOLIDS = (
 SHELLS = ("CLOSED_SHELL", "OPEN_SHELL", "CONNECTED_FACE_SET")
 ORIENTED_SHELLS = ("ORIENTED_CLOSED_SHELL", "ORIENTED_OPEN_SHELL")
 # Items with these ends of their names have a volume or an area; others are refused by name.
-BODIES = ("_BREP", "_WITH_VOIDS", "_SOLID", "_SURFACE_MODEL", "_SHELL", "_FACE_SET")
+BODIES = ("_BREP", "_WITH_VOIDS", "_SOLID", "_MODEL", "_SHELL", "_FACE", "_SURFACE", "_FACE_SET")
+BODIES += ("_SURFACE_SET", "_SURFACE_WITH_KNOTS")
 _POWERS = ("ATTO", "FEMTO", "PICO", "NANO", "MICRO", "MILLI", "", "KILO", "MEGA", "GIGA", "TERA")
 PREFIXES: dict[str | None, float] = {None: 1.0, ".CENTI.": 1e-2, ".DECI.": 1e-1}
 PREFIXES |= {".{}.".format(name): 10.0 ** (3 * k - 18) for k, name in enumerate(_POWERS)}
@@ -64,7 +65,7 @@ class _Child(NamedTuple):
 class StepReader:
     """A reader of the solids of a STEP file."""
 
-    def __init__(self, path: Path, _for_blender: bool, data: bytes | None = None) -> None:
+    def __init__(self, path: Path, data: bytes | None = None) -> None:
         self._text = Part21(path.read_bytes() if data is None else data)
         self._stem = path.stem
         self._shapes = Shapes(self._text)
@@ -81,7 +82,7 @@ class StepReader:
         self._relations: dict[int, int] = {}  # child definitions by relationship
         self._colors: dict[int, tuple[float, ...]] = {}
         self._hidden: set[int] = set()
-        self._left_out = 0  # hidden solids
+        self._left_out: Counter[str] = Counter()  # items by the code of a note
         self._bodies: list[SurfaceBody] = []
         self._visited: set[int] = set()
         self._noted: set[int] = set()
@@ -127,7 +128,7 @@ class StepReader:
             is_known = number in self._aspects and self._solids.keys() & self._attribute(number, 1)
             if number not in self._visited and not is_known:
                 self._place(number, np.eye(4), ())
-        notes = [finding(SURFACES_HIDDEN, count=self._left_out)] if self._left_out else []
+        notes = [finding(code, count=count) for code, count in self._left_out.items() if count]
         return replace(self._refusals.file(self._bodies, self._unit or None, notes), unread=0)
 
     @contextmanager
@@ -282,11 +283,7 @@ class StepReader:
             with self._noting(one):
                 length, self._shapes.angle, self._shapes.uncertainty = self._units(one)
                 scaled = matrix @ np.diag([*[length / self._unit] * 3, 1.0])
-                solids = [item for item in self._attribute(one, 1) if self._is_body(item)]
-                self._left_out += len(self._hidden.intersection(solids))
-                for item in solids:
-                    if item not in self._hidden:
-                        self._add(item, one, scaled, len(solids) == 1)
+                self._add_items(self._attribute(one, 1), one, scaled)
                 for child, frame, parent_frame in self._children.get(one, ()):
                     with self._noting(child):
                         within = self._matrix(parent_frame, one) @ np.linalg.inv(
@@ -300,7 +297,27 @@ class StepReader:
             raise FileError(FILE_TOO_LARGE, limit=MAX_PLACED, content="surfaces")
 
     def _is_body(self, number: int) -> bool:
-        return any(name.endswith(BODIES) for name in self._text[number])
+        """Return whether an item has a volume or an area; not a tessellation of another item."""
+        parts = self._text[number]
+        if "GEOMETRIC_SET" in parts:
+            return any(
+                name.endswith(BODIES) for k in parts["GEOMETRIC_SET"][1] for name in self._text[k]
+            )
+        is_shown = isinstance(parts.get("TESSELLATED_SOLID", [None])[-1], Reference)
+        return not is_shown and any(name.endswith(BODIES) for name in parts)
+
+    def _add_items(self, items: Sequence[int], owner: int, matrix: NDArray) -> None:
+        """Add the solids of a representation; its open surfaces are one."""
+        solids = [item for item in items if self._is_body(item)]
+        hidden = self._hidden.intersection(solids)
+        curves = [
+            values for item in items if (values := self._text[item].get("GEOMETRIC_CURVE_SET"))
+        ]
+        self._left_out[SURFACES_HIDDEN] += len(hidden)
+        self._left_out[CURVES_LEFT_OUT] += sum(len(values[1]) for values in curves)
+        for item in solids:
+            if item not in hidden:
+                self._add(item, owner, matrix, len(solids) == 1)
 
     def _add(self, number: int, owner: int, matrix: NDArray, is_alone: bool) -> None:
         """Add a solid, in place, unless another representation has put it there."""
@@ -317,7 +334,8 @@ class StepReader:
         if not local or place in self._places:
             return
         self._places.add(place)
-        faces = [face.transform(matrix) for face in local]
+        is_moved = not np.array_equal(matrix, np.eye(4))
+        faces = [face.transform(matrix) for face in local] if is_moved else local
         self._count(len(faces))
         label = self._attribute(number, 0)
         scale = float(np.linalg.norm(matrix[:3, :3], 2))
@@ -327,19 +345,16 @@ class StepReader:
             for face in own
         )
         shells = [number, *np.ravel(self._attribute(number, 1)).tolist(), owner]
+        line = "#{}=SHAPE_REPRESENTATION('',(#{}),#{});\n".format(
+            owner, number, self._attribute(owner, 2)
+        )
         self._bodies.append(
             SurfaceBody(
                 (self._product(owner) if is_alone or not label else label) or self._stem,
                 tuple(faces),
                 scale * gap + 4.0 * self._text.precision * reach,
                 next((self._colors[one] for one in shells if one in self._colors), None),
-                zlib.compress(
-                    self._text.extract(
-                        "#{}=SHAPE_REPRESENTATION('',(#{}),#{});\n".format(
-                            owner, number, self._attribute(owner, 2)
-                        )
-                    )
-                ),
+                lambda: zlib.compress(self._text.extract(line)),
                 matrix,
             )
         )

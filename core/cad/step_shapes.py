@@ -28,7 +28,7 @@ from ..nurbs import (
 )
 from ..verdict import FileError, MeasureError
 from .findings import SURFACE_DAMAGED, SURFACE_POINTS, SURFACE_UNSUPPORTED
-from .iges_entities import MAX_ARC, MAX_DEPTH
+from .iges_entities import MAX_DEPTH, conic_pieces
 from .iges_sweeps import TURN, join_pieces, revolve, revolved_quadric, rule
 from .part21 import Part21, Reference
 from .regions import MISS_RTOL
@@ -107,6 +107,10 @@ class Shapes:
             raise ValueError("no direction")
         return values / length
 
+    def along(self, number: int) -> Array:
+        """Return a (3,) direction of length 1 of a vector."""
+        return self.direction(self.pick(number, ("VECTOR",))[1][1])
+
     def frame(self, number: int) -> Array:
         """Return the (4, 4) matrix of a placement."""
         name, values = self.pick(number, ("AXIS2_PLACEMENT_3D", "AXIS1_PLACEMENT"))
@@ -157,8 +161,8 @@ class Shapes:
         name, values = self.pick(base, _CURVES)
         at = trims[0][1][0] if isinstance(trims[0], tuple) else trims[0]
         if name == "LINE":
-            _, (_, along, length) = self.pick(values[2], ("VECTOR",))
-            return self.point(values[1]) + at * length * self.direction(along)
+            length = self.pick(values[2], ("VECTOR",))[1][2]
+            return self.point(values[1]) + at * length * self.along(values[2])
         if name in ("CIRCLE", "ELLIPSE"):
             angle = self.angle * at
             place = values[2] * math.cos(angle), values[-1] * math.sin(angle), 0.0, 1.0
@@ -199,7 +203,7 @@ def _line(shapes: Shapes, _: Any, values: list[Any], ends: Sequence[Array] | Non
     if ends is None:
         raise ValueError("a line without ends")
     begin = shapes.point(values[1])
-    along = shapes.direction(shapes.pick(values[2], ("VECTOR",))[1][1])
+    along = shapes.along(values[2])
     places = [begin + ((end - begin) @ along) * along for end in ends]
     return [Curve(clamped_space(2), np.array(places))]
 
@@ -207,7 +211,7 @@ def _line(shapes: Shapes, _: Any, values: list[Any], ends: Sequence[Array] | Non
 def _conic(
     shapes: Shapes, values: list[Any], ends: Sequence[Array] | None, kind: str
 ) -> list[Curve]:
-    """Return pieces of a conic. A piece's middle control point is the meet of its end tangents."""
+    """Return pieces of a conic between points, or all of an ellipse."""
     frame = shapes.frame(values[1])
     x_size, y_size = values[2], values[-1]
     if not min(x_size, y_size) > 0.0:
@@ -225,21 +229,7 @@ def _conic(
             end = start + ((end - start) % TURN or TURN)
     elif kind != "ELLIPSE":
         raise ValueError("an unbounded curve")
-    steps = math.ceil((end - start) / MAX_ARC - 1e-9) if kind == "ELLIPSE" else 1
-    pieces = []
-    for low, high in zip(*(np.linspace(start, end, steps + 1)[k : steps + k] for k in (0, 1))):
-        middle, half = (low + high) / 2.0, (high - low) / 2.0
-        t = np.array([low, middle, high])
-        if kind == "PARABOLA":
-            plane = [[low**2, low * high, high**2], 2.0 * t]
-            weight = 1.0
-        else:
-            cosine, sine = (np.cos, np.sin) if kind == "ELLIPSE" else (np.cosh, np.sinh)
-            weight = float(cosine(half))
-            plane = np.array([cosine(t), sine(t)]) / [1.0, weight, 1.0]
-        points = np.multiply(plane, [[x_size], [y_size]]).T @ frame[:3, :2].T + frame[:3, 3]
-        pieces.append(Curve(clamped_space(3), points, np.array([1.0, weight, 1.0])))
-    return pieces
+    return conic_pieces(frame, (x_size, y_size), (start, end), kind)
 
 
 def _conic_of(kind: str) -> Callable[..., list[Curve]]:
@@ -409,10 +399,9 @@ def _offset(shapes: Shapes, _: Any, values: list[Any], loops: list[list[Curve]])
 
 
 def _extrusion(shapes: Shapes, _: Any, values: list[Any], loops: list[list[Curve]]) -> Any:
-    along = shapes.direction(shapes.pick(values[2], ("VECTOR",))[1][1])
+    along = shapes.along(values[2])
     if shapes.pick(values[1], (*_CURVES, *_BASES))[0] == "LINE":
-        vector = shapes.pick(values[1], ("LINE",))[1][2]
-        return np.cross(shapes.direction(shapes.pick(vector, ("VECTOR",))[1][1]), along)
+        return np.cross(shapes.along(shapes.pick(values[1], ("LINE",))[1][2]), along)
     profile = join_pieces(shapes.curve(values[1], None))
     heights = np.concatenate([curve.points for loop in loops for curve in loop]) @ along
     own = profile.points @ along
@@ -432,7 +421,7 @@ def _revolution(shapes: Shapes, _: Any, values: list[Any], loops: list[list[Curv
     ends = None
     if name == "LINE":
         place = shapes.point(line[1])
-        along = shapes.direction(shapes.pick(line[2], ("VECTOR",))[1][1])
+        along = shapes.along(line[2])
         arms = np.concatenate([curve.points for loop in loops for curve in loop]) - place
         if not abs(along @ axis) > 1e-9:
             # Each half of the line sweeps the plane, facing another way: the loops tell which.

@@ -23,11 +23,10 @@ from .surfaces import SurfaceFile
 _READERS = {
     ".igs": IgesReader,
     ".iges": IgesReader,
-    ".obj": ObjReader,
     ".step": StepReader,
     ".stp": StepReader,
 }
-SUFFIXES = tuple(_READERS)
+SUFFIXES = (*_READERS, ".obj")
 
 
 def read_surfaces(
@@ -41,14 +40,16 @@ def read_surfaces(
     """
     path, suffix = _existing_file(path, SUFFIXES)
     limits.check(path, "text_bytes", path.stat().st_size)
-    return _READERS[suffix](path, for_blender).read()
+    if suffix == ".obj":
+        return ObjReader(path, for_blender).read()
+    return _READERS[suffix](path).read()
 
 
 def read_source(source: bytes, matrix: ArrayLike) -> tuple[tuple[Face, ...], float]:
     """Return the faces of a body's `source` in place, and their rounding. Raise FileError."""
     data = zlib.decompressobj().decompress(source, DEFAULT_LIMITS.text_bytes)
     reader = StepReader if data.lstrip().startswith(b"ISO-10303-21") else IgesReader
-    (body,) = reader(Path(), False, data).read().bodies
+    (body,) = reader(Path(), data).read().bodies
     place = np.reshape(matrix, (4, 4))
     scale = float(np.linalg.norm(place[:3, :3], 2))
     return tuple(face.transform(place) for face in body.patches), scale * body.rounding

@@ -8,20 +8,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from ..files import FILE_TOO_LARGE, FILE_WITHOUT_OBJECTS
-from ..numerics import Array, ArrayLike, NDArray, SplineSpace
+from ..numerics import Array, ArrayLike, NDArray, SplineSpace, clamped_space
 from ..nurbs import (
     CONTROL_POINTS_INVALID,
     NON_FINITE,
     NON_POSITIVE_WEIGHTS,
+    TURN,
+    Curve,
     Face,
     Patch,
     bezier_patches,
-    bezier_space,
 )
 from ..verdict import FileError, Finding, MeasureError, finding, truncate_findings
 from .findings import (
@@ -30,6 +31,7 @@ from .findings import (
     SURFACE_DAMAGED,
     SURFACE_POINTS,
 )
+from .iges_sweeps import join_pieces, revolve
 
 MAX_ORDER = 6  # largest order of the surfaces that are kept
 MAX_POINTS = 1 << 18  # control points of one patch in Bézier form
@@ -38,11 +40,6 @@ MAX_TOTAL_POINTS = 1 << 22  # Control points of all patches of a file.
 MAX_NAMES = 1000  # names in a refusal
 MAX_REASONS = 8  # reasons in one refusal
 MAX_COORDINATE = 3e38  # Just below the largest float32.
-# A quarter of a circle is (1 - t², 2t) / (1 + t²), which has the weights 1, 1, 2.
-_CIRCLE = np.array(
-    [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0)], np.float64
-)
-_WEIGHTS = np.array([1.0, 1.0, 2.0, 1.0, 1.0, 1.0, 2.0, 1.0, 1.0])
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,14 +48,14 @@ class SurfaceBody:
     *Endpoint*.
 
     rounding: largest effect of the file's decimals on a point. color: red, green and blue in sRGB.
-    source: the compressed STEP file of this body alone, which `matrix` (4, 4) places.
+    source: returns the compressed file of this body alone, which `matrix` (4, 4) places.
     """
 
     name: str
     patches: tuple[Face, ...]
     rounding: float = 0.0
     color: tuple[float, ...] | None = None
-    source: bytes = b""
+    source: Callable[[], bytes] | None = None
     matrix: Array | None = None
 
 
@@ -236,44 +233,17 @@ def revolved_solid(
         math.isfinite(bottom + top + half) and max(bottom, top) > 0.0 and (half > 0.0 or is_round)
     ):
         return None
-    profile = _Profile(0.0, -half - bottom * is_round)
-    profile.extend(bottom, -half, bend=is_round)
-    profile.extend(top, half)
-    profile.extend(0.0, half + top * is_round, bend=is_round)
-    radii, heights, weights = np.array(profile.rows).T
-    columns = radii[None, :, None] * np.concatenate([_CIRCLE, np.zeros((9, 1))], axis=1)[:, None]
-    columns[..., 2] = heights
+    ends = [(0.0, -half - bottom * is_round), (bottom, -half), (top, half)]
+    ends.append((0.0, half + top * is_round))
+    profile = []
+    for begin, end, is_arc in zip(ends[:-1], ends[1:], (is_round, False, is_round)):
+        if begin != end:
+            outer, inner = max(begin, end), min(begin, end)
+            middle = (outer[0], inner[1]) if is_arc else np.mean([begin, end], axis=0)
+            points = np.insert([begin, middle, end], 1, 0.0, axis=1)
+            weights = np.array([1.0, math.sqrt(0.5) if is_arc else 1.0, 1.0])
+            profile.append(Curve(clamped_space(3), points, weights))
+    solid = revolve(join_pieces(profile), np.zeros(3), np.eye(3)[2], 0.0, TURN)
     # Rotated so that the third axis becomes the wanted one.
-    points = np.roll(columns, max("ZXY".find(axis), 0), axis=2)
-    return Patch(
-        (bezier_space(len(_CIRCLE), 3), bezier_space(len(radii), 3)),
-        points,
-        np.outer(_WEIGHTS, weights),
-    )
-
-
-class _Profile:
-    """Control points (radius, height, weight) of quadratic arcs and lines from one end of the axis
-    to the other.
-    """
-
-    def __init__(self, radius: float, height: float) -> None:
-        self.rows = [(radius, height, 1.0)]
-
-    def extend(self, radius: float, height: float, bend: bool = False) -> None:
-        """Add a line, or with `bend` a quarter of a circle, to a point, unless it is the last point
-        already.
-        """
-        last_radius, last_height, weight = self.rows[-1]
-        if (radius, height) == (last_radius, last_height):
-            return
-        if not bend:
-            middle = ((last_radius + radius) / 2.0, (last_height + height) / 2.0)
-            end = weight
-        elif radius > last_radius:
-            middle = (radius, last_height)
-            end = 2.0 * weight
-        else:
-            middle = (last_radius, height)
-            end = weight / 2.0
-        self.rows += [(*middle, min(weight, end)), (radius, height, end)]
+    points = np.roll(solid.points, max("ZXY".find(axis), 0), axis=2)
+    return replace(solid, points=points).reverse_orientation()

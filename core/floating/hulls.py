@@ -27,6 +27,7 @@ from ..numerics import Array, Index, Integers, Mask, first_occurrence
 from ..solid import (
     COMPONENTS_OVERLAP,
     SELF_INTERSECTING,
+    ComponentRelations,
     SolidIntegrals,
     classify_pairs,
     measure_solid,
@@ -104,10 +105,7 @@ def _outer_parts(
     """Return a (number,) mask of the parts that no other one contains; MeasureError if parts
     overlap.
     """
-    parts = sort_components(points, triangles, part, number)
-    is_solid = parts.volume > 0.0
-    tolerance = _tolerance(points)
-    relations = classify_pairs(points, parts, is_solid, tolerance)
+    is_solid, relations, tolerance = _relate(points, triangles, part, number)
     kept = is_solid.copy()
     kept[relations.contained_in[:, 0]] = False
     if len(relations.intersecting):
@@ -124,12 +122,18 @@ def _outer_parts(
     return kept
 
 
-def _tolerance(points: Array) -> float:
-    low, high = points.min(axis=0), points.max(axis=0)
-    reach = float(np.maximum(np.abs(low), np.abs(high)).max())
-    return welding_tolerance(
-        float(np.linalg.norm(high - low)), float(np.spacing(np.float32(reach)))
-    )
+def _relate(
+    points: Array, triangles: Integers, part: Index, number: int
+) -> tuple[Mask, ComponentRelations, float]:
+    """Return a (number,) mask of the parts with a volume, how these lie to each other, and the
+    tolerance.
+    """
+    size = float(np.linalg.norm(np.ptp(points, axis=0)))
+    reach = np.float32(np.abs(points).max())
+    tolerance = welding_tolerance(size, float(np.spacing(reach)))
+    parts = sort_components(points, triangles, part, number)
+    is_solid = parts.volume > 0.0
+    return is_solid, classify_pairs(points, parts, is_solid, tolerance), tolerance
 
 
 def are_inside(hull: Hull, spaces: Sequence[Hull], tanks: Sequence[Hull]) -> Mask:
@@ -142,9 +146,7 @@ def are_inside(hull: Hull, spaces: Sequence[Hull], tanks: Sequence[Hull]) -> Mas
     first = np.cumsum([0, *[int(each.part.max()) + 1 for each in every]])
     triangles = np.concatenate([each.triangles + at for each, at in zip(every, corners)])
     part = np.concatenate([each.part + at for each, at in zip(every, first)])
-    parts = sort_components(points, triangles, part, int(first[-1]))
-    is_solid = parts.volume > 0.0
-    relations = classify_pairs(points, parts, is_solid, _tolerance(points))
+    is_solid, relations, _ = _relate(points, triangles, part, int(first[-1]))
     owner = np.repeat(np.arange(len(every)), np.diff(first))
     is_flooded = (owner > 0) & (owner <= len(spaces))
     inner, outer = relations.contained_in.T

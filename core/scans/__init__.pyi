@@ -17,7 +17,6 @@ from .formats import sample_matrix as sample_matrix
 from .labels import Label as Label
 from .labels import count_labels as count_labels
 from .labels import read_label_table as read_label_table
-from .nrrd import data_file as data_file
 from .nrrd import read_header as read_header
 from .numpy_files import map_array as map_array
 from .numpy_files import read_arrays as read_arrays

@@ -9,6 +9,7 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
 
@@ -136,12 +137,13 @@ def segment_labels(fields: Mapping[str, str]) -> dict[int, Label]:
     labels = {}
     for key, text in fields.items():
         if found := re.fullmatch(r"=(Segment\d+_)LabelValue", key):
-            color = fields.get("={}Color".format(found[1]), "").split()
-            try:
-                known = read_color(map(parse_number, color)) if len(color) == 3 else None
-                labels[parse_whole(text)] = Label(fields.get("={}Name".format(found[1]), ""), known)
-            except ValueError:
-                continue  # a remark in the header, without effect on sums
+            name, color = (fields.get("={}{}".format(found[1], of), "") for of in ("Name", "Color"))
+            known = None
+            with suppress(ValueError):  # a remark in the header, without effect on sums
+                r, g, b = map(parse_number, color.split())
+                known = read_color((r, g, b))
+            with suppress(ValueError):
+                labels[parse_whole(text)] = Label(name, known)
     return labels
 
 

@@ -115,8 +115,13 @@ _TO_RAS = {
 }
 _OTHER_SPACES = "scanner-xyz", "3d-right-handed", "3d-left-handed"
 _PER_AXIS = {
-    *("sizes", "spacings", "thicknesses", "axis mins", "axismins", "axis maxs", "axismaxs"),
-    *("centers", "centerings", "kinds", "units", "space directions"),
+    *("sizes", "spacings", "thicknesses", "axis mins", "axis maxs"),
+    *("centers", "kinds", "units", "space directions"),
+}
+# Other forms of names.
+_NAMES = {"centerings": "centers"} | {
+    name.replace(" ", ""): name
+    for name in ("axis mins", "axis maxs", "data file", "line skip", "byte skip", "space units")
 }
 _HEADER_END = re.compile(rb"\r?\n\r?\n")
 _WORD = re.compile(r'"([^"]*)"|([^\s"]+)')
@@ -151,13 +156,9 @@ def read_header(path: Path, limits: Limits) -> tuple[dict[str, str], int | None]
         if colon and value.startswith("="):  # “:=” sets a key's value
             fields["=" + name.strip()] = value[1:].strip()
         elif colon:
-            fields[name.strip().lower()] = value.strip()
+            name = name.strip().lower()
+            fields[_NAMES.get(name, name)] = value.strip()
     return fields, end.end() if end else None
-
-
-def data_file(fields: dict[str, str]) -> str | None:
-    """Return the name of a separate file with the samples, None if they follow the header."""
-    return fields.get("data file", fields.get("datafile"))
 
 
 def read_nrrd(path: Path, limits: Limits) -> Scan:
@@ -199,7 +200,7 @@ def read_nrrd(path: Path, limits: Limits) -> Scan:
     # The samples are the last bytes of a file if the skip is -1; compressed ones are counted from
     # their start.
     byte_skip = _skip(fields, "byte skip", -1 if encoding == "raw" else 0)
-    source, start = _samples_start(path, data_file(fields), start, limits)
+    source, start = _samples_start(path, fields.get("data file"), start, limits)
     if line_skip:
         start = _skip_lines(source, start, line_skip, limits)
     if encoding == "raw":
@@ -250,18 +251,10 @@ def _numbers(
 
 
 def _skip(fields: dict[str, str], name: str, least: int) -> int:
-    name = _alias(fields, name)
     values = _numbers(fields, name, parse_whole, "0")
     if len(values) != 1 or values[0] < least:
         raise _field(fields, name, "one number, not negative")
     return values[0]
-
-
-def _alias(fields: dict[str, str], name: str) -> str:
-    """Return the name of a field as the header has it: NRRD fields may be written without their
-    space.
-    """
-    return name if name in fields else name.replace(" ", "")
 
 
 def _skip_lines(path: Path, start: int, count: int, limits: Limits) -> int:
@@ -280,12 +273,13 @@ def _sample_matrix(
     matrix's unit.
     """
     matrix = np.eye(4)
-    field = _alias(fields, "space units") if _alias(fields, "space units") in fields else "units"
+    field = "space units" if "space units" in fields else "units"
     units, unit = _units(fields, field)
     if "space directions" in fields:
-        directions = _vectors(fields, "space directions")
+        words = re.findall(r"none|\([^()]*\)|\S", fields["space directions"])
+        directions = [_vector(word, "space directions") for word in words[:MAX_AXES]]
         vectors = [row for row in directions if row is not None]
-        if len(vectors) != 3:
+        if len(vectors) != 3 or len(words) > MAX_AXES:
             raise _field(fields, "space directions", "three vectors")
         matrix[:3, :3] = np.array(vectors).T
         if "space origin" in fields:
@@ -336,14 +330,13 @@ def _even_axes(
     cells are assumed, as by the format's own library. The last resort is the thickness.
     """
     names = "spacings", "axis mins", "axis maxs", "thicknesses"
-    rows = [_numbers(fields, _alias(fields, name), parse_number) for name in names]
+    rows = [_numbers(fields, name, parse_number) for name in names]
     stated, lows, highs, thicknesses = (
         row[:3] if len(row) >= 3 else [math.nan] * 3 for row in rows
     )
-    field = "centers" if "centers" in fields else "centerings"
-    centers = [*fields.get(field, "").lower().split(), *["???"] * 3][:3]
+    centers = [*fields.get("centers", "").lower().split(), *["???"] * 3][:3]
     if not {"cell", "node", "none", "???"}.issuperset(centers):
-        raise _field(fields, field, "cell or node for each axis")
+        raise _field(fields, "centers", "cell or node for each axis")
     unfit = _field(fields, "spacings", "three spacings that are not zero")
     if (
         0.0 in stated
@@ -366,7 +359,7 @@ def _even_axes(
             if center not in ("cell", "node"):
                 steps = count if across > count - 0.5 else count - 1
             if abs(across - steps) > SAME_EXTENT_RTOL * count:
-                raise _field(fields, _alias(fields, "axis maxs"), "in agreement with “spacings”")
+                raise _field(fields, "axis maxs", "in agreement with “spacings”")
         are_stated = are_stated or _is_spacing(spacing)
         spacings.append(spacing if _is_spacing(spacing) else thickness)
         origin.append(low + spacings[-1] / 2.0 if steps == count else low)
@@ -379,19 +372,6 @@ def _even_axes(
 
 def _is_spacing(number: float) -> bool:
     return 0.0 < abs(number) < math.inf
-
-
-def _vectors(fields: dict[str, str], name: str) -> list[list[float] | None]:
-    """Parse vectors in parentheses, and “none” between them as None, in time linear in the text."""
-    vectors = []
-    rest = fields[name].strip()
-    for _ in range(MAX_AXES):
-        vector, end, rest = rest.partition("none" if rest.startswith("none") else ")")
-        vectors.append(_vector(vector + end, name))
-        rest = rest.lstrip()
-        if not rest:
-            return vectors
-    raise _field(fields, name, "three vectors")
 
 
 def _vector(text: str, name: str) -> list[float] | None:

@@ -28,7 +28,14 @@ from ..files import (
 )
 from ..mesh import Surface
 from ..verdict import FileError
-from .file_mesh import Box, FileMesh, Polygons, box_of_blocks, merge_equal, name_of_file
+from .file_mesh import (
+    Box,
+    FileMesh,
+    box_of_blocks,
+    merge_equal,
+    name_of_file,
+    without_repeats,
+)
 from .findings import STL_CUT_SHORT
 
 # Bytes before the triangles, and bytes of each triangle.
@@ -119,9 +126,8 @@ class StlFile:
         )
         box_of_blocks([points.reshape(-1, 3, 3)], "triangle")
         points, index = merge_equal(points)
-        triangles = Polygons()
-        triangles.add(index.reshape(-1, 3))
-        return FileMesh(name_of_file(self._path), points, *triangles.join())
+        faces = without_repeats(index, np.full(len(index) // 3, 3))
+        return FileMesh(name_of_file(self._path), points, *faces)
 
     def _text_corners(self, file: BinaryIO) -> Iterator[NDArray[np.float32]]:
         waiting = b""

@@ -2,13 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Exported robots read back: each link's inertial beside the mesh that the file gives it."""
 
-import base64
 from dataclasses import dataclass
 from xml.etree import ElementTree
 
 import numpy as np
 from body_moments.command import audit
-from body_moments.core.files import gltf_document
+from body_moments.core.files import GltfFile, node_matrix
 from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.robots.read.descriptions import Roots, read_description
 from body_moments.core.robots.read.meshes import read_mesh
@@ -22,7 +21,6 @@ SUFFIXES = {
     "gltf": ".gltf",
     "osim": ".osim",
 }
-TYPES = {5121: "<u1", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 KHR = "KHR_physics_rigid_bodies"
 
 
@@ -121,34 +119,12 @@ def _osim_link(body, roots):
 
 def _gltf_links(data):
     """In the axes of the scene, which are y up."""
-    document = gltf_document(data)
-    uri = document.get("buffers", [{}])[0].get("uri")
-    start = 28 + int.from_bytes(data[12:16], "little")  # of the second chunk's bytes in a .glb
-    binary = data[start:] if uri is None else base64.b64decode(uri.split(",", 1)[1])
-    nodes, links = document["nodes"], {}
-
-    def matrix(node):
-        x, y, z, w = node.get("rotation", (0, 0, 0, 1))
-        placed = np.eye(4)
-        placed[:3, :3] = rotation_matrix([w, x, y, z]) * np.array(
-            node.get("scale", (1.0, 1.0, 1.0))
-        )
-        placed[:3, 3] = node.get("translation", (0, 0, 0))
-        return placed
-
-    def array(index):
-        accessor = document["accessors"][index]
-        view = document["bufferViews"][accessor["bufferView"]]
-        width = {"SCALAR": 1, "VEC3": 3}[accessor["type"]]
-        start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
-        values = np.frombuffer(
-            binary, TYPES[accessor["componentType"]], accessor["count"] * width, start
-        )
-        return values.reshape(-1, width).astype(np.float64)
+    file = GltfFile(data, "")
+    document, links = file.document, {}
 
     def visit(index, above, body):
-        node = nodes[index]
-        here = above @ matrix(node)
+        node = document["nodes"][index]
+        here = above @ node_matrix(node)
         motion = node.get("extensions", {}).get(KHR, {}).get("motion")
         if motion is not None:
             turn = here[:3, :3] / np.linalg.norm(here[:3, :3], axis=0)
@@ -160,8 +136,10 @@ def _gltf_links(data):
                 motion["mass"], center, inertia, np.zeros((0, 3, 3))
             )
         for primitive in document["meshes"][node["mesh"]]["primitives"] if "mesh" in node else ():
-            points = array(primitive["attributes"]["POSITION"]) @ here[:3, :3].T + here[:3, 3]
-            corners = points[array(primitive["indices"]).astype(int).reshape(-1, 3)]
+            points = (
+                file.numbers(primitive["attributes"]["POSITION"]) @ here[:3, :3].T + here[:3, 3]
+            )
+            corners = points[file.numbers(primitive["indices"]).astype(int).reshape(-1, 3)]
             body.corners = np.concatenate([body.corners, corners])
         for child in node.get("children", ()):
             visit(child, here, body)

@@ -76,20 +76,14 @@ def test_text_tables_name_labels(tmp_path, text):
     assert entry["name"] == "My Liver" and entry["label"]["color"] == [1.0, 0.0, 0.0]
 
 
-def test_header_of_nrrd_names_segments(tmp_path):
-    lines = "Segment0_LabelValue:=2", "Segment0_Name:=Spleen", "Segment0_Color:=0.5 0.25 1"
+@pytest.mark.parametrize("color", [[0.5, 0.25, 1.0], None])
+def test_header_of_nrrd_names_and_colors_segments(tmp_path, color):
+    text = "Segment0_Color:={} 0.25 1".format("nan" if color is None else 0.5)
+    lines = "Segment0_LabelValue:=2", "Segment0_Name:=Spleen", text
     path = written(tmp_path / "map.nrrd", nrrd(labels(), "spacings: 1 1 1", *lines))
     _, document = run(tmp_path, path, "--label", "2")
     (entry,) = document["objects"]
-    assert entry["name"] == "Spleen" and entry["label"]["color"] == [0.5, 0.25, 1.0]
-
-
-def test_color_of_segment_that_is_no_number_is_ignored(tmp_path):
-    lines = "Segment0_LabelValue:=2", "Segment0_Color:=nan 0.25 1"
-    path = written(tmp_path / "map.nrrd", nrrd(labels(), "spacings: 1 1 1", *lines))
-    _, document = run(tmp_path, path, "--label", "2")
-    (entry,) = document["objects"]
-    assert "color" not in entry["label"]
+    assert entry["name"] == "Spleen" and entry["label"].get("color") == color
 
 
 def test_extension_of_nifti_names_labels(tmp_path):

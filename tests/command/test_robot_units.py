@@ -9,8 +9,7 @@ import itertools
 import numpy as np
 import pytest
 
-pytest.importorskip("bpy")
-import bpy
+bpy = pytest.importorskip("bpy")
 
 from tests.blender.batch_files import add_box, document
 from tests.blender.characters import PARENTS, armature_of, skin_of
@@ -43,21 +42,14 @@ def assert_box(link, name, unit):
     assert_filled(link, DENSITY)
 
 
+@pytest.mark.parametrize("is_scene", [False, True])
 @pytest.mark.parametrize("links", ["object", "collection"])
 @every_export
-def test_unit_scale_option_holds_for_masses_and_meshes(tmp_path, name, unit, links):
-    path = box_stl(tmp_path)
-    options = ("--links", links, "--density", DENSITY, "--unit-scale", unit)
-    (link,) = exported(tmp_path, name, *options, path).values()
-    assert_box(link, name, unit)
-
-
-@pytest.mark.parametrize("links", ["object", "collection"])
-@every_export
-def test_scene_unit_holds_for_masses_and_meshes(tmp_path, name, unit, links):
-    bpy.context.scene.unit_settings.scale_length = unit
+def test_units_hold_for_masses_and_meshes(tmp_path, name, unit, links, is_scene):
+    words = () if is_scene else ("--unit-scale", unit, box_stl(tmp_path))
+    bpy.context.scene.unit_settings.scale_length = unit if is_scene else 1.0
     add_box("Part", (70.0, 0.0, 0.0), SIDES)
-    (link,) = exported(tmp_path, name, "--links", links, "--density", DENSITY).values()
+    (link,) = exported(tmp_path, name, "--links", links, "--density", DENSITY, *words).values()
     assert_box(link, name, unit)
 
 

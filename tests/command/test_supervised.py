@@ -16,8 +16,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-pytest.importorskip("bpy")
-import bpy
+bpy = pytest.importorskip("bpy")
 from body_moments.command.supervisor import listing, processes
 
 from tests.blender import batch_files as files
@@ -145,33 +144,6 @@ def test_folders_manifests_and_ranges_name_the_same_files(scans, tmp_path):
     assert script("measure", tmp_path / "in" / "nothing", "--manifest", scans).returncode == 2
     (tmp_path / "empty").mkdir()
     assert script("measure", tmp_path / "empty").returncode == 2
-
-
-def test_resuming_measures_only_missing_or_changed_files(scans, tmp_path):
-    folder = tmp_path / "scans"
-    shutil.copytree(scans, folder)
-    out, journal = tmp_path / "out.json", tmp_path / "out.json.journal"
-    words = ("measure", folder, "--output", out)
-    assert script(*words).returncode == 0
-    whole = lines(journal)
-    assert [one["status"] for one in whole] == ["ok"] * 12
-    torn = journal.read_bytes()[:-40]
-    journal.write_bytes(torn)
-    np.save(folder / "scan 03.npy", np.full((3, 4, 5), 100, "u2"))
-    os.utime(folder / "scan 03.npy", ns=(1, 1))
-    ended = script(*words, "--resume")
-    assert ended.returncode == 0 and b"2 files in" in ended.stderr
-    masses = [one["objects"][0]["mass"] for one in json.loads(out.read_text())]
-    assert masses == [60.0 * (100 if number == 3 else number + 1) for number in range(12)]
-    ended = script(*words, "--resume", "--density-scale", "2")  # other numbers
-    assert b"12 files in" in ended.stderr
-    assert script("measure", folder, "--resume").returncode == 2
-    assert not (tmp_path / "out.json.old").exists()
-    before = out.read_bytes()
-    assert script(*words).returncode == 0
-    assert (tmp_path / "out.json.old").read_bytes() == before and (
-        tmp_path / "out.json.journal.old"
-    ).exists()
 
 
 @pytest.mark.parametrize("name", ["out.json.old", "out.json.journal"])

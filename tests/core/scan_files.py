@@ -5,7 +5,9 @@
 from __future__ import annotations
 
 import gzip
+import io
 import struct
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -82,6 +84,25 @@ def nifti(
         struct.pack_into(order + "12f", head, 280, *np.asarray(sform, float).reshape(-1))
     head[344:348] = b"n+1\0"
     return bytes(head) + values.astype(values.dtype.newbyteorder(order)).tobytes(order="F")
+
+
+def npy(values: np.ndarray) -> bytes:
+    stream = io.BytesIO()
+    np.save(stream, values)
+    return stream.getvalue()
+
+
+def npz(
+    entries: dict[str, bytes],
+    compression: int = zipfile.ZIP_DEFLATED,
+    stream: io.BytesIO | None = None,
+) -> bytes:
+    """entries: array files by name."""
+    stream = stream or io.BytesIO()
+    with zipfile.ZipFile(stream, "w", compression) as archive:
+        for name, entry in entries.items():
+            archive.writestr(name + ".npy", entry)
+    return stream.getvalue()
 
 
 def written(path: Path, data: bytes) -> Path:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files with geometry, read back with it: meshes in MuJoCo, a layer over Blender's own in USD,
+"""Files with geometry, read back with it: a layer over Blender's own in USD,
 motions in glTF.
 """
 
@@ -9,17 +9,14 @@ import json
 from dataclasses import replace
 
 import jsonschema
-import mujoco
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.robots.model import Joint, Link, Pose, Robot, Shape
-from body_moments.core.robots.primitives import equal_inertia_shape
-from body_moments.core.robots.write import gltf, mjcf, usd
+from body_moments.core.robots.write import gltf, usd
 from body_moments.core.robots.write.marker import is_ours
-from body_moments.core.robots.write.shapes import with_meshes, with_primitives
-from body_moments.core.robots.write.stl import to_stl
+from body_moments.core.robots.write.shapes import with_meshes
 from body_moments.core.robots.write.texts import robot_text
 from pxr import Sdf, UsdGeom, UsdPhysics
 
@@ -53,42 +50,6 @@ SCHEMAS = {
         (gltf.OMI, record({**MOTION, "type": KINDS}, required=["type"])),
     )
 }
-
-
-def test_mujoco_loads_meshes_and_keeps_measured_inertia():
-    """Flat ones too, which bound nothing."""
-    rng = np.random.default_rng(3)
-    points, triangles = shaped(rng, "sheared")
-    sheet = (
-        np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float),
-        np.array([[0, 1, 2], [0, 2, 3]]),
-    )
-    solid = Link(
-        "solid", inertial(points, triangles), shapes=(Shape("mesh", file="meshes/solid.stl"),)
-    )
-    flat = Link(
-        "flat",
-        bodies(1).links[0].inertial,
-        shapes=(Shape("mesh", file="meshes/flat.stl", sheet=True),),
-    )
-    assets = {
-        "meshes/solid.stl": to_stl(Surface.from_triangles(points, triangles)),
-        "meshes/flat.stl": to_stl(Surface.from_triangles(*sheet)),
-    }
-    model = mujoco.MjModel.from_xml_string(mjcf.write(Robot("meshes", (solid, flat))), assets)
-    assert (
-        model.body("solid").mass[0] == solid.inertial.mass
-        and model.body("flat").mass[0] == flat.inertial.mass
-    )
-    data = mujoco.MjData(model)
-    mujoco.mj_forward(model, data)
-    corners = model.mesh_vert[: model.mesh_vertnum[0]]
-    # the flat one has no collider
-    geom, _ = [index for index in range(model.ngeom) if model.geom_dataid[index] == 0]
-    assert model.ngeom == 3
-    shown = corners @ data.geom_xmat[geom].reshape(3, 3).T + data.geom_xpos[geom]
-    reach = np.abs(points).max()
-    assert all(np.abs(shown - point).max(axis=1).min() < 1e-6 * reach for point in points)
 
 
 @pytest.mark.parametrize("unit", [1.0, 0.001])
@@ -136,40 +97,6 @@ def test_gltf_motions_are_valid_and_give_the_body_back():
     assert [found.code for found in gltf.add_rigid_bodies(document, robot, 1.0)] == [
         "gltf_node_missing"
     ]
-
-
-@pytest.mark.parametrize("kind", ["box", "ellipsoid", "capsule"])
-def test_primitives_have_the_inertia_of_mujoco(kind):
-    """With the density that gives them the mass; a capsule keeps the least moment and the mean of
-    the others.
-    """
-    robot = bodies(60)
-    links = [
-        link for link in robot.links if link.inertial.moments[0] > 1e-4 * link.inertial.moments[2]
-    ]
-    assert len(links) > 30
-    for link in links:
-        shape = equal_inertia_shape(link.inertial, kind)
-        alone = with_primitives(Robot("one", (Link("b", link.inertial),)), kind)
-        text = mjcf.write(alone)
-        start = text.index("<inertial")
-        text = text[:start] + text[text.index("/>", start) + 2 :]
-        text = text.replace(
-            'group="3" mass="0"', 'group="3" mass="{!r}"'.format(link.inertial.mass)
-        )
-        model = mujoco.MjModel.from_xml_string(text)
-        found, true = model.body("b"), link.inertial
-        moments = np.sort(found.inertia)
-        assert near(found.mass[0], true.mass, 1e-12) and near(
-            found.ipos, shape.pose.position, 1e-12
-        )
-        if kind == "capsule":
-            if true.moments[1] + true.moments[2] > 2.0 * true.moments[0] * (1 + 1e-9):
-                assert near(moments[0], true.moments[0], 1e-9)
-                assert near(moments[1:].sum(), true.moments[1:].sum(), 1e-9)
-            continue
-        axes = rotation_matrix(found.iquat)
-        assert near((axes * found.inertia) @ axes.T, true.inertia, 1e-12)
 
 
 AXES = {

@@ -22,31 +22,14 @@ from body_moments.core.robots.model import (
 )
 from body_moments.core.robots.read.descriptions import Roots, read_description
 from body_moments.core.robots.write.joints import merge_fixed
+from body_moments.core.robots.write.shapes import with_primitives
 from body_moments.core.robots.write.stl import write_meshes
 
 from tests.core.bodies import box
 from tests.robots import consumers, links
-from tests.robots.links import inertial, near, rotation, shaped
+from tests.robots.links import inertial, near
 
 COUNT = 12
-
-
-def assembly(seed):
-    """Return a random tree: two joints in three are fixed, some of them between a link and a joint
-    that moves.
-    """
-    rng = np.random.default_rng(seed)
-    links, joints = [], []
-    for index in range(COUNT):
-        pose = Pose(rng.normal(size=3), rotation(rng))
-        body = inertial(*shaped(rng, ("box", "sheared", "ball")[index % 3]))
-        boxes = (Shape("box", (0.1, 0.2, 0.3), Pose(rng.normal(size=3), rotation(rng))),)
-        links.append(Link("l{}".format(index), body, pose, boxes))
-        if index:
-            free = () if index % 3 else (FreeAxis("rotate", rotation(rng)[0], -1.0, 1.0),)
-            parent = "l{}".format(rng.integers(0, index))
-            joints.append(Joint("j{}".format(index), parent, "l{}".format(index), free))
-    return Robot("r", tuple(links), tuple(joints)).with_fixed_roots()
 
 
 def audit(robot, form, folder):
@@ -58,7 +41,7 @@ def audit(robot, form, folder):
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("form", ["urdf", "mjcf", "sdf", "usd"])
 def test_merged_robot_has_the_same_totals(form, seed, tmp_path):
-    robot = assembly(seed)
+    robot = with_primitives(links.assembly(seed, COUNT).with_fixed_roots(), "box")
     merged = merge_fixed(robot)
     _, before = audit(robot, form, tmp_path)
     path, after = audit(merged, form, tmp_path)

@@ -9,6 +9,7 @@ moments of a `fullinertia` are off by rounding, so that it refuses thin plates.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from operator import mul
 from xml.etree.ElementTree import Element, SubElement
 
 from ...numerics import quaternion
@@ -20,7 +21,8 @@ from .joints import NAMES, lost_values
 from .shapes import with_masses
 from .text import (
     document,
-    inertial_element,
+    element,
+    element_text,
     is_identity,
     number,
     numbers,
@@ -94,7 +96,7 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
             _add_place(body, robot.pose_in_parent(link))
             _add_joints(body, robot, link, joint, joint_names, axis_names)
         if link.inertial is not None:
-            _add_inertial(body, link.inertial)
+            body.append(_inertial(link.inertial))
         for shape in () if inertial_only else link.shapes:
             mass = {"mass": number(shape.mass) if shape.mass else "0"}
             is_collider = shape.collides and not shape.sheet
@@ -103,15 +105,15 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
                 _add_geom(body, shape, meshes, drawn | ({"mass": "0"} if is_collider else mass))
             if is_collider:
                 _add_geom(body, shape, meshes, {"group": "3"} | mass)
-    mimics = (
-        []
-        if inertial_only
-        else [(joint.name, joint.mimic) for joint in robot.joints if joint.mimic is not None]
-    )
-    equality = SubElement(root, "equality") if mimics else root
-    for name, (leader, multiplier, offset) in mimics:
-        both = {"joint1": joint_names[name], "joint2": joint_names[leader]}
-        SubElement(equality, "joint", both, polycoef=numbers((offset, multiplier, 0.0, 0.0, 0.0)))
+    mimics = []
+    for joint in () if inertial_only else robot.joints:
+        if joint.mimic is not None:
+            leader, multiplier, offset = joint.mimic
+            both = {"joint1": joint_names[joint.name], "joint2": joint_names[leader]}
+            powers = numbers((offset, multiplier, 0.0, 0.0, 0.0))
+            mimics.append(element("joint", **both, polycoef=powers))
+    if mimics:
+        root.append(element("equality", *mimics))
     return document(root, "mjcf", remarks)
 
 
@@ -125,25 +127,22 @@ def _add_meshes(root: Element, robot: Robot) -> dict[tuple, str]:
     """Add an asset for each mesh, once even if several links show it; return the names by
     `_mesh_key`.
     """
-    files = {
+    shapes = {
         _mesh_key(shape): shape
         for link in robot.links
         for shape in link.shapes
         if shape.kind == "mesh"
     }
-    if not files:
-        return {}
-    names = unique_names(list(map(str, range(len(files)))), lambda number_: "mesh_" + number_)
-    assets = SubElement(root, "asset")
-    result = {}
-    for index, (key, shape) in enumerate(files.items()):
-        result[key] = names[str(index)]
-        mesh = SubElement(assets, "mesh", name=result[key], file=shape.file)
-        if shape.size != (1.0, 1.0, 1.0):
-            mesh.set("scale", numbers(shape.size))
-        if shape.sheet:
-            mesh.set("inertia", "shell")
-    return result
+    assets = []
+    names = {}
+    for index, (key, shape) in enumerate(shapes.items()):
+        names[key] = "mesh_{}".format(index)
+        scale = {} if shape.size == (1.0, 1.0, 1.0) else {"scale": numbers(shape.size)}
+        shell = {"inertia": "shell"} if shape.sheet else {}
+        assets.append(element("mesh", name=names[key], file=shape.file, **scale, **shell))
+    if assets:
+        root.append(element("asset", *assets))
+    return names
 
 
 def _mesh_key(shape: Shape) -> tuple:
@@ -173,34 +172,32 @@ def _add_joints(
         return
     for index, free in enumerate(joint.free[:1] if joint.is_ball else joint.free):
         name = axis_names.get((joint.name, index), names[joint.name])
-        kind = "hinge" if free.kind == "rotate" else "slide"
-        if joint.is_ball:
-            kind = "ball"
-        element = SubElement(body, "joint", name=name, type=kind)
+        kind = {"rotate": "hinge", "translate": "slide"}[free.kind]
+        values = {"type": "ball" if joint.is_ball else kind}
         if joint.pose.position.any():
-            element.set("pos", numbers(joint.pose.position))
+            values["pos"] = numbers(joint.pose.position)
         if not joint.is_ball:
-            element.set("axis", numbers(joint.pose.rotation @ free.axis))
+            values["axis"] = numbers(joint.pose.rotation @ free.axis)
             if "effort" in free.values:
-                element.set(
-                    "actuatorfrcrange", numbers((-free.values["effort"], free.values["effort"]))
-                )
+                effort = free.values["effort"]
+                values["actuatorfrcrange"] = numbers((-effort, effort))
         if free.is_limited:
-            element.set("range", numbers((max(free.lower, -1e10), min(free.upper, 1e10))))
+            values["range"] = numbers((max(free.lower, -1e10), min(free.upper, 1e10)))
         for key, value in free.values.items():
             if NAMES["MJCF"].get(key):
-                element.set(NAMES["MJCF"][key], number(value))
+                values[NAMES["MJCF"][key]] = number(value)
+        body.append(element("joint", name=name, **values))
 
 
-def _add_inertial(body: Element, inertial: Inertial) -> None:
+def _inertial(inertial: Inertial) -> Element:
     place = {"pos": numbers(inertial.center), "quat": numbers(quaternion(inertial.axes))}
     values = {"mass": number(inertial.mass), "diaginertia": numbers(inertial.moments)}
-    SubElement(body, "inertial", (place | values))
+    return element("inertial", **place, **values)
 
 
 def inertial_text(inertial: StatedInertial, *_: object) -> str:
     """Return the element of a repaired inertial."""
-    return inertial_element(_add_inertial, inertial.principal())
+    return element_text(_inertial(inertial.principal()))
 
 
 def _add_geom(body: Element, shape: Shape, meshes: dict[tuple, str], role: dict[str, str]) -> None:
@@ -209,9 +206,7 @@ def _add_geom(body: Element, shape: Shape, meshes: dict[tuple, str], role: dict[
         _add_place(geom, shape.pose)
     if shape.kind == "mesh":
         geom.set("mesh", meshes[_mesh_key(shape)])
-    elif shape.kind in ("capsule", "cylinder"):
-        geom.set("size", numbers((shape.size[0], shape.size[1] / 2.0)))
-    elif shape.kind == "box":
-        geom.set("size", numbers(side / 2.0 for side in shape.size))
     else:
-        geom.set("size", numbers(shape.size))
+        halves = {"box": (0.5,) * 3, "capsule": (1.0, 0.5), "cylinder": (1.0, 0.5)}
+        factors = halves.get(shape.kind, (1.0,) * 3)
+        geom.set("size", numbers(map(mul, shape.size, factors)))

@@ -8,15 +8,15 @@ A body has the tensor about its mass center, along its own axes. Geometry is onl
 from __future__ import annotations
 
 from collections.abc import Sequence
-from xml.etree.ElementTree import Element, SubElement
+from xml.etree.ElementTree import Element
 
 import numpy as np
 
 from ...verdict import Finding
-from ..model import Joint, Link, Pose, Robot, Shape
+from ..model import FreeAxis, Joint, Link, Pose, Robot, Shape
 from .joints import lost_values
 from .shapes import capsule_pieces
-from .text import add_text, document, numbers, roll_pitch_yaw, unique_names
+from .text import document, element, numbers, roll_pitch_yaw, unique_names
 from .usd import identifier
 
 VERSION = "40000"
@@ -53,122 +53,117 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
     """Return a robot as a model of OpenSim. remarks, inertial_only: as in `urdf.write`."""
     names = unique_names([link.name for link in robot.links], identifier, ["ground"])
     joint_names = unique_names([joint.name for joint in robot.joints], identifier)
-    root = Element("OpenSimDocument", Version=VERSION)
-    model = SubElement(root, "Model", name=identifier(robot.name))
-    add_text(model, "gravity", numbers(GRAVITY))
-    bodies = SubElement(SubElement(model, "BodySet", name="bodyset"), "objects")
-    joints = (
-        model
-        if inertial_only
-        else SubElement(SubElement(model, "JointSet", name="jointset"), "objects")
-    )
+    bodies = []
+    joints = []
     for link in robot.ordered():
-        _add_body(bodies, link, names[link.name], () if inertial_only else link.shapes)
-        if not inertial_only:
-            joint = robot.joint_of(link.name)
-            if joint is None:
-                name = names[link.name]
-                is_free = not link.is_fixed and any(
-                    part.inertial is not None for part in robot.rigid_parts(link)
-                )
-                element = SubElement(
-                    joints, "FreeJoint" if is_free else "WeldJoint", name=name + "_ground"
-                )
-                _add_ends(element, (("", link.pose), (name, Pose())))
-            else:
-                _add_joint(joints, robot, joint, joint_names[joint.name], names)
-    return document(root, "osim", remarks)
+        bodies.append(_body(link, names[link.name], () if inertial_only else link.shapes))
+        joint = robot.joint_of(link.name)
+        if joint is not None and not inertial_only:
+            joints.append(_joint(robot, joint, joint_names[joint.name], names))
+        elif not inertial_only:
+            name = names[link.name]
+            is_free = not link.is_fixed and any(
+                part.inertial is not None for part in robot.rigid_parts(link)
+            )
+            ends = _ends((("", link.pose), (name, Pose())))
+            kind = "FreeJoint" if is_free else "WeldJoint"
+            joints.append(element(kind, *ends, name=name + "_ground"))
+    sets = [element("BodySet", element("objects", *bodies), name="bodyset")]
+    if not inertial_only:
+        sets.append(element("JointSet", element("objects", *joints), name="jointset"))
+    gravity = element("gravity", text=numbers(GRAVITY))
+    model = element("Model", gravity, *sets, name=identifier(robot.name))
+    return document(element("OpenSimDocument", model, Version=VERSION), "osim", remarks)
 
 
-def _add_body(bodies: Element, link: Link, name: str, shapes: Sequence[Shape]) -> None:
-    body = SubElement(bodies, "Body", name=name)
+def _body(link: Link, name: str, shapes: Sequence[Shape]) -> Element:
     seen = [piece for shape in shapes if shape.seen for piece in capsule_pieces(shape)]
-    components = SubElement(body, "components") if seen else body
+    frames = []
     for count, shape in enumerate(seen, start=1):
         turn = shape.pose.rotation @ ALONG_Y if shape.kind == "cylinder" else shape.pose.rotation
-        frame = _add_frame(
-            components, "shape_{}".format(count), name, Pose(shape.pose.position, turn)
-        )
-        _add_geometry(SubElement(frame, "attached_geometry"), shape)
-    mass = 0.0
-    center = np.zeros(3)
-    tensor = np.zeros((3, 3))
+        pose = Pose(shape.pose.position, turn)
+        form = element("attached_geometry", _geometry(shape))
+        frames.append(_frame("shape_{}".format(count), name, pose, form))
+    parts = [element("components", *frames)] if seen else []
+    values = {"mass": [0.0], "mass_center": np.zeros(3), "inertia": np.zeros(6)}
     if link.inertial is not None:
-        mass = link.inertial.mass
-        center = link.inertial.center
-        tensor = link.inertial.inertia
-    add_text(body, "mass", numbers([mass]))
-    add_text(body, "mass_center", numbers(center))
-    add_text(body, "inertia", numbers(tensor[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]))
+        entries = link.inertial.inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+        values = {
+            "mass": [link.inertial.mass],
+            "mass_center": link.inertial.center,
+            "inertia": entries,
+        }
+    parts += (element(key, text=numbers(value)) for key, value in values.items())
+    return element("Body", *parts, name=name)
 
 
-def _add_geometry(parent: Element, shape: Shape) -> None:
+def _geometry(shape: Shape) -> Element:
     tag, name, factor = _FORMS[shape.kind]
-    element = SubElement(parent, tag, name=shape.kind)
     lengths = shape.size[:1] if shape.kind == "cylinder" else shape.size
-    add_text(element, name, numbers(factor * length for length in lengths))
+    parts = [element(name, text=numbers(factor * length for length in lengths))]
     if shape.kind == "mesh":
-        add_text(element, "mesh_file", shape.file)
+        parts.append(element("mesh_file", text=shape.file))
     elif shape.kind == "cylinder":
-        add_text(element, "half_height", numbers([shape.size[1] / 2.0]))
+        parts.append(element("half_height", text=numbers([shape.size[1] / 2.0])))
+    return element(tag, *parts, name=shape.kind)
 
 
-def _add_frame(parent: Element, name: str, body: str, pose: Pose) -> Element:
-    """Add a frame of a body, "" for the ground, and return it.
+def _frame(name: str, body: str, pose: Pose, *parts: Element) -> Element:
+    """Return a frame of a body, "" for the ground, with more in it.
 
     Its angles turn about its own x, y and z in turn.
     """
-    frame = SubElement(parent, "PhysicalOffsetFrame", name=name)
-    add_text(frame, "socket_parent", "/bodyset/" + body if body else "/ground")
-    add_text(frame, "translation", numbers(pose.position))
-    add_text(frame, "orientation", numbers(-angle for angle in roll_pitch_yaw(pose.rotation.T)))
-    return frame
+    texts = {
+        "socket_parent": "/bodyset/" + body if body else "/ground",
+        "translation": numbers(pose.position),
+        "orientation": numbers(-angle for angle in roll_pitch_yaw(pose.rotation.T)),
+    }
+    place = (element(tag, text=text) for tag, text in texts.items())
+    return element("PhysicalOffsetFrame", *place, *parts, name=name)
 
 
-def _add_ends(joint: Element, ends: Sequence[tuple[str, Pose]]) -> None:
-    frames = SubElement(joint, "frames")
-    for side, (body, pose) in zip(("parent", "child"), ends):
-        add_text(joint, "socket_{}_frame".format(side), side)
-        _add_frame(frames, side, body, pose)
+def _ends(ends: Sequence[tuple[str, Pose]]) -> list[Element]:
+    sides = [*zip(("parent", "child"), ends)]
+    frames = (_frame(side, body, pose) for side, (body, pose) in sides)
+    sockets = (element("socket_{}_frame".format(side), text=side) for side, _ in sides)
+    return [element("frames", *frames), *sockets]
 
 
-def _add_joint(
-    joints: Element, robot: Robot, joint: Joint, name: str, names: dict[str, str]
-) -> None:
-    """Add a joint.
+def _joint(robot: Robot, joint: Joint, name: str, names: dict[str, str]) -> Element:
+    """Return a joint.
 
     A CustomJoint moves before it turns; one that turns first is stated from its other side.
     """
     place = robot.pose_in_parent(robot.link(joint.child)) @ joint.pose
     ends = ((names[joint.parent], place), (names[joint.child], joint.pose))
     kind = "BallJoint" if joint.is_ball else "CustomJoint" if joint.free else "WeldJoint"
-    element = SubElement(joints, kind, name=name)
     is_turned = _order(joint) is False
-    _add_ends(element, ends[::-1] if is_turned else ends)
+    parts = _ends(ends[::-1] if is_turned else ends)
     if kind != "CustomJoint":
-        return
-    axes = [free.reverse() for free in reversed(joint.free)] if is_turned else joint.free
-    coordinates = SubElement(element, "coordinates")
-    transform = SubElement(element, "SpatialTransform")
+        return element(kind, *parts, name=name)
+    free_axes = [free.reverse() for free in reversed(joint.free)] if is_turned else joint.free
+    coordinates = []
+    axes = []
     for title, freedom in (("rotation", "rotate"), ("translation", "translate")):
-        own = [free for free in axes if free.kind == freedom]
-        rest = np.linalg.qr(np.column_stack([*(free.axis for free in own), np.eye(3)]))[0].T[
-            len(own) :
-        ]
-        for count, direction in enumerate([*(free.axis for free in own), *rest], start=1):
-            axis = SubElement(transform, "TransformAxis", name="{}{}".format(title, count))
-            if count > len(own):
-                add_text(axis, "axis", numbers(direction))
-                add_text(SubElement(axis, "Constant", name="function"), "value", "0")
-                continue
-            free = own[count - 1]
-            label = name if len(axes) == 1 else "{}_{}{}".format(name, title, count)
-            coordinate = SubElement(coordinates, "Coordinate", name=label)
-            if free.is_limited:
-                add_text(
-                    coordinate, "range", numbers((max(free.lower, -FAR), min(free.upper, FAR)))
-                )
-                add_text(coordinate, "clamped", "true")
-            add_text(axis, "coordinates", label)
-            add_text(axis, "axis", numbers(direction))
-            add_text(SubElement(axis, "LinearFunction", name="function"), "coefficients", "1 0")
+        own = [free for free in free_axes if free.kind == freedom]
+        directions = [free.axis for free in own]
+        rest = np.linalg.qr(np.column_stack([*directions, np.eye(3)]))[0].T[len(own) :]
+        for count, direction in enumerate([*directions, *rest]):
+            along = element("axis", text=numbers(direction))
+            inner = [along, element("Constant", element("value", text="0"), name="function")]
+            if count < len(own):
+                label = "{}_{}{}".format(name, title, count + 1) if len(free_axes) > 1 else name
+                coordinates.append(_coordinate(own[count], label))
+                slope = element("coefficients", text="1 0")
+                function = element("LinearFunction", slope, name="function")
+                inner = [element("coordinates", text=label), along, function]
+            axes.append(element("TransformAxis", *inner, name="{}{}".format(title, count + 1)))
+    parts += (element("coordinates", *coordinates), element("SpatialTransform", *axes))
+    return element(kind, *parts, name=name)
+
+
+def _coordinate(free: FreeAxis, label: str) -> Element:
+    """Return the element of a coordinate, with its range if it is limited."""
+    text = numbers((max(free.lower, -FAR), min(free.upper, FAR)))
+    limits = (element("range", text=text), element("clamped", text="true"))
+    return element("Coordinate", *(limits if free.is_limited else ()), name=label)

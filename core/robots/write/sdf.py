@@ -8,22 +8,22 @@ Rounding would change the moments of a full tensor, and Gazebo tests whether the
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
-from xml.etree.ElementTree import Element, SubElement
+from collections.abc import Iterator, Sequence
+from xml.etree.ElementTree import Element
 
 import numpy as np
 
 from ...numerics import NDArray, quaternion
 from ...verdict import Finding, finding
 from ..findings import SDF_FRAMES_ADDED
-from ..model import Inertial, Joint, Link, Pose, Robot, Shape
+from ..model import Inertial, Joint, Link, Pose, Robot
 from ..stated import ENTRIES, StatedInertial
 from .joints import NAMES, lost_values, split_frames, with_axis_frames
 from .shapes import shape_values
 from .text import (
-    add_text,
     document,
-    inertial_element,
+    element,
+    element_text,
     is_identity,
     number,
     numbers,
@@ -61,35 +61,28 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
     robot = robot if inertial_only else with_axis_frames(robot, _is_whole, FRAME_PART)
     names = unique_names([link.name for link in robot.links], _name)
     joint_names = unique_names([joint.name for joint in robot.joints], _name, names.values())
-    root = Element("sdf", version=VERSION)
-    model = SubElement(root, "model", name=_name(robot.name))
+    parts: list[Element] = []
     robot, frames = (robot, {}) if inertial_only else split_frames(robot)
     for carrier, several in frames.items():
+        to_carrier = robot.link(carrier).pose.inverse()
         for frame in several:
             values = {"name": names[frame.name], "attached_to": names[carrier]}
-            element = SubElement(model, "frame", values)
-            _add_pose(element, robot.link(carrier).pose.inverse() @ frame.pose)
+            parts.append(element("frame", *_pose(to_carrier @ frame.pose), **values))
     for link in robot.ordered():
-        element = SubElement(model, "link", name=names[link.name])
-        if not inertial_only:
-            _add_pose(element, link.pose)
-        if link.inertial is not None:
-            _add_inertial(element, link.inertial)
-        if not inertial_only:
-            _add_shapes(element, link)
+        inertial = () if link.inertial is None else (_inertial(link.inertial),)
+        place = () if inertial_only else _pose(link.pose)
+        shapes = () if inertial_only else _shapes(link)
+        parts.append(element("link", *place, *inertial, *shapes, name=names[link.name]))
     for joint in () if inertial_only else robot.joints:
-        element = SubElement(model, "joint", name=joint_names[joint.name], type=_joint_type(joint))
-        _add_pose(element, joint.pose)
-        add_text(element, "parent", names[joint.parent])
-        add_text(element, "child", names[joint.child])
-        _add_axes(element, joint)
+        values = {"name": joint_names[joint.name], "type": _joint_type(joint)}
+        ends = _ends(names[joint.parent], names[joint.child])
+        parts.append(element("joint", *_pose(joint.pose), *ends, *_axes(joint), **values))
     bases = [] if inertial_only else [link.name for link in robot.roots if link.is_fixed]
     taken = [*names.values(), *joint_names.values()]
     for base, name in unique_names(bases, lambda name: names[name] + "_joint", taken).items():
-        element = SubElement(model, "joint", name=name, type="fixed")
-        add_text(element, "parent", "world")
-        add_text(element, "child", names[base])
-    return document(root, "sdf", remarks)
+        parts.append(element("joint", *_ends("world", names[base]), name=name, type="fixed"))
+    model = element("model", *parts, name=_name(robot.name))
+    return document(element("sdf", model, version=VERSION), "sdf", remarks)
 
 
 def _name(text: str) -> str:
@@ -100,58 +93,51 @@ def _name(text: str) -> str:
     return text + "_" if _RESERVED.fullmatch(text) else text
 
 
-def _add_pose(parent: Element, pose: Pose) -> None:
-    if not is_identity(pose):
-        w, x, y, z = quaternion(pose.rotation)
-        add_text(parent, "pose", numbers((*pose.position, x, y, z, w)), rotation_format="quat_xyzw")
+def _ends(parent: str, child: str) -> list[Element]:
+    return [element("parent", text=parent), element("child", text=child)]
 
 
-def _add_inertial(parent: Element, inertial: Inertial) -> None:
-    element = SubElement(parent, "inertial")
-    _add_pose(element, Pose(inertial.center, inertial.axes))
-    add_text(element, "mass", number(inertial.mass))
-    _add_tensor(element, np.diag(inertial.moments))
+def _pose(pose: Pose) -> list[Element]:
+    """Return the element of a pose; none for the identity."""
+    if is_identity(pose):
+        return []
+    w, x, y, z = quaternion(pose.rotation)
+    text = numbers((*pose.position, x, y, z, w))
+    return [element("pose", text=text, rotation_format="quat_xyzw")]
 
 
-def _add_tensor(parent: Element, tensor: NDArray) -> None:
-    element = SubElement(parent, "inertia")
-    for name, i, j in ENTRIES:
-        add_text(element, name, number(tensor[i, j]))
+def _inertial(inertial: Inertial) -> Element:
+    place = _pose(Pose(inertial.center, inertial.axes))
+    return _with_tensor(place, inertial.mass, np.diag(inertial.moments))
+
+
+def _with_tensor(place: Sequence[Element], mass: float, tensor: NDArray) -> Element:
+    entries = (element(name, text=number(tensor[i, j])) for name, i, j in ENTRIES)
+    parts = (element("mass", text=number(mass)), element("inertia", *entries))
+    return element("inertial", *place, *parts)
 
 
 def inertial_text(inertial: StatedInertial, old: str, *_: object) -> str:
     """Return the element of a repaired inertial, along the link's axes: files before version 1.9
     have no quaternion.
     """
-    text = inertial_element(_add_plain_inertial, inertial.principal())
+    principal = inertial.principal()
+    place = element("pose", text=numbers(principal.center) + " 0 0 0")
+    text = element_text(_with_tensor([place], principal.mass, principal.inertia))
     kept = re.findall(r"<fluid_added_mass>.*?</fluid_added_mass>", old, re.DOTALL)
     return text.replace("\n</inertial>", "".join("\n  " + one for one in kept) + "\n</inertial>")
 
 
-def _add_plain_inertial(parent: Element, inertial: Inertial) -> None:
-    element = SubElement(parent, "inertial")
-    add_text(element, "pose", numbers(inertial.center) + " 0 0 0")
-    add_text(element, "mass", number(inertial.mass))
-    _add_tensor(element, inertial.inertia)
-
-
-def _add_shapes(parent: Element, link: Link) -> None:
+def _shapes(link: Link) -> Iterator[Element]:
     for tag in ("visual", "collision"):
         for count, shape in enumerate(link.shapes, start=1):
-            if not (shape.seen if tag == "visual" else shape.collides):
-                continue
-            element = SubElement(
-                parent, tag, name=tag if len(link.shapes) == 1 else "{}_{}".format(tag, count)
-            )
-            _add_pose(element, shape.pose)
-            _add_geometry(SubElement(element, "geometry"), shape)
-
-
-def _add_geometry(geometry: Element, shape: Shape) -> None:
-    element = SubElement(geometry, shape.kind)
-    values = {"uri": shape.file} if shape.kind == "mesh" else {}
-    for name, text in (values | shape_values(shape)).items():
-        add_text(element, name, text)
+            if shape.seen if tag == "visual" else shape.collides:
+                name = tag if len(link.shapes) == 1 else "{}_{}".format(tag, count)
+                values = {"uri": shape.file} if shape.kind == "mesh" else {}
+                values |= shape_values(shape)
+                sizes = (element(key, text=text) for key, text in values.items())
+                form = element("geometry", element(shape.kind, *sizes))
+                yield element(tag, *_pose(shape.pose), form, name=name)
 
 
 def _joint_type(joint: Joint) -> str:
@@ -161,18 +147,16 @@ def _joint_type(joint: Joint) -> str:
     return "universal" if kinds == ["rotate", "rotate"] else "ball"
 
 
-def _add_axes(element: Element, joint: Joint) -> None:
+def _axes(joint: Joint) -> Iterator[Element]:
     for tag, free in zip(("axis", "axis2"), () if joint.is_ball else joint.free):
-        axis = SubElement(element, tag)
-        add_text(axis, "xyz", numbers(free.axis))
-        limit = SubElement(axis, "limit")
-        for name, value in (("lower", free.lower), ("upper", free.upper)):
-            add_text(limit, name, number(value))
-        groups = {"effort": limit, "velocity": limit}
+        limits = {"lower": free.lower, "upper": free.upper}
+        dynamics: dict[str, float] = {}
         for name, value in free.values.items():
-            group = groups.get(name, axis.find("dynamics"))
-            add_text(
-                SubElement(axis, "dynamics") if group is None else group,
-                NAMES["SDF"][name],
-                number(value),
-            )
+            group = limits if name in ("effort", "velocity") else dynamics
+            group[NAMES["SDF"][name]] = value
+        groups = {"limit": limits} | ({"dynamics": dynamics} if dynamics else {})
+        parts = (
+            element(group, *(element(name, text=number(value)) for name, value in values.items()))
+            for group, values in groups.items()
+        )
+        yield element(tag, element("xyz", text=numbers(free.axis)), *parts)

@@ -9,12 +9,12 @@ from collections.abc import Callable, Iterable
 from math import atan2, cos, hypot, sin
 from typing import TypeVar
 from xml.etree import ElementTree
-from xml.etree.ElementTree import Element, SubElement
+from xml.etree.ElementTree import Element
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model import Inertial, Pose
+from ..model import Pose
 from .marker import MARKER
 
 _NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -84,27 +84,25 @@ def is_identity(pose: Pose) -> bool:
     return not pose.position.any() and bool((pose.rotation == np.eye(3)).all())
 
 
-def add_text(parent: Element, tag: str, text: str, **attributes: str) -> Element:
-    """Add an element with text and attributes, and return it."""
-    element = SubElement(parent, tag, attributes)
-    element.text = text
-    return element
+def element(tag: str, *parts: Element, text: str | None = None, **attributes: str) -> Element:
+    """Return an element with attributes, text and the elements in it."""
+    made = Element(tag, attributes)
+    made.text = text
+    made.extend(parts)
+    return made
 
 
-def inertial_element(add: Callable[[Element, Inertial], None], inertial: Inertial) -> str:
-    """Return the indented text of the element that `add` appends for an inertial."""
-    parent = Element("link")
-    add(parent, inertial)
-    ElementTree.indent(parent[0])
-    return ElementTree.tostring(parent[0], encoding="unicode")
+def element_text(root: Element) -> str:
+    """Return the indented text of an element."""
+    ElementTree.indent(root)
+    return ElementTree.tostring(root, encoding="unicode")
 
 
 def document(root: Element, kind: str, remarks: Iterable[str]) -> str:
     """Return the text of an XML file: our marker and the remarks as comments, then the root
     element, indented.
     """
-    ElementTree.indent(root)
     lines = [MARKER.format(kind), *(xml_text(remark) for remark in remarks)]
     comments = ["<!-- {} -->\n".format(re.sub("-(?=-|$)", "- ", line)) for line in lines]
-    body = ElementTree.tostring(root, encoding="unicode")
+    body = element_text(root)
     return '<?xml version="1.0" encoding="utf-8"?>\n{}{}\n'.format("".join(comments), body)

@@ -9,9 +9,9 @@ joint.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from math import pi
-from xml.etree.ElementTree import Element, SubElement
+from xml.etree.ElementTree import Element
 
 import numpy as np
 
@@ -25,7 +25,8 @@ from .mjcf import raised_inertials, smallest_inertials
 from .shapes import box_of_ellipsoid, capsule_pieces, ellipsoids_as_boxes, shape_values
 from .text import (
     document,
-    inertial_element,
+    element,
+    element_text,
     is_identity,
     number,
     numbers,
@@ -82,46 +83,31 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
     robot = robot if inertial_only else with_axis_frames(robot.at_joints())
     names = unique_names([link.name for link in robot.links], _name)
     joint_names = unique_names([joint.name for joint in robot.joints], xml_name)
-    root = Element("robot", name=xml_name(robot.name))
+    parts = []
     base = None
     if not inertial_only:
-        _add_compiler(root, robot)
+        parts.append(_compiler(robot))
         if any(link.is_fixed for link in robot.roots):
             base = WORLD
         elif len(robot.roots) > 1:
             base = _free_name(BASE, names)
     if base is not None:
-        _add_no_mass(SubElement(root, "link", name=base))
+        parts.append(element("link", _no_mass(), name=base))
     for link in robot.ordered():
-        element = SubElement(root, "link", name=names[link.name])
-        if link.inertial is not None:
-            _add_inertial(element, link.inertial)
-        else:
-            _add_no_mass(element)
-        if not inertial_only:
-            _add_shapes(element, link.shapes)
+        inertial = _no_mass() if link.inertial is None else _inertial(link.inertial)
+        shapes = () if inertial_only else _shapes(link.shapes)
+        parts.append(element("link", inertial, *shapes, name=names[link.name]))
     for link in () if inertial_only else robot.ordered():
         joint = robot.joint_of(link.name)
+        ends = {"child": names[link.name]}
         if joint is not None:
-            parent = names[joint.parent]
-            name = joint_names[joint.name]
+            ends |= {"name": joint_names[joint.name], "parent": names[joint.parent]}
         elif base is not None:
-            parent = base
-            name = _free_name(names[link.name] + "_joint", joint_names)
+            ends |= {"name": _free_name(names[link.name] + "_joint", joint_names), "parent": base}
         else:
             continue
-        element = _add_joint(
-            root, name, parent, names[link.name], robot.pose_in_parent(link), joint
-        )
-        if joint is not None and joint.mimic is not None:
-            leader, multiplier, offset = joint.mimic
-            values = {
-                "joint": joint_names[leader],
-                "multiplier": number(multiplier),
-                "offset": number(offset),
-            }
-            SubElement(element, "mimic", values)
-    return document(root, "urdf", remarks)
+        parts.append(_joint(robot.pose_in_parent(link), joint, joint_names, **ends))
+    return document(element("robot", *parts, name=xml_name(robot.name)), "urdf", remarks)
 
 
 def _name(text: str) -> str:
@@ -130,7 +116,7 @@ def _name(text: str) -> str:
     return text + "_" if text == WORLD else text
 
 
-def _add_compiler(root: Element, robot: Robot) -> None:
+def _compiler(robot: Robot) -> Element:
     """Let MuJoCo keep fixed links, folders of meshes, and links of little or no mass; other readers
     skip it.
     """
@@ -138,63 +124,53 @@ def _add_compiler(root: Element, robot: Robot) -> None:
     is_bare = any(link.inertial is None and robot.joint_of(link.name) for link in robot.links)
     if is_bare or smallest_inertials(robot, BOUNDED):
         values |= {"boundmass": number(LEAST), "boundinertia": number(LEAST)}
-    SubElement(SubElement(root, "mujoco"), "compiler", values)
+    return element("mujoco", element("compiler", **values))
 
 
 def _free_name(name: str, taken: Mapping[str, str]) -> str:
     return unique_names([name], str, taken.values())[name]
 
 
-def _add_origin(parent: Element, pose: Pose) -> None:
+def _origin(pose: Pose) -> Element:
     if is_identity(pose):
-        SubElement(parent, "origin", xyz="0 0 0", rpy="0 0 0")
-        return
-    SubElement(
-        parent, "origin", xyz=numbers(pose.position), rpy=numbers(roll_pitch_yaw(pose.rotation))
-    )
+        return element("origin", xyz="0 0 0", rpy="0 0 0")
+    return element("origin", xyz=numbers(pose.position), rpy=numbers(roll_pitch_yaw(pose.rotation)))
 
 
-def _add_inertial(parent: Element, inertial: Inertial) -> None:
-    element = SubElement(parent, "inertial")
-    SubElement(element, "origin", xyz=numbers(inertial.center), rpy="0 0 0")
-    SubElement(element, "mass", value=number(inertial.mass))
+def _inertial(inertial: Inertial) -> Element:
     tensor = inertial.inertia
     axis = inertial.axes[:, 2]
-    missing = SLACK * inertial.moments[2] - (
-        inertial.moments[0] + inertial.moments[1] - inertial.moments[2]
-    )
+    first, second, third = inertial.moments
+    missing = SLACK * third - (first + second - third)
     if missing > 0.0:
         tensor = tensor - missing * np.outer(axis, axis)
-    SubElement(element, "inertia", {name: number(tensor[i, j]) for name, i, j in ENTRIES})
+    return element(
+        "inertial",
+        element("origin", xyz=numbers(inertial.center), rpy="0 0 0"),
+        element("mass", value=number(inertial.mass)),
+        element("inertia", **{name: number(tensor[i, j]) for name, i, j in ENTRIES}),
+    )
 
 
-def _add_no_mass(parent: Element) -> None:
-    """Add zeros; some readers take 1 kg for a link without inertial."""
-    element = SubElement(parent, "inertial")
-    SubElement(element, "mass", value="0")
-    SubElement(element, "inertia", {name: "0" for name, _, _ in ENTRIES})
+def _no_mass() -> Element:
+    """Return zeros; some readers take 1 kg for a link without inertial."""
+    zeros = element("inertia", **{name: "0" for name, _, _ in ENTRIES})
+    return element("inertial", element("mass", value="0"), zeros)
 
 
 def inertial_text(inertial: StatedInertial, *_: object) -> str:
     """Return the element of a repaired inertial."""
-    return inertial_element(_add_inertial, inertial.principal())
+    return element_text(_inertial(inertial.principal()))
 
 
-def _add_shapes(parent: Element, shapes: Sequence[Shape]) -> None:
+def _shapes(shapes: Sequence[Shape]) -> Iterator[Element]:
     for tag in ("visual", "collision"):
-        shown = [
-            shape
-            for shape in shapes
-            if (shape.seen if tag == "visual" else shape.collides and not _is_flat(shape.surface))
-        ]
-        for piece in (
-            box_of_ellipsoid(piece) for shape in shown for piece in capsule_pieces(shape)
-        ):
-            element = SubElement(parent, tag)
-            _add_origin(element, piece.pose)
-            geometry = SubElement(element, "geometry")
-            values = {"filename": piece.file} if piece.kind == "mesh" else {}
-            SubElement(geometry, piece.kind, values | shape_values(piece))
+        for shape in shapes:
+            if shape.seen if tag == "visual" else shape.collides and not _is_flat(shape.surface):
+                for piece in map(box_of_ellipsoid, capsule_pieces(shape)):
+                    values = {"filename": piece.file} if piece.kind == "mesh" else {}
+                    form = element(piece.kind, **values, **shape_values(piece))
+                    yield element(tag, _origin(piece.pose), element("geometry", form))
 
 
 def _is_flat(surface: Surface | None) -> bool:
@@ -208,24 +184,25 @@ def _is_flat(surface: Surface | None) -> bool:
     return bool(spread[2] <= FLATNESS**2 * spread[0])
 
 
-def _add_joint(
-    root: Element, name: str, parent: str, child: str, pose: Pose, joint: Joint | None
+def _joint(
+    pose: Pose, joint: Joint | None, names: Mapping[str, str], name: str, parent: str, child: str
 ) -> Element:
     axis = joint.free[0] if joint is not None and joint.free else None
-    element = SubElement(root, "joint", name=name, type=_joint_type(axis))
-    _add_origin(element, pose)
-    SubElement(element, "parent", link=parent)
-    SubElement(element, "child", link=child)
+    parts = [_origin(pose), element("parent", link=parent), element("child", link=child)]
     if joint is not None and axis is not None:
-        SubElement(element, "axis", xyz=numbers(joint.pose.rotation @ axis.axis))
+        parts.append(element("axis", xyz=numbers(joint.pose.rotation @ axis.axis)))
         if _needs_limit(axis):
-            _add_limit(element, axis)
+            parts.append(_limit(axis))
         dynamics = {
             key: number(axis.values[key]) for key in ("damping", "friction") if key in axis.values
         }
         if dynamics:
-            SubElement(element, "dynamics", dynamics)
-    return element
+            parts.append(element("dynamics", **dynamics))
+        if joint.mimic is not None:
+            leader, multiplier, offset = joint.mimic
+            values = {"multiplier": number(multiplier), "offset": number(offset)}
+            parts.append(element("mimic", joint=names[leader], **values))
+    return element("joint", *parts, name=name, type=_joint_type(axis))
 
 
 def _needs_limit(free: FreeAxis) -> bool:
@@ -244,12 +221,12 @@ def _joint_type(free: FreeAxis | None) -> str:
     return "revolute" if free.is_limited else "continuous"
 
 
-def _add_limit(joint: Element, free: FreeAxis) -> None:
-    """Add the limits of a joint; an open one becomes a far one, because URDF requires both."""
+def _limit(free: FreeAxis) -> Element:
+    """Return the limits of a joint; an open one becomes a far one, because URDF requires both."""
     limit = {}
     if free.is_limited or free.kind == "translate":
         far = 2.0 * pi if free.kind == "rotate" else 1e3
         limit = {"lower": number(max(free.lower, -far)), "upper": number(min(free.upper, far))}
-    limit["effort"] = number(free.values.get("effort", EFFORT))
-    limit["velocity"] = number(free.values.get("velocity", VELOCITY))
-    SubElement(joint, "limit", limit)
+    rates = {"effort": EFFORT, "velocity": VELOCITY}
+    limit |= {name: number(free.values.get(name, value)) for name, value in rates.items()}
+    return element("limit", **limit)

@@ -202,7 +202,7 @@ def test_kinds_without_geometry_are_refused_by_name(kind):
     assert not measurable(obj)
 
 
-def test_an_empty_without_instances_is_refused():
+def test_an_empty_without_instances_is_refused(registered):
     obj = link("Empty")
     assert refused(obj, "not_shown")
     assert not measurable(obj)

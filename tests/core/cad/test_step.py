@@ -341,6 +341,28 @@ def test_right_solids_beside_damage_are_measured(tmp_path):
         assert len(file.refused) == faults and file.unread == 0
 
 
+def test_other_items_are_refused_by_name_and_curves_noted(tmp_path):
+    items = {
+        91: "TESSELLATED_SOLID('',(),$)",
+        92: "TESSELLATED_SOLID('',(),#15)",  # shows the solid
+        93: "GEOMETRIC_SET('',(#94))",
+        94: "CURVE_BOUNDED_SURFACE('',#31,(),.T.)",
+        95: "GEOMETRIC_CURVE_SET('',(#25,#49))",
+    }
+    lines = "".join("#9900{}={};".format(k, entity) for k, entity in items.items())
+    lines = re.sub(r"#(9\d)\b", r"#9900\1", lines)
+    more = ",".join("#9900{}".format(k) for k in items)
+    text = TEXTS["cylinder"].replace("(#11,#15)", "(#11,#15,{})".format(more))
+    file = read(tmp_path, (lines + "ENDSEC;").join(text.rsplit("ENDSEC;", 1)))
+    assert len(file.bodies) == 1
+    assert [one.values["base"] for one in file.refused] == [
+        "TESSELLATED_SOLID",
+        "GEOMETRIC_SET",
+        "CURVE_BOUNDED_SURFACE",
+    ]
+    assert [(one.code, one.values["count"]) for one in file.notes] == [("curves_left_out", 2)]
+
+
 def test_part21_reads_strings_comments_and_types():
     text = Part21(
         b"ISO-10303-21;DATA;\n/* #1=A(); */ #2 = b('it''s; \\X2\\00E4\\X0\\ \\S\\d \\X\\E9',"

@@ -5,14 +5,13 @@ more is read.
 """
 
 import io
-import zipfile
 
 import numpy as np
 import pytest
 from body_moments.core.scans.formats import read_scan
 from body_moments.core.verdict import FileError
 
-from tests.core.scan_files import written
+from tests.core.scan_files import npz, written
 
 VALUES = np.arange(60, dtype="u2").reshape(3, 4, 5)
 LENGTH_BYTES = {1: 2, 2: 4, 3: 4}
@@ -36,20 +35,13 @@ def array(version: int, length: int | None = None) -> bytes:
     )
 
 
-def packed(data: bytes) -> bytes:
-    stream = io.BytesIO()
-    with zipfile.ZipFile(stream, "w") as archive:
-        archive.writestr("density.npy", data)
-    return stream.getvalue()
-
-
 @pytest.mark.filterwarnings("ignore:Stored array in format")
 @pytest.mark.parametrize("form", ["npy", "npz"])
 @pytest.mark.parametrize("version", LENGTH_BYTES)
 def test_arrays_of_each_version_are_read(tmp_path, version, form):
     for length in (None, 256, 9_984):
         data = array(version, length)
-        path = written(tmp_path / ("a." + form), data if form == "npy" else packed(data))
+        path = written(tmp_path / ("a." + form), data if form == "npy" else npz({"density": data}))
         assert np.array_equal(read_scan(path).samples, VALUES)
 
 
@@ -81,7 +73,7 @@ def test_header_beyond_ten_thousand_bytes_is_refused_unread(
             lambda *words, of=plain, **more: asked.append(0) or of(*words, **more),
         )
     data = array(version, length)
-    path = written(tmp_path / ("a." + form), data if form == "npy" else packed(data))
+    path = written(tmp_path / ("a." + form), data if form == "npy" else npz({"density": data}))
     if is_asked:
         assert np.array_equal(read_scan(path).samples, VALUES)
     else:

@@ -3,7 +3,6 @@
 """Resources that a scan file may claim: limits, linear time, and files in its own folder only."""
 
 import gzip
-import io
 import os
 import struct
 import time
@@ -17,29 +16,16 @@ import pytest
 from body_moments.core.files.limits import Limits
 from body_moments.core.scans import read_raw, read_scan
 from body_moments.core.verdict import FileError, MeasureError
-from body_moments.tests.core.scan_files import nifti, nrrd, written
+from body_moments.tests.core.scan_files import nifti, npy, npz, nrrd, written
 
 VALUES = np.arange(60, dtype="u2").reshape(3, 4, 5)
+NPY = npy(VALUES)
 
 
 def refusal(path, limits=None):
     with pytest.raises(MeasureError) as refused:
         read_scan(path, limits or Limits())
     return refused.value.finding
-
-
-def npz(*entries: bytes, compression=zipfile.ZIP_DEFLATED) -> bytes:
-    stream = io.BytesIO()
-    with zipfile.ZipFile(stream, "w", compression) as archive:
-        for number, entry in enumerate(entries):
-            archive.writestr("a{}.npy".format(number), entry)
-    return stream.getvalue()
-
-
-def npy(values=VALUES) -> bytes:
-    stream = io.BytesIO()
-    np.save(stream, values)
-    return stream.getvalue()
 
 
 def sparse(path, size):
@@ -52,19 +38,19 @@ def sparse(path, size):
 NEEDS = {
     "samples": [
         ("a_3x4x5_uint16.raw", VALUES.tobytes(order="F"), 60),
-        ("a.npy", npy(), 60),
-        ("a.npz", npz(npy()), 60),
+        ("a.npy", NPY, 60),
+        ("a.npz", npz({"a": NPY}), 60),
         ("a.nii", nifti(VALUES), 60),
         ("a.nii.gz", gzip.compress(nifti(VALUES)), 60),
         ("a.nrrd", nrrd(VALUES), 60),
         ("a.nrrd", nrrd(VALUES, encoding="gzip"), 60),
     ],
     "unpacked_bytes": [
-        ("a.npz", npz(npy(), compression=zipfile.ZIP_STORED), len(npy())),
+        ("a.npz", npz({"a": NPY}, zipfile.ZIP_STORED), len(NPY)),
         ("a.nii.gz", gzip.compress(nifti(VALUES)), len(nifti(VALUES))),
         ("a.nrrd", nrrd(VALUES, encoding="gzip"), 120),
     ],
-    "entries": [("a.npz", npz(*[npy()] * 3), 3)],
+    "entries": [("a.npz", npz(dict.fromkeys("abc", NPY)), 3)],
     "header_bytes": [
         ("a.nrrd", nrrd(VALUES), len(nrrd(VALUES, head=False))),
         (
@@ -115,19 +101,24 @@ def test_small_files_claiming_terabytes_are_refused_at_once(tmp_path):
     raw = sparse(tmp_path / "a_4096x4096x4096_uint8.raw", 1 << 36)
     header = struct.pack("<I", (1 << 32) - 9)
     bomb = b"\x93NUMPY\2\0" + header
-    deep = npy().replace(b"'shape': (3, 4, 5)", b"'shape': " + b"(" * 9)
+    deep = NPY.replace(b"'shape': (3, 4, 5)", b"'shape': " + b"(" * 9)
     packer = gzip.compress(bytes(1 << 24))
     packed = packer * (1 << 8)  # 4 GiB and more in 4 MB
     head = nrrd(VALUES, encoding="gzip", head=False).replace(
         b"sizes: 3 4 5", b"sizes: 2048 1024 1025"
     )
-    array = written(tmp_path / "a.npz", npz(bomb + bytes(1 << 27)))
+    array = written(tmp_path / "a.npz", npz({"a": bomb + bytes(1 << 27)}))
     tracemalloc.start()
     try:
         start = time.perf_counter()
         assert refusal(raw).code == "file_exceeds_limit"
         assert refusal(array).code == "file_damaged"
-        assert refusal(written(tmp_path / "deep.npz", npz(*[deep] * 900))).code == "file_damaged"
+        assert (
+            refusal(
+                written(tmp_path / "deep.npz", npz(dict.fromkeys(map(str, range(900)), deep)))
+            ).code
+            == "file_damaged"
+        )
         assert refusal(written(tmp_path / "a.nrrd", head + packed)).code == "file_exceeds_limit"
         sparse(tmp_path / "a.npy", 1 << 32)
         with open(tmp_path / "a.npy", "r+b") as file:
@@ -160,7 +151,7 @@ HOSTILE = {
         nrrd(VALUES, encoding="gzip", head=False) + gzip.compress(b"") * (n // 20)
     ),
     "padding": lambda n: nrrd(VALUES, encoding="gzip") + bytes(n),
-    "arrays": lambda n: npz(*[npy()] * (n // 300)),
+    "arrays": lambda n: npz(dict.fromkeys(map(str, range(n // 300)), NPY)),
 }
 FORMS = {"arrays": "a.npz"}
 
