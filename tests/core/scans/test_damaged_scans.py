@@ -17,8 +17,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from body_moments.core.scans import read_scan
 from body_moments.core.scans import scan as samples
-from body_moments.core.scans.formats import read_scan
 from body_moments.core.verdict import FileError
 from body_moments.tests.core.scan_files import nifti, npy, npz, nrrd, written
 
