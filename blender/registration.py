@@ -55,7 +55,7 @@ def _register(module: ModuleType) -> None:
             if issubclass(cls, Operator) and "bl_idname" not in vars(cls):
                 category, name = cls.__name__.split("_OT_")
                 cls.bl_idname = "{:s}.{:s}".format(category.lower(), name)
-                cls.bl_description = " ".join(cls.__doc__.split())
+                cls.bl_description = " ".join((cls.__doc__ or "").split())
             bpy.utils.register_class(cls)
             undo.callback(bpy.utils.unregister_class, cls)
         for (owner, name), group in getattr(module, "POINTERS", {}).items():

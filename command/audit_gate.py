@@ -23,23 +23,19 @@ Key = tuple[str, str, str]  # file, link and code
 def apply(document: dict[str, Any], options: Namespace) -> dict[str, Any]:
     """Return the document of a file after `--ignore`, `--light-links` and `--baseline`."""
     whole = {"name": "", "mass": None, "findings": document["findings"]}
+    known = {key for key in options.known or () if key[2] != AUDIT_TOTAL}
     links = []
     for link in [whole, *document["links"]]:
         is_light = (
             options.light_links and link["mass"] is not None and link["mass"] <= options.light_links
         )
-        findings = []
-        for found in link["findings"]:
-            if found["code"] in options.ignore:
-                continue
-            if is_light:
-                found = found | {"severity": str(Severity.NOTE)}
-            is_known = (
-                options.known is not None and _key(found, link, options.baseline) in options.known
-            )
-            if is_known and found["code"] != AUDIT_TOTAL:
-                found = found | {"known": True}
-            findings.append(found)
+        findings = [
+            found
+            | ({"severity": str(Severity.NOTE)} if is_light else {})
+            | ({"known": True} if known and _key(found, link, options.baseline) in known else {})
+            for found in link["findings"]
+            if found["code"] not in options.ignore
+        ]
         links.append(link | {"findings": findings})
     whole, *links = links
     return audit_report.with_status(document | {"findings": whole["findings"], "links": links})

@@ -101,6 +101,7 @@ class OnSubject:
 
     def execute(self, context: Context) -> set[str]:
         obj = selected.subject(context)
+        assert obj is not None  # by `poll`
         try:
             return self._change(context, obj)
         except MeasureError as refusal:

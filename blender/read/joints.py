@@ -73,7 +73,9 @@ def constraint_connections(
         values, mimic, unusable = joint_values(holder)
         findings += unusable
         free = _freedom(constraint, values, unit)
-        connections.append(Connection(holder.name_full, *names, _pose(holder, unit), free, mimic))
+        connections.append(
+            Connection(holder.name_full, names[0], names[1], _pose(holder, unit), free, mimic)
+        )
     connections.sort(key=lambda one: one.name)
     return connections, [bases[name] for name in sorted(bases)], findings
 

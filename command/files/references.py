@@ -65,8 +65,9 @@ def reported_references(import_file: Callable[[], object]) -> tuple[Finding, ...
                 again.write(text)
     # each a file, with the path of a prim that is missing in it
     reports = {
-        "".join(_ASSET.search(report).groups("")) if _ASSET.search(report) else report
+        "".join(asset.groups("")) if asset else report
         for report in _REPORT.findall(text.decode("utf-8", "replace"))
+        for asset in [_ASSET.search(report)]
     }
     return (finding(MISSING_REFERENCES, names=sorted(reports)),) if reports else ()
 

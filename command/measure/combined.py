@@ -49,19 +49,16 @@ class Combined:
             )
             for assembly in self.assemblies
         ]
-        bones = []
-        for rig in self.rigs:
-            of_meshes = max(map(read.places.place_error, rig.objects), default=0.0)
-            moved = self.unit * (of_meshes + read.places.place_error(rig.armature))
-            bones += [
-                record.record(
-                    replace(part.measurement, place_error=moved),
-                    frame,
-                    more={"armature": rig.armature.name},
-                )
-                for part in rig.parts
-                if part.measurement is not None
-            ]
+        bones = [
+            record.record(
+                replace(part.measurement, place_error=self.unit * _place_error(rig)),
+                frame,
+                more={"armature": rig.armature.name},
+            )
+            for rig in self.rigs
+            for part in rig.parts
+            if part.measurement is not None
+        ]
         found = {"assemblies": sorted(assemblies, key=lambda entry: entry["name"]), "bones": bones}
         return {name: entries for name, entries in found.items() if entries}
 
@@ -72,6 +69,11 @@ class Combined:
         for rig in self.rigs:
             with contents.attempt(rig.armature.name):
                 stored.results.store_rig(rig)
+
+
+def _place_error(rig: bodies.rig.Rig) -> float:
+    of_meshes = max(map(read.places.place_error, rig.objects), default=0.0)
+    return of_meshes + read.places.place_error(rig.armature)
 
 
 def measure_combined(

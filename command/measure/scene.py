@@ -363,8 +363,9 @@ class Scene:
         except MeasureError as refusal:
             yield failure(label, _unavailable("Fourier transform", refusal))
         except OSError as error:
-            values = {"file": str(self.options.fourier), "error": system_reason(error)}
-            yield failure(label, finding(write.findings.FILE_NOT_WRITTEN, **values))
+            file = str(self.options.fourier)
+            lost = finding(write.findings.FILE_NOT_WRITTEN, file=file, error=system_reason(error))
+            yield failure(label, lost)
         except Exception as error:
             yield contents.internal(label, error)
 

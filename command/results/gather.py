@@ -184,31 +184,32 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
     """Return lines with counts by status and method, findings, slowest files and widest bounds; and
     exit code 0.
     """
-    statuses: Counter[str] = Counter()
-    methods: Counter[str] = Counter()
-    codes: Counter[tuple[str, str]] = Counter()
-    slowest: list[tuple[float, str]] = []
-    widest: list[tuple[float, str]] = []
-    failed: list[str] = []
-    for document, about in _read(options.paths):
-        file = document["file"] or "-"
-        statuses[document["status"]] += 1
-        if document["status"] != "ok":
-            reason = document["errors"][0]["reason"] if document["errors"] else "-"
-            failed.append("{}  {}: {}".format(document["status"], file, reason))
-        if about.get("seconds") is not None:
-            slowest = sorted([*slowest, (float(about["seconds"]), str(file))], reverse=True)[
-                :_LISTED
-            ]
-        codes += measurement.count_findings(document)
-        for entry in (*document["objects"], *document.get("flat", ())):
-            methods[entry.get("method", "flat")] += 1
-            name = "volume" if entry.get("volume") else "area"
-            bound = measurement.bound_of(entry, name)
-            size = entry[name]
-            if bound is not None and size:
-                share = bound / abs(size), "{}: {}".format(file, entry["name"])
-                widest = sorted([*widest, share], reverse=True)[:_LISTED]
+    entries = _read(options.paths)
+    objects = [
+        (document["file"] or "-", entry)
+        for document, _ in entries
+        for entry in (*document["objects"], *document.get("flat", ()))
+    ]
+    statuses = Counter(document["status"] for document, _ in entries)
+    methods = Counter(entry.get("method", "flat") for _, entry in objects)
+    codes = sum((measurement.count_findings(document) for document, _ in entries), Counter())
+    slowest = [
+        (float(about["seconds"]), str(document["file"] or "-"))
+        for document, about in entries
+        if about.get("seconds") is not None
+    ]
+    shares = [(_share(entry), "{}: {}".format(file, entry["name"])) for file, entry in objects]
+    widest = [(share, name) for share, name in shares if share is not None]
+    slowest, widest = (sorted(rows, reverse=True)[:_LISTED] for rows in (slowest, widest))
+    failed = [
+        "{}  {}: {}".format(
+            document["status"],
+            document["file"] or "-",
+            document["errors"][0]["reason"] if document["errors"] else "-",
+        )
+        for document, _ in entries
+        if document["status"] != "ok"
+    ]
     more = ["and {} more".format(len(failed) - _LISTED)] if len(failed) > _LISTED else []
     sections = {
         "Not measured:": [*failed[:_LISTED], *more],
@@ -226,6 +227,13 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
         *(line for title, rows in sections.items() if rows for line in ("", title, *rows)),
     ]
     return (measurement.visible(line) + "\n" for line in lines), 0
+
+
+def _share(entry: dict[str, Any]) -> float | None:
+    """Return the bound of a record's volume, else of its area, relative to its size."""
+    name = "volume" if entry.get("volume") else "area"
+    bound = measurement.bound_of(entry, name)
+    return bound / abs(entry[name]) if bound is not None and entry[name] else None
 
 
 def _compare(options: argparse.Namespace) -> tuple[Iterable[str], int]:

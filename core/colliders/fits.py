@@ -254,17 +254,22 @@ def enclosing_ball(points: Array) -> tuple[Array, float]:
         if distance[farthest] <= radius * (1.0 + BALL_RTOL) + np.finfo(float).tiny:
             return center, float(distance[farthest])
         held = np.concatenate([held, points[farthest : farthest + 1]])
-        balls = []
-        for count in range(2, min(dimension + 1, len(held)) + 1):
-            for chosen in combinations(range(len(held)), count):
-                if len(held) - 1 in chosen:  # the new point holds the ball
-                    middle, reach = _ball_through(held[[*chosen]])
-                    if np.linalg.norm(held - middle, axis=1).max() <= reach * (1.0 + 1e-10):
-                        balls.append((reach, middle, chosen))
-        if not balls or min(balls, key=lambda ball: ball[0])[0] <= radius:
+        last = len(held) - 1  # the new point holds the ball
+        subsets = [
+            held[[*chosen, last]]
+            for count in range(1, min(dimension, last) + 1)
+            for chosen in combinations(range(last), count)
+        ]
+        balls = [
+            (reach, middle, subset)
+            for subset in subsets
+            for middle, reach in [_ball_through(subset)]
+            if np.linalg.norm(held - middle, axis=1).max() <= reach * (1.0 + 1e-10)
+        ]
+        least = min(balls, key=lambda ball: ball[0], default=None)
+        if least is None or least[0] <= radius:
             return center, float(distance[farthest])  # rounding alone is left
-        radius, center, chosen = min(balls, key=lambda ball: ball[0])
-        held = held[[*chosen]]
+        radius, center, held = least
 
 
 def _ball_through(points: Array) -> tuple[Array, float]:

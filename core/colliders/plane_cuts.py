@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..mesh import Surface, normals
+from ..mesh import Surface, first_at_equal_position, normals
 from ..numerics import Array, Index, Mask, NDArray, connected_components
 
 ON_PLANE_RTOL = 1e-9  # relative to the size: points nearer to a plane are on it
@@ -80,9 +80,8 @@ def _join_open_edges(points: Array, triangles: Index) -> Index:
     ends = np.unique(np.concatenate([start[is_open], end[is_open]]))
     if not len(ends):
         return triangles
-    _, first, which = np.unique(points[ends] + 0.0, axis=0, return_index=True, return_inverse=True)
     number = np.arange(len(points))
-    number[ends] = ends[first[which.ravel()]]
+    number[ends] = ends[first_at_equal_position(points[ends])]
     return number[triangles]
 
 

@@ -213,9 +213,9 @@ def _joint_values(
         if not more:
             break
         values |= more
-    for joint in above.values():
+    for joint in () if is_mjcf else above.values():  # MuJoCo leaves such an equality out.
         for name, *_, leader, _ in joint.motions:
-            if leader and (leader not in by_name or not is_mjcf and name not in values):
+            if leader and (leader not in by_name or name not in values):
                 fault = finding(JOINT_VALUE_UNUSABLE, joint=name, key="mimic", value=leader)
                 wrong.append((fault, joint.place))
     return values, wrong

@@ -8,9 +8,8 @@ import io
 import numpy as np
 import pytest
 
-pytest.importorskip("bpy")
+bpy = pytest.importorskip("bpy")
 import bmesh
-import bpy
 from body_moments.core.measurement import to_csv, to_html
 
 from tests.blender.batch_files import add_box, document

@@ -13,8 +13,7 @@ from pathlib import Path
 
 import pytest
 
-pytest.importorskip("bpy")
-import bpy
+bpy = pytest.importorskip("bpy")
 import numpy as np
 from body_moments.command.files import files as opening
 from body_moments.command.files import suffixes

@@ -12,8 +12,7 @@ import zlib
 
 import pytest
 
-pytest.importorskip("bpy")
-import bpy
+bpy = pytest.importorskip("bpy")
 import numpy as np
 from body_moments.command.files import finite
 from body_moments.command.files.importers import import_mesh

@@ -8,8 +8,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-pytest.importorskip("bpy")
-import bpy
+bpy = pytest.importorskip("bpy")
 from body_moments.command.files.output import is_result
 from body_moments.core.shape.library import read_library
 

@@ -7,8 +7,7 @@ from argparse import ArgumentTypeError
 import numpy as np
 import pytest
 
-pytest.importorskip("bpy")
-import bpy
+bpy = pytest.importorskip("bpy")
 from body_moments.command.options.option_types import liquid
 from body_moments.core.measurement import FORMATS, to_html
 

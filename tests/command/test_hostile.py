@@ -17,8 +17,7 @@ import zipfile
 import numpy as np
 import pytest
 
-pytest.importorskip("bpy")
-import bpy
+bpy = pytest.importorskip("bpy")
 from body_moments.core.measurement.plain_text import visible
 
 from tests.blender import batch_files as files

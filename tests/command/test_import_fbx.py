@@ -8,8 +8,7 @@ The body is a box of 6 m3, centered at (0.5, 1, 1.5), in a file in centimeters w
 import numpy as np
 import pytest
 
-pytest.importorskip("bpy")
-import bpy
+bpy = pytest.importorskip("bpy")
 from mathutils import Matrix, Quaternion
 
 from tests.blender import batch_files as files

@@ -8,8 +8,7 @@ The body is a box of 6 m3, centered at (0.5, 1, 1.5), mapped by affine maps in c
 import numpy as np
 import pytest
 
-pytest.importorskip("bpy")
-import bpy
+bpy = pytest.importorskip("bpy")
 
 from tests.blender.batch_files import codes
 from tests.close import close

@@ -9,9 +9,8 @@ import math
 
 import pytest
 
-pytest.importorskip("bpy")
+bpy = pytest.importorskip("bpy")
 import bmesh
-import bpy
 from body_moments.core.verdict import finding
 from mathutils import Matrix
 

@@ -6,8 +6,7 @@ import os
 
 import pytest
 
-pytest.importorskip("bpy")
-import bpy
+bpy = pytest.importorskip("bpy")
 import numpy as np
 from body_moments.blender.read.findings import LINES_ONLY, NO_INSTANCES
 from body_moments.command.findings import NO_SHAPES, NOTHING_RENDERED

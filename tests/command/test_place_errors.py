@@ -8,8 +8,7 @@ from math import atan2, comb, cos, sin
 import numpy as np
 import pytest
 
-pytest.importorskip("bpy")
-import bpy
+bpy = pytest.importorskip("bpy")
 from mathutils import Matrix
 
 from tests.blender import batch_files as files

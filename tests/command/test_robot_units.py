@@ -9,8 +9,7 @@ import itertools
 import numpy as np
 import pytest
 
-pytest.importorskip("bpy")
-import bpy
+bpy = pytest.importorskip("bpy")
 
 from tests.blender.batch_files import add_box, document
 from tests.blender.characters import PARENTS, armature_of, skin_of

@@ -11,8 +11,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-pytest.importorskip("bpy")
-import bpy
+bpy = pytest.importorskip("bpy")
 import numpy as np
 from body_moments.command.measure.run import Run
 from body_moments.core.numerics.rotations import rotation_matrix

@@ -9,8 +9,7 @@ import sys
 
 import pytest
 
-pytest.importorskip("bpy")
-import bpy
+bpy = pytest.importorskip("bpy")
 import numpy as np
 from body_moments.command.findings import NEEDS_BLEND
 from body_moments.command.measure import measuring

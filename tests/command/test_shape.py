@@ -8,8 +8,7 @@ import os
 import numpy as np
 import pytest
 
-pytest.importorskip("bpy")
-import bpy
+bpy = pytest.importorskip("bpy")
 from body_moments.core.shape.library import read_library
 from body_moments.operators import batch
 

@@ -16,8 +16,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-pytest.importorskip("bpy")
-import bpy
+bpy = pytest.importorskip("bpy")
 from body_moments.command.supervisor import listing, processes
 
 from tests.blender import batch_files as files

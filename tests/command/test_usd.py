@@ -7,8 +7,7 @@ from math import pi
 import numpy as np
 import pytest
 
-pytest.importorskip("bpy")
-import bpy
+bpy = pytest.importorskip("bpy")
 
 from tests.blender.batch_files import codes, sentence
 from tests.close import close

@@ -16,8 +16,7 @@ from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.robots import Auditor, Inertial, Link, Pose, Robot, Shape, repaired_copy
 from body_moments.core.robots.plausibility import impossible
 from body_moments.core.robots.read.descriptions import Roots, read_description
-from body_moments.core.robots.write import mjcf, sdf, usd
-from body_moments.core.robots.write.stl import to_stl
+from body_moments.core.robots.write import mjcf, sdf, stl, usd
 from body_moments.core.robots.write.text import roll_pitch_yaw
 from body_moments.core.verdict import FileError, Severity, severity
 
@@ -54,7 +53,7 @@ def robot(folder, seed, links=3, placed=True):
         file = "meshes/link_{}_{}.stl".format(seed, index)
         pose = Pose(rng.uniform(-2.0, 2.0, 3), rotation(rng)) if placed else Pose()
         in_mesh = (points - pose.position) @ pose.rotation
-        (folder / file).write_bytes(to_stl(Surface.from_triangles(in_mesh, triangles)))
+        (folder / file).write_bytes(stl.to_stl(Surface.from_triangles(in_mesh, triangles)))
         density = rng.uniform(500.0, 8000.0)
         shape = Shape("mesh", file=file, pose=pose)
         result.append(
@@ -638,7 +637,7 @@ def test_unusable_size_is_finding_and_stops_the_comparison(tmp_path, name, numbe
     """The sphere alone cannot have this inertial, but nothing is judged by a part of the
     geometry.
     """
-    (tmp_path / "m.stl").write_bytes(to_stl(Surface.from_triangles(*box((0, 0, 0), (1, 1, 1)))))
+    (tmp_path / "m.stl").write_bytes(stl.to_stl(Surface.from_triangles(*box((0, 0, 0), (1, 1, 1)))))
     for shape in SHAPES[name]:
         if number == "-1" and "mesh" in shape:
             continue  # a mirror image

@@ -8,8 +8,7 @@ from math import inf
 
 import pytest
 
-pytest.importorskip("bpy")
-import bpy
+bpy = pytest.importorskip("bpy")
 import numpy as np
 from body_moments.blender.session.robots import bone_links, collection_links, object_links
 from mathutils import Matrix

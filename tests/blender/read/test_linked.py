@@ -6,8 +6,7 @@ named.
 
 import pytest
 
-pytest.importorskip("bpy")
-import bpy
+bpy = pytest.importorskip("bpy")
 
 from tests.blender.objects import add, mesh_body, only
 

@@ -8,10 +8,9 @@ import struct
 
 import pytest
 
-pytest.importorskip("bpy")
+bpy = pytest.importorskip("bpy")
 import contextlib
 
-import bpy
 import numpy as np
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.robots.read import xml

@@ -6,8 +6,7 @@ import json
 
 import pytest
 
-pytest.importorskip("bpy")
-import bpy
+bpy = pytest.importorskip("bpy")
 from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.write import properties
 from body_moments.core.verdict import EditRefusedError, finding

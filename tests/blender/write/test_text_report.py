@@ -6,8 +6,7 @@ import re
 
 import pytest
 
-pytest.importorskip("bpy")
-import bpy
+bpy = pytest.importorskip("bpy")
 from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.read.places import place_error
 from body_moments.blender.write import text_report
