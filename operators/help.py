@@ -17,6 +17,7 @@ class WM_OT_body_moments_manual(Operator):
     """Open the manual"""
 
     bl_label = "Body Moments Manual"
+    bl_options = {"REGISTER"}
 
     def execute(self, context: Context) -> set[str]:
         url = address("index.html")
