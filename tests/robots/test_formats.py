@@ -16,6 +16,7 @@ from body_moments.core.robots.write.texts import robot_text
 from pxr import UsdGeom, UsdPhysics
 from urdf_parser_py.urdf import URDF
 
+from tests.blender.robot_truth import fixed_angles
 from tests.robots import sdf_schema
 from tests.robots.links import bodies, near, rotation, shapes
 from tests.robots.stage import stage_of
@@ -37,16 +38,6 @@ def many():
     return bodies(500)
 
 
-def turned(roll, pitch, yaw):
-    """Rz(yaw) Ry(pitch) Rx(roll), as URDF has it."""
-    (cr, sr), (cp, sp), (cy, sy) = (
-        (math.cos(angle), math.sin(angle)) for angle in (roll, pitch, yaw)
-    )
-    about_x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
-    about_y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
-    return np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]]) @ about_y @ about_x
-
-
 def test_urdf_gives_its_consumer_each_link(many):
     found = URDF.from_xml_string(urdf.write(many).encode())
     for link in many.links:
@@ -62,8 +53,8 @@ def test_urdf_gives_its_consumer_each_link(many):
 @pytest.mark.parametrize("pitch", [0.3, math.pi / 2, -math.pi / 2, math.pi / 2 - 1e-9, 1.57079632])
 def test_angles_give_the_rotation_back_at_the_poles_too(pitch):
     for roll, yaw in ((0.0, 0.0), (2.0, -1.0), (-3.0, 3.0)):
-        turn = turned(roll, pitch, yaw)
-        assert np.abs(turned(*roll_pitch_yaw(turn)) - turn).max() < 1e-15
+        turn = fixed_angles(roll, pitch, yaw)
+        assert np.abs(fixed_angles(*roll_pitch_yaw(turn)) - turn).max() < 1e-15
 
 
 def test_mujoco_takes_all_bodies_and_gives_their_inertia(many):

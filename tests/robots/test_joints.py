@@ -34,6 +34,7 @@ from body_moments.core.robots.write.texts import check, robot_text
 from pxr import UsdPhysics, UsdValidation
 from urdf_parser_py.urdf import URDF
 
+from tests.blender.robot_truth import about
 from tests.robots import sdf_schema
 from tests.robots.consumers import summed
 from tests.robots.links import free_axes, inertial, rotation, shaped
@@ -41,13 +42,6 @@ from tests.robots.stage import stage_of
 
 KINDS = ("ball", "box", "sheared")
 ENTRIES = [0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]
-
-
-def rotation_about(axis, angle):
-    """Rodrigues' formula."""
-    x, y, z = axis
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross
 
 
 def assembly(seed, size=1.0):
@@ -97,7 +91,7 @@ def moved(robot, values):
             if free.kind == "translate":
                 step[:3, 3] = value * axis
             else:
-                step[:3, :3] = rotation_about(axis, value)
+                step[:3, :3] = about(axis, value)
                 step[:3, 3] = frame.position - step[:3, :3] @ frame.position
             total = total @ step
         maps[link.name] = total
@@ -137,7 +131,7 @@ def set_joints(model, data, robot, values):
         ):
             turn = np.eye(3)
             for free, value in zip(joint.free, values[joint.name]):
-                turn = turn @ rotation_about(joint.pose.rotation @ free.axis, value)
+                turn = turn @ about(joint.pose.rotation @ free.axis, value)
             mujoco.mju_mat2Quat(data.joint(joint.name).qpos, turn.ravel())
             continue
         names = ["{}_axis_{}", "{}_{}"]
