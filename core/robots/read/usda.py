@@ -131,8 +131,8 @@ class _Parser:
         self.index += 1
         return self.tokens[self.index - 1]
 
-    def balanced(self) -> tuple[int, int]:
-        """Skip a word, or a pair of brackets with its content; return its range in the text."""
+    def balanced(self) -> str:
+        """Return the next word, or pair of brackets with its content."""
         depth = 0
         start = self.tokens[self.index][1]
         while True:
@@ -142,7 +142,7 @@ class _Parser:
             elif token in ")]}":
                 depth -= 1
             if depth <= 0:
-                return start, position + len(token)
+                return self.text[start : position + len(token)]
 
     def prim(self, depth: int) -> Prim:
         self.count += 1
@@ -151,10 +151,7 @@ class _Parser:
         words = []
         while self.peek() not in ("(", "{", ""):
             words.append(self.take()[0])
-        metadata = ""
-        if self.peek() == "(":
-            start, end = self.balanced()
-            metadata = self.text[start:end]
+        metadata = self.balanced() if self.peek() == "(" else ""
         kind, name = (words[0], words[-1].strip("\"'")) if words else ("", "")
         _, opening = self.take()
         self.line = self.line + self.text.count("\n", self.counted, opening)
@@ -182,8 +179,7 @@ class _Parser:
                 self.take()
             return
         self.take()
-        start, end = self.balanced()
-        prim.values[words[-1] if words else ""] = self.text[start:end]
+        prim.values[words[-1] if words else ""] = self.balanced()
 
 
 def read(data: bytes) -> Description:
@@ -210,10 +206,7 @@ def _invalid(text: str, place: int) -> FileError:
 
 def _description(text: str, data: bytes) -> Description:
     parser = _Parser(text)
-    metadata = ""
-    if parser.peek() == "(":
-        start, end = parser.balanced()
-        metadata = text[start:end]
+    metadata = parser.balanced() if parser.peek() == "(" else ""
     roots = []
     while parser.index < len(parser.tokens):
         if parser.peek() not in _SPECIFIERS:
