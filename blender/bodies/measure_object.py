@@ -180,7 +180,7 @@ class _Collector:
         alone.
         """
         try:
-            rows = measure_members(self.members, self.surfaces) if self.members else []
+            rows = measure_members(self.members, self.surfaces)
         except Exception as error:
             internal_error.finding_of(error)
             rows = []

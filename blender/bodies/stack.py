@@ -27,7 +27,7 @@ from ...core.measurement import (
     find_large_bounds,
     fingerprint,
 )
-from ...core.numerics import Array, Index, NDArray, rotation_matrix
+from ...core.numerics import Array, Index, Mask, NDArray, rotation_matrix
 from ...core.solid import SmallSolid, SolidStack, measure_again
 from ...core.verdict import Finding, Method, Procedure
 from ..read.fingerprint import transform_key
@@ -132,6 +132,13 @@ def measure_members(members: list[Member], surfaces: list[mesh.Surface]) -> list
     """Return the measurements of the members with certain volume and mass, as one stack; all
     members have the same unit.
     """
+
+    def measure_some(usable: Mask) -> list[Measured]:
+        """Measure the usable members; the others are refused by themselves."""
+        return measure_members([members[i] for i in np.flatnonzero(usable)], surfaces)
+
+    if not members:
+        return []
     unit = members[0].settings.unit
     solids = measure_again(surfaces)
     own = solids.volume
@@ -140,11 +147,8 @@ def measure_members(members: list[Member], surfaces: list[mesh.Surface]) -> list
     usable = np.isfinite(matrices).all(axis=(1, 2))
     usable &= own.raw[which, 0] > own.rounding_error[which, 0]
     usable[usable] = ~moments.are_singular(matrices[usable, :3, :3])
-    members = _chosen(members, usable)
-    matrices = matrices[usable]
-    which = which[usable]
-    if not members:
-        return []
+    if not usable.all():
+        return measure_some(usable)
     matrices[:, :3] *= unit
     volume = moments.image(own.at(which), matrices)
     area = _areas(solids, which, matrices)
@@ -155,20 +159,11 @@ def measure_members(members: list[Member], surfaces: list[mesh.Surface]) -> list
     with np.errstate(divide="ignore", invalid="ignore"):
         density = np.where(from_mass, mass / volume.raw[:, 0], density)
     certain = inertia.has_certain_total(volume) & (density > 0.0) & (density < np.inf)
-    rows = np.flatnonzero(certain)
-    fixed = third_moment_frames(volume.at(rows))
-    if not fixed.is_body.all():  # the others are refused by themselves
-        rows = rows[fixed.is_body]
-        fixed = third_moment_frames(volume.at(rows))
-    if not len(rows):
-        return []
-    if len(rows) < len(members):  # the others are refused by themselves
-        members = _chosen(members, rows)
-        which = which[rows]
-        matrices = matrices[rows]
-        density = density[rows]
-        from_mass = from_mass[rows]
-        volume, area = volume.at(rows), area.at(rows)
+    if not certain.all():
+        return measure_some(certain)
+    fixed = third_moment_frames(volume)
+    if not fixed.is_body.all():
+        return measure_some(fixed.is_body)
     rotation = rotation_matrix([member.quaternion for member in members])
     properties = inertia.MassProperties.of_stack(volume, density, rotation, fixed)
     geometry = np.ascontiguousarray(np.concatenate([volume.raw, area.raw], axis=1))
@@ -206,10 +201,6 @@ def measure_members(members: list[Member], surfaces: list[mesh.Surface]) -> list
 def _findings(obj: bpy.types.Object, found: tuple[Finding, ...]) -> tuple[Finding, ...]:
     """Return the findings about an object, with its accepted ones marked."""
     return with_acceptance(found, accepted_codes(obj)) if found else ()
-
-
-def _chosen(members: list[Member], which: NDArray) -> list[Member]:
-    return [members[i] for i in (np.flatnonzero(which) if which.dtype == bool else which).tolist()]
 
 
 def _areas(solids: SolidStack, which: Index, matrices: NDArray) -> moments.Moments:

@@ -232,7 +232,7 @@ def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredObje
         except verdict.MeasureError as error:
             raise verdict.EditRefusedError(error.finding.of_sources([part.name_full])) from error
     measurements = [measured.measurement for measured in parts.values()]
-    if len(body) > 1:
+    if len(parts) > 1:
         moments = [measurement.mass_moments for measurement in measurements]
         whole = inertia.combine(moments, preferred_axes=measurements[0].rotation)
         unit = scale.meters_per_unit(context.scene)

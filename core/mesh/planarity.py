@@ -165,22 +165,11 @@ class PlanarityAccumulator:
 
 @dataclass(frozen=True, eq=False)
 class StackPlanarity:
-    """`Planarity` of each of n surfaces; (f,) the faces without area, and whether each surface has
-    such faces.
-    """
+    """`Planarity` of each of n surfaces, and whether it has faces without area."""
 
     non_planar_counts: Index
     volume_spread: Array
-    is_degenerate: Mask
     has_degenerate: Mask
-    face_stops: Index
-
-    def at(self, i: int) -> Planarity:
-        """Return the planarity of one surface."""
-        degenerate = np.flatnonzero(
-            self.is_degenerate[self.face_stops[i - 1] if i else 0 : self.face_stops[i]]
-        )
-        return Planarity(int(self.non_planar_counts[i]), float(self.volume_spread[i]), degenerate)
 
 
 def stack_planarity(stack: SurfaceStack) -> StackPlanarity:
@@ -229,9 +218,7 @@ def stack_planarity(stack: SurfaceStack) -> StackPlanarity:
     return StackPlanarity(
         np.add.reduceat(non_planar, first_face, dtype=np.intp),
         np.ldexp(total, 3 * exponent) / 6.0,
-        degenerate,
         np.logical_or.reduceat(degenerate, first_face),
-        np.cumsum(stack.face_counts),
     )
 
 

@@ -4,25 +4,23 @@
 
 from __future__ import annotations
 
+import html
 import math
+import re
 from contextlib import suppress
 from pathlib import Path
 from typing import Literal
-from xml.parsers import expat
 
 import numpy as np
 
 from ..files import (
     DAMAGE_CUT_SHORT,
     FILE_UNRECOGNIZED,
-    MALFORMED,
     Limits,
     damaged,
     parse_number,
     parse_whole,
-    parse_xml,
     wrong_field,
-    xml_parser,
 )
 from ..numerics import Array, rotation_matrix
 from ..verdict import FileError
@@ -65,6 +63,7 @@ _FIELDS = {
     "quatern": ((6,), "f4", 256, "f8", 352),
     "srow": ((3, 4), "f4", 280, "f8", 400),
 }
+_ATTRIBUTE = re.compile(r"""(\w+)=["']([^"']*)["']""")
 _SIZES = {348: 1, 540: 3}  # bytes of the header, and the place of its types in `_FIELDS`
 
 
@@ -110,34 +109,19 @@ def read_nifti(path: Path, limits: Limits) -> Scan:
 
 
 def _extension_labels(text: bytes, order: Literal["little", "big"]) -> dict[int, Label]:
-    """Return the labels of a table in the XML of one of a header's extensions."""
+    """Return the labels of a table in the XML of one of a header's extensions.
+
+    They are remarks, without effect on sums: a label that cannot be read is left out.
+    """
     labels: dict[int, Label] = {}
-    current: list = []
-
-    def begin(name: str, values: dict[str, str]) -> None:
-        if name == "Label":
-            color = read_color(parse_number(values[name]) for name in ("Red", "Green", "Blue"))
-            current[:] = [parse_whole(values["Key"]), color, ""]
-
-    def add(text: str) -> None:
-        if current:
-            current[2] += text
-
-    def end(name: str) -> None:
-        if name == "Label":
-            key, color, text = current
-            labels[key] = Label(text.strip(), color)
-            current.clear()
-
     while len(text) > 8 and (size := int.from_bytes(text[:4], order)) >= 8:
-        if b"<Label " in text[8:size]:
-            parser = xml_parser()
-            parser.StartElementHandler = begin
-            parser.CharacterDataHandler = add
-            parser.EndElementHandler = end
-            # a remark, without effect on sums
-            with suppress(*MALFORMED, expat.ExpatError, FileError):
-                parse_xml(parser, [text[8:size].rstrip(b"\0")])
+        for element in text[8:size].decode("utf-8", "replace").split("<Label ")[1:]:
+            head, _, content = element.partition(">")
+            values = dict(_ATTRIBUTE.findall(head))
+            name = content.partition("</Label>")[0].removeprefix("<![CDATA[").removesuffix("]]>")
+            with suppress(ValueError, KeyError):
+                color = read_color(parse_number(values[key]) for key in ("Red", "Green", "Blue"))
+                labels[parse_whole(values["Key"])] = Label(html.unescape(name).strip(), color)
         text = text[size:]
     return labels
 

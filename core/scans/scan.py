@@ -10,6 +10,7 @@ are used. Every fault of a file is a FileError that names the fault.
 from __future__ import annotations
 
 import bz2
+import gzip
 import math
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
@@ -27,7 +28,6 @@ from .labels import Label
 # Most bytes that one byte of a packed file can unpack to; bzip2 packs 900 kB of zeros in 39 bytes.
 MAX_RATIOS = {"gzip": 1032, "bzip2": 23_077}
 STREAMS = {"gzip": "gzip stream", "bzip2": "bzip2 stream"}
-PACKED = 1 << 16  # Packed bytes read at a time; the rest after each small member is copied.
 BLOCK = 1 << 18  # unpacked bytes at a time
 
 
@@ -144,40 +144,21 @@ def unpack_samples(
 def unpacked_blocks(path: Path, start: int, packing: str) -> Iterator[bytes]:
     """Yield the unpacked data from byte `start` of a file on, in blocks of at most BLOCK bytes.
 
-    The libraries compare the checksum of each member. Zero bytes behind a member are padding;
-    anything else there, which the gzip tool ignores with a warning, is damage: it may have been a
-    member of samples.
+    The libraries compare the checksum of each member. Zero bytes behind a member of gzip are
+    padding; anything else there is damage: it may have been a member of samples. Behind those of
+    bzip2, it is ignored.
     """
     with open(path, "rb") as file:
         file.seek(start)
-        waiting = file.read(PACKED)
-        first = True
-        while waiting or first:
-            # zlib: with the head and the checksums of gzip
-            member = (
-                bz2.BZ2Decompressor()
-                if packing == "bzip2"
-                else zlib.decompressobj(zlib.MAX_WBITS | 16)
-            )
-            while not member.eof:
-                try:
-                    block = member.decompress(waiting, BLOCK)
-                except (zlib.error, OSError) as error:
-                    reason = str(error).rpartition(": ")[2]
-                    raise damaged(
-                        path, DAMAGE_INCOMPLETE, kind=STREAMS[packing], error=reason
-                    ) from error
-                is_hungry = getattr(member, "needs_input", True)
-                if is_hungry and not (block or waiting or member.eof):
-                    raise damaged(path, DAMAGE_CUT_SHORT, part="compressed part")
+        members = bz2.BZ2File(file) if packing == "bzip2" else gzip.GzipFile(fileobj=file)
+        try:
+            while block := members.read(BLOCK):
                 yield block
-                waiting = member.unused_data or getattr(member, "unconsumed_tail", b"")
-                if is_hungry and not (waiting or member.eof):
-                    waiting = file.read(PACKED)
-            first = False
-            waiting = waiting.lstrip(b"\0")
-            while not waiting and (more := file.read(PACKED)):
-                waiting = more.lstrip(b"\0")
+        except EOFError as error:
+            raise damaged(path, DAMAGE_CUT_SHORT, part="compressed part") from error
+        except (zlib.error, OSError) as error:
+            reason = str(error).rpartition(": ")[2]
+            raise damaged(path, DAMAGE_INCOMPLETE, kind=STREAMS[packing], error=reason) from error
 
 
 def parse_samples(

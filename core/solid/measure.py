@@ -123,21 +123,17 @@ def measure_stack(
     fits = SurfaceStack.takes(surfaces, 0 if shell else MAX_SMALL_TRIANGLES)
     counts = np.array([surface.triangle_count for surface in surfaces]) * fits
     which = np.flatnonzero(fits & (np.cumsum(counts) <= MAX_STACKED_TRIANGLES)).tolist()
-    rows = {}
+    solids: dict[int, SolidIntegrals | Finding] = {}
     if which:
         small = measure_small([surfaces[i] for i in which])
-        rows = {i: SmallSolid(small, row, surfaces[i]) for row, i in enumerate(which)}
-    solids: list[SolidIntegrals | Finding] = []
-    for i, surface in enumerate(surfaces):
-        row = rows.get(i)
-        if row is not None and row.is_measured:
-            solids.append(row)
-            continue
+        measured = np.flatnonzero(small.is_measured).tolist()
+        solids = {which[row]: SmallSolid(small, row, surfaces[which[row]]) for row in measured}
+    for i in set(range(len(surfaces))).difference(solids):
         try:
-            solids.append(measure_alone(surface, row and row.given(), shell, threads))
+            solids[i] = measure_alone(surfaces[i], shell, threads)
         except MeasureError as refusal:
-            solids.append(refusal.finding)
-    return SolidStack(surfaces, solids)
+            solids[i] = refusal.finding
+    return SolidStack(surfaces, [solids[i] for i in range(len(surfaces))])
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,14 +170,18 @@ class SolidStack:
         )
 
 
-def measure_alone(
-    surface: Surface, given: GivenIntegrals | None = None, shell: bool = False, threads: int = 1
-) -> SolidIntegrals:
-    """Measure a surface by itself, from integrals over its faces if `given`."""
+def measure_alone(surface: Surface, shell: bool = False, threads: int = 1) -> SolidIntegrals:
+    """Measure a surface by itself."""
     checked = check_surface(surface)
-    return _measure_given(
-        checked, given or integrate_and_prove(checked, shell, threads), shell, threads
-    )
+    given = integrate_and_prove(checked, shell, threads)
+    mesh = given.proven or repair_surface(checked.surface, checked.tolerance)
+    solid = _measure_repaired(checked, given, mesh, shell, threads)
+    moved = mesh.max_displacement * solid.area.total
+    if moved and moved > MAX_WELDED_SHARE * abs(solid.oriented.volume.total):
+        mesh = repair_surface(checked.surface, checked.tolerance, weld_near=False)
+        unwelded = _measure_repaired(checked, given, mesh, shell, threads)
+        return solid if unwelded.method is Procedure.OPEN else unwelded
+    return solid
 
 
 @dataclass(frozen=True)
@@ -204,19 +204,6 @@ def measure_again(surfaces: Sequence[Surface], threads: int = 1) -> SolidStack:
         return measure_stack(surfaces, threads=threads)
     content = tuple([surface.content for surface in surfaces])
     return _measure_known(_Known(content, surfaces, threads))
-
-
-def _measure_given(
-    checked: CheckedSurface, given: GivenIntegrals, shell: bool, threads: int
-) -> SolidIntegrals:
-    mesh = given.proven or repair_surface(checked.surface, checked.tolerance)
-    solid = _measure_repaired(checked, given, mesh, shell, threads)
-    moved = mesh.max_displacement * solid.area.total
-    if moved and moved > MAX_WELDED_SHARE * abs(solid.oriented.volume.total):
-        mesh = repair_surface(checked.surface, checked.tolerance, weld_near=False)
-        unwelded = _measure_repaired(checked, given, mesh, shell, threads)
-        return solid if unwelded.method is Procedure.OPEN else unwelded
-    return solid
 
 
 def _measure_repaired(

@@ -222,7 +222,12 @@ def judge(
         findings.append(finding(SELF_INTERSECTING))
     elif intersection is not None and procedure is not Procedure.OPEN:
         findings += _intersection_findings(intersection, volume.total)
-    findings += shape_findings(oriented.is_solid, given.planarity, volume)
+    flat = given.planarity
+    findings += (
+        planarity_findings(flat.non_planar_count, flat.volume_spread, volume.total)
+        if oriented.is_solid
+        else [finding(FLAT_SURFACE)]
+    )
     state = Intersection.NOT_CHECKED if intersection is None else intersection.state
     health = _health(checked, given.planarity, oriented, flipped, len(inverted), cap_share, state)
     return SolidIntegrals(
@@ -377,15 +382,10 @@ def _intersection_findings(intersection: SelfIntersection, volume: float) -> lis
     )
 
 
-def shape_findings(is_solid: bool, planarity: Planarity, volume: Moments) -> list[Finding]:
-    """Return findings about a surface without volume, and about faces with diagonals that make a
-    difference.
-    """
-    if not is_solid:
-        return [finding(FLAT_SURFACE)]
-    total = volume.total
-    if not planarity.volume_spread > MIN_REPORTED_AMBIGUITY * total > 0.0:
+def planarity_findings(count: int, spread: float, volume: float) -> list[Finding]:
+    """Return findings about faces with diagonals that make a difference. count: of these faces."""
+    if not spread > MIN_REPORTED_AMBIGUITY * volume > 0.0:
         return []
-    share = float(planarity.volume_spread / total)
-    is_smooth = planarity.non_planar_count >= SMOOTH_FACES and share < SMOOTH_SHARE
+    share = float(spread / volume)
+    is_smooth = count >= SMOOTH_FACES and share < SMOOTH_SHARE
     return [finding(NON_PLANAR_FACES, slight=is_smooth or share < NEGLIGIBLE, share=share)]

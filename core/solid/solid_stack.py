@@ -43,11 +43,10 @@ from ..verdict import (
     Procedure,
 )
 from .boundary_loops import OwnedLoops, has_distinct_vertices, side_ends
-from .closedness import GivenIntegrals, prove_closed
 from .orientation import OrientedSolid, zero_volume
 from .repaired_mesh import RepairedMesh
 from .self_intersection import MAX_UNSURE_LINES, SUM_ROUNDING, along_ray, find_cones, measure_excess
-from .solid_method import SolidIntegrals, cap_finding, shape_findings
+from .solid_method import SolidIntegrals, cap_finding, planarity_findings
 
 MAX_COMPONENTS = 16  # Limit for one body: all pairs are compared.
 # times the volume that counts as none: bodies with smaller components are measured one by one
@@ -58,14 +57,12 @@ CLEAR_VOLUME = 4.0
 class SmallSolids:
     """The bodies of n small surfaces, meaningless unless measured.
 
-    `is_measured`: (n,) surfaces closed as they are or by caps; `is_integrated`: (n,) surfaces whose
-    integrals hold for the faces as given, at least. `volume`, `area`: to order 3 and 0, about each
-    body's own point; area without caps. `size`: (n,) diagonal of the bounding box. `intersection`:
-    (n,) objects of type Intersection.
+    `is_measured`: (n,) surfaces closed as they are or by caps. `volume`, `area`: to order 3 and 0,
+    about each body's own point; area without caps. `size`: (n,) diagonal of the bounding box.
+    `intersection`: (n,) objects of type Intersection.
     """
 
     is_measured: Mask
-    is_integrated: Mask
     volume: Moments
     area: Moments
     size: Array
@@ -95,19 +92,6 @@ class SmallSolid(SolidIntegrals):
         value = self.__dict__[name] = getattr(self, "_" + name)()
         return value
 
-    @property
-    def is_measured(self) -> bool:
-        return bool(self.stack.is_measured[self.i])
-
-    def given(self) -> GivenIntegrals | None:
-        """Return the integrals over the faces of a surface that is not measured, or None if they do
-        not hold.
-        """
-        if not self.stack.is_integrated[self.i]:
-            return None
-        flat = self.stack.planarity.at(self.i)
-        return GivenIntegrals(self.volume, self.area, flat, prove_closed(self.given_surface))
-
     def _method(self) -> Procedure:
         return Procedure.CAPPED if self.stack.caps.is_capped[self.i] else Procedure.EXACT
 
@@ -135,9 +119,8 @@ class SmallSolid(SolidIntegrals):
             found.append(
                 cap_finding(edges, caps.counts[self.i], self._cap_share, size, self.volume.total)
             )
-        if flat.volume_spread[self.i]:
-            found += shape_findings(True, flat.at(self.i), self.volume)
-        return tuple(found)
+        count, spread = flat.non_planar_counts[self.i], flat.volume_spread[self.i]
+        return *found, *planarity_findings(int(count), float(spread), self.volume.total)
 
     def _oriented(self) -> OrientedSolid:
         mesh = self.stack.caps.mesh(self.i, self.given_surface, self.health)
@@ -173,10 +156,10 @@ def measure_small(surfaces: Sequence[Surface]) -> SmallSolids:
     links = stack.connections()
     size = np.sqrt(np.add.reduce((high - low) ** 2, axis=1))
     farthest = reach.max(axis=1)
-    is_integrated = stack.uses_all_points()
+    usable = stack.uses_all_points() & ~planarity.has_degenerate
     # float32: none too large
-    is_integrated &= (farthest > 1.0 / MAX_UNSCALED_REACH) & (farthest < MAX_UNSCALED_REACH)
-    usable = is_integrated & (links.component_counts <= MAX_COMPONENTS) & ~planarity.has_degenerate
+    usable &= (farthest > 1.0 / MAX_UNSCALED_REACH) & (farthest < MAX_UNSCALED_REACH)
+    usable &= links.component_counts <= MAX_COMPONENTS
     error = np.sqrt(np.add.reduce(stack.coordinate_error**2, axis=1))
     tolerance = np.maximum(WELDING_RTOL * size, 4.0 * error)
     none = np.zeros(len(stack), np.intp)
@@ -225,7 +208,6 @@ def measure_small(surfaces: Sequence[Surface]) -> SmallSolids:
         is_measured[rows] = intersection[rows] == Intersection.NOT_FOUND
     return SmallSolids(
         is_measured,
-        is_integrated & ~capped,
         volume,
         area,
         size,

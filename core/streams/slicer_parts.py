@@ -44,6 +44,7 @@ _NAMES = {
     "bottom_least": ("bottom_solid_min_thickness", "bottom_shell_thickness"),
     "vase": ("spiral_vase", "spiral_mode"),
 }
+_ELEMENTS = "object", "volume", "part"
 _VASE = {"walls": 1.0, "top": 0.0, "infill": 0.0}
 LEAST_LAYER = 1e-6  # a smaller share of a layer is rounding
 USUAL_LINE = 0.45  # mm, where the width is left to the slicer
@@ -90,25 +91,22 @@ class SlicerProject:
         return project
 
     def _read_parts(self, text: bytes) -> None:
-        above: list[dict[str, str]] = []  # the element of the object, and of its part
-        settings: list[dict[str, str]] = []
+        stack: list[tuple[dict[str, str], dict[str, str]]] = []  # of elements and their settings
 
         def start(tag: str, values: dict[str, str]) -> None:
-            if tag in ("object", "volume", "part"):
-                above.append(values | {"tag": tag})
-                settings.append({})
-            elif tag == "metadata" and settings and "key" in values:
-                settings[-1][values["key"]] = values.get("value", "")
+            if tag in _ELEMENTS:
+                stack.append((values, {}))
+            elif tag == "metadata" and stack and "key" in values:
+                stack[-1][1][values["key"]] = values.get("value", "")
 
         def end(tag: str) -> None:
-            if tag not in ("object", "volume", "part"):
+            if tag not in _ELEMENTS:
                 return
-            values = above.pop()
-            own = settings.pop()
+            values, own = stack.pop()
             if tag == "object":
                 self.objects[values["id"]] = own
                 return
-            parent = above[0]["id"]
+            parent = stack[0][0]["id"]
             kind = own.get("volume_type", values.get("subtype", "")).lower()
             if own.get("modifier") == "1":
                 kind = "parametermodifier"

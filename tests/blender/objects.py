@@ -16,30 +16,41 @@ POINTS = ((0, 0, 0), (3, 0, 0), (3.5, 1, 0), (1, 1, 0), (1, 2.5, 0), (0, 2, 0))
 HEIGHT = 0.7
 
 
+def mesh_of(points, faces, name="Mesh"):
+    """A mesh of these points and faces."""
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(np.asarray(points).tolist(), [], faces)
+    return mesh
+
+
 def mesh_body(name="Body", points=POINTS, height=HEIGHT):
     """A mesh: the polygon as a prism."""
     n = len(points)
     vertices = [*points, *((x, y, height) for x, y, _ in points)]
     faces = [tuple(range(n))[::-1], tuple(range(n, 2 * n))]
     faces += [(i, (i + 1) % n, n + (i + 1) % n, n + i) for i in range(n)]
-    mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata(vertices, [], faces)
-    mesh.update()
-    return mesh
+    return mesh_of(vertices, faces, name)
 
 
 def strip_mesh(name="Strip"):
     """A mesh that cannot be closed: a Möbius strip."""
     points, triangles = moebius()
-    mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata(points.tolist(), [], triangles.tolist())
-    return mesh
+    return mesh_of(points, triangles.tolist(), name)
 
 
-def add(data, name="Body", location=(0, 0, 0), rotation=(0, 0, 0), scale=(1, 1, 1), select=True):
+def add(
+    data,
+    name="Body",
+    location=(0, 0, 0),
+    rotation=(0, 0, 0),
+    scale=(1, 1, 1),
+    select=True,
+    parent=None,
+):
     """An object in the scene, selected and active."""
     obj = bpy.data.objects.new(name, data)
     bpy.context.scene.collection.objects.link(obj)
+    obj.parent = parent
     obj.location, obj.rotation_euler, obj.scale = location, rotation, scale
     bpy.context.view_layer.update()
     if select:
@@ -47,6 +58,13 @@ def add(data, name="Body", location=(0, 0, 0), rotation=(0, 0, 0), scale=(1, 1, 
         obj.select_set(True)
         bpy.context.view_layer.objects.active = obj
     return obj
+
+
+def dent(obj, by):
+    """Move the first vertex of a mesh along x."""
+    obj.data.vertices[0].co.x += by
+    obj.data.update()
+    bpy.context.view_layer.update()
 
 
 def after(step):
@@ -77,6 +95,12 @@ def only(*objects):
     for obj in objects:
         obj.select_set(True)
     bpy.context.view_layer.objects.active = objects[0]
+
+
+def measure(*objects):
+    """Measure these, and store the results."""
+    only(*objects)
+    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
 
 
 def seen(obj):

@@ -6,28 +6,27 @@ from dataclasses import fields, replace
 
 import numpy as np
 import pytest
-from body_moments.core.measurement import DENSITY_FROM_MASS
-from body_moments.core.measurement.measurement import Measurement
+from body_moments.core import measurement, polyhedron, verdict
 from body_moments.core.moments.moments import Measure, Moments
-from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.verdict import finding
 
 from tests.core import bodies
 
-VOLUME, AREA = polyhedron_moments(
+VOLUME, AREA = polyhedron.polyhedron_moments(
     bodies.surface(bodies.moved(bodies.box(), np.diag([1.0, 2.0, 3.0]))), 5, area_order=4
 )
 
 
 def measured(**changes):
     """A body with `mass_moments` known to third order, others to higher orders."""
-    nothing = dict.fromkeys(field.name for field in fields(Measurement))
+    nothing = dict.fromkeys(field.name for field in fields(measurement.Measurement))
     known = {
         "mass_moments": (VOLUME.truncate(3), 7.0),
         "volume_moments": VOLUME,
         "area_moments": AREA,
     }
-    return Measurement(**{**nothing, "density_from": DENSITY_FROM_MASS, **known, **changes})
+    return measurement.Measurement(
+        **{**nothing, "density_from": measurement.DENSITY_FROM_MASS, **known, **changes}
+    )
 
 
 @pytest.mark.parametrize("order", [0, 2, 3, 4, 5])
@@ -45,7 +44,7 @@ def test_shell_uses_area_moments():
 
 def test_varying_density_uses_its_own_moments():
     own = replace(VOLUME, measure=Measure.MASS) * 3.0
-    body = measured(density_from=finding("density_from_polynomial"), higher_mass=own)
+    body = measured(density_from=verdict.finding("density_from_polynomial"), higher_mass=own)
     assert np.array_equal(body.moments_of_mass(4).raw, own.truncate(4).raw)
     assert np.array_equal(body.moments_of_mass(3).raw, 7.0 * VOLUME.truncate(3).raw)
 
@@ -53,7 +52,7 @@ def test_varying_density_uses_its_own_moments():
 @pytest.mark.parametrize(
     "changes",
     [
-        {"density_from": finding("density_from_polynomial")},
+        {"density_from": verdict.finding("density_from_polynomial")},
         {"length": 2.0},
         {"volume_moments": VOLUME.truncate(3)},
     ],

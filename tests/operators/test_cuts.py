@@ -13,7 +13,7 @@ from body_moments.core.verdict import sentence
 from mathutils import Vector
 
 from tests.blender.batch_files import document
-from tests.blender.objects import add, editing
+from tests.blender.objects import add, editing, mesh_of
 
 pytestmark = pytest.mark.usefixtures("scene")
 LEVEL = bpy.ops.object.body_moments_level
@@ -23,10 +23,12 @@ CUT_FILL = bpy.ops.object.body_moments_cut_fill
 def add_trough(scale=1.0):
     """An open box of 2 x 1 x 1, of one surface."""
     corners = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (2, 0), (2, 1), (0, 1))]
-    mesh = bpy.data.meshes.new("Trough")
     sides = [(i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i) for i in range(4)]
-    mesh.from_pydata((np.array(corners) * scale).tolist(), [], [(3, 2, 1, 0), *sides])
-    return add(mesh, "Trough", location=(0, 0, 3))
+    return add(
+        mesh_of(np.array(corners) * scale, [(3, 2, 1, 0), *sides], "Trough"),
+        "Trough",
+        location=(0, 0, 3),
+    )
 
 
 def level_of(obj):
@@ -172,9 +174,15 @@ def test_liquid_that_does_not_fit_is_refused(arguments, message):
     [((0, 0, 0), (0, 1, 1)), ((np.pi / 2, 0, 0), (1, 1, 1)), ((0.3, np.pi / 2, 0), (1, 1, 0))],
 )
 def test_plane_upright_or_of_no_scale_is_refused(data, rotation, scale):
-    mesh = bpy.data.meshes.new("Plane")
-    mesh.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
-    add(mesh if data == "PLANE" else None, "Other", (0, 0, 1), rotation, scale)
+    add(
+        mesh_of([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)], "Plane")
+        if data == "PLANE"
+        else None,
+        "Other",
+        (0, 0, 1),
+        rotation,
+        scale,
+    )
     slope = add_slope()
     assert CUT_FILL(against="OBJECT", other="Other") == {"CANCELLED"}
     assert "Slope: No cut and fill: " in refusal()
@@ -192,9 +200,9 @@ def test_empty_of_any_scale_is_its_plane():
 
 def add_slope():
     """A slope of z = 2 x over the unit square."""
-    mesh = bpy.data.meshes.new("Slope")
-    mesh.from_pydata([(0, 0, 0), (1, 0, 2), (1, 1, 2), (0, 1, 0)], [], [(0, 1, 2, 3)])
-    return add(mesh, "Slope")
+    return add(
+        mesh_of([(0, 0, 0), (1, 0, 2), (1, 1, 2), (0, 1, 0)], [(0, 1, 2, 3)], "Slope"), "Slope"
+    )
 
 
 def add_mug():
@@ -207,9 +215,7 @@ def add_mug():
     faces += [(4 + i, 4 + (i + 1) % 4, 12 + (i + 1) % 4, 12 + i) for i in range(4)]
     handle = [(0.4 + 0.2 * x, 0.95 + 0.5 * y, 0.4 + 0.2 * z) for x, y, z in outer]
     faces += [tuple(16 + i for i in face) for face in [(3, 2, 1, 0), (4, 5, 6, 7), *sides]]
-    mesh = bpy.data.meshes.new("Mug")
-    mesh.from_pydata([*outer, *inner, *handle], [], faces)
-    return add(mesh, "Mug")
+    return add(mesh_of([*outer, *inner, *handle], faces, "Mug"), "Mug")
 
 
 def test_mug_with_a_handle_holds_liquid_as_a_union():
@@ -247,7 +253,7 @@ def test_vessel_with_real_walls_holds_liquid_within_them(wall):
 def test_cut_and_fill_of_a_slope():
     slope = add_slope()
     assert CUT_FILL(against="HEIGHT", height=1.0) == {"FINISHED"}
-    found = stored.cuts.cut_fill_of(slope, bpy.context.scene).found
+    found = memory.cut_fills[slope].found
     assert (found.cut.total, found.fill.total) == pytest.approx((0.25, 0.25))
     assert CUT_FILL(against="RIM") == {"FINISHED"}
     assert memory.cut_fills[slope].found.net == pytest.approx(0.0, abs=1e-12)

@@ -68,8 +68,7 @@ def test_turned_body_shows_its_righting_arm(scene):
     assert np.linalg.norm(found.state.slope) == pytest.approx(arm, rel=1e-5)
     scene.body_moments_liquid.density = 800.0
     assert held(obj).state.displacement == pytest.approx(7.5, rel=1e-6)
-    obj.data.vertices[0].co.x -= 1.0
-    obj.data.update()
+    objects.dent(obj, -1.0)
     assert held(obj) is None
 
 
@@ -190,9 +189,7 @@ def test_float_keeps_rests_and_curve_until_the_shape_changes(scene):
     assert obj.matrix_world.col[2].z == pytest.approx(-1.0, abs=BLENDER)
     there = held(obj).afloat
     assert len(there.rests) == 2 and there.curve is None  # it was of the other position
-    obj.data.vertices[0].co.x -= 1.0
-    obj.data.update()
-    bpy.context.view_layer.update()
+    objects.dent(obj, -1.0)
     bpy.ops.object.body_moments_float()
     assert not held(obj).afloat.rests
 
@@ -225,9 +222,10 @@ def test_boat_on_its_side_floats_dry_in_upright_position(scene):
         for low in (0, 4, 8)
         for i in range(4)
     ]
-    mesh = bpy.data.meshes.new("Boat")
-    mesh.from_pydata(points, [], [(3, 2, 1, 0), (12, 13, 14, 15), *quads])
-    boat = objects.add(mesh, rotation=(1.6, 0.0, 0.0))
+    boat = objects.add(
+        objects.mesh_of(points, [(3, 2, 1, 0), (12, 13, 14, 15), *quads], "Boat"),
+        rotation=(1.6, 0.0, 0.0),
+    )
     boat.body_moments.density = 900.0
     bpy.ops.object.body_moments_float_positions()
     draughts = [rest.draught for rest in held(boat).afloat.rests]

@@ -37,9 +37,8 @@ def leaning(scene):
     points = [(x, y, z) for y in (0, 20) for x, z in outline]
     count = len(outline)
     sides = [(i, (i + 1) % count, count + (i + 1) % count, count + i) for i in range(count)]
-    mesh = bpy.data.meshes.new("Hook")
     ends = [tuple(reversed(range(count))), tuple(range(count, 2 * count))]
-    mesh.from_pydata(points, [], [tuple(reversed(side)) for side in sides + ends])
+    mesh = objects.mesh_of(points, [tuple(reversed(side)) for side in sides + ends], "Hook")
     mesh.validate()
     obj = objects.add(mesh)
     settings = obj.body_moments

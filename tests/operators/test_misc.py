@@ -11,7 +11,7 @@ from body_moments.core.density.materials import BY_NAME
 from body_moments.core.numerics.float32 import shortest_decimal
 
 from tests.blender.boxes import box_mesh
-from tests.blender.objects import add, editing, measured, mesh_body, only, place
+from tests.blender.objects import add, editing, measure, measured, mesh_body, mesh_of, only, place
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -23,8 +23,7 @@ def body_keys(obj):
 
 def test_clear_removes_all_results_of_the_selected_objects_only():
     one, other = add(mesh_body(), "One"), add(mesh_body(), "Other")
-    only(one, other)
-    bpy.ops.object.body_moments_measure()
+    measure(one, other)
     one["mine"] = 5
     only(one)
     assert bpy.ops.object.body_moments_clear() == {"FINISHED"}
@@ -170,8 +169,7 @@ def test_defects_that_are_hidden_are_shown(face, kinds):
         mesh.polygons[2].flip()
     else:
         corners = [tuple(polygon.vertices) for polygon in mesh.polygons][:-1]
-        mesh = bpy.data.meshes.new("Open")
-        mesh.from_pydata([vertex.co for vertex in box_mesh(1, 2, 4).vertices], [], corners)
+        mesh = mesh_of([vertex.co for vertex in box_mesh(1, 2, 4).vertices], corners, "Open")
     obj = add(mesh)
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.mesh.select_all(action="SELECT")

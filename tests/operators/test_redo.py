@@ -8,7 +8,7 @@ from body_moments.blender.session.tracking import staleness
 from body_moments.blender.session.tracking.stamps import Kind, Stale
 from body_moments.blender.write import section
 
-from tests.blender.objects import add, after, mesh_body
+from tests.blender.objects import add, after, dent, mesh_body
 from tests.close import close
 from tests.operators.overlapping_boxes import boxes
 
@@ -56,8 +56,7 @@ def test_edit_before_clearing_makes_symmetry_stale():
     obj = add(mesh_body())
     bpy.ops.object.body_moments_measure()
     bpy.ops.object.body_moments_find_symmetry()
-    obj.data.vertices[0].co.x += 0.5
-    obj.data.update()
+    dent(obj, 0.5)
     assert bpy.ops.object.body_moments_clear(kinds={"MASS"}) == {"FINISHED"}
     bpy.context.view_layer.update()
     assert staleness.stale_reason(obj, bpy.context.scene, Kind.SYMMETRY) == Stale.GEOMETRY
@@ -67,8 +66,7 @@ def test_undo_of_clearing_stale_results_keeps_them_stale():
     obj = add(mesh_body())
     bpy.ops.object.body_moments_measure()
     bpy.ops.ed.undo_push(message="measured")
-    obj.data.vertices[0].co.x += 0.5
-    obj.data.update()
+    dent(obj, 0.5)
     bpy.ops.ed.undo_push(message="edited")
     assert bpy.ops.object.body_moments_clear("EXEC_DEFAULT", True) == {"FINISHED"}
     obj = after(bpy.ops.ed.undo)

@@ -8,7 +8,7 @@ import bpy
 import pytest
 
 from tests.blender.boxes import box_mesh
-from tests.blender.objects import add, mesh_body, only, strip_mesh
+from tests.blender.objects import add, measure, mesh_body, only, strip_mesh
 from tests.operators.assemblies import assembly_of_boxes, linked_assembly
 from tests.operators.characters import character
 from tests.operators.overlapping_boxes import boxes
@@ -29,8 +29,7 @@ def parts():
     body.body_moments.density = 500.0
     group = body.vertex_groups.new(name="Group")
     group.add([6, 7, 8], 0.5, "REPLACE")
-    only(body, other, nested)
-    bpy.ops.object.body_moments_measure()
+    measure(body, other, nested)
     only(body, other)
 
 

@@ -55,9 +55,11 @@ def test_balance_beside_tips_over_makes_it_stand(scene):
     points = [(x + 0.275 * layer, y, 0.5 * layer) for layer in range(5) for x, y in corners]
     sides = [(i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i) for i in range(4)]
     sides = [tuple(4 * layer + corner for corner in side) for layer in range(4) for side in sides]
-    tower = bpy.data.meshes.new("Tower")
-    tower.from_pydata(points, [], [(3, 2, 1, 0), (16, 17, 18, 19), *sides])
-    obj = objects.add(tower, location=(3.0, -2.0, 1.0), rotation=(0.0, 0.0, 0.4))
+    obj = objects.add(
+        objects.mesh_of(points, [(3, 2, 1, 0), (16, 17, 18, 19), *sides], "Tower"),
+        location=(3.0, -2.0, 1.0),
+        rotation=(0.0, 0.0, 0.4),
+    )
     obj.vertex_groups.new(name="Above").add(list(range(4, 20)), 1.0, "REPLACE")
     bpy.ops.object.body_moments_stability()
     assert not support(obj).stands
@@ -190,8 +192,9 @@ def test_object_rests_on_chosen_ground(scene, ground, level):
 
 def test_a_mirrored_sheared_child_is_laid_too(scene):
     parent = objects.add(None, "Parent", rotation=(0.3, 0.2, 0.1), scale=(2.0, 2.0, 2.0))
-    obj = objects.add(objects.mesh_body(), rotation=(1.0, 0.4, 2.0), scale=(-1.0, 1.5, 1.0))
-    obj.parent = parent
+    obj = objects.add(
+        objects.mesh_body(), rotation=(1.0, 0.4, 2.0), scale=(-1.0, 1.5, 1.0), parent=parent
+    )
     bpy.context.view_layer.update()
     objects.only(obj)
     assert bpy.ops.object.body_moments_rest_on_ground(pose=1) == {"FINISHED"}

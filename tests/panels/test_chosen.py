@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import pytest
 
-from tests.blender.objects import add, mesh_body, only
+from tests.blender.objects import add, measure, mesh_body, only
 from tests.panels.drawing import labels, shown
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -84,8 +84,7 @@ def test_setting_of_selection_leaves_unselected_active(mixed, name, value):
 
 def test_set_material_changes_selected_objects_alone(mixed):
     *selected, active = mixed
-    empty = bpy.data.objects.new("Point", None)
-    bpy.context.scene.collection.objects.link(empty)
+    empty = add(None, "Point", select=False)
     empty.body_moments.mass_from = "MASS"
     empty.select_set(True)
     before = set_of(active)
@@ -105,8 +104,7 @@ def test_setting_of_one_object_by_script_leaves_the_others(mixed):
 
 def test_total_without_some_numbers_is_incomplete(mixed):
     first, second, _ = mixed
-    only(first)
-    bpy.ops.object.body_moments_measure()
+    measure(first)
     only(first, second)
     bpy.context.view_layer.update()
     assert {"2 Objects", "Incomplete"} <= {*labels(shown())}
@@ -141,14 +139,11 @@ def test_density_that_nobody_set_stands_beside_mass(mixed):
     first, second, _ = mixed
     first.body_moments.property_unset("density")
     second.body_moments.kind = first.body_moments.kind = "SOLID"
-    only(first)
-    bpy.ops.object.body_moments_measure()
+    measure(first)
     assert "at 1000 kg/m³, not set" in labels(shown())
-    only(first, second)
-    bpy.ops.object.body_moments_measure()
+    measure(first, second)
     assert any("not set: 1 of 2" in label for label in labels(shown()))
-    only(second)
-    bpy.ops.object.body_moments_measure()
+    measure(second)
     assert "at 2700 kg/m³" in labels(shown())
     only(first)
     bpy.ops.object.body_moments_clear()
@@ -174,8 +169,7 @@ def test_copy_left_in_place_is_a_warning_with_select():
     linked, other = bpy.data.objects.new("Linked", body.data), add(mesh_body(), "Other", (9, 0, 0))
     bpy.context.scene.collection.objects.link(linked)
     copied = add(body.data.copy(), "Copied")
-    only(body, linked, copied, other)
-    bpy.ops.object.body_moments_measure()
+    measure(body, linked, copied, other)
     assert "Copies at an equal place count again" in " ".join(labels(shown()))
     bpy.ops.object.body_moments_select_refused(code="total_copies_in_place")
     assert sorted(obj.name for obj in bpy.context.selected_objects) == ["Copied", "Linked"]
@@ -191,8 +185,7 @@ def test_copy_left_in_place_is_a_warning_with_select():
 
 def test_overlap_is_a_note_until_an_object_moves():
     first, second = add(mesh_body(), "First"), add(mesh_body(), "Second", (0.5, 0.1, 0.2))
-    only(first, second)
-    bpy.ops.object.body_moments_measure()
+    measure(first, second)
     assert "share" in " ".join(labels(shown())) and "Notes (2)" in labels(shown())
     second.location.x = 9.0
     bpy.context.view_layer.update()

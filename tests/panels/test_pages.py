@@ -11,7 +11,7 @@ import pytest
 
 from tests.blender.boxes import box_mesh
 from tests.blender.grids import vdb_grid, volume_object
-from tests.blender.objects import add, only
+from tests.blender.objects import add, measure, only
 from tests.operators.assemblies import assembly_of_boxes
 from tests.operators.characters import character
 from tests.panels.drawing import shown
@@ -46,8 +46,7 @@ def rig(_folder):
 
 
 def volume(folder):
-    only(volume_object(folder / "fog.vdb", vdb_grid(np.ones((4, 4, 4), np.float32))))
-    bpy.ops.object.body_moments_measure()
+    measure(volume_object(folder / "fog.vdb", vdb_grid(np.ones((4, 4, 4), np.float32))))
 
 
 def page(record):

@@ -9,7 +9,7 @@ from body_moments.blender.session.displayed import displayed
 from body_moments.blender.session.stored import outcome
 
 from tests.blender.grids import vdb_grid, volume_object
-from tests.blender.objects import add, arrays, measured, mesh_body, only
+from tests.blender.objects import add, arrays, dent, measure, measured, mesh_body, only
 from tests.panels.drawing import copied, findings_of, labels, shown, shows
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -44,8 +44,7 @@ def test_equal_findings_of_objects_are_one_line():
         [v.co for v in closed.vertices], [], [tuple(f.vertices) for f in closed.polygons][1:]
     )
     objects = [add(mesh if i < 3 else closed, str(i), location=(10 * i, 0, 0)) for i in range(5)]
-    only(*objects)
-    bpy.ops.object.body_moments_measure()
+    measure(*objects)
     assert "5 Objects" in labels(shown()) and "Repaired" in labels(shown())
     # in the row of the main panel, and among the findings
     assert sum("3 objects: holes capped" in label for label in labels(shown())) == 2
@@ -108,8 +107,7 @@ def test_total_names_boolean_operands(capfd):
     body, cutter = add(mesh_body(), "Body"), add(mesh_body(), "Cutter", location=(1, 1, 1))
     cutter.display_type = "WIRE"
     body.modifiers.new("Cut", "BOOLEAN").object = cutter
-    only(body, cutter)
-    bpy.ops.object.body_moments_measure()
+    measure(body, cutter)
     (caveat,) = displayed.total(bpy.context).findings
     assert caveat.code == "total_doubtful_parts" and "“Cutter” of “Body”" in str(caveat)
     assert shows(shown(), caveat.code, **caveat.values)
@@ -137,8 +135,7 @@ def test_total_counts_measured_objects_and_names_others():
     objects = [
         add(mesh_body(), str(i), location=(10 * i, 2 * i, -i), rotation=(i, 0, 0)) for i in range(3)
     ]
-    only(*objects)
-    bpy.ops.object.body_moments_measure()
+    measure(*objects)
     add(mesh_body(), "Not Measured")
     for obj in objects:
         obj.select_set(True)
@@ -238,9 +235,7 @@ def test_opened_file_is_as_current_as_it_was_saved(tmp_path):
     path = str(tmp_path / "a.blend")
     for is_edited in (False, True):
         if is_edited:
-            bpy.context.object.data.vertices[0].co.x -= 1.0
-            bpy.context.object.data.update()
-            bpy.context.view_layer.update()
+            dent(bpy.context.object, -1.0)
         bpy.ops.wm.save_as_mainfile(filepath=path)
         assert outdated() == is_edited
         bpy.ops.wm.open_mainfile(filepath=path)

@@ -100,7 +100,5 @@ def test_pit_below_its_rim(window):
     window.ask("bpy.ops.object.body_moments_cut_fill(against='RIM')")
     window.point_at_view()
     window.picture("cut-fill-pit")
-    found = CUTS + "found = cuts.cut_fill_of(bpy.data.objects['Pit'], bpy.context.scene).found\n"
-    assert window.ask(found + "result = found.fill.total") == pytest.approx(
-        6 * 400 * (2 / 3) ** 2, rel=0.01
-    )
+    found = window.get(f"{memory}.cut_fills[bpy.data.objects['Pit']].found.fill.total")
+    assert found == pytest.approx(6 * 400 * (2 / 3) ** 2, rel=0.01)

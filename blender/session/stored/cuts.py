@@ -174,11 +174,6 @@ def level_of(obj: Object, scene: Scene) -> Level | None:
     return None if staleness.stale_reason(obj, scene, Kind.LEVEL) else memory.levels.get(obj)
 
 
-def cut_fill_of(obj: Object, scene: Scene) -> KnownCutFill | None:
-    """Return the remembered cut and fill; None if there are none or they are out of date."""
-    return None if staleness.stale_reason(obj, scene, Kind.CUT_FILL) else memory.cut_fills.get(obj)
-
-
 def add_surface(context: Context, obj: Object, level: Level) -> Object:
     """Add a mesh object of the liquid's surface, with its level in the object's name."""
     unit = scale.meters_per_unit(context.scene)

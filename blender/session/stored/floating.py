@@ -83,18 +83,23 @@ class Held:
 
 def bodies_of(objects: Iterable[Object], as_one: bool) -> list[tuple[Object, ...]]:
     """Return the objects of each floating body, those that carry others first."""
-    chosen = [_carrier(obj) for obj in objects]
-    roots = [
-        obj for obj in chosen if not any(other in chosen for other in changes.ancestors(obj.parent))
-    ]
     bodies = [
         (root, *[child for child in root.children_recursive if visibility.measurable(child)])
-        for root in dict.fromkeys(roots)
+        for root in dict.fromkeys(_roots([_carrier(obj) for obj in objects]))
     ]
     bodies = [body for body in bodies if any(map(visibility.measurable, body))]
     if as_one and bodies:
         return [tuple(dict.fromkeys(obj for body in bodies for obj in body))]
     return bodies
+
+
+def _roots(objects: Sequence[Object]) -> list[Object]:
+    """Return the objects that no other one of them carries."""
+    return [
+        obj
+        for obj in objects
+        if not any(other in objects for other in changes.ancestors(obj.parent))
+    ]
 
 
 def _carrier(obj: Object) -> Object:
@@ -173,8 +178,8 @@ def remember(afloat: Afloat, members: Iterable[Object], depsgraph: Depsgraph) ->
         staleness.carry(obj, Kind.FLOATING, depsgraph)
 
 
-def _measure(context: Context, members: Iterable[Object]) -> None:
-    """Measure and store the members whose results are missing or out of date."""
+def _keep(context: Context, afloat: Afloat, members: Iterable[Object]) -> Afloat:
+    """Remember a body; measure its members whose results are missing or out of date."""
     wanted = [
         obj
         for obj in members
@@ -191,6 +196,8 @@ def _measure(context: Context, members: Iterable[Object]) -> None:
             if not isinstance(outcome, Exception)
         ],
     )
+    remember(afloat, members, context.evaluated_depsgraph_get())
+    return afloat
 
 
 def float_body(
@@ -199,11 +206,7 @@ def float_body(
     """Move the objects of a body to where it rests, from where it is (0) or in another position;
     return whether they had to move.
     """
-    roots = [
-        obj
-        for obj in members
-        if not any(other in members for other in changes.ancestors(obj.parent))
-    ]
+    roots = _roots(members)
     for root in roots:
         reframe.check_movable(root)
     afloat = _read_again(context, members)
@@ -239,8 +242,7 @@ def float_body(
             channels.restore()
         context.view_layer.update()
         raise
-    _measure(context, members)
-    remember(replace(afloat, rest=rest), members, context.evaluated_depsgraph_get())
+    _keep(context, replace(afloat, rest=rest), members)
     return is_moved
 
 
@@ -271,8 +273,7 @@ def _read_again(context: Context, members: Sequence[Object]) -> Afloat:
         or known.rest.body.density != afloat.rest.body.density
     ):
         return afloat
-    turn = _turn_since(known, members, context.scene)
-    if turn is not None:
+    if (turn := _turn_since(known, members, context.scene)) is not None:
         settle_at = afloat.rest.body.settle
         with suppress(verdict.MeasureError):
             afloat.rests = tuple(settle_at(turn[:3, :3] @ rest.up) for rest in known.rests)
@@ -295,9 +296,7 @@ def find_positions(context: Context, members: Sequence[Object]) -> Afloat:
     """Find all positions of rest of a body, and keep them."""
     afloat = _read_again(context, members)
     afloat.rests = tuple(afloat.rest.body.find_rests([afloat.rest]))
-    _measure(context, members)
-    remember(afloat, members, context.evaluated_depsgraph_get())
-    return afloat
+    return _keep(context, afloat, members)
 
 
 def heel(
@@ -306,9 +305,7 @@ def heel(
     """Compute the righting arms of a body from where it settles, and keep them."""
     afloat = _read_again(context, members)
     afloat.curve = floating.righting_curve(afloat.rest, angles, free_trim=free_trim)
-    _measure(context, members)
-    remember(afloat, members, context.evaluated_depsgraph_get())
-    return afloat
+    return _keep(context, afloat, members)
 
 
 def add_curve(context: Context, afloat: Afloat) -> Object:

@@ -10,8 +10,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.bodies.measure_object import measure_object
-from body_moments.blender.session.tracking import staleness
-from body_moments.blender.session.tracking.stamps import Stale
+from body_moments.blender.session.tracking import staleness, stamps
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.core.density.polynomial import parse_polynomial
 from body_moments.core.inertia.mass_properties import combine
@@ -279,7 +278,7 @@ def test_material_set_by_modifier_counts_and_makes_stale():
     assert staleness.stale_reason(obj, bpy.context.scene) is None
     steel.body_moments.density = 8000.0
     bpy.context.view_layer.update()
-    assert staleness.stale_reason(obj, bpy.context.scene) == Stale.SETTINGS
+    assert staleness.stale_reason(obj, bpy.context.scene) == stamps.Stale.SETTINGS
 
 
 def test_geometry_nodes_instances_bring_their_materials():

@@ -6,8 +6,10 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.bodies.flat.flat_shape import OutlineDistance, flat_shape_of
+from body_moments.blender.bodies.fourier import flat_transform
 from body_moments.blender.bodies.shape.surface_distance import register_surfaces
 
+from tests.blender.findings import said
 from tests.blender.flat_objects import sheet
 from tests.close import close
 
@@ -65,3 +67,27 @@ def test_near_square_symmetry_follows_tolerance_at_any_size(size):
     shape = flat(obj)
     for tolerance, group in ((1e-4, "C1"), (0.02, "C4v")):
         assert [found.group for found in shape.find_symmetries(tolerance)] == [group, group]
+
+
+def test_curve_transform_is_that_of_its_polygon():
+    bpy.ops.curve.primitive_nurbs_circle_add()
+    obj = bpy.context.object
+    obj.data.dimensions, obj.location = "2D", (0.5, 0.0, 0.0)
+    bpy.context.view_layer.update()
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    mesh = bpy.data.meshes.new_from_object(obj.evaluated_get(depsgraph))
+    x, y, _ = np.array([vertex.co for vertex in mesh.vertices], float).T
+    polygon = abs(x @ np.roll(y, 1) - y @ np.roll(x, 1)) / 2.0
+    assert polygon < 0.9995 * np.pi
+    for unit in (None, 0.5):
+        length = unit or 1.0
+        for frame, turned in (("world", np.exp(-0.5j * length)), ("object", 1.0)):
+            q = np.array([(0.0, 0.0), (1.0, 0.0)])
+            work = flat_transform(obj, depsgraph, q, frame=frame, unit=unit)
+            for _ in work.steps():
+                pass
+            spectrum, findings = work.result()
+            assert close(spectrum.values[0].real, polygon * length**2, 1e-6)
+            assert abs(np.angle(spectrum.values[1] / turned)) < 1e-6
+            assert "drawn_as_polygons" in said(findings)
+            assert 0.0 < spectrum.input_error < 1e-5

@@ -7,8 +7,7 @@ transform and type.
 import bpy
 import numpy as np
 import pytest
-from body_moments.blender.read import vdb
-from body_moments.blender.read.volume import volume_reading
+from body_moments.blender.read import vdb, volume
 from body_moments.blender.session.tracking import staleness
 from body_moments.blender.write import properties
 from body_moments.core.bodies.grid import Samples, density_body
@@ -72,7 +71,7 @@ def check(measurement, values, matrix):
 def test_voxels_of_every_type_are_read_to_the_bit(tmp_path, dtype):
     values = random_values(dtype)
     obj = volume_object(tmp_path / "a.vdb", vdb_grid(values, "density", SHEARED, (-5, 130, 7)))
-    with volume_reading(obj, depsgraph()) as reading:
+    with volume.volume_reading(obj, depsgraph()) as reading:
         found = dense(reading)
         assert found.dtype == values.dtype
         corner = np.array(np.nonzero(values)).min(axis=1)
@@ -133,7 +132,10 @@ def test_reading_leaves_nothing_behind(tmp_path):
     staleness.mark_up_to_date(bpy.context, [obj])
     before, scene = snapshot(), bpy.context.scene
     measure(obj)
-    with pytest.raises(RuntimeError, match="stop"), volume_reading(obj, depsgraph()) as reading:
+    with (
+        pytest.raises(RuntimeError, match="stop"),
+        volume.volume_reading(obj, depsgraph()) as reading,
+    ):
         next(iter(reading.blocks()))
         raise RuntimeError("stop")
     assert snapshot() == before
@@ -278,7 +280,7 @@ def test_unmeasurable_volumes_are_refused_with_reason(tmp_path):
     empty = linked(bpy.data.objects.new("Empty", bpy.data.volumes.new("Empty")))
     with (
         refused("no_scalar_grid", "Empty"),
-        volume_reading(empty, bpy.context.evaluated_depsgraph_get()),
+        volume.volume_reading(empty, bpy.context.evaluated_depsgraph_get()),
     ):
         pass
     missing = linked(bpy.data.objects.new("Missing", bpy.data.volumes.new("Missing")))

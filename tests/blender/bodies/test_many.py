@@ -6,9 +6,8 @@ frames, fingerprints.
 
 import numpy as np
 import pytest
-from body_moments.blender.bodies import stack
+from body_moments.blender.bodies import measure_object, stack
 from body_moments.blender.bodies.measure_body import measure_body
-from body_moments.blender.bodies.measure_object import measure_many
 from body_moments.blender.settings.options import AS_SET, MeasureOptions
 from body_moments.core.solid import SmallSolid
 from mathutils import Matrix
@@ -94,7 +93,11 @@ def _is_together(found):
 
 def all_outcomes(objects, options=AS_SET):
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    pairs = [pair for together in measure_many(objects, depsgraph, options) for pair in together]
+    pairs = [
+        pair
+        for together in measure_object.measure_many(objects, depsgraph, options)
+        for pair in together
+    ]
     assert [obj for obj, _ in pairs] == list(objects)
     return pairs, depsgraph
 

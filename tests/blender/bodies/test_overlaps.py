@@ -5,10 +5,8 @@
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.bodies import measure_object, overlaps, stack
 from body_moments.blender.bodies.assembly.assembly import measure_assembly
-from body_moments.blender.bodies.measure_object import measure_many
-from body_moments.blender.bodies.overlaps import overlap_caveats, shared_space_caveats
-from body_moments.blender.bodies.stack import Measured
 from body_moments.blender.session.robots import collection_links, object_links
 
 from tests.blender.batch_files import codes, document
@@ -24,10 +22,12 @@ def here():
 def notes(*objects):
     bpy.context.view_layer.update()
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    found = overlap_caveats(objects, depsgraph)
-    outcomes = dict(pair for batch in measure_many(objects, depsgraph) for pair in batch)
-    measured = {obj: one for obj, one in outcomes.items() if isinstance(one, Measured)}
-    assert overlap_caveats(objects, depsgraph, measured) == found
+    found = overlaps.overlap_caveats(objects, depsgraph)
+    outcomes = dict(
+        pair for batch in measure_object.measure_many(objects, depsgraph) for pair in batch
+    )
+    measured = {obj: one for obj, one in outcomes.items() if isinstance(one, stack.Measured)}
+    assert overlaps.overlap_caveats(objects, depsgraph, measured) == found
     return found
 
 
@@ -96,7 +96,7 @@ def test_copies_and_overlaps_are_told_of_totals_and_assemblies():
     expected = ["total_copies_in_place", "bodies_overlap"]
     copy_of(beam, "Again")
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    assert [one.code for one in shared_space_caveats(root.objects, depsgraph)] == expected
+    assert [one.code for one in overlaps.shared_space_caveats(root.objects, depsgraph)] == expected
     found = measure_assembly(root, depsgraph).measurement.findings
     assert [one.code for one in found if one.code in expected] == expected
     assert {*expected} <= {*codes(document("--density", "1000")["total"])}

@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 bpy = pytest.importorskip("bpy")
-from body_moments.blender.session.tracking import staleness
-from body_moments.blender.session.tracking.stamps import Stale
+from body_moments.blender.session.tracking import staleness, stamps
 
 from tests.blender.findings import said
 from tests.blender.grids import SHEARED, measure, vdb_grid, volume_object
@@ -126,7 +125,7 @@ def test_the_threshold_is_a_slider_after_measure(tmp_path):
     assert obj["body_volume"] < before and close(obj["body_volume"], measure(obj).volume, rel=1e-13)
     assert staleness.stale_reason(obj, bpy.context.scene) is None
     obj.body_moments.threshold = 99.0  # nothing is above: the numbers stay, and are out of date
-    assert staleness.stale_reason(obj, bpy.context.scene) == Stale.SETTINGS
+    assert staleness.stale_reason(obj, bpy.context.scene) == stamps.Stale.SETTINGS
     obj.body_moments.threshold = 2.0
     assert staleness.stale_reason(obj, bpy.context.scene) is None
 

@@ -6,8 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.bodies.measure_object import measure_object
-from body_moments.blender.session.tracking import staleness
-from body_moments.blender.session.tracking.stamps import Stale
+from body_moments.blender.session.tracking import staleness, stamps
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.blender.write import properties
 from body_moments.core.verdict import finding
@@ -141,12 +140,12 @@ def test_stored_numbers_know_when_the_grid_moves(tmp_path):
     staleness.mark_up_to_date(bpy.context, [box])
     assert staleness.stale_reason(box, bpy.context.scene) is None
     volume.body_moments.value_density = 5.0
-    assert staleness.stale_reason(box, bpy.context.scene) == Stale.SETTINGS
+    assert staleness.stale_reason(box, bpy.context.scene) == stamps.Stale.SETTINGS
     volume.body_moments.value_density = 1.0
     assert staleness.stale_reason(box, bpy.context.scene) is None
     volume.location.x = 1.0
     bpy.context.view_layer.update()
-    assert staleness.stale_reason(box, bpy.context.scene) == Stale.SETTINGS
+    assert staleness.stale_reason(box, bpy.context.scene) == stamps.Stale.SETTINGS
 
 
 def test_stored_numbers_know_when_the_voxels_change(tmp_path):
@@ -166,7 +165,7 @@ def test_stored_numbers_know_when_the_voxels_change(tmp_path):
     assert staleness.stale_reason(box, bpy.context.scene) is None
     fog.modifiers[0].density = 3.0
     bpy.context.view_layer.update()
-    assert staleness.stale_reason(box, bpy.context.scene) == Stale.GEOMETRY
+    assert staleness.stale_reason(box, bpy.context.scene) == stamps.Stale.GEOMETRY
     assert staleness.stale_reason(plain, bpy.context.scene) is None
     properties.store(box, measure(box))
     staleness.mark_up_to_date(bpy.context, [box])

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.session.stored import sliders
-from body_moments.blender.session.tracking import staleness
-from body_moments.blender.session.tracking.stamps import Stale
+from body_moments.blender.session.tracking import staleness, stamps
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.blender.write import properties
 from body_moments.core.verdict import MeasureError
@@ -196,7 +195,7 @@ def test_another_side_is_stored_at_once_too():
     assert abs(properties.stored(obj).volume - (1.25**3 - 1)) < 1e-13
     assert staleness.stale_reason(obj, bpy.context.scene) is None
     obj.body_moments.wall = "THIN"
-    assert staleness.stale_reason(obj, bpy.context.scene) == Stale.SETTINGS
+    assert staleness.stale_reason(obj, bpy.context.scene) == stamps.Stale.SETTINGS
 
 
 @pytest.mark.parametrize("change", ["edited", "scaled"])
@@ -222,7 +221,7 @@ def test_too_thick_slider_keeps_results_and_tells_limit():
     assert sliders.max_thickness(obj) == pytest.approx(0.5) and not sliders.is_too_thick(obj)
     obj.body_moments.thickness = 0.75
     assert properties.stored(obj) == before and sliders.is_too_thick(obj)
-    assert staleness.stale_reason(obj, bpy.context.scene) == Stale.SETTINGS
+    assert staleness.stale_reason(obj, bpy.context.scene) == stamps.Stale.SETTINGS
     obj.body_moments.thickness = 0.25
     assert abs(properties.stored(obj).volume - (1 - 0.5**3)) < 1e-13
 
@@ -238,7 +237,7 @@ def test_after_loading_a_file_the_slider_waits_for_measure(tmp_path):
         obj.body_moments.wall == "INWARD" and staleness.stale_reason(obj, bpy.context.scene) is None
     )
     obj.body_moments.thickness = 0.2
-    assert staleness.stale_reason(obj, bpy.context.scene) == Stale.SETTINGS
+    assert staleness.stale_reason(obj, bpy.context.scene) == stamps.Stale.SETTINGS
     press(obj)
     assert abs(properties.stored(obj).volume - (1 - 0.6**3)) < 1e-6
 

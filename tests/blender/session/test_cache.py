@@ -11,7 +11,7 @@ from body_moments.blender.session import displayed, memory
 from body_moments.blender.session.stored import moments as moments_table
 from body_moments.blender.session.tracking import staleness
 
-from tests.blender.objects import add, mesh_body, only
+from tests.blender.objects import add, dent, measure, mesh_body
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -47,16 +47,13 @@ def remember():
         "INWARD",
         0.01,
     )
-    only(obj)
-    bpy.ops.object.body_moments_measure()
+    measure(obj)
     bpy.context.scene.body_moments.moments_order = 2
     bpy.ops.object.body_moments_compute_moments()
     moments_table.current_numbers(obj, bpy.context.scene)
     displayed.total(bpy.context)
     obj.body_moments.density = 500.0
-    obj.data.vertices[0].co.x -= 1.0
-    obj.data.update()
-    bpy.context.view_layer.update()
+    dent(obj, -1.0)
     assert staleness.is_edited(obj) and displayed.drawn(obj, bpy.context.scene) is not None
     filled = {name for name, cache in caches().items() if len(cache)}
     assert filled >= {"edited", "carried", "followed", "moments", "walls"}

@@ -14,7 +14,7 @@ from body_moments.core.verdict import MeasureError
 
 from tests.blender.box_character import HEIGHT, boxes, weight
 from tests.blender.figure import figure
-from tests.blender.objects import add, measured, mesh_body
+from tests.blender.objects import add, measured, mesh_body, mesh_of
 
 
 def shown(rig):
@@ -208,13 +208,14 @@ def tower(bones=60, rings=1000, around=100):
     first = np.arange(rings - 1)[:, None] * around + np.arange(around)
     after = np.arange(rings - 1)[:, None] * around + (np.arange(around) + 1) % around
     sides = np.stack([first, after, after + around, first + around], axis=2).reshape(-1, 4).tolist()
-    mesh = bpy.data.meshes.new("Tube")
-    mesh.from_pydata(
-        points,
-        [],
-        [*sides, list(range(around))[::-1], list(range((rings - 1) * around, rings * around))],
+    body = add(
+        mesh_of(
+            points,
+            [*sides, list(range(around))[::-1], list(range((rings - 1) * around, rings * around))],
+            "Tube",
+        ),
+        "Tube",
     )
-    body = add(mesh, "Tube")
     groups = [body.vertex_groups.new(name=bone.name) for bone in rig.data.bones]
     for ring in range(rings):
         place = min(max(height[ring] * bones - 0.5, 0.0), bones - 1.001)

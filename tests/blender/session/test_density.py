@@ -15,7 +15,7 @@ from body_moments.blender.session.tracking import staleness
 from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.blender.write import properties
 
-from tests.blender.objects import add, measured, mesh_body, only
+from tests.blender.objects import add, dent, measured, mesh_body, only
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -155,8 +155,7 @@ def test_undo_brings_back_numbers_and_setting_together():
 
 
 def edited(obj):
-    obj.data.vertices[0].co.x -= 1.0
-    obj.data.update()
+    dent(obj, -1.0)
     return Stale.GEOMETRY
 
 

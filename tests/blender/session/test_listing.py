@@ -17,7 +17,7 @@ from body_moments.blender.session.displayed import SortBy, listed_masses, listin
 from body_moments.panels.texts import scene_units
 
 from tests.blender.boxes import box_mesh
-from tests.blender.objects import add, mesh_body, only, strip_mesh
+from tests.blender.objects import add, dent, measure, mesh_body, strip_mesh
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -43,8 +43,7 @@ def four():
         add(strip_mesh(), "a strip"),
     ]
     add(mesh_body(), "Not Measured")
-    only(*objects)
-    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+    measure(*objects)
     bpy.context.view_layer.update()
     return objects
 
@@ -54,9 +53,7 @@ def test_measured_objects_are_listed_and_sorted():
     assert shown() == ["a strip", "b light", "C heavy"]
     assert shown(SortBy.MASS)[0] == "C heavy" and shown(SortBy.VERDICT)[0] == "a strip"
     assert shown(name="HEAV") == ["C heavy"]
-    heavy.data.vertices[0].co.x -= 1.0
-    heavy.data.update()
-    bpy.context.view_layer.update()
+    dent(heavy, -1.0)
     assert shown(warnings_first=True) == ["a strip", "C heavy", "b light"]
     assert shown(SortBy.VERDICT) == ["C heavy", "a strip", "b light"]
     light.body_moments.density = 1e6
@@ -109,8 +106,7 @@ def test_the_total_of_light_bodies_is_one_of_them_all(masses):
     objects = [add(box_mesh(1, 1, 1), name, (at, 0, 0)) for name, at in (("A", 2.0), ("B", 5.0))]
     for obj, mass in zip(objects, masses):
         obj.body_moments.mass_from, obj.body_moments.mass = "MASS", mass or 1.0
-    only(*objects)
-    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+    measure(*objects)
     for obj, mass in zip(objects, masses):
         obj["body_mass"] = mass
     bpy.context.view_layer.update()

@@ -22,7 +22,7 @@ from mathutils import Euler, Matrix
 
 from tests.blender.boxes import armature_with, update
 from tests.blender.grids import vdb_grid, volume_object
-from tests.blender.objects import add, after, arrays, measured, mesh_body, only
+from tests.blender.objects import add, after, arrays, dent, measured, mesh_body, only
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -175,8 +175,7 @@ def in_edit_mode(obj):
 def sculpted(obj):
     only(obj)
     bpy.ops.object.mode_set(mode="SCULPT")
-    obj.data.vertices[0].co.x -= 1.0
-    obj.data.update()
+    dent(obj, -1.0)
 
 
 def flipped(obj):
@@ -318,9 +317,7 @@ def test_undo_is_followed(monkeypatch):
     obj = add(mesh_body())
     start(obj)
     bpy.ops.ed.undo_push(message="Before")
-    obj.data.vertices[0].co.x -= 1.0
-    obj.data.update()
-    update()
+    dent(obj, -1.0)
     bpy.ops.ed.undo_push(message="Edited")
     tick(monkeypatch)
     obj = after(bpy.ops.ed.undo)

@@ -16,6 +16,7 @@ from body_moments.core.verdict import MeasureError, finding
 
 from tests.blender import batch_files as files
 from tests.blender.moments import compute, settings
+from tests.blender.objects import dent
 from tests.command.running import box_moment
 from tests.panels.drawing import Layout, labels
 
@@ -96,8 +97,7 @@ def test_computed_moments_become_stale_on_change(box):
     assert reason() == Stale.SETTINGS
     compute()
     assert reason() is None
-    box.data.vertices[0].co.x += 0.5
-    box.data.update()
+    dent(box, 0.5)
     assert reason() == Stale.GEOMETRY
     assert Stale.GEOMETRY in " ".join(labels(drawn()))
     compute()

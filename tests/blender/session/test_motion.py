@@ -10,7 +10,7 @@ import pytest
 from body_moments.blender.session.live import motion
 from body_moments.core.statics.mixes import sample_count
 
-from tests.blender.objects import add, measured, mesh_body
+from tests.blender.objects import add, measured, mesh_body, mesh_of
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -56,13 +56,11 @@ def test_sampled_shape_keys_equal_measured_results(frames, given):
 
 
 def test_a_polygon_that_blender_cuts_otherwise_is_measured():
-    mesh = bpy.data.meshes.new("Prism")
     angles = np.arange(5) * 2.0 * np.pi / 5.0
     ring = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     points = np.concatenate([np.insert(ring, 2, height, axis=1) for height in (0.0, 1.0)])
     sides = [(i, (i + 1) % 5, 5 + (i + 1) % 5, 5 + i) for i in range(5)]
-    mesh.from_pydata(points.tolist(), [], [(4, 3, 2, 1, 0), (5, 6, 7, 8, 9), *sides])
-    obj = keyed(mesh)
+    obj = keyed(mesh_of(points, [(4, 3, 2, 1, 0), (5, 6, 7, 8, 9), *sides], "Prism"))
     obj.data.shape_keys.key_blocks["Second"].data[5].co = (-0.9, 0.0, 1.5)
     followed = motion.Motion(sample_count(2))
     for value in (0.0, 1.0, 0.5):

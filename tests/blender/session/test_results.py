@@ -15,7 +15,7 @@ from body_moments.blender.session.tracking import handlers
 from body_moments.core.inertia.mass_properties import combine
 
 from tests.blender.boxes import armature_with, box, collection
-from tests.blender.objects import add, arrays, measured, mesh_body, only, strip_mesh
+from tests.blender.objects import add, arrays, dent, measure, measured, mesh_body, only, strip_mesh
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("registered")
@@ -25,11 +25,6 @@ def part(mass, center, volume, area):
     return SimpleNamespace(
         volume=volume, area=area, body=SimpleNamespace(mass=mass, center=np.array(center))
     )
-
-
-def measure(*objects):
-    only(*objects)
-    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
 
 
 def total_of(*objects):
@@ -46,9 +41,7 @@ def test_total_names_missing_stale_and_doubtful_objects(scene):
     doubtful = add(strip_mesh(), "doubtful")
     other.body_moments.density = 3000.0
     measure(exact, edited, other, doubtful)
-    edited.data.vertices[0].co.x -= 1.0
-    edited.data.update()
-    bpy.context.view_layer.update()
+    dent(edited, -1.0)
     objects = bare, exact, edited, other, doubtful
     found = total_of(*objects)
     assert found.count == 4 and found.missing == ("bare",)

@@ -13,16 +13,11 @@ from body_moments.blender.session.displayed import Verdict, drawn, drawn_bone
 from body_moments.blender.session.tracking.stamps import Stale
 from mathutils import Matrix
 
-from tests.blender.objects import add, measured, mesh_body, only, strip_mesh
+from tests.blender.objects import add, dent, measure, measured, mesh_body, strip_mesh
 from tests.close import close
 from tests.operators.characters import character
 
 pytestmark = pytest.mark.usefixtures("scene")
-
-
-def measure(*objects):
-    only(*objects)
-    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
 
 
 def assert_shown(obj):
@@ -64,9 +59,7 @@ def test_shown_verdict_follows_repair_doubt_and_edit():
         Verdict.DOUBTFUL,
         Verdict.REPAIRED,
     ]
-    exact.data.vertices[0].co.x -= 1.0
-    exact.data.update()
-    bpy.context.view_layer.update()
+    dent(exact, -1.0)
     shown = drawn(exact, bpy.context.scene)
     assert shown.verdict == Verdict.OUT_OF_DATE and shown.reason == Stale.GEOMETRY
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from body_moments.blender.session.stored import faults
 
-from tests.blender.objects import add, only
+from tests.blender.objects import add, dent, measure
 from tests.operators.overlapping_boxes import boxes
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -24,8 +24,7 @@ def test_faults_are_drawn_in_place_for_instances_too():
     shown.objects.link(member)
     empty = add(None, "Empty", location=(10, 0, 0), rotation=(0, 0, 1.0), scale=(2, 2, 2))
     empty.instance_type, empty.instance_collection = "COLLECTION", shown
-    only(member, empty)
-    bpy.ops.object.body_moments_measure()
+    measure(member, empty)
     own, others = faults.of_object(member), faults.of_object(empty)
     assert (
         len(own.triangles) == len(others.triangles) > 0 and len(own.edges) == len(others.edges) > 0
@@ -36,7 +35,5 @@ def test_faults_are_drawn_in_place_for_instances_too():
         corners = {tuple(vertex.co) for vertex in member.data.vertices}
         assert {tuple(point) for point in of_member.reshape(-1, 3).round(12).tolist()} <= corners
         assert np.abs(of_empty - (of_member @ place[:3, :3].T + place[:3, 3])).max() < 1e-5
-    member.data.vertices[0].co.x -= 0.5
-    member.data.update()
-    update()
+    dent(member, -0.5)
     assert faults.of_object(member) is None

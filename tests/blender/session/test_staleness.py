@@ -15,7 +15,7 @@ from body_moments.blender.session.tracking.stamps import Kind, Stale
 from body_moments.blender.write import text_report
 from body_moments.core.verdict import finding
 
-from tests.blender.objects import add, after, mesh_body, only
+from tests.blender.objects import add, after, dent, mesh_body, only
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -34,12 +34,6 @@ def measure(*objects):
     assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
     update()
     assert [reason(obj) for obj in objects] == [None] * len(objects)
-
-
-def edit(obj):
-    obj.data.vertices[0].co.x -= 1.0
-    obj.data.update()
-    update()
 
 
 def link(obj, *collections):
@@ -70,7 +64,7 @@ def test_undone_results_are_stale_after_later_edit(stacked):
     bpy.ops.ed.undo_push(message="Start")
     measure(obj)
     bpy.ops.ed.undo_push(message="Measured")
-    edit(obj)
+    dent(obj, -1.0)
     bpy.ops.ed.undo_push(message="Edited")
     first = obj["body_volume"]
     measure(obj)
@@ -118,7 +112,9 @@ def test_reevaluation_without_change_keeps_results_current():
             staleness.stale_reason(one, bpy.context.scene, Kind.SYMMETRY) for one in objects
         ] == [None] * len(objects)
         if len(objects) == 2:
-            edit(objects[1]) if objects[1].data != obj.data else bpy.data.objects.remove(objects[1])
+            dent(objects[1], -1.0) if objects[1].data != obj.data else bpy.data.objects.remove(
+                objects[1]
+            )
     assert reason(bpy.data.objects["Body.001"]) == Stale.GEOMETRY
 
 
@@ -137,16 +133,14 @@ def test_an_edit_that_is_taken_back_is_none():
     modifier.levels = 1
     measure(obj)
     bpy.ops.ed.undo_push(message="Measured")
-    edit(obj)
+    dent(obj, -1.0)
     bpy.ops.ed.undo_push(message="Edited")
     assert reason(obj) == Stale.GEOMETRY
     obj = after(bpy.ops.ed.undo)
     assert reason(obj) is None
     obj = after(bpy.ops.ed.redo)
     assert reason(obj) == Stale.GEOMETRY
-    obj.data.vertices[0].co.x += 1.0
-    obj.data.update()
-    update()
+    dent(obj, 1.0)
     assert reason(obj) is None
     for level, code in ((2, Stale.GEOMETRY), (1, None)):
         obj.modifiers[0].levels = level
@@ -211,16 +205,16 @@ def test_a_density_that_lies_on_the_mesh_counts_as_its_geometry(source):
 def test_reenabled_add_on_keeps_edited_results_stale():
     obj, other, third = (add(mesh_body(), name) for name in ("Body", "Other", "Third"))
     measure(obj, other, third)
-    edit(obj)
+    dent(obj, -1.0)
     only(other)
     bpy.ops.object.body_moments_find_symmetry()
-    edit(other)
+    dent(other, -1.0)
     body_moments.unregister()
     body_moments.register()
     assert (reason(obj), reason(other)) == (Stale.GEOMETRY,) * 2
     assert staleness.stale_reason(other, bpy.context.scene, Kind.SYMMETRY) == Stale.GEOMETRY
     assert reason(third) is None
-    edit(third)  # updates are counted anew since then
+    dent(third, -1.0)  # updates are counted anew since then
     assert reason(third) == Stale.GEOMETRY
 
 
@@ -229,7 +223,7 @@ def test_measuring_edited_shape_keeps_symmetry_stale():
     measure(obj)
     bpy.ops.object.body_moments_find_symmetry()
     assert staleness.stale_reason(obj, bpy.context.scene, Kind.SYMMETRY) is None
-    edit(obj)
+    dent(obj, -1.0)
     measure(obj)
     assert staleness.stale_reason(obj, bpy.context.scene, Kind.SYMMETRY) == Stale.GEOMETRY
     bpy.ops.object.body_moments_find_symmetry()
@@ -249,7 +243,7 @@ def test_instancer_is_stale_after_change_of_its_members(nested):
     update()
     assert reason(outer) is None and reason(other) == Stale.TRANSFORM
     for change in (
-        lambda: edit(member),
+        lambda: dent(member, -1.0),
         lambda: setattr(member, "location", (5, 0, 0)),
         lambda: shown.instance_collection.objects.link(other),
         lambda: shown.instance_collection.objects.unlink(other),
@@ -276,7 +270,7 @@ def test_measuring_member_keeps_instancer_current():
 def test_parent_showing_children_is_stale_after_their_edit(kind):
     parent, child = add(mesh_body(), "Parent"), add(mesh_body(), "Child", scale=(0.1, 0.1, 0.1))
     child.parent, parent.instance_type = parent, kind
-    for change in (lambda: edit(child), lambda: setattr(child, "scale", (0.2, 0.1, 0.1))):
+    for change in (lambda: dent(child, -1.0), lambda: setattr(child, "scale", (0.2, 0.1, 0.1))):
         measure(parent)
         change()
         update()
@@ -294,7 +288,7 @@ def test_emitter_is_stale_after_edit_of_particle_object():
         seed,
     )
     measure(emitter)
-    edit(seed)
+    dent(seed, -1.0)
     assert reason(emitter) == Stale.GEOMETRY
 
 
@@ -377,7 +371,7 @@ def test_symmetry_and_moments_of_instancer_become_stale():
         None,
         None,
     )
-    edit(member)
+    dent(member, -1.0)
     assert staleness.stale_reason(shown, bpy.context.scene, Kind.SYMMETRY) == Stale.GEOMETRY
     assert staleness.stale_reason(shown, bpy.context.scene, Kind.MOMENTS) == Stale.GEOMETRY
 
@@ -392,8 +386,7 @@ def test_becoming_a_rigid_body_is_no_change_of_the_shape():
         assert bpy.ops.object.body_moments_set_rigid_body_mass(add=True) == {"FINISHED"}
         update()
         assert (reason(obj), reason(other)) == (None, None)
-    obj.data.vertices[0].co.x -= 1.0
-    obj.data.update()
+    dent(obj, -1.0)
     assert bpy.ops.object.body_moments_set_rigid_body_mass() == {"FINISHED"}
     update()
     assert (reason(obj), reason(other)) == (Stale.GEOMETRY, None)

@@ -13,7 +13,7 @@ from body_moments.blender.session import memory
 from body_moments.blender.session.live import measuring as live
 from body_moments.blender.session.tracking import staleness
 
-from tests.blender.objects import add, measured, mesh_body, only
+from tests.blender.objects import add, measure, measured, mesh_body, only
 from tests.blender.operator_calls import OPERATORS
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -67,8 +67,7 @@ def keyed(channel):
     path = CHANNELS[channel].removeprefix("data.shape_keys.")
     (obj.data.shape_keys if channel == "shape key" else obj).keyframe_insert(path, frame=1)
     active = add(mesh_body("Active"), "Active", (0, 30, 0), (0.3, 0.2, 0.1))
-    only(obj)
-    bpy.ops.object.body_moments_measure()
+    measure(obj)
     only(active, obj)
     return obj
 
@@ -108,10 +107,8 @@ def test_drivers_follow_storing_without_evaluating_geometry():
     # shown anew with whatever moves its operand
     user = add(mesh_body("User"), "User", select=False)
     user.modifiers.new("Boolean", "BOOLEAN").object = obj
-    child = add(mesh_body("Child"), "Child", select=False)
-    child.parent = obj
-    only(obj)
-    bpy.ops.object.body_moments_measure()
+    add(mesh_body("Child"), "Child", select=False, parent=obj)
+    measure(obj)
     for owner, path, source in (
         (other, "location", '["body_mass"]'),
         (obj, '["own"]', '["body_center_of_mass"][1]'),
@@ -177,8 +174,7 @@ def test_wall_slider_keeps_unkeyed_values():
         0.01,
     )
     change(obj, "rotation", CHANGED)
-    only(obj)
-    bpy.ops.object.body_moments_measure()
+    measure(obj)
     before = obj["body_mass"]
     obj.body_moments.thickness = 0.02
     bpy.context.view_layer.update()

@@ -11,10 +11,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from body_moments.core.cad import step
+from body_moments.core.cad import read_surfaces, step
 from body_moments.core.cad.part21 import Part21
 from body_moments.core.cad.step_shapes import Shapes
-from body_moments.core.cad.surface_file import read_surfaces
 from body_moments.core.moments import sum_moments
 from body_moments.core.numerics import SplineSpace
 from body_moments.core.nurbs import Curve, measure_patches

@@ -10,8 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from body_moments.core.colliders import effects
-from body_moments.core.colliders.effects import effect, uniform_masses
+from body_moments.core.colliders import effect, effects, uniform_masses
 from body_moments.core.inertia import MassProperties
 from body_moments.core.mesh import Surface, convex_hull
 from body_moments.core.polyhedron import polyhedron_moments

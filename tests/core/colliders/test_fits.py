@@ -10,9 +10,8 @@ from itertools import combinations
 
 import numpy as np
 import pytest
-from body_moments.core.colliders.body_distances import distances
+from body_moments.core.colliders import Wanted, distances, make_colliders
 from body_moments.core.colliders.convex_pieces import cut_into_pieces
-from body_moments.core.colliders.fits import Wanted, make_colliders
 from body_moments.core.inertia import MassProperties
 from body_moments.core.mesh import Surface, convex_hull
 from body_moments.core.numerics import spread_directions

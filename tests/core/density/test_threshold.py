@@ -9,8 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from body_moments.core.density import threshold
-from body_moments.core.density.threshold import threshold_body
+from body_moments.core.density import threshold, threshold_body
 from body_moments.core.moments.moments import monomials
 from body_moments.core.verdict import MeasureError
 

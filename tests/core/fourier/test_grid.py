@@ -8,6 +8,7 @@ from functools import partial
 
 import numpy as np
 import pytest
+from body_moments.core.fourier import FrequencyGrid
 from body_moments.core.fourier import grid as fourier_grid
 from body_moments.core.fourier.grid import GridTransform, Spreading, aliasing
 from body_moments.core.fourier.transform import (
@@ -15,7 +16,6 @@ from body_moments.core.fourier.transform import (
     solid_transform,
     surface_transform,
 )
-from body_moments.core.fourier.wave_vectors import FrequencyGrid
 from body_moments.core.numerics.quadrature import triangle_rule
 from body_moments.core.polyhedron import integration
 

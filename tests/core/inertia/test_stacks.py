@@ -7,8 +7,7 @@ import pytest
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.inertia.principal_frames import principal_frame, principal_frames
 from body_moments.core.inertia.third_moment_frames import third_moment_frames
-from body_moments.core.moments.images import sum_of_images
-from body_moments.core.moments.moments import Measure, stack_moments
+from body_moments.core.moments import Measure, stack_moments, sum_of_images
 
 from tests.close import close
 from tests.core import bodies, shapes

@@ -12,8 +12,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from body_moments.core.inertia.mass_properties import MassProperties
-from body_moments.core.measurement import documents, record
-from body_moments.core.measurement.measurement import Measurement
+from body_moments.core.measurement import Measurement, documents, record
 from body_moments.core.moments.moments import Moments, monomials
 from body_moments.core.verdict import Method, Procedure, finding
 

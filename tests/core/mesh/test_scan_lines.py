@@ -6,9 +6,7 @@ bodies.
 
 import numpy as np
 import pytest
-from body_moments.core.mesh import scan_lines
-from body_moments.core.mesh.scan_lines import LINE_SLOPES, LineGrids, find_crossings
-from body_moments.core.mesh.surface import Surface
+from body_moments.core.mesh import LINE_SLOPES, LineGrids, Surface, find_crossings, scan_lines
 
 from tests.close import close
 from tests.core.bodies import box, moved, ring, rotation, sphere, surface, torus

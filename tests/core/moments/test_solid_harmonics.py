@@ -8,8 +8,7 @@ from math import pi, sqrt
 
 import numpy as np
 import pytest
-from body_moments.core.moments.exponents import monomials
-from body_moments.core.moments.solid_harmonics import _three_j, harmonic_moments
+from body_moments.core.moments import exponents, solid_harmonics
 
 from tests.close import close
 
@@ -36,7 +35,9 @@ KNOWN = {
 
 @pytest.mark.parametrize("order", range(9))
 def test_harmonic_moments_of_a_point_are_solid_harmonics(order):
-    found = harmonic_moments(np.prod(POINT ** monomials(order), axis=1), order)
+    found = solid_harmonics.harmonic_moments(
+        np.prod(POINT ** exponents.monomials(order), axis=1), order
+    )
     assert set(found) == {(n, l) for n in range(order + 1) for l in range(n % 2, n + 1, 2)}
     for (n, l), values in found.items():
         assert values.shape == (2 * l + 1,)
@@ -52,7 +53,7 @@ def test_harmonic_moments_of_a_point_are_solid_harmonics(order):
     "l, k, n", [(0, 0, 0), (1, 1, 0), (1, 1, 1), (2, 1, 1), (2, 2, 2), (3, 2, 1), (4, 3, 5)]
 )
 def test_three_j_symbols_are_orthonormal(l, k, n):
-    table = _three_j(l, k, n)
+    table = solid_harmonics._three_j(l, k, n)
     assert table.shape == (2 * l + 1, 2 * k + 1, 2 * n + 1)
     assert (
         np.abs(np.einsum("ijm,ijp->mp", table, table) - np.eye(2 * n + 1) / (2 * n + 1)).max()
@@ -71,4 +72,4 @@ def test_three_j_symbols_match_tables():
         (2, 1, 1, 2, -1): 1.0 / sqrt(5.0),
     }
     for (l, k, n, i, j), value in known.items():
-        assert close(_three_j(l, k, n)[l + i, k + j, n - i - j], value, 1e-14)
+        assert close(solid_harmonics._three_j(l, k, n)[l + i, k + j, n - i - j], value, 1e-14)

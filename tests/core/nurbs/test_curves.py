@@ -11,8 +11,14 @@ import numpy as np
 import pytest
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
-from body_moments.core.nurbs import Curve, length_moments, plane_moments
-from body_moments.core.nurbs.flat_face import chords_cross, planar_region, self_intersects
+from body_moments.core.nurbs import (
+    Curve,
+    chords_cross,
+    length_moments,
+    planar_region,
+    plane_moments,
+    self_intersects,
+)
 
 from tests.close import close
 from tests.core.exact_splines import ROUND, circle

@@ -488,7 +488,9 @@ def nrrd_with(old: str, new: str) -> bytes:
 FAR_SFORM = np.eye(3, 4) + [0, 0, 0, np.inf]
 FLAT_DIRECTIONS = nrrd(values(), "space directions: (1,0,0) (2,0,0) (0,0,1)")
 NEGATIVE_SKIP = nrrd(values(), "byte skip: -1", encoding="gzip")
-NOT_GZIP = damage("damage_incomplete", kind="gzip stream", error="incorrect header check")
+NOT_GZIP = damage(
+    "damage_incomplete", kind="gzip stream", error=r"Not a gzipped file (b'\x00\x00')"
+)
 DAMAGED_NIFTI = [
     (b"", damage("damage_cut_short", part="header")),
     (b"x" * 400, ("file_unrecognized", {"format": "NIfTI"})),

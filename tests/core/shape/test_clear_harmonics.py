@@ -5,8 +5,7 @@
 import numpy as np
 import pytest
 from body_moments.core.inertia.third_moment_frames import SecondMomentAxes
-from body_moments.core.moments.exponents import monomial_index
-from body_moments.core.moments.moments import Moments
+from body_moments.core.moments import Moments, monomial_index
 from body_moments.core.shape.canonical_frame import _candidates
 
 

@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.streams import ply_rows
+from body_moments.core.streams import measure_stream, open_mesh_file, ply_rows
 from body_moments.core.streams import stl as stl_module
-from body_moments.core.streams.measure import measure_stream, open_mesh_file
 from body_moments.core.streams.ply_rows import Element, Property
 
 from tests.close import close

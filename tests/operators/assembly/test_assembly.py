@@ -17,7 +17,7 @@ from body_moments.panels import overlay
 from mathutils import Matrix
 
 from tests.blender.boxes import box, boxes_inertia, empty
-from tests.blender.objects import only, place
+from tests.blender.objects import add, measure, only, place
 from tests.close import close
 from tests.operators.assemblies import BOXES, activate, assembly_of_boxes
 
@@ -40,8 +40,7 @@ def test_the_total_is_stored_on_the_collection_and_drives(reported):
     assert close(bpy.data.collections["Arm"]["body_mass"], 8000.0, 1e-14) and close(
         obj["body_mass"], 62800.0, 1e-14
     )
-    driver = bpy.data.objects.new("Driven", None).driver_add("location", 0).driver
-    bpy.context.scene.collection.objects.link(bpy.data.objects["Driven"])
+    driver = add(None, "Driven", select=False).driver_add("location", 0).driver
     variable = driver.variables.new()
     variable.type, variable.name = "SINGLE_PROP", "mass"
     variable.targets[0].id_type, variable.targets[0].id = "COLLECTION", root
@@ -278,8 +277,7 @@ def test_point_masses_are_measured_and_listed_as_objects_are():
     made = empty(bpy.context.scene.collection, "Point", (1, 2, 3), mass=5.0)
     plain = empty(bpy.context.scene.collection, "Plain")
     bpy.context.view_layer.update()
-    only(made, plain)
-    bpy.ops.object.body_moments_measure()
+    measure(made, plain)
     assert (
         close(made["body_mass"], 5.0, 1e-15)
         and made["body_method"] == "given"

@@ -32,8 +32,7 @@ def measured(obj):
 def pair():
     """A body with a child that is scaled, and one apart."""
     upper = add(mesh_body("Upper"), "Upper", (5, 3, -2), (0.3, 0.4, 0.5))
-    fore = add(mesh_body("Fore"), "Fore.001", (1, 2, 3), (0.0, 0.0, 0.4), (2, 2, 2))
-    fore.parent = upper
+    fore = add(mesh_body("Fore"), "Fore.001", (1, 2, 3), (0.0, 0.0, 0.4), (2, 2, 2), parent=upper)
     tool = add(mesh_body("Tool"), "Tool", (0, 0, 4))
     bpy.context.view_layer.update()
     return upper, fore, tool

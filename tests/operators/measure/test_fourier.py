@@ -112,23 +112,23 @@ def test_fourier_turns_flipped_faces_and_caps_holes():
     found, findings = transform(box)
     assert np.abs(found.values - box_spectrum(Q)).max() <= 1e-13
     assert said(findings) == {"flipped_faces": {"count": 1}}
-    mesh = bpy.data.meshes.new("Open")
     corners = [vertex.co[:] for vertex in box.data.vertices]
     sides = [polygon.vertices[:] for polygon in box.data.polygons]
-    mesh.from_pydata(corners, [], sides[:4])  # without the two across z
-    found, findings = transform(objects.add(mesh, location=files.CENTER))
+    found, findings = transform(
+        objects.add(objects.mesh_of(corners, sides[:4]), location=files.CENTER)
+    )
     assert np.abs(found.values - box_spectrum(Q)).max() <= 1e-13
     assert said(findings)["holes_capped"]["count"] == 2
 
 
 def test_fourier_of_fins_is_refused():
-    mesh = bpy.data.meshes.new("Fins")
-    mesh.from_pydata(
-        [(0, 0, 0), (0, 0, 1), (1, 0, 0), (0, 1, 0), (-1, -1, 0)],
-        [],
-        [(0, 1, 2), (0, 1, 3), (0, 1, 4)],
+    obj = objects.add(
+        objects.mesh_of(
+            [(0, 0, 0), (0, 0, 1), (1, 0, 0), (0, 1, 0), (-1, -1, 0)],
+            [(0, 1, 2), (0, 1, 3), (0, 1, 4)],
+            "Fins",
+        )
     )
-    obj = objects.add(mesh)
     with refused("fourier_of_open_surface"):
         transform(obj)
     found, _ = transform(obj, np.zeros((1, 3)), area=True)
@@ -150,9 +150,7 @@ def test_one_object_is_needed_and_a_refusal_is_an_error(tmp_path, wave_vectors):
         and out.exists()
     )
     out.unlink()
-    mesh = bpy.data.meshes.new("Plane")
-    mesh.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
-    objects.add(mesh, "Flat")
+    objects.add(objects.mesh_of([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)], "Plane"), "Flat")
     line = run("--fourier", out, "--q", wave_vectors, "--object", "Flat")
     assert line.errors == 1 and line.internal_errors == 0 and not out.exists()
 

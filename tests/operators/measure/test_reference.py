@@ -15,7 +15,7 @@ from body_moments.core.verdict import Finding
 from mathutils import Euler
 
 from tests.blender.boxes import box, boxes_inertia, collection
-from tests.blender.objects import only
+from tests.blender.objects import add, measure, only
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("registered", "scene")
@@ -24,8 +24,7 @@ SIZE, AT, DENSITY = (1, 2, 4), (8, -4, 2), 1000
 
 def measured_box():
     obj = box(bpy.context.scene.collection, SIZE, AT, DENSITY)
-    only(obj)
-    bpy.ops.object.body_moments_measure()
+    measure(obj)
     return obj
 
 
@@ -65,10 +64,7 @@ def test_each_reference_is_about_its_point_and_along_its_axes():
     cursor.rotation_euler = (0, 0, np.pi / 2)
     swapped = about((1, 2, 3))[[1, 0, 2]][:, [1, 0, 2]] * [[1, -1, 1], [-1, 1, -1], [1, -1, 1]]
     assert np.abs(inertia(obj) - swapped).max() <= 1e-6 * swapped.max()
-    other = bpy.data.objects.new("Other", None)
-    bpy.context.scene.collection.objects.link(other)
-    other.location, other.rotation_euler = (5, 0, 0), (0.3, 0.2, 0.1)
-    bpy.context.view_layer.update()
+    other = add(None, "Other", (5, 0, 0), (0.3, 0.2, 0.1), select=False)
     choose("OBJECT", object=other)
     turn = np.array(Euler((0.3, 0.2, 0.1)).to_matrix())
     truth = turn.T @ about((5, 0, 0)) @ turn
@@ -88,9 +84,8 @@ def test_each_reference_is_about_its_point_and_along_its_axes():
 def test_references_follow_the_scene_unit():
     """Of lengths that are a fourth, inertia about what is as far away is 4^-5 of it."""
     obj = measured_box()
-    other = bpy.data.objects.new("Other", None)
-    bpy.context.scene.collection.objects.link(other)
-    other.location, obj.data.vertices[0].co.x = (5, 1, -2), -1.0
+    other = add(None, "Other", (5, 1, -2), select=False)
+    obj.data.vertices[0].co.x = -1.0
     bpy.context.scene.cursor.location = (1, 2, 3)
 
     def inertias():

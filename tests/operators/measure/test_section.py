@@ -18,7 +18,7 @@ from body_moments.blender.session.tracking.stamps import Kind, Stale
 from tests.blender.findings import refused as refusal
 from tests.blender.findings import said
 from tests.blender.flat_objects import I_BEAM, T, W, X, Y, flat_mesh
-from tests.blender.objects import add, mesh_body
+from tests.blender.objects import add, dent, mesh_body
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -309,9 +309,7 @@ def test_section_is_stale_after_shape_place_or_unit_change():
     bpy.context.scene.unit_settings.scale_length = 0.5
     assert outdated(obj) == Stale.UNIT_SCALE
     bpy.context.scene.unit_settings.scale_length = 1.0
-    obj.data.vertices[0].co.x -= 1.0
-    obj.data.update()
-    update()
+    dent(obj, -1.0)
     assert outdated(obj) == Stale.GEOMETRY
     bpy.ops.object.body_moments_measure_section()
     update()
@@ -326,9 +324,7 @@ def test_a_section_survives_the_file_and_clear_takes_it_away(tmp_path):
     bpy.ops.wm.open_mainfile(filepath=path)
     obj = bpy.context.object
     assert stored(obj).section.area == I_AREA and outdated(obj) is None
-    obj.data.vertices[0].co.x -= 1.0
-    obj.data.update()
-    bpy.context.view_layer.update()
+    dent(obj, -1.0)
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
     obj = bpy.context.object

@@ -6,7 +6,7 @@ import bpy
 import pytest
 from body_moments.blender.session.tracking import staleness
 
-from tests.blender.objects import add, mesh_body, only, place
+from tests.blender.objects import add, measure, mesh_body, only, place
 from tests.operators.characters import character, measured
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -71,8 +71,7 @@ def test_made_rig_objects_keep_results_current(operator):
     other.body_moments.density_from = "MATERIALS"
     bpy.ops.rigidbody.object_add()
     armature, _ = character()
-    only(other)
-    bpy.ops.object.body_moments_measure()
+    measure(other)
     only(armature)
     bpy.ops.object.body_moments_measure_bones()
     assert getattr(bpy.ops.object, "body_moments_" + operator)() == {"FINISHED"}

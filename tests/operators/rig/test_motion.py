@@ -13,7 +13,9 @@ from mathutils import Matrix, Quaternion, Vector
 
 from tests.blender.box_character import HEIGHT
 from tests.blender.figure import figure
+from tests.blender.objects import add, mesh_of
 from tests.operators.rig import simulate_jump
+from tests.operators.standing import QUADS
 
 PARABOLA, SPIN = bpy.ops.pose.body_moments_parabola, bpy.ops.pose.body_moments_keep_spin
 BAKE, TRACE = bpy.ops.pose.body_moments_bake_curves, bpy.ops.pose.body_moments_trace
@@ -283,18 +285,13 @@ def test_simulated_jump_is_plausible_and_floats_if_slowed(scene):
     bpy.ops.import_anim.bvh(filepath=path, axis_forward="Y", axis_up="Z", update_scene_fps=True)
     rig, parts = bpy.context.object, simulate_jump.parts()
     corners = np.array(list(np.ndindex(2, 2, 2))) * 2.0 - 1.0
-    faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     points = [np.add(joint, center) + corners * half for _, _, joint, half, center in parts]
-    mesh = bpy.data.meshes.new("Boxes")
     several = [
-        tuple(corner + 8 * box for corner in face) for box in range(len(parts)) for face in faces
+        tuple(corner + 8 * box for corner in face) for box in range(len(parts)) for face in QUADS
     ]
-    mesh.from_pydata(np.concatenate(points).tolist(), [], several)
-    body = bpy.data.objects.new("Boxes", mesh)
-    scene.collection.objects.link(body)
+    body = add(mesh_of(np.concatenate(points), several, "Boxes"), "Boxes", select=False, parent=rig)
     for box, (name, *_) in enumerate(parts):
         body.vertex_groups.new(name=name).add(range(8 * box, 8 * box + 8), 1.0, "REPLACE")
-    body.parent = rig
     body.modifiers.new("Armature", "ARMATURE").object = rig
     body.body_moments.density = simulate_jump.DENSITY
     scene.frame_start, scene.frame_end = 1, round(simulate_jump.RATE * simulate_jump.SECONDS) + 1

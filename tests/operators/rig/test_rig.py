@@ -20,7 +20,7 @@ from body_moments.core.polyhedron.integration import volume_and_center
 
 from tests.blender.boxes import box_mesh
 from tests.blender.characters import armature_of, pose, skin_of
-from tests.blender.objects import arrays, only
+from tests.blender.objects import add, arrays, dent, only
 from tests.close import close
 from tests.core import characters as made
 from tests.operators.characters import character, measured
@@ -224,9 +224,7 @@ def test_posing_is_no_edit_and_sculpting_and_settings_are():
     assert staleness.stale_reason(armature, bpy.context.scene) == Stale.BONES
     bpy.ops.object.body_moments_measure_bones()
     assert staleness.stale_reason(armature, bpy.context.scene) is None
-    skin.data.vertices[0].co.x += 1.0
-    skin.data.update()
-    bpy.context.view_layer.update()
+    dent(skin, 1.0)
     assert staleness.stale_reason(armature, bpy.context.scene) == Stale.GEOMETRY
 
 
@@ -307,8 +305,7 @@ def test_results_of_bones_drive():
     armature, _ = character()
     bpy.ops.object.body_moments_measure_bones()
     bpy.context.view_layer.update()
-    driven = bpy.data.objects.new("Driven", None)
-    bpy.context.scene.collection.objects.link(driven)
+    driven = add(None, "Driven", select=False)
     driver = driven.driver_add("location", 0).driver
     variable = driver.variables.new()
     variable.type, variable.name = "SINGLE_PROP", "mass"

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from tests.blender.gymnast import centers_at, curves_of, gymnast, momenta_at, somersault
+from tests.blender.objects import add
 
 SPIN = bpy.ops.pose.body_moments_keep_spin
 PARABOLA = bpy.ops.pose.body_moments_parabola
@@ -61,9 +62,7 @@ def test_somersault_keeps_its_momentum_between_frames(scene, reported, case):
 @pytest.mark.parametrize("layer", [False, True], ids=["action", "layer"])
 @pytest.mark.parametrize("mode", ["XYZ", "QUATERNION"])
 def test_parented_and_layered_somersault_keeps_its_momentum(scene, mode, layer):
-    parent = bpy.data.objects.new("Parent", None)
-    scene.collection.objects.link(parent)
-    parent.rotation_euler, parent.location = (0.4, -0.3, 1.0), (3.0, 2.0, 1.0)
+    parent = add(None, "Parent", (3.0, 2.0, 1.0), (0.4, -0.3, 1.0), select=False)
     rig = gymnast()
     rig.parent = parent
     flight = somersault(rig, 3, 24, mode)
@@ -76,9 +75,7 @@ def test_parented_and_layered_somersault_keeps_its_momentum(scene, mode, layer):
 
 def test_uneven_scale_above_the_character_is_named(scene):
     rig = gymnast()
-    rig.parent = bpy.data.objects.new("Stage", None)
-    rig.parent.scale = 1.0, 2.0, 1.0
-    scene.collection.objects.link(rig.parent)
+    rig.parent = add(None, "Stage", scale=(1.0, 2.0, 1.0), select=False)
     flight = somersault(rig, 3, 24, "QUATERNION")
     with pytest.raises(RuntimeError, match="uneven scale.*“Stage”"):
         SPIN(**typed(flight))

@@ -21,7 +21,7 @@ from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.polyhedron.integration import volume_and_center
 from mathutils import Euler, Vector
 
-from tests.blender.objects import add, measured, mesh_body, only, seen
+from tests.blender.objects import add, dent, measure, measured, mesh_body, mesh_of, only, seen
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -136,9 +136,7 @@ def test_stored_effect_goes_out_of_date():
     assert stale() == Stale.COLLIDERS
     make(shape="HULL")
     assert stale() is None
-    body.data.vertices[0].co.x -= 1.0
-    body.data.update()
-    bpy.context.view_layer.update()
+    dent(body, -1.0)
     assert stale() == Stale.GEOMETRY
     make(shape="HULL")
     body.scale.x = 2.0
@@ -149,8 +147,7 @@ def test_stored_effect_goes_out_of_date():
 def test_refused_objects_are_named_and_the_others_go_on(reported):
     body = add(mesh_body(), "Body")
     armature = add(bpy.data.armatures.new("Bones"), "Rig")
-    flat = add(bpy.data.meshes.new("Flat"), "Flat")
-    flat.data.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
+    flat = add(mesh_of([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]), "Flat")
     zero = add(mesh_body(), "Zero", scale=(1, 0, 1))
     zero.body_moments.kind = "SHELL"
     only(body, armature, flat, zero)
@@ -219,8 +216,7 @@ def test_colliders_are_left_out_of_measuring():
     chosen, left_out, _ = objects_to_measure(None, False, {})
     assert [obj for _, obj in chosen] == [body]
     assert [entry["name"] for entry in left_out] == [obj.name for obj in made]
-    only(body, *made)
-    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+    measure(body, *made)
     assert "body_mass" in body and not any("body_mass" in obj for obj in made)
 
 
@@ -302,9 +298,7 @@ def test_flat_colliders_are_refused_with_a_remedy(shape, correct, turn):
     corners = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]) @ np.array(
         Euler(turn).to_matrix()
     )
-    mesh = bpy.data.meshes.new("Sheet")
-    mesh.from_pydata(corners.tolist(), [], [(0, 1, 2), (0, 2, 3)])
-    body = add(mesh, "Sheet", rotation=turn)
+    body = add(mesh_of(corners, [(0, 1, 2), (0, 2, 3)], "Sheet"), "Sheet", rotation=turn)
     body.body_moments.kind, body.body_moments.thickness = "SHELL", 0.01
     assert make(shape=shape, correct=correct) == {"CANCELLED"}
     (group,) = outcome.last().groups

@@ -11,7 +11,7 @@ from body_moments.blender.scene import node_group
 from body_moments.blender.session.tracking import staleness
 from body_moments.blender.session.tracking.stamps import Stale
 
-from tests.blender.objects import add, mesh_body, only, seen, strip_mesh
+from tests.blender.objects import add, dent, mesh_body, only, seen, strip_mesh
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -48,9 +48,7 @@ def test_rigid_body_keeps_material_results_current(frame):
     obj.body_moments.density_from = "MATERIALS"
     bpy.ops.object.body_moments_measure()
     for move in (1.0, -1.0):  # there and back
-        obj.data.vertices[0].co.x += move
-        obj.data.update()
-        bpy.context.view_layer.update()
+        dent(obj, move)
         assert staleness.stale_reason(obj, bpy.context.scene) == Stale.GEOMETRY
     assert bpy.ops.object.body_moments_rigid_bodies(frame=frame) == {"FINISHED"}
     bpy.context.view_layer.update()

@@ -9,7 +9,7 @@ import pytest
 from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.session.tracking import staleness
 
-from tests.blender.objects import add, editing, only
+from tests.blender.objects import add, editing, measure, mesh_of, only
 from tests.close import close
 from tests.operators.overlapping_boxes import boxes
 from tests.panels.drawing import findings_of, labels, shown
@@ -84,8 +84,7 @@ def test_accepted_warning_stays_a_note_after_measuring():
     from body_moments.core.measurement import record
 
     obj, other = add(boxes(2.0, 1.0)), add(boxes(2.0, 1.0), "Other")
-    only(obj, other)
-    bpy.ops.object.body_moments_measure()
+    measure(obj, other)
     bpy.context.view_layer.objects.active = obj
     assert obj["body_warnings"]
     assert bpy.ops.object.body_moments_accept(code="components_nested") == {"FINISHED"}
@@ -134,8 +133,7 @@ def test_edits_repair_the_mesh_and_measure_again(fault, code, remedy):
     else:  # one face has corners of its own, a little aside
         points += [[x + 1e-6, y, z] for x, y, z in (points[corner] for corner in faces[0])]
         faces[0] = (8, 9, 10, 11)
-    mesh = bpy.data.meshes.new("Faulty")
-    mesh.from_pydata(points, [], faces)
+    mesh = mesh_of(points, faces, "Faulty")
     obj = add(mesh)
     bpy.ops.object.body_moments_measure()
     assert close(obj["body_volume"], 8.0, rel=1e-5)

@@ -12,7 +12,7 @@ from body_moments.blender.session.tracking.stamps import Kind
 from mathutils import Matrix, Vector
 
 from tests.blender.boxes import box, boxes_inertia
-from tests.blender.objects import add, measured, mesh_body, only, place, seen
+from tests.blender.objects import add, measured, mesh_body, mesh_of, only, place, seen
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("registered", "scene")
@@ -120,9 +120,7 @@ def test_compound_of_free_axes_keeps_axes_of_its_parent():
 
 def test_joints_keep_their_places():
     first, second = slanted("a"), slanted("b")
-    hinge = bpy.data.objects.new("Hinge", None)
-    bpy.context.scene.collection.objects.link(hinge)
-    hinge.location, hinge.parent = (4, 4, 4), first
+    hinge = add(None, "Hinge", (4, 4, 4), select=False, parent=first)
     only(second)
     bpy.ops.rigidbody.world_add()
     bpy.ops.rigidbody.constraint_add(type="HINGE")
@@ -260,9 +258,7 @@ def test_six_props_fall_and_rest_on_a_flat_floor(frame, shape, reported):
     ],
 )
 def test_passive_floor_has_hull_if_flat_and_convex(points, shape, reported):
-    mesh = bpy.data.meshes.new("Floor")
-    mesh.from_pydata(points, [], [(0, 1, 2, 3)])
-    floor = add(mesh, "Floor")
+    floor = add(mesh_of(points, [(0, 1, 2, 3)], "Floor"), "Floor")
     only(floor)
     assert make(type="PASSIVE") == {"FINISHED"}
     assert floor.rigid_body.collision_shape == shape and floor.rigid_body.mesh_source == "FINAL"

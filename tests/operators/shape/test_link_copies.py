@@ -10,7 +10,7 @@ from body_moments.blender.session.tracking import staleness
 from mathutils import Matrix
 
 from tests.blender.boxes import box_mesh
-from tests.blender.objects import add, editing, only
+from tests.blender.objects import add, editing, measure, mesh_of, only
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -107,8 +107,7 @@ def test_cube_keeps_its_uvs_in_place():
 def test_children_of_copies_stay_in_place():
     mesh = blob(1)
     first, second = add(mesh, "First"), moved_copy(mesh, turn(2, 2.0))
-    child = add(box_mesh(1, 2, 3), "Child", (1, 1, 1))
-    child.parent = second
+    child = add(box_mesh(1, 2, 3), "Child", (1, 1, 1), parent=second)
     bpy.context.view_layer.update()
     place = np.array(child.matrix_world)
     assert link(first, second) == {"FINISHED"} and first.data == second.data
@@ -157,8 +156,9 @@ def scrambled(mesh, seed):
     random = np.random.default_rng(seed)
     order, faces = random.permutation(len(mesh.vertices)), random.permutation(len(mesh.polygons))
     number, points = np.argsort(order), [mesh.vertices[i].co for i in order]
-    made = bpy.data.meshes.new("Scrambled")
-    made.from_pydata(points, [], [number[list(mesh.polygons[i].vertices)].tolist() for i in faces])
+    made = mesh_of(
+        points, [number[list(mesh.polygons[i].vertices)].tolist() for i in faces], "Scrambled"
+    )
     corners = [corner for i in faces for corner in mesh.polygons[i].loop_indices]
     uv = np.array([mesh.uv_layers[0].data[corner].uv for corner in corners], np.float32)
     made.uv_layers.new(name="UVMap").data.foreach_set("uv", uv.ravel())
@@ -234,8 +234,7 @@ def test_objects_that_others_follow_or_shade_are_left(cause, tmp_path):
         if cause == "context driver":
             target.data_path = 'objects["Copy"].location.x'
         elif cause == "path driver":
-            middle = add(None, "Middle")
-            middle.parent = second
+            middle = add(None, "Middle", parent=second)
             target.id, target.data_path = middle, "parent.location.x"
         elif cause == "mesh driver":
             target.id_type = "MESH"
@@ -287,8 +286,7 @@ def test_instances_and_stored_numbers_stay():
     group.objects.link(second)
     shown = add(None, "Shown", (0, 20, 0))
     shown.instance_type, shown.instance_collection = "COLLECTION", group
-    only(first, second)
-    bpy.ops.object.body_moments_measure()
+    measure(first, second)
     mass, scene = second["body_mass"], bpy.context.scene
     assert link(first, second) == {"FINISHED"} and first.data == second.data
     assert (

@@ -9,7 +9,7 @@ from body_moments.blender.session.tracking import staleness
 from body_moments.blender.session.tracking.stamps import Kind, Stale
 from body_moments.operators import batch
 
-from tests.blender.objects import add, mesh_body, only, place
+from tests.blender.objects import add, dent, mesh_body, mesh_of, only, place
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -18,11 +18,11 @@ SIDES = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
 
 
 def wedge(name="Wedge", scale=1.0, mirrored=False, **where):
-    mesh = bpy.data.meshes.new(name)
     sign = -1 if mirrored else 1
     points = [(sign * scale * x, scale * y, scale * z) for x, y, z in WEDGE]
-    mesh.from_pydata(points, [], [face[::-1] if mirrored else face for face in SIDES])
-    return add(mesh, name, **where)
+    return add(
+        mesh_of(points, [face[::-1] if mirrored else face for face in SIDES], name), name, **where
+    )
 
 
 def cut(obj):
@@ -258,8 +258,6 @@ def test_symmetry_is_stale_after_edit_not_after_motion():
     obj.scale.x = 1.5
     bpy.context.view_layer.update()
     assert staleness.stale_reason(obj, bpy.context.scene, Kind.SYMMETRY) == Stale.SCALE
-    obj.data.vertices[0].co.x += 0.5
-    obj.data.update()
-    bpy.context.view_layer.update()
+    dent(obj, 0.5)
     assert staleness.stale_reason(obj, bpy.context.scene, Kind.SYMMETRY) == Stale.GEOMETRY
     assert obj.body_moments_symmetry.group == "C1"

@@ -13,7 +13,7 @@ from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.blender.write import properties
 from mathutils import Matrix
 
-from tests.blender.objects import add, editing, measured, only
+from tests.blender.objects import add, editing, measure, measured, mesh_of, only
 from tests.close import close
 from tests.operators.balancing import balance, bmesh, edit, figure, points
 
@@ -63,8 +63,7 @@ def object_mode():
 
 
 def test_what_cannot_lean_is_refused(reported):
-    flat = add(bpy.data.meshes.new("Flat"), "Flat")
-    flat.data.from_pydata([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [], [(0, 1, 2, 3)])
+    flat = add(mesh_of([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)]), "Flat")
     flat.body_moments.kind = "SHELL"
     only(flat)
     unchanged(flat, points(flat), "balance_no_effect", reported)
@@ -129,11 +128,8 @@ def test_balance_is_along_gravity_if_it_is_on(is_on):
 
 @pytest.mark.parametrize("scale", [(2.0, 0.5, 1.5), (-1.0, 1.0, 1.0), (0.01, 0.01, 0.01)])
 def test_scaled_parented_object_is_balanced_in_world(scale):
-    parent = bpy.data.objects.new("Parent", None)
-    bpy.context.scene.collection.objects.link(parent)
-    parent.scale, parent.location = (1.0, 1.5, 2.0), (10.0, -5.0, 3.0)
     obj = figure(rotation=(0.5, 0.2, 0.1), scale=scale)
-    obj.parent = parent
+    obj.parent = add(None, "Parent", (10.0, -5.0, 3.0), scale=(1.0, 1.5, 2.0), select=False)
     bpy.context.view_layer.update()
     size = np.ptp(world(obj, points(obj)), axis=0).max()
     target = center(obj) + np.array([-0.01, 0.01, 0.0]) * size
@@ -179,8 +175,7 @@ class TestRefused:
 
     def test_too_far(self, reported):
         obj = figure()
-        only(obj)
-        bpy.ops.object.body_moments_measure()
+        measure(obj)
         numbers = properties.stored(obj)
         edit(obj, lambda co: co.z > 0.8)
         bpy.context.scene.cursor.location = (50.0, 0.0, 0.0)
@@ -260,8 +255,7 @@ class TestRefused:
 def test_other_users_of_balanced_mesh_become_stale(reported):
     obj = figure()
     other = add(obj.data, "Other")
-    only(obj, other)
-    bpy.ops.object.body_moments_measure()
+    measure(obj, other)
     only(obj)
     group(obj)
     assert balance() == {"FINISHED"}

@@ -11,7 +11,7 @@ import pytest
 from body_moments.blender.read.objects import read_object
 from body_moments.core.statics.balancing import balance as least_moves
 
-from tests.blender.objects import add
+from tests.blender.objects import add, mesh_of
 from tests.operators.balancing import balance, points
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -27,12 +27,10 @@ def object_mode():
 @pytest.mark.parametrize("weights", [(1.0, 1.0, 1.0, 1.0), (1.0, 0.5, 0.25, 0.75)])
 def test_bending_face_moves_least_for_its_final_cut(weights):
     """Held against the least moves from where it was, of the triangles that it has in the end."""
-    mesh = bpy.data.meshes.new("Crate")
     corners = [(x, y, z) for z in (0, 1, 2) for y in (0, 1) for x in (0, 1)]
     ring = [*pairwise((0, 1, 3, 2, 0))]
     sides = [(a + k, b + k, b + k + 4, a + k + 4) for k in (0, 4) for a, b in ring]
-    mesh.from_pydata(corners, [], [(0, 2, 3, 1), (8, 9, 11, 10), *sides])
-    obj = add(mesh)
+    obj = add(mesh_of(corners, [(0, 2, 3, 1), (8, 9, 11, 10), *sides], "Crate"))
     start = points(obj)
     top = obj.vertex_groups.new(name="Top")
     for vertex, weight in zip(range(8, 12), weights, strict=True):
