@@ -45,6 +45,7 @@ from .surface import face_of_each as face_of_each
 from .surface import half_ulp as half_ulp
 from .surface import has_flipped_corners as has_flipped_corners
 from .surface import join_surfaces as join_surfaces
+from .surface import keep_used as keep_used
 from .surface import normals as normals
 from .surface import triangle_areas as triangle_areas
 from .surface import turned_quads as turned_quads
