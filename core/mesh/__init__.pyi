@@ -4,11 +4,10 @@
 from typing import Any
 
 from .boundary import BoundarySum as BoundarySum
+from .box_pairs import boxes_overlap as boxes_overlap
+from .box_pairs import overlapping_box_pairs as overlapping_box_pairs
 from .bvh import Bvh as Bvh
 from .bvh import SortedComponents as SortedComponents
-from .bvh import boxes_overlap as boxes_overlap
-from .bvh import intersecting_pairs as intersecting_pairs
-from .bvh import overlapping_box_pairs as overlapping_box_pairs
 from .bvh import sort_components as sort_components
 from .bvh import tree_of_all as tree_of_all
 from .correspondence import Correspondence as Correspondence
@@ -26,6 +25,7 @@ from .hulls import ConvexHull as ConvexHull
 from .hulls import convex_hull as convex_hull
 from .hulls import convex_polygon as convex_polygon
 from .hulls import hull_volumes as hull_volumes
+from .piercing import intersecting_pairs as intersecting_pairs
 from .planarity import Planarity as Planarity
 from .planarity import PlanarityAccumulator as PlanarityAccumulator
 from .planarity import StackPlanarity as StackPlanarity
