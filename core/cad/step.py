@@ -26,8 +26,8 @@ from ..verdict import WELDING_RTOL, FileError, finding
 from .findings import CURVES_LEFT_OUT, SURFACE_DAMAGED, SURFACES_HIDDEN
 from .iges_entities import MAX_DEPTH
 from .part21 import Part21, Reference
-from .step_shapes import MISSING, EntityError, Shapes, blame
-from .surfaces import Refusals, SurfaceBody, SurfaceFile, refuse
+from .step_shapes import EntityError, Shapes, blame
+from .surfaces import MISSING, Refusals, SurfaceBody, SurfaceFile, refuse
 
 SOLIDS = (
     "MANIFOLD_SOLID_BREP",

@@ -27,18 +27,17 @@ from ..nurbs import (
     reverse_curves,
 )
 from ..verdict import FileError, MeasureError
-from .findings import SURFACE_DAMAGED, SURFACE_POINTS, SURFACE_UNSUPPORTED
+from .findings import SURFACE_UNSUPPORTED
 from .iges_entities import MAX_DEPTH, conic_pieces
 from .iges_sweeps import TURN, join_pieces, revolve, revolved_quadric, rule
 from .part21 import Part21, Reference
 from .regions import MISS_RTOL
-from .surfaces import SurfaceRefusedError, bezier_surface, placed_surface, refuse
+from .surfaces import SurfaceRefusedError, bezier_surface, placed_surface, reason, refuse
 from .trimmed import face_within, flat_region
 
 UNCERTAINTIES = 20.0  # A vertex may be so many uncertainties of the file from its curve.
 SAMPLES = 257  # points of a spline where the search for the parameters of vertices begins
 OVERLAP = 1.0 + 1e-3  # length of a swept surface, relative to its boundary
-MISSING = "a reference to an entity that is not in the file"
 
 
 class EntityError(Exception):
@@ -56,14 +55,8 @@ def blame(number: int) -> Iterator[None]:
         yield
     except FileError:
         raise
-    except SurfaceRefusedError as error:
-        raise EntityError(number, error.finding.code, error.finding.values) from error
-    except MeasureError as error:
-        raise EntityError(number, SURFACE_POINTS, {"cause": error.finding}) from error
-    except (ValueError, OverflowError, LookupError, TypeError) as error:
-        is_missing = isinstance(error, KeyError) and isinstance(error.args[0], Reference)
-        fault = MISSING if is_missing else "numbers that are missing or not possible"
-        raise EntityError(number, SURFACE_DAMAGED, {"fault": fault}) from error
+    except (MeasureError, ValueError, OverflowError, LookupError, TypeError) as error:
+        raise EntityError(number, *reason(error)) from error
 
 
 class Shapes:

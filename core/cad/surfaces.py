@@ -7,8 +7,9 @@ surfaces of revolution.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
@@ -33,6 +34,7 @@ from .findings import (
 )
 from .iges_sweeps import join_pieces, revolve
 
+MISSING = "a reference to an entity that is not in the file"
 MAX_ORDER = 6  # largest order of the surfaces that are kept
 MAX_POINTS = 1 << 18  # control points of one patch in Bézier form
 MAX_SURFACES = 10_000  # surfaces placed by a file
@@ -83,6 +85,17 @@ def refuse(fault: str) -> SurfaceRefusedError:
     return SurfaceRefusedError(SURFACE_DAMAGED, fault=fault)
 
 
+def reason(error: Exception) -> tuple[str, Mapping[str, Any]]:
+    """Return a finding's code and values for an error that reading an entity raised."""
+    if isinstance(error, SurfaceRefusedError):
+        return error.finding.code, error.finding.values
+    if isinstance(error, MeasureError):  # about its control points
+        return SURFACE_POINTS, {"cause": error.finding}
+    is_missing = isinstance(error, KeyError) and isinstance(error.args[0], int)
+    fault = MISSING if is_missing else "numbers that are missing or not possible"
+    return SURFACE_DAMAGED, {"fault": fault}
+
+
 @dataclass
 class Refusals:
     """Surfaces that could not be kept, gathered by reason and kind."""
@@ -106,12 +119,9 @@ class Refusals:
             return patches
         except FileError:
             raise
-        except SurfaceRefusedError as error:
-            self.add(error.finding.code, kind, name, **error.finding.values)
-        except MeasureError as error:  # about its control points
-            self.add(SURFACE_POINTS, kind, name, cause=error.finding)
-        except (ValueError, OverflowError, LookupError):
-            self.add(SURFACE_DAMAGED, kind, name, fault="numbers that are missing or not possible")
+        except (MeasureError, ValueError, OverflowError, LookupError) as error:
+            code, values = reason(error)
+            self.add(code, kind, name, **values)
         return []
 
     def add(self, code: str, kind: str, name: str, **values: object) -> None:

@@ -114,20 +114,6 @@ class Quadric:
                     found[:, axis] += period * np.round((guess[:, axis] - found[:, axis]) / period)
         return found
 
-    def follow(self, points: NDArray, velocity: NDArray, at: NDArray) -> Array:
-        """Return (n, 2) velocities of the coordinates that `project` gives, as points move."""
-        x, y, z = self._inverse[:, :3] @ points.T + self._inverse[:, 3:]
-        x_slope, y_slope, z_slope = self._inverse[:, :3] @ velocity.T
-        away = np.maximum(np.hypot(x, y), 1e-300)
-        turn = (x * y_slope - y * x_slope) / away**2
-        outward = (x * x_slope + y * y_slope) / away
-        if not self.minor:
-            climb = (z_slope + self.slope * outward) / (1.0 + self.slope**2)
-            return np.stack([turn, climb], axis=1)
-        arm = away - self.radius
-        tilt = (arm * z_slope - z * outward) / np.maximum(arm**2 + z**2, 1e-300)
-        return np.stack([turn, tilt], axis=1)
-
     @cached_property
     def _inverse(self) -> Array:
         return np.asarray(np.linalg.inv(self.frame)[:3], np.float64)

@@ -12,6 +12,7 @@ import numpy as np
 from ..numerics import Array, NDArray, dot
 from ..verdict import WELDING_RTOL
 from .bezier import DERIVATIVES, quotient_derivatives
+from .quadric import Quadric
 from .splines import Patch, homogeneous, patches_size
 
 SAMPLES_PER_SPAN = 6  # density of the grid of first guesses
@@ -128,14 +129,6 @@ class SplineChart:
                 break
         return best
 
-    def follow(self, points: NDArray, velocity: NDArray, at: NDArray) -> Array:
-        """Return (n, 2) velocities of the nearest points of the patch, at coordinates (n, 2), as
-        points move.
-        """
-        place, along, across, *second = self.evaluate(*at.T, most=2)
-        away = points.T - place
-        return _solve(along, across, velocity.T, np.stack([dot(away, one) for one in second]))
-
     def _nearest_samples(self, points: NDArray) -> Array:
         ends = [space.uniform_parameters(SAMPLES_PER_SPAN) for space in self.patch.spaces]
         # Not at the ends: from a pole no step leads to another meridian.
@@ -156,6 +149,15 @@ class SplineChart:
         """(3 or 4, count_s, count_t) control points about the first."""
         net = homogeneous(self.patch.points - self.patch.points[0, 0], self.patch.weights)
         return np.ascontiguousarray(np.moveaxis(net, -1, 0))
+
+
+def follow(chart: Quadric | SplineChart, points: NDArray, velocity: NDArray, at: NDArray) -> Array:
+    """Return (n, 2) velocities of the nearest points of a surface, at coordinates (n, 2), as points
+    move.
+    """
+    place, along, across, *second = chart.evaluate(*at.T, most=2)
+    away = points.T - place
+    return _solve(along, across, velocity.T, np.stack([dot(away, one) for one in second]))
 
 
 def _solve(along: NDArray, across: NDArray, target: NDArray, bend: NDArray) -> Array:

@@ -33,7 +33,7 @@ from ..verdict import WELDING_RTOL
 from .bezier import ROUNDING, VOLUME_RTOL
 from .patch_moments import AREA_RTOL, area_slope, area_terms, flux_terms, sheet_terms
 from .quadric import Quadric
-from .spline_chart import SplineChart
+from .spline_chart import SplineChart, follow
 from .splines import Curve, control_length, homogeneous
 
 SAMPLES = 17  # of a Bézier piece of a loop
@@ -463,7 +463,7 @@ class TrimmedFace:
             on_curve = evaluate_nets(nets[part], steps, origin)
             points, velocity = (row.reshape(3, -1).T for row in on_curve)
             place = self.chart.project(points, track.reshape(-1, 2))
-            slope = self.chart.follow(points, velocity, place)
+            slope = follow(self.chart, points, velocity, place)
             for row, values in zip(found, (place.T, slope.T, *on_curve)):
                 row[:, ~on_line] = values.reshape(-1, *steps.shape)
         return found

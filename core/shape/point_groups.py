@@ -183,9 +183,8 @@ class PlacedTriangles:
         kept = []
         left = np.arange(len(order))
         while len(left):
-            alike = (
-                np.einsum("nij,ij->n", operations[left], operations[left[0]]) > 3.0 - CLEAR_PRODUCT
-            )
+            products = np.einsum("nij,ij->n", operations[left], operations[left[0]])
+            alike = products > 3.0 - CLEAR_PRODUCT
             kept.append(left[alike][worst[left[alike]].argmin()])
             left = left[~alike]
         return operations[kept]

@@ -54,22 +54,9 @@ def measure_stream(
     of faces read since the last time.
     """
     for find_box in (mesh.sampled_box, mesh.box):
-        stream = _Stream(mesh, *find_box(), progress)
-        try:
-            volume, area = polyhedron_moments(
-                stream.pieces(),
-                order,
-                area_order=area_order,
-                about=stream.center,
-                reach=stream.reach,
-                allow_open=True,
-                threads=threads,
-            )
-        except _FarPiece:
-            continue
-        if not stream.face_count:
-            raise FileError(FILE_WITHOUT_OBJECTS, content="faces")
-        return StreamIntegrals(volume, area, stream.boundary.is_zero, stream.face_count)
+        found = _measure_about(mesh, *find_box(), order, area_order, threads, progress)
+        if found is not None:
+            return found
     raise AssertionError("piece outside its box")
 
 
@@ -77,35 +64,49 @@ class _FarPiece(Exception):
     """The error of a piece that reaches much farther from the center than the sampled box."""
 
 
-class _Stream:
-    """The faces of a file, with their boundary and count. progress: called with the count of faces
-    of each piece.
-    """
+def _measure_about(
+    mesh: MeshFile,
+    low: NDArray,
+    high: NDArray,
+    order: int,
+    area_order: int,
+    threads: int,
+    progress: Callable[[int], None] | None,
+) -> StreamIntegrals | None:
+    """Measure a mesh about the center of a box; None if a piece reaches much farther."""
+    large = max(np.abs(low).max(), np.abs(high).max()) > np.finfo(np.float32).max
+    center = box_center(low, high, np.dtype(np.float64 if large else np.float32))
+    reach = float(np.maximum(high - center, center - low).max())
+    boundary = BoundarySum()
+    counts = []
 
-    def __init__(
-        self, mesh: MeshFile, low: NDArray, high: NDArray, progress: Callable[[int], None] | None
-    ) -> None:
-        large = max(np.abs(low).max(), np.abs(high).max()) > np.finfo(np.float32).max
-        self.center = box_center(low, high, np.dtype(np.float64 if large else np.float32))
-        self.reach = float(np.maximum(high - self.center, self.center - low).max())
-        self.boundary = BoundarySum()
-        self.face_count = 0
-        self._mesh, self._progress = mesh, progress
-
-    def pieces(self) -> Iterator[Surface]:
-        """Yield the pieces of the mesh, and add each to boundary and count."""
-        for piece in self._mesh.pieces():
-            faces = len(piece.triangles) + len(piece.quads)
-            if self._progress is not None:
-                self._progress(faces)
-            low, high = piece.box
-            reach = np.maximum(high - self.center, self.center - low).max()
+    def pieces() -> Iterator[Surface]:
+        for piece in mesh.pieces():
+            counts.append(len(piece.triangles) + len(piece.quads))
+            if progress is not None:
+                progress(counts[-1])
+            least, largest = piece.box
             # Also if it is NaN, which the box of all faces refuses.
-            if not reach <= MAX_REACH_RATIO * self.reach:
+            if not np.maximum(largest - center, center - least).max() <= MAX_REACH_RATIO * reach:
                 raise _FarPiece
-            self.boundary.add(piece.points.reshape(-1, 3, 3) if self._mesh.is_loose else piece)
-            self.face_count += faces
+            boundary.add(piece.points.reshape(-1, 3, 3) if mesh.is_loose else piece)
             yield piece
+
+    try:
+        volume, area = polyhedron_moments(
+            pieces(),
+            order,
+            area_order=area_order,
+            about=center,
+            reach=reach,
+            allow_open=True,
+            threads=threads,
+        )
+    except _FarPiece:
+        return None
+    if not counts:
+        raise FileError(FILE_WITHOUT_OBJECTS, content="faces")
+    return StreamIntegrals(volume, area, boundary.is_zero, sum(counts))
 
 
 def open_mesh_file(path: str | Path) -> MeshFile:

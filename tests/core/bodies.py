@@ -256,3 +256,20 @@ def hourglass(heavy):
     points = np.array([(x, y, z) for z in (-1.0, 1.0) for x, y in outline])
     lids = [(0, 5, 4, 1), (1, 4, 3, 2), (6, 7, 10, 11), (7, 8, 9, 10)]
     return points, split(lids + [(k, (k + 1) % 6, (k + 1) % 6 + 6, k + 6) for k in range(6)])
+
+
+def lathed(*profile, sides=48):
+    """(radius, z) revolved about z in `sides` sides; closed if its ends are at radius 0."""
+    angle = np.arange(sides) * (2 * np.pi / sides)
+    ring = np.stack([np.cos(angle), np.sin(angle), np.zeros(sides)], axis=1)
+    points = np.concatenate([ring * r + [0, 0, z] for r, z in profile])
+    i = np.arange(sides)
+    j = (i + 1) % sides
+    triangles = []
+    for k in range(len(profile) - 1):
+        low, high = k * sides, (k + 1) * sides
+        if profile[k][0]:
+            triangles.append(np.stack([low + i, low + j, high + j], axis=1))
+        if profile[k + 1][0]:
+            triangles.append(np.stack([low + i, high + j, high + i], axis=1))
+    return points, np.concatenate(triangles)

@@ -572,11 +572,13 @@ def test_dangling_pointer_is_damage(tmp_path):
     file.surface(unrolled(sphere()), matrix=99, label="FAR")
     file.surface(unrolled(sphere()), matrix=ball, label="OTHER")
     read = read_surfaces(file.write(tmp_path / "a.igs"))
-    assert [(found.code, labels(found.values)) for found in read.refused] == [
-        ("surface_damaged", ["PLACE"] * 3),
-        ("surface_damaged", ["TRIM"]),
-        ("surface_damaged", ["FAR", "OTHER"]),
-    ]
+    assert {one.code for one in read.refused} == {"surface_damaged"}
+    is_missing = {
+        tuple(labels(one.values)): "not in" in one.values["fault"] for one in read.refused
+    }
+    missing = ("PLACE", "PLACE"), ("TRIM",), ("FAR",)
+    others = ("PLACE",), ("OTHER",)
+    assert is_missing == dict.fromkeys(missing, True) | dict.fromkeys(others, False)
     assert len(read.bodies[0].patches) == 1
 
 

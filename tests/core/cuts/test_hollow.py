@@ -7,27 +7,10 @@ import pytest
 from body_moments.core.cuts import find_hollow, fit_rim, spill_tilt
 from body_moments.core.verdict import MeasureError
 
-from tests.core.bodies import box, inverted, joined
+from tests.core.bodies import box, inverted, joined, lathed
 
 SIDES = 48
 CIRCLE = SIDES / 2 * np.sin(2 * np.pi / SIDES)  # area of the unit polygon
-
-
-def lathed(*profile):
-    """A polygon revolved about z; its ends at radius 0."""
-    angle = np.arange(SIDES) * (2 * np.pi / SIDES)
-    ring = np.stack([np.cos(angle), np.sin(angle), np.zeros(SIDES)], axis=1)
-    points = np.concatenate([ring * r + [0, 0, z] for r, z in profile])
-    i = np.arange(SIDES)
-    j = (i + 1) % SIDES
-    triangles = []
-    for k in range(len(profile) - 1):
-        low, high = k * SIDES, (k + 1) * SIDES
-        if profile[k][0]:
-            triangles.append(np.stack([low + i, low + j, high + j], axis=1))
-        if profile[k + 1][0]:
-            triangles.append(np.stack([low + i, high + j, high + i], axis=1))
-    return points, np.concatenate(triangles)
 
 
 def cone_volume(low, high, height):

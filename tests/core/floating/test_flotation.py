@@ -7,17 +7,14 @@ import pytest
 from body_moments.core import MeasureError
 from body_moments.core.floating import FloatingBody, Tank, Vessel, righting_curve
 
+from tests.core.bodies import box, lathed
+
 UP = (0.0, 0.0, 1.0)
-BOX_FACES = [
-    *([0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1]),
-    *([2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]),
-]
+BOX_FACES = box()[1]
 
 
 def box_points(low, high):
-    return np.array(
-        [[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
-    )
+    return box(low, high)[0]
 
 
 def log(length, width, height, share, place=(0.0, 0.0, 0.0), **more):
@@ -25,24 +22,6 @@ def log(length, width, height, share, place=(0.0, 0.0, 0.0), **more):
     points = box_points(place - half, place + half)
     mass = 1000.0 * share * length * width * height
     return FloatingBody(points, BOX_FACES, mass, np.array(place), 1000.0, **more)
-
-
-def lathe(radii, heights, count):
-    """Return points and triangles of a closed body of revolution with `count` sides."""
-    turn = 2.0 * np.pi * np.arange(count) / count
-    rings = [
-        np.stack([r * np.cos(turn), r * np.sin(turn), np.full(count, z)], axis=1)
-        for r, z in zip(radii, heights)
-    ]
-    points = np.concatenate([*rings, [[0, 0, heights[0]], [0, 0, heights[-1]]]])
-    i = np.arange(count)
-    j = (i + 1) % count
-    faces = [np.stack([np.full(count, len(points) - 2), j, i], axis=1)]
-    for k in range(len(radii) - 1):
-        a, b = k * count, (k + 1) * count
-        faces += [np.stack([a + i, a + j, b + j], axis=1), np.stack([a + i, b + j, b + i], axis=1)]
-    faces.append(np.stack([np.full(count, len(points) - 1), b + i, b + j], axis=1))
-    return points, np.concatenate(faces)
 
 
 @pytest.mark.parametrize("place", [(0.0, 0.0, 0.0), (100.0, -30.0, 7.0)])
@@ -70,7 +49,7 @@ def test_box_has_closed_form_numbers(place):
 @pytest.mark.parametrize("slope", [0.0, 0.4])
 def test_bounds_cover_numbers_of_points_stored_as_float32(slope):
     points = box_points((-3.0, -1.1, -0.7), (3.3, 1.0, 0.6)) + [200.0, 0.1, 0.3]
-    points[1::2, 1] += slope * np.sign(points[1::2, 1])  # the sides flare
+    points[4:, 1] += slope * np.sign(points[4:, 1])  # the sides flare
     moved = np.spacing(np.abs(points).max(axis=0).astype(np.float32)) / 2.0
     center = np.array([200.1, 0.05, 0.2])
     exact = FloatingBody(points, BOX_FACES, 5000.0, center, 1000.0).at([0.02, -0.03, 1.0])
@@ -85,27 +64,25 @@ def test_bounds_cover_numbers_of_points_stored_as_float32(slope):
     assert 0.0 < np.abs(off).max() <= bounds["gm"] < 0.1
 
 
-@pytest.mark.parametrize("share", [0.05, 0.1, 0.2, 0.211, 0.789, 0.8, 0.95])
-def test_light_and_heavy_logs_float_flat(share):
-    rest = log(20.0, 1.0, 1.0, share).settle([0.0, 0.01, 1.0])
-    assert rest.up == pytest.approx([0.0, 0.0, 1.0], abs=1e-9)
-
-
-@pytest.mark.parametrize("share", [0.22, 0.235, 0.25, 0.75, 0.765, 0.78])
-def test_log_tilts_by_wall_sided_formula(share):
-    rest = log(20.0, 1.0, 1.0, share).settle([0.0, 0.01, 1.0])
-    light = min(share, 1.0 - share)
-    radius = 1.0 / (12.0 * light)
-    height = light / 2.0 + radius - 0.5
-    tangent = np.sqrt(-2.0 * height / radius)
-    assert abs(rest.up[1] / rest.up[2]) == pytest.approx(tangent, rel=1e-9)
-    assert rest.residual < 1e-9
-
-
-@pytest.mark.parametrize("share", [0.282, 0.35, 0.5, 0.65, 0.718])
-def test_medium_log_floats_on_its_edge(share):
-    rest = log(20.0, 1.0, 1.0, share).settle([0.0, 0.01, 1.0])
-    assert abs(rest.up[1]) == pytest.approx(np.sqrt(0.5), abs=1e-8)
+@pytest.mark.parametrize(
+    ("shares", "tilt"),
+    [
+        ((0.05, 0.1, 0.2, 0.211, 0.789, 0.8, 0.95), 0.0),
+        ((0.22, 0.235, 0.25, 0.75, 0.765, 0.78), None),  # by the wall-sided formula
+        ((0.282, 0.35, 0.5, 0.65, 0.718), np.pi / 4.0),
+    ],
+    ids=["flat", "tilted", "on an edge"],
+)
+def test_log_floats_flat_tilted_or_on_its_edge(shares, tilt):
+    for share in shares:
+        rest = log(20.0, 1.0, 1.0, share).settle([0.0, 0.01, 1.0])
+        light = min(share, 1.0 - share)
+        radius = 1.0 / (12.0 * light)
+        height = light / 2.0 + radius - 0.5
+        expected = np.arctan(np.sqrt(-2.0 * height / radius)) if tilt is None else tilt
+        found = np.arctan2(*np.abs(rest.up[1:]))
+        assert found == pytest.approx(expected, rel=1e-8, abs=1e-8)
+        assert rest.residual < 1e-9
 
 
 @pytest.mark.parametrize("share", [0.25, 0.3, 0.5])
@@ -150,7 +127,8 @@ def test_wedge_floats_at_root_of_its_share():
 
 def test_round_hull_has_closed_form_numbers():
     count, radius = 48, 1.5
-    points, faces = lathe([radius, radius], [0.0, 1.0], count)
+    profile = (0.0, 0.0), (radius, 0.0), (radius, 1.0), (0.0, 1.0)
+    points, faces = lathed(*profile, sides=count)
     area = count / 2.0 * np.sin(2.0 * np.pi / count) * radius**2
     side = 2.0 * radius * np.sin(np.pi / count)
     rest = FloatingBody(points, faces, 400.0 * area, [0.0, 0.0, 0.3], 1000.0).settle(UP)
@@ -165,7 +143,8 @@ def test_paraboloid_converges_to_closed_form():
     errors = []
     for count in (40, 80):
         heights = np.linspace(1e-3, 1.0, count) ** 2
-        points, faces = lathe(np.sqrt(heights), heights, 2 * count)
+        profile = (0.0, heights[0]), *zip(np.sqrt(heights), heights), (0.0, heights[-1])
+        points, faces = lathed(*profile, sides=2 * count)
         mass = 1000.0 * np.pi * 0.5**2 / 2.0
         rest = FloatingBody(points, faces, mass, [0.0, 0.0, 0.6], 1000.0).settle([0.02, 0.0, 1.0])
         errors.append(
@@ -261,7 +240,7 @@ def test_righting_arms_integrate_to_energy():
 
 def test_free_trim_leaves_no_trimming_arm():
     points = box_points((-3.0, -1.0, -0.5), (3.0, 1.0, 0.5)) * 1.0
-    points[4:, 1] *= 0.2  # a pointed bow
+    points[1::2, 1] *= 0.2  # a pointed bow
     body = FloatingBody(points, BOX_FACES, 3000.0, [-0.6, 0.0, 0.0], 1000.0)
     rest = body.settle(UP)
     angles = np.radians([10.0, 30.0, 60.0])

@@ -302,10 +302,13 @@ def test_empty_surface_has_zero_moments():
 @pytest.mark.parametrize("order", [2, 5])
 def test_unmeasurable_input_is_refused(order):
     points, quads = grid_torus()
-    with pytest.raises(ValueError, match="vertex"):
-        polyhedron_moments(Surface(points, quads=quads + 1), order)
-    with pytest.raises(ValueError, match="finite"):
-        polyhedron_moments(Surface(np.where(points > 1.0, np.nan, points), quads=quads), order)
+    for wrong in (quads + 1, quads - 1):
+        for faces in ({"quads": wrong}, {"triangles": wrong[:, :3]}):
+            with pytest.raises(ValueError, match="vertex"):
+                polyhedron_moments(Surface(points, **faces), order)
+    for bad in (np.nan, np.inf, -np.inf):
+        with pytest.raises(ValueError, match="finite"):
+            polyhedron_moments(Surface(np.where(points > 1.0, bad, points), quads=quads), order)
     for wrong in (np.zeros((4, 3)), np.zeros((4, 3, 3), complex)):
         with pytest.raises(ValueError, match="corners"):
             polyhedron_moments([wrong], order)

@@ -20,6 +20,7 @@ from hypothesis import given
 
 from tests.close import close
 from tests.core import exact
+from tests.core.bodies import grid_torus
 from tests.core.strategies import holds, seeds
 
 ORDER = 12
@@ -134,17 +135,8 @@ def slice_of_ball(n):
 
 
 def torus(n):
-    u = np.arange(n) * (2.0 * np.pi / n)
-    ring = 1.0 + 0.4 * np.cos(u)
-    points = np.stack(
-        [np.outer(np.cos(u), ring), np.outer(np.sin(u), ring), np.tile(0.4 * np.sin(u), (n, 1))],
-        axis=-1,
-    )
-    i, j = np.meshgrid(np.arange(n), np.arange(n), indexing="ij")
-    corners = [(i, j), ((i + 1) % n, j), ((i + 1) % n, (j + 1) % n), (i, (j + 1) % n)]
-    return Surface(
-        points.reshape(-1, 3), quads=np.stack([(a * n + b).ravel() for a, b in corners], axis=1)
-    )
+    points, quads = grid_torus(n, n)
+    return Surface(points, quads=quads)
 
 
 BODIES = {

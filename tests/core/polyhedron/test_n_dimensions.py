@@ -267,25 +267,19 @@ def test_bad_input_is_refused(points, simplices, words):
 
 
 @pytest.mark.parametrize(
-    ("order", "about", "words"),
+    ("arguments", "words"),
     [
-        (-1, None, "order"),
-        (2.5, None, "order"),
-        (2, (0.0, 0.0), "about"),
-        (2, (0.0, np.nan, 0.0), "about must be finite"),
+        ({"order": -1}, "order"),
+        ({"order": 2.5}, "order"),
+        ({"about": (0.0, 0.0)}, "about"),
+        ({"about": (0.0, np.nan, 0.0)}, "about must be finite"),
+        *(({"signs": signs}, "signs") for signs in (np.ones(35), np.ones((1, 36)), 1.0)),
     ],
 )
-def test_arguments_are_checked(order, about, words):
+def test_arguments_are_checked(arguments, words):
     points, facets, _ = cube(3)
     with pytest.raises(ValueError, match=words):
-        enclosed_moments(points, facets, order, about)
-
-
-def test_each_simplex_has_a_sign():
-    points, facets, _ = cube(3)
-    for signs in (np.ones(len(facets) - 1), np.ones((1, len(facets))), 1.0):
-        with pytest.raises(ValueError, match="signs"):
-            enclosed_moments(points, facets, 2, signs=signs)
+        enclosed_moments(points, facets, **{"order": 2} | arguments)
 
 
 def test_empty_boundary_encloses_nothing():

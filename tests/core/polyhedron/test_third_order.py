@@ -319,32 +319,6 @@ def test_moments_scale_exactly_with_powers_of_two(exponent):
     assert (scaled.rounding_error >= difference).all()
 
 
-@pytest.mark.parametrize("shell", [False, True])
-def test_empty_surfaces_have_no_moments(shell):
-    for points in (np.empty((0, 3)), np.ones((4, 3), np.float32)):
-        volume, area = polyhedron_moments(Surface(points), area_order=3 if shell else 0)
-        assert not volume.raw.any() and not area.raw.any()
-        assert volume.order == 3 and area.order == (3 if shell else 0)
-
-
-@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
-def test_nonfinite_coordinates_are_refused(bad):
-    points, quads = grid_torus()
-    points[5, 1] = bad
-    with pytest.raises(ValueError, match="finite"):
-        polyhedron_moments(Surface(points, quads=quads))[0]
-
-
-@pytest.mark.parametrize("index", [-1, 96])
-def test_invalid_indices_are_refused(index):
-    points, quads = grid_torus()
-    quads[17, 2] = index
-    with pytest.raises(ValueError, match="vertex"):
-        polyhedron_moments(Surface(points, quads=quads))[0]
-    with pytest.raises(ValueError, match="vertex"):
-        polyhedron_moments(Surface(points, quads[:, :3]))[0]
-
-
 @pytest.mark.parametrize("scale", [1.0, 1e-3])
 def test_bound_holds_for_float32_points_near_a_far_center(path, scale):
     rng = np.random.default_rng(5)
