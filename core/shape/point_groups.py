@@ -17,7 +17,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..mesh import Bvh, tree_of_all
+from ..mesh import Bvh, keep_used, tree_of_all
 from ..numerics import Array, Index, Mask, NDArray, cross_rows, lengths, rotation_about
 from .symmetries import Symmetry
 
@@ -45,10 +45,7 @@ class PlacedTriangles:
     """
 
     def __init__(self, points: NDArray, triangles: NDArray, near: float, far: float):
-        is_used = np.zeros(len(points), bool)
-        is_used[triangles] = True
-        self.points = points[is_used]
-        self.triangles = (np.cumsum(is_used) - 1)[triangles]
+        self.points, self.triangles = keep_used(points, triangles)
         self.near, self.far = near, far
         height = self.points @ SKEW
         self._order = np.argsort(height, kind="stable")
