@@ -218,11 +218,7 @@ class Transform:
         for i in range(part.start, part.stop, size):
             wave_rows = slice(i, min(i + size, part.stop))
             real, imaginary = means(wave_rows)
-            weight = block.lengths
-            if self.measure == Measure.VOLUME:
-                weight = np.empty_like(real)
-                spare = np.empty_like(real)
-                across(wave_rows, weight, spare)
+            weight = across(wave_rows) if self.measure == Measure.VOLUME else block.lengths
             here = slice(
                 (wave_rows.start - part.start) * columns, (wave_rows.stop - part.start) * columns
             )

@@ -178,30 +178,23 @@ class PhaseMeans:
 
     def __call__(self, wave_rows: slice) -> tuple[Array, Array]:
         """Return (m, k) real and imaginary parts of D - 1/2 for some rows of the part."""
-        vectors = self.waves.vectors(wave_rows)
-        a, b, spare = (np.empty((vectors.shape[1], len(self.block.lengths))) for _ in range(3))
-        self.first(wave_rows, a, spare)
-        self.second(wave_rows, b, spare)
+        a, b = self.first(wave_rows), self.second(wave_rows)
         c = -(a + b)
         if self.largest > MAX_SERIES_DIAMETER:
-            return self._by_edges(wave_rows, vectors, a, b, c)
+            return self._by_edges(wave_rows, a, b, c)
         real, imaginary = _series(a * a + a * b + b * b, a * b * c, self.terms)
-        self.half(wave_rows, a, b, spare)
-        return _apply_phase(a, b, real, imaginary)
+        return _apply_phase(*self.half(wave_rows), real, imaginary)
 
     def _by_edges(
-        self, wave_rows: slice, vectors: NDArray, a: NDArray, b: NDArray, c: NDArray
+        self, wave_rows: slice, a: NDArray, b: NDArray, c: NDArray
     ) -> tuple[NDArray, NDArray]:
-        block = self.block
         square = a * a + b * b + c * c
-        cosine, sine, phase, spare = (np.empty((len(a), block.middles.shape[1])) for _ in range(4))
-        self.middle(wave_rows, cosine, sine, spare)
-        self.along(wave_rows, phase, spare)
-        np.maximum(np.abs(phase, out=phase), TINY, out=phase)
-        np.divide(np.sin(phase, out=spare), phase, out=phase)
+        cosine, sine = self.middle(wave_rows)
+        phase = np.maximum(np.abs(self.along(wave_rows)), TINY)
+        sinc = np.sin(phase) / phase
         small = np.flatnonzero(square < MAX_SERIES_SQUARE)
-        series = self._series_of_pairs(small, vectors, a, b, c)
-        x, y, z = block.edges
+        series = self._series_of_pairs(small, self.waves.vectors(wave_rows), a, b, c)
+        x, y, z = self.block.edges
         negative = -np.maximum(square, MAX_SERIES_SQUARE / 2.0, out=square)
         real, imaginary = (
             (
@@ -210,7 +203,7 @@ class PhaseMeans:
                 + wave.take(z, 1, mode="clip") * c
             )
             / negative
-            for wave in (sine * phase, cosine * phase)
+            for wave in (sine * sinc, cosine * sinc)
         )
         real -= 0.5
         real.reshape(-1)[small], imaginary.reshape(-1)[small] = series

@@ -21,9 +21,9 @@ from .findings import FREQUENCIES_INVALID, WAVE_VECTORS_RANGE, WAVE_VECTORS_SHAP
 
 MAX_FREQUENCY = 1e100  # its square is still a number, for any size of the body
 
-# Both fill arrays of shape (wave vectors of some rows, k); the last argument is overwritten.
-DotFiller = Callable[[slice, NDArray, NDArray], None]  # with q·v
-PhaseFiller = Callable[[slice, NDArray, NDArray, NDArray], None]  # with cos(q·x) and sin(q·x)
+# Both return arrays of shape (wave vectors of some rows, k).
+Dot = Callable[[slice], Array]  # q·v
+Phases = Callable[[slice], tuple[Array, Array]]  # cos(q·x) and sin(q·x)
 EXACT, APPROXIMATE = "exact", "approximate"
 
 
@@ -133,32 +133,23 @@ class ListWaves:
         """Return the (3, m) wave vectors of some rows."""
         return self.q[:, wave_rows]
 
-    def dot(self, part: slice, vectors: NDArray) -> DotFiller:
-        """Return a function that fills arrays with q·v, for the rows of a part and vectors (3,
-        k).
-        """
+    def dot(self, part: slice, vectors: NDArray) -> Dot:
+        """Return a function that returns q·v for the rows of a part and vectors (3, k)."""
+        return lambda wave_rows: sum(
+            np.multiply.outer(q, v) for q, v in zip(self.q[:, wave_rows], vectors)
+        )
 
-        def fill(wave_rows: slice, out: NDArray, spare: NDArray) -> None:
-            q = self.q[:, wave_rows]
-            np.multiply(q[0][:, None], vectors[0], out=out)
-            for axis in (1, 2):
-                np.multiply(q[axis][:, None], vectors[axis], out=spare)
-                np.add(out, spare, out=out)
-
-        return fill
-
-    def phase_factors(self, part: slice, points: NDArray) -> PhaseFiller:
-        """Return a function that fills arrays with cos(q·x) and sin(q·x), for the rows of a part
-        and points (3, k).
+    def phase_factors(self, part: slice, points: NDArray) -> Phases:
+        """Return a function that returns cos(q·x) and sin(q·x) for the rows of a part and points
+        (3, k).
         """
         dot = self.dot(part, points)
 
-        def fill(wave_rows: slice, cosine: NDArray, sine: NDArray, spare: NDArray) -> None:
-            dot(wave_rows, cosine, spare)
-            np.sin(cosine, out=sine)
-            np.cos(cosine, out=cosine)
+        def phases(wave_rows: slice) -> tuple[Array, Array]:
+            phase = dot(wave_rows)
+            return np.cos(phase), np.sin(phase)
 
-        return fill
+        return phases
 
 
 class GridWaves:
@@ -181,38 +172,35 @@ class GridWaves:
         n = self.columns
         return np.stack([np.repeat(x, n), np.repeat(y, n), np.tile(self.depth, len(x))])
 
-    def dot(self, part: slice, vectors: NDArray) -> DotFiller:
-        """Return a function that fills arrays with q·v, for the rows of a part and vectors (3,
-        k).
-        """
+    def dot(self, part: slice, vectors: NDArray) -> Dot:
+        """Return a function that returns q·v for the rows of a part and vectors (3, k)."""
         first, x, y = self._tables(part, vectors)
         z = self.depth[:, None] * vectors[2]
 
-        def fill(wave_rows: slice, out: NDArray, spare: NDArray) -> None:
+        def products(wave_rows: slice) -> Array:
             i, j = np.divmod(np.arange(wave_rows.start, wave_rows.stop), len(self.side))
-            np.add((x[i - first] + y[j])[:, None], z, out=out.reshape(len(i), *z.shape))
+            return ((x[i - first] + y[j])[:, None] + z).reshape(-1, z.shape[1])
 
-        return fill
+        return products
 
-    def phase_factors(self, part: slice, points: NDArray) -> PhaseFiller:
-        """Return a function that fills arrays with cos(q·x) and sin(q·x), for the rows of a part
-        and points (3, k).
+    def phase_factors(self, part: slice, points: NDArray) -> Phases:
+        """Return a function that returns cos(q·x) and sin(q·x) for the rows of a part and points
+        (3, k).
         """
         first, x, y = self._tables(part, points)
         z = self.depth[:, None] * points[2]
         x, y, z = ((np.cos(phase), np.sin(phase)) for phase in (x, y, z))
 
-        def fill(wave_rows: slice, cosine: NDArray, sine: NDArray, spare: NDArray) -> None:
+        def phases(wave_rows: slice) -> tuple[Array, Array]:
             i, j = np.divmod(np.arange(wave_rows.start, wave_rows.stop), len(self.side))
-            c, s, scratch = (a.reshape(len(i), *z[0].shape) for a in (cosine, sine, spare))
             a, b = (values[i - first] for values in x)
             p, q = (values[j] for values in y)
             real = (a * p - b * q)[:, None]
             imaginary = (a * q + b * p)[:, None]
-            np.subtract(real * z[0], imaginary * z[1], out=c)
-            np.add(real * z[1], imaginary * z[0], out=s)
+            cosine, sine = real * z[0] - imaginary * z[1], real * z[1] + imaginary * z[0]
+            return cosine.reshape(-1, points.shape[1]), sine.reshape(-1, points.shape[1])
 
-        return fill
+        return phases
 
     def _tables(self, part: slice, vectors: NDArray) -> tuple[int, NDArray, NDArray]:
         """Return the first index along x that a part needs, the products with x from there on, and

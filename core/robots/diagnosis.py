@@ -8,8 +8,6 @@ coincidence. If none agrees, the mass may be distributed unevenly: that is no er
 with the factor of the inertia.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import permutations, product
@@ -83,6 +81,14 @@ GRAMS = "mass by 0.001 and the inertia, in g·mm² or g·cm²,"
 PER_MASS = "inertia, which is that of mass 1 in other units, by the mass and"
 IMPERIAL = "mass by 0.453592 and the inertia, in lb·in²,"
 WHOLE_IMPERIAL = "mass by 0.453592, the center by 0.0254 and the inertia, in lb·in²,"
+# Changes of units of pounds: part, factor, and the factors of mass, center and inertia. The inertia
+# comes with a mass in pounds, and often with a center in inches.
+POUNDS = (
+    ("mass, which is in pounds,", POUND, POUND),
+    *(("inertia", unit, 1.0, 1.0, unit) for unit in IMPERIAL_INERTIAS),
+    (IMPERIAL, IMPERIAL_INERTIAS[0], POUND, 1.0, IMPERIAL_INERTIAS[0]),
+    (WHOLE_IMPERIAL, IMPERIAL_INERTIAS[0], POUND, INCH, IMPERIAL_INERTIAS[0]),
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -217,7 +223,7 @@ def _best_change(stated: StatedInertial, references: Sequence[Reference]) -> Dia
             now = reference.compare(repaired)
             if now < AGREES and now < 0.1 * apart:
                 density = repaired.mass / reference.volume
-                fits.append((values, repaired, DENSITIES[0] <= density <= DENSITIES[1]))
+                fits.append((values, repaired, _is_possible(density)))
                 if best is None or max(now, ROUNDING) < 0.1 * best[0]:
                     best = (
                         now,
@@ -263,12 +269,11 @@ def diagnose_density(stated: StatedInertial, reference: Reference) -> list[Diagn
     usual.
     """
     density = stated.mass / reference.volume
-    if DENSITIES[0] <= density <= DENSITIES[1]:
+    if _is_possible(density):
         return []
     for factor in (1e-3, 1e3):
         if USUAL_DENSITIES[0] <= density * factor <= USUAL_DENSITIES[1]:
-            mass = float(_times(stated.mass, factor))
-            repaired = stated.along_link(_times(stated.inertia, factor), mass=mass)
+            repaired = _scaled(stated, mass=factor, inertia=factor)
             values = {"part": "mass and inertia", "factor": factor, "density": density}
             return [Diagnosis(_finding(AUDIT_UNIT, values), repaired, is_certain=False)]
     return [Diagnosis(finding(AUDIT_DENSITY, density=density))]
@@ -284,15 +289,15 @@ def _with_density(found: Diagnosis, stated: StatedInertial, reference: Reference
     density = stated.mass / reference.volume
     other = density * factor**3  # were the mesh scaled by 1/factor
     # Both cannot be in the range: a cube of a factor exceeds it.
-    if DENSITIES[0] <= other <= DENSITIES[1]:
+    if _is_possible(other):
         return Diagnosis(
             _finding(AUDIT_UNIT, {"part": "lengths of the mesh", "factor": 1.0 / factor}),
             is_of_geometry=True,
         )
     if factor == INCH:  # Programs that state inches state pounds.
-        values = {"part": WHOLE_IMPERIAL, "factor": IMPERIAL_INERTIAS[0]}
-        *_, repaired = (one for _, some, one in _pounds(stated) if some == values)
-        return Diagnosis(_finding(AUDIT_UNIT, values), repaired)
+        part, factor, *factors = POUNDS[-1]
+        values = {"part": part, "factor": factor}
+        return Diagnosis(_finding(AUDIT_UNIT, values), _scaled(stated, *factors))
     return found
 
 
@@ -309,6 +314,20 @@ def _times(values: ArrayLike, factor: float) -> Array:
     inverse = round(1.0 / factor)
     values = np.asarray(values, np.float64)
     return values / inverse if inverse and 1.0 / inverse == factor else values * factor
+
+
+def _is_possible(density: float) -> bool:
+    return DENSITIES[0] <= density <= DENSITIES[1]
+
+
+def _scaled(
+    stated: StatedInertial, mass: float = 1.0, center: float = 1.0, inertia: float = 1.0
+) -> StatedInertial:
+    """Return an inertial with its mass, center and inertia times these factors."""
+    scaled = replace(
+        stated, mass=float(_times(stated.mass, mass)), center=_times(stated.center, center)
+    )
+    return scaled if inertia == 1.0 else scaled.along_link(_times(stated.inertia, inertia))
 
 
 Change = tuple[str, dict, StatedInertial]
@@ -335,60 +354,23 @@ def _changes(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
 
 def _units(stated: StatedInertial, reference: Reference, keeps: bool) -> Iterator[Change]:
     """Yield changes of units. keeps: True if changes that keep the center may help."""
-    inertia = stated.inertia
-    center = stated.center
-    mass = stated.mass
-    density = mass / reference.volume
+    density = stated.mass / reference.volume
+    changes = []
     for factor in (1e-3, 1e3):
-        heavy = density * factor
-        if DENSITIES[0] <= heavy <= DENSITIES[1] and not DENSITIES[0] <= density <= DENSITIES[1]:
-            yield (
-                AUDIT_UNIT,
-                {"part": "mass", "factor": factor},
-                replace(stated, mass=float(_times(mass, factor))),
-            )
-        if DENSITIES[0] <= heavy <= DENSITIES[1] < density:
-            for unit in (1e-9, 1e-7):
-                tensor = stated.along_link(_times(inertia, unit), mass=float(_times(mass, factor)))
-                yield AUDIT_UNIT, {"part": GRAMS, "factor": unit}, tensor
-    for factor in INERTIA_UNITS if keeps else ():
-        yield (
-            AUDIT_UNIT,
-            {"part": "inertia", "factor": factor},
-            stated.along_link(_times(inertia, factor)),
-        )
-    for factor in LENGTH_UNITS:
-        whole = stated.along_link(
-            _times(_times(inertia, factor), factor), center=_times(center, factor)
-        )
-        yield AUDIT_UNIT, {"part": LENGTHS, "factor": factor}, whole
-    yield from _pounds(stated)
-    for part, factor in (("mass", mass), ("density", density)):
-        yield (
-            AUDIT_INERTIA_OF_UNIT,
-            {"part": part, "factor": factor},
-            stated.along_link(inertia * factor),
-        )
+        if _is_possible(density * factor) and not _is_possible(density):
+            changes.append(("mass", factor, factor))
+            if density > DENSITIES[1]:
+                changes += [(GRAMS, unit, factor, 1.0, unit) for unit in (1e-9, 1e-7)]
+    changes += [("inertia", unit, 1.0, 1.0, unit) for unit in INERTIA_UNITS if keeps]
+    changes += [(LENGTHS, unit, 1.0, unit, unit**2) for unit in LENGTH_UNITS]
+    for part, factor, *factors in (*changes, *POUNDS):
+        yield AUDIT_UNIT, {"part": part, "factor": factor}, _scaled(stated, *factors)
+    for part, factor in (("mass", stated.mass), ("density", density)):
+        values = {"part": part, "factor": factor}
+        yield AUDIT_INERTIA_OF_UNIT, values, _scaled(stated, inertia=factor)
     for factor in (INCH**2, 1e-4, 1e-6) if keeps else ():
-        tensor = stated.along_link(_times(inertia, factor) * mass)
-        yield AUDIT_UNIT, {"part": PER_MASS, "factor": factor}, tensor
-
-
-def _pounds(stated: StatedInertial) -> Iterator[Change]:
-    mass = stated.mass * POUND
-    yield (
-        AUDIT_UNIT,
-        {"part": "mass, which is in pounds,", "factor": POUND},
-        replace(stated, mass=mass),
-    )
-    for factor in IMPERIAL_INERTIAS:
-        tensor = stated.along_link(stated.inertia * factor)
-        yield AUDIT_UNIT, {"part": "inertia", "factor": factor}, tensor
-        # It comes with a mass in pounds, and often with a center in inches.
-        if factor == IMPERIAL_INERTIAS[0]:
-            yield AUDIT_UNIT, {"part": IMPERIAL, "factor": factor}, replace(tensor, mass=mass)
-            whole = replace(tensor, mass=mass, center=stated.center * INCH)
-            yield AUDIT_UNIT, {"part": WHOLE_IMPERIAL, "factor": factor}, whole
+        values = {"part": PER_MASS, "factor": factor}
+        yield AUDIT_UNIT, values, _scaled(stated, inertia=factor * stated.mass)
 
 
 def _points(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
@@ -444,8 +426,7 @@ def _centers(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
     # Any center becomes that of geometry at the origin, if it is only made small enough.
     is_away = np.linalg.norm(reference.center) > DIFFERS * np.sqrt(np.trace(reference.inertia) / 2)
     for factor in LENGTH_UNITS if is_away else ():
-        moved = replace(stated, center=_times(stated.center, factor))
-        yield AUDIT_UNIT, {"part": CENTER, "factor": factor}, moved
+        yield AUDIT_UNIT, {"part": CENTER, "factor": factor}, _scaled(stated, center=factor)
     *some, all_of_them = [*product((1.0, -1.0), repeat=3)][1:]
     for signs in (*some, all_of_them):
         names = [axis for axis, sign in zip("xyz", signs) if sign == -1.0]

@@ -8,7 +8,10 @@ from xml.etree import ElementTree
 import numpy as np
 from body_moments.command import audit
 from body_moments.core.files import GltfFile, node_matrix
+from body_moments.core.inertia import MassProperties
+from body_moments.core.mesh import Surface
 from body_moments.core.numerics.rotations import rotation_matrix
+from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.robots.read.descriptions import Roots, read_description
 from body_moments.core.robots.read.meshes import read_mesh
 from body_moments.core.robots.stated import rotation_of_angles
@@ -43,29 +46,13 @@ class ExportedLink:
 
 
 def assert_filled(link, density, rel=1e-5):
-    """The inertial is that of the mesh filled with this density: sums over tetrahedra from the
-    origin.
-    """
-    a, b, c = link.corners.astype(np.float64).transpose(1, 0, 2)
-    volumes = np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0
-    total, size = density * volumes.sum(), link.sides.max()
-    assert abs(link.mass - total) <= rel * total
-    center = (volumes[:, None] * (a + b + c) / 4.0).sum(axis=0) / volumes.sum()
-    assert np.abs(link.center - center).max() <= rel * size
-    a, b, c = a - center, b - center, c - center
-    volumes = np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0
-    apex = np.zeros_like(a)
-    pairs = (
-        sum(
-            np.einsum("ni,nj->nij", p, q) * (1 + (p is q))
-            for p in (a, b, c, apex)
-            for q in (a, b, c, apex)
-        )
-        / 20
-    )
-    second = density * np.einsum("n,nij->ij", volumes, pairs)
-    inertia = np.trace(second) * np.eye(3) - second
-    assert np.abs(link.inertia - inertia).max() <= rel * np.abs(inertia).max()
+    """The inertial is that of the mesh filled with this density."""
+    points = link.corners.reshape(-1, 3).astype(np.float64)
+    surface = Surface.from_triangles(points, np.arange(len(points)).reshape(-1, 3))
+    body = MassProperties.from_moments(polyhedron_moments(surface)[0], density)
+    assert abs(link.mass - body.mass) <= rel * body.mass
+    assert np.abs(link.center - body.center).max() <= rel * link.sides.max()
+    assert np.abs(link.inertia - body.inertia).max() <= rel * np.abs(body.inertia).max()
 
 
 def exported_links(path):

@@ -12,15 +12,16 @@ import pytest
 pytest.importorskip("bpy")
 import numpy as np
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.robots import Auditor, Inertial, Link, Pose, Robot, Shape, repaired_copy
 from body_moments.core.robots.plausibility import impossible
 from body_moments.core.robots.read.descriptions import Roots, read_description
+from body_moments.core.robots.read.meshes import read_mesh
 from body_moments.core.robots.write import mjcf, sdf, stl, usd
 from body_moments.core.robots.write.text import roll_pitch_yaw
 from body_moments.core.verdict import FileError, Severity, severity
 
 from tests.blender.findings import refused
+from tests.blender.robot_truth import fixed_angles
 from tests.close import close
 from tests.core.bodies import box, joined
 from tests.robots.links import inertial, rotation
@@ -66,11 +67,6 @@ def rounded(value):
     return float("{:.6g}".format(value))
 
 
-def with_tensor(true, tensor, **changes):
-    """An inertial that states another tensor; its principal pair is not looked at."""
-    return replace(true, inertia=tensor, **changes)
-
-
 def plant(true, kind, rng):
     """A mistake: what is stated, the codes that may name it, whether the tensor is in a rotated
     frame.
@@ -80,22 +76,22 @@ def plant(true, kind, rng):
     signs = np.array([[1, -1, -1], [-1, 1, -1], [-1, -1, 1]])
     order = [0, 2, 1]
     planted = {
-        "inertia unit": (with_tensor(true, tensor * 1000.0), {"audit_unit"}),
-        "inertia small": (with_tensor(true, tensor * 1e-6), {"audit_unit"}),
+        "inertia unit": (replace(true, inertia=tensor * 1000.0), {"audit_unit"}),
+        "inertia small": (replace(true, inertia=tensor * 1e-6), {"audit_unit"}),
         "mass unit": (replace(true, mass=m * 1000.0), {"audit_unit"}),
-        "both units": (with_tensor(true, tensor * 1000.0, mass=m * 1000.0), {"audit_unit"}),
+        "both units": (replace(true, inertia=tensor * 1000.0, mass=m * 1000.0), {"audit_unit"}),
         "center unit": (replace(true, center=c * 1000.0), {"audit_unit"}),
-        "length unit": (with_tensor(true, tensor * 1e6, center=c * 1000.0), {"audit_unit"}),
-        "products": (with_tensor(true, tensor * signs), {"audit_sign"}),
+        "length unit": (replace(true, inertia=tensor * 1e6, center=c * 1000.0), {"audit_unit"}),
+        "products": (replace(true, inertia=tensor * signs), {"audit_sign"}),
         "swapped": (
-            with_tensor(true, tensor[np.ix_(order, order)]),
+            replace(true, inertia=tensor[np.ix_(order, order)]),
             {"audit_order", "audit_turned"},
         ),
         "transposed": (
-            with_tensor(true, true.axes.T @ (true.moments[:, None] * true.axes)),
+            replace(true, inertia=true.axes.T @ (true.moments[:, None] * true.axes)),
             {"audit_transposed"},
         ),
-        "about origin": (with_tensor(true, tensor + shift), {"audit_inertia_elsewhere"}),
+        "about origin": (replace(true, inertia=tensor + shift), {"audit_inertia_elsewhere"}),
     }
     return planted[kind]
 
@@ -199,7 +195,7 @@ def test_degrees_for_radians_in_the_inertial_and_in_the_mesh(tmp_path, seed):
     rng = np.random.default_rng(seed)
     right = robot(tmp_path, seed, links=2, placed=False)
     angles = rng.uniform(-90, 90, 3).round(2)
-    frame = read_angles(np.radians(angles))
+    frame = fixed_angles(*np.radians(angles))
     true = right.links[0].inertial
     stated = replace(true, inertia=frame.T @ true.inertia @ frame)
     links = [replace(right.links[0], inertial=stated), right.links[1]]
@@ -222,13 +218,6 @@ def test_degrees_for_radians_in_the_inertial_and_in_the_mesh(tmp_path, seed):
     )
     told = faults(audit(path))
     assert [code for code in told[0] if code.startswith("audit_")] == ["audit_angles"]
-
-
-def read_angles(angles):
-    (cr, cp, cy), (sr, sp, sy) = np.cos(angles), np.sin(angles)
-    x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
-    y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
-    return np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]]) @ y @ x
 
 
 @pytest.mark.parametrize("encoding", ["utf-16", "utf-16-le", "utf-16-be"])
@@ -263,105 +252,16 @@ def test_other_formats_are_repaired_in_place(tmp_path, name, writer):
     links = [
         replace(link, inertial=wrong) if link is right.links[1] else link for link in right.links
     ]
+    for index, link in enumerate(links):
+        surface, _ = read_mesh(tmp_path / link.shapes[0].file)
+        links[index] = replace(link, shapes=(replace(link.shapes[0], surface=surface),))
     path = tmp_path / ("robot." + name)
-    text = writer.write(Robot("robot", tuple(links)))
-    if name == "usd":
-        text = with_meshes(text, tmp_path, right)
-    path.write_text(text, encoding="utf-8")
+    path.write_text(writer.write(Robot("robot", tuple(links))), encoding="utf-8")
     found = audit(path)
     told = faults(found)
     assert [code for code in told[1] if code.startswith("audit_")] == ["audit_unit"], told
     assert not told[0] and not told[2]
     check_repair(path, found, [link.inertial for link in right.links])
-
-
-def with_meshes(text, folder, right):
-    """Put each link's mesh into its prim."""
-    for link in right.links:
-        start = text.index('def Xform "{}"'.format(usd.identifier(link.name)))
-        place = text.index("xformOpOrder", start)
-        end = text.index("\n", place)
-        data = np.frombuffer(
-            (folder / link.shapes[0].file).read_bytes()[84:],
-            np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")]),
-        )["corners"].reshape(-1, 3)
-        points = ", ".join("({!r}, {!r}, {!r})".format(*map(float, point)) for point in data)
-        mesh = '\n        def Mesh "m"\n        {{\n            point3f[] points = [{}]\n'.format(
-            points
-        )
-        mesh += "            int[] faceVertexCounts = [{}]\n".format(
-            ", ".join(["3"] * (len(data) // 3))
-        )
-        mesh += "            int[] faceVertexIndices = [{}]\n        }}".format(
-            ", ".join(map(str, range(len(data))))
-        )
-        text = text[:end] + mesh + text[end:]
-    return text
-
-
-def test_mujoco_reads_a_body_as_we_do(tmp_path):
-    """Defaults, classes, Euler angles in degrees, axes and quaternions."""
-    text = """<mujoco><compiler angle="degree" eulerseq="zyx"/>
-    <default><geom type="box" size=".1 .2 .3"/><default class="thin"><geom size=".1 .2 .01"/>
-</default></default>
-    <worldbody>
-      <body name="a" euler="10 20 30"><freejoint/><geom class="thin" euler="10 20 30" pos="1 2 3"/>
-        <inertial pos=".1 .2 .3" euler="40 50 60" mass="2" diaginertia=".02 .03 .04"/></body>
-      <body name="b"><freejoint/><inertial pos="0 0 0" axisangle="1 2 3 40" mass="1"
-diaginertia=".02 .03 .04"/></body>
-      <body name="c"><freejoint/><inertial pos="0 0 0" mass="1"
-fullinertia=".02 .03 .04 .001 .002 -.003"/></body>
-      <body name="d"><freejoint/><inertial pos="0 0 0" xyaxes="1 1 0 0 1 1" mass="1"
-diaginertia=".02 .03 .04"/></body>
-      <body name="e"><freejoint/><inertial pos="0 0 0" zaxis="1 2 -3" mass="1"
-diaginertia=".02 .03 .04"/></body>
-    </worldbody></mujoco>"""
-    path = tmp_path / "model.xml"
-    path.write_text(text, encoding="utf-8")
-    # xx, yy, zz, xy, xz, yz as MuJoCo 4.0.0 has them
-    truth = {
-        "a": (
-            0.0348017858339,
-            0.0300335152765,
-            0.0251646988896,
-            -0.00558114025244,
-            0.00650414484361,
-            0.0018242175549,
-        ),
-        "b": (
-            0.0254230741933,
-            0.0270393570758,
-            0.0375375687309,
-            -0.0045773623995,
-            0.00590520932069,
-            0.000954964383256,
-        ),
-        "c": (0.02, 0.03, 0.04, 0.001, 0.002, -0.003),
-        "d": (
-            0.0283333333333,
-            0.0283333333333,
-            0.0333333333333,
-            -0.00833333333333,
-            0.00333333333333,
-            -0.003333333333,
-        ),
-        "e": (
-            0.0266228507795,
-            0.0276628635062,
-            0.0357142857143,
-            0.00603856665606,
-            -0.000433338636129,
-            -0.006211902110,
-        ),
-    }
-    links = read_description(path).links
-    for link in links:
-        inertia = link.inertial.inertia
-        found = [inertia[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
-        assert near(found, np.array(truth[link.name]), 1e-10)
-    (shape,) = links[0].shapes
-    turn = rotation_matrix([0.951548524644, 0.239298337745, 0.189307857412, 0.038134576475])
-    assert near(turn, shape.shape.pose.rotation, 1e-10) and shape.shape.size == (0.2, 0.4, 0.02)
 
 
 def test_included_mujoco_files_are_read_and_not_repaired(tmp_path):

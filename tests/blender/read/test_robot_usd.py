@@ -46,8 +46,8 @@ def usd_operations(rng, count):
     """The text of some operations, and what all of them do: the last of them acts first."""
     lines, names, matrix = [], [], np.eye(4)
     steps = list(usd_steps(rng))
-    for number in rng.permutation(len(steps))[:count]:
-        kind, values, step = steps[number]
+    chosen = [steps[number] for number in rng.permutation(len(steps))[:count]]
+    for kind, values, step in chosen:
         name = "xformOp:" + kind
         lines.append(
             "double[] {} = ({})".format(name, ", ".join(map(repr, np.ravel(values).tolist())))
@@ -56,15 +56,9 @@ def usd_operations(rng, count):
         matrix = matrix @ step
     if count and rng.integers(2):  # back again, as pivots do
         names.append("!invert!" + names[0])
-        matrix = matrix @ np.linalg.inv(steps[rng_first(names[0])][2])
+        matrix = matrix @ np.linalg.inv(chosen[0][2])
     lines.append("uniform token[] xformOpOrder = [{}]".format(", ".join(map(json.dumps, names))))
     return "\n".join(lines), matrix
-
-
-def rng_first(name):
-    kinds = "translate", "translate:pivot", "scale", "orient", "transform"
-    turns = ["rotate" + order for order in ("X", "Y", "Z", "XYZ", "ZYX", "YXZ")]
-    return [*kinds, *turns].index(name.partition(":")[2])
 
 
 @SEEDS

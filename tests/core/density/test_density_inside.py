@@ -101,12 +101,6 @@ def test_a_uniform_density_is_the_solid():
     assert found.total == pytest.approx(2.5 * solid.total, rel=1e-12)
 
 
-def test_density_moments_add():
-    triangles, one, two = blob(), random_densities((7, 7, 7)), random_densities((7, 7, 7), 1)
-    first, second, both = (inside_moments(triangles, grid)[0] for grid in (one, two, one + two))
-    assert both.raw == pytest.approx(first.raw + second.raw, rel=1e-11, abs=1e-9)
-
-
 def test_a_monte_carlo_sum_agrees():
     """A check by counting, not by any formula: points in a tetrahedron."""
     corners = np.array([(0.3, 0.2, 0.4), (6.1, 0.7, 0.2), (1.2, 5.9, 0.9), (0.8, 1.1, 6.4)])

@@ -120,13 +120,6 @@ def test_outlines_touching_along_edges_and_corners_are_no_flaw():
     assert not found.crossings and not found.overlapping and not found.too_many_pairs
 
 
-def test_hole_touching_its_outline_stays_a_hole():
-    points, loops = shape(rectangle(0, 0, 4, 4), rectangle(0, 1, 2, 2))
-    edges = orient_loops(points, loops)
-    assert area_moments(points, edges, 0).raw[0] == 12
-    assert not find_defects(points, edges).overlapping
-
-
 @pytest.mark.parametrize("first", range(4))
 @pytest.mark.parametrize("angle", [0.0, 0.3, 2.0])
 def test_a_hole_with_most_of_its_sides_on_the_outline_is_a_hole(first, angle):

@@ -98,11 +98,6 @@ def test_region_within_its_coordinate_error_is_refused(rounded, is_certain):
         region_moments(square, directed_edges([range(4)]), 2, rounded=rounded)
 
 
-def test_a_region_without_area_is_refused():
-    with refused("no_section_area"):
-        region_moments([(0, 0), (1, 0), (2, 0)], directed_edges([range(3)]), 3)
-
-
 def test_complex_moments_match_their_definition_within_bounds():
     found = region_moments(POINTS, EDGES, 6, (0.5, 0.25))
     real = dict(zip(map(tuple, multi_indices(2, 6).tolist()), truths(POINTS, (0.5, 0.25), 6)))

@@ -103,14 +103,6 @@ def test_sheynin_tuzikov_matches_plain_integration_exactly(body):
         assert values[rows.index(row)] == rational.enclosed(points, cut, row)
 
 
-def test_sheynin_tuzikov_matches_rational_recursion_exactly():
-    points, faces = prism()
-    floats = np.array(points, float)
-    cut = triangles(points, faces)
-    truth = exact.volume_moments(floats, cut, order=6)
-    assert sheynin_tuzikov.volume_moments(rational.fractions(floats), cut, 6) == truth
-
-
 def test_add_on_recursion_is_within_bounds_of_sheynin_tuzikov():
     points, faces = prism()
     floats = np.array(points, float)
@@ -121,16 +113,6 @@ def test_add_on_recursion_is_within_bounds_of_sheynin_tuzikov():
     )
     for value, bound, exactly in zip(found.raw, found.rounding_error, truth):
         assert abs(F(value) - exactly) <= F(bound)
-
-
-def test_sheynin_tuzikov_matches_a_box_to_eighth_order():
-    points, faces = box()
-    low, high = points[0], points[-1]
-    for (p, q, r), value in zip(exponents(8), sheynin_tuzikov.volume_moments(points, faces, 8)):
-        sides = [
-            (high[i] ** (n + 1) - low[i] ** (n + 1)) / (n + 1) for i, n in enumerate((p, q, r))
-        ]
-        assert value == sides[0] * sides[1] * sides[2]
 
 
 def exact_root(square):

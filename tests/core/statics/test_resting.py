@@ -190,11 +190,6 @@ def test_flat_faces_of_many_triangles_are_one():
         assert close(poses.margins, 0.5, exact)
 
 
-def test_a_weighted_die_falls_on_its_heavy_side():
-    normals, shares, _, _ = poses_of(box(1, 1, 1), np.array([0.5, 0.5, 0.05]))
-    assert facing(normals, (0, 0, -1)) == 0 and shares[0] > 0.4
-
-
 def test_a_center_outside_the_hull_is_refused():
     with pytest.raises(MeasureError) as refusal:
         resting_poses(convex_hull(box(1, 1, 1)), [2.0, 0.5, 0.5])
