@@ -8,8 +8,6 @@ coincidence. If none agrees, the mass may be distributed unevenly: that is no er
 with the factor of the inertia.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import permutations, product

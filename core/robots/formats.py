@@ -5,8 +5,6 @@
 It imports nothing heavy: a format's modules are loaded when they are used.
 """
 
-from __future__ import annotations
-
 from importlib import import_module
 from types import ModuleType
 from typing import NamedTuple

@@ -18,8 +18,6 @@ raised by the rounding of the largest moment. So of nearly flat or thin tensors 
 too dense for that thickness is decided.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import pi, sqrt
 

@@ -8,8 +8,6 @@ A box has ∫x_i² dm = m s_i²/12 and an ellipsoid m a_i²/5, so each body has 
 has two parameters for three moments: it takes the mean of the two across its axis.
 """
 
-from __future__ import annotations
-
 from math import pi, sqrt
 
 import numpy as np

@@ -54,30 +54,19 @@ def refused(*words):
     return ended.value.code == 2
 
 
-def entries(element):
-    """The tensor of an element with ixx, ixy and so on as attributes or children."""
-    value = element.get if element.get("ixx") else element.findtext
-    return np.array([[float(value("i" + "".join(sorted(a + b)))) for b in "xyz"] for a in "xyz"])
-
-
 def numbers(words):
     return np.array(words.split(), float)
 
 
 @pytest.mark.parametrize("unit", UNITS)
-def test_urdf_has_the_record_numbers_along_link_axes(unit):
+def test_urdf_has_joints_and_inertials_along_link_axes(unit):
     upper, forearm, tool = arm(unit)
     root = ElementTree.fromstring(text("measure", "--format", "urdf"))
     records = {entry["name"]: entry for entry in document("--frame", "object")["objects"]}
     links = {link.get("name"): link.find("inertial") for link in root.iter("link")}
     assert links.keys() == {*records, "base_link"}
     assert links["base_link"].find("mass").get("value") == "0"
-    for name, record in records.items():
-        inertial = links[name]
-        assert inertial.find("origin").get("rpy") == "0 0 0"
-        assert numbers(inertial.find("origin").get("xyz")).tolist() == record["center_of_mass"]
-        assert float(inertial.find("mass").get("value")) == record["mass"]
-        assert entries(inertial.find("inertia")).tolist() == record["inertia"]
+    assert {links[name].find("origin").get("rpy") for name in records} == {"0 0 0"}
     joints = {joint.find("child").get("link"): joint for joint in root.iter("joint")}
     parents = {child: joint.find("parent").get("link") for child, joint in joints.items()}
     assert parents == {"Fore arm": "Upper", "Upper": "base_link", "Tool": "base_link"}
@@ -90,10 +79,10 @@ def test_urdf_has_the_record_numbers_along_link_axes(unit):
 
 
 @pytest.mark.parametrize("unit", UNITS)
-def test_the_other_formats_hold_the_same_bodies(tmp_path, unit):
+def test_all_formats_hold_the_record_bodies(tmp_path, unit):
     arm(unit)
     records = {entry["name"]: entry for entry in document("--frame", "object")["objects"]}
-    for name in ("sdf", "mjcf", "osim"):
+    for name in ("urdf", "sdf", "mjcf", "osim"):
         for label, link in exported(tmp_path, name).items():
             check(records[label.replace("_", " ")], link.mass, link.center, link.inertia)
     usd = text("measure", "--format", "usd")

@@ -9,8 +9,6 @@ axis the file says is up; some obey. So the file's own axes are kept, and the ro
 for is returned beside them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 

@@ -5,8 +5,6 @@
 The moments are those of MuJoCo 4.0.0, whose `legacy` ones of a mesh with dents are too large.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from itertools import product

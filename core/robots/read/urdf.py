@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reader of URDF: the inertials and shapes of its links, and its joints."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...verdict import Finding

@@ -9,10 +9,9 @@ opened; a prim that refers to another of the layer has its attributes.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from math import inf
-from typing import Any
 
 import numpy as np
 
@@ -36,7 +35,7 @@ from ..stated import (
 )
 from .meshes import checked_surface
 from .mjcf_meshes import CLOSED, WATER, Weight
-from .xml import check_size
+from .xml import attempt, check_size
 
 _TOKEN = re.compile(
     r'\s+|#[^\n]*|"""(?:.|\n)*?"""|\'\'\'(?:.|\n)*?\'\'\'|'
@@ -62,8 +61,8 @@ _SPECIFIERS = {"def", "over", "class"}
 
 @dataclass(eq=False)
 class Prim:
-    """One prim. values: attributes as text. start, end: range of the text between its braces, in
-    characters.
+    """One prim. values: attributes as text. text: that of the layer. start, end: its range between
+    the prim's braces, in characters.
 
     line: that of its opening brace.
     """
@@ -71,6 +70,7 @@ class Prim:
     kind: str
     name: str
     metadata: str
+    text: str
     start: int
     line: int
     end: int = 0
@@ -96,6 +96,12 @@ class Prim:
         if len(values) != count:
             raise ValueError(self.values[name][:80])
         return values
+
+    def unreadable(self, text: str) -> Finding:
+        """Return the finding about a wrong number, at its line if it is in the prim."""
+        place = max(self.text.find(text, self.start, self.end), self.start)
+        line = self.text.count("\n", 0, place) + 1
+        return finding(DESCRIPTION_NUMBER, text=text, element=self.name, line=line)
 
     def number(self, name: str, default: float) -> float:
         """Return the number of an attribute, else its default. ValueError if there are several."""
@@ -125,8 +131,8 @@ class _Parser:
         self.index += 1
         return self.tokens[self.index - 1]
 
-    def balanced(self) -> tuple[int, int]:
-        """Skip a word, or a pair of brackets with its content; return its range in the text."""
+    def balanced(self) -> str:
+        """Return the next word, or pair of brackets with its content."""
         depth = 0
         start = self.tokens[self.index][1]
         while True:
@@ -136,7 +142,7 @@ class _Parser:
             elif token in ")]}":
                 depth -= 1
             if depth <= 0:
-                return start, position + len(token)
+                return self.text[start : position + len(token)]
 
     def prim(self, depth: int) -> Prim:
         self.count += 1
@@ -145,15 +151,12 @@ class _Parser:
         words = []
         while self.peek() not in ("(", "{", ""):
             words.append(self.take()[0])
-        metadata = ""
-        if self.peek() == "(":
-            start, end = self.balanced()
-            metadata = self.text[start:end]
+        metadata = self.balanced() if self.peek() == "(" else ""
         kind, name = (words[0], words[-1].strip("\"'")) if words else ("", "")
         _, opening = self.take()
         self.line = self.line + self.text.count("\n", self.counted, opening)
         self.counted = opening
-        prim = Prim(kind, name, metadata, opening + 1, self.line)
+        prim = Prim(kind, name, metadata, self.text, opening + 1, self.line)
         while self.peek() != "}":
             if self.peek() in _SPECIFIERS:
                 prim.children.append(self.prim(depth + 1))
@@ -176,8 +179,7 @@ class _Parser:
                 self.take()
             return
         self.take()
-        start, end = self.balanced()
-        prim.values[words[-1] if words else ""] = self.text[start:end]
+        prim.values[words[-1] if words else ""] = self.balanced()
 
 
 def read(data: bytes) -> Description:
@@ -204,10 +206,7 @@ def _invalid(text: str, place: int) -> FileError:
 
 def _description(text: str, data: bytes) -> Description:
     parser = _Parser(text)
-    metadata = ""
-    if parser.peek() == "(":
-        start, end = parser.balanced()
-        metadata = text[start:end]
+    metadata = parser.balanced() if parser.peek() == "(" else ""
     roots = []
     while parser.index < len(parser.tokens):
         if parser.peek() not in _SPECIFIERS:
@@ -221,23 +220,19 @@ def _description(text: str, data: bytes) -> Description:
     links: list[StatedLink] = []
     joints: list[tuple[str, Prim]] = []
     for root in roots:
-        _visit(root, np.eye(4), root.name, scales, links, joints, by_path, text)
+        _visit(root, np.eye(4), root.name, scales, links, joints, by_path)
     by_name = {link.name: link for link in links}
-    usable: list[StatedJoint] = []
     findings: list[Finding] = []
-    for path, prim in joints:
-        try:
-            usable.append(_joint(path, prim, by_name, scales["length"]))
-        except ValueError as error:
-            values = {"text": str(error), "element": prim.name, "line": prim.line}
-            findings.append(finding(DESCRIPTION_NUMBER, **values))
+    usable = [
+        attempt(findings, prim, _joint, path, by_name, scales["length"]) for path, prim in joints
+    ]
     return Description(
         roots[0].name if roots else "",
         "usd",
         tuple(links),
         data,
         scales,
-        joints=tuple(usable),
+        joints=tuple(one for one in usable if one is not None),
         findings=tuple(findings),
     )
 
@@ -276,7 +271,6 @@ def _visit(
     links: list[StatedLink],
     joints: list[tuple[str, Prim]],
     materials: Mapping[str, Prim],
-    text: str,
     is_within: bool = False,
 ) -> None:
     """Add the links and joints at and below a prim. is_within: True in a body, whose parts are no
@@ -289,13 +283,13 @@ def _visit(
     is_body = "PhysicsRigidBodyAPI" in prim.metadata
     is_fixed = "MassAPI" in prim.metadata and "PhysicsCollisionAPI" not in prim.metadata
     if is_body or is_fixed and not is_within:
-        links.append(_link(prim, matrix, path, scales, materials, text))
+        links.append(_link(prim, matrix, path, scales, materials))
     for child in prim.children:
         below = path + "/" + child.name
-        _visit(child, matrix, below, scales, links, joints, materials, text, is_within or is_body)
+        _visit(child, matrix, below, scales, links, joints, materials, is_within or is_body)
 
 
-def _joint(path: str, prim: Prim, links: Mapping[str, StatedLink], unit: float) -> StatedJoint:
+def _joint(prim: Prim, path: str, links: Mapping[str, StatedLink], unit: float) -> StatedJoint:
     """Return a joint: both of its frames coincide when it is at zero. links: by their names.
 
     ValueError if a number is wrong.
@@ -370,7 +364,6 @@ def _link(
     path: str,
     scales: Mapping[str, float],
     materials: Mapping[str, Prim],
-    text: str,
 ) -> StatedLink:
     """Return a body in the axes of its prim, in meters; the prim's scale is applied to its shapes
     and its center.
@@ -381,40 +374,27 @@ def _link(
     to_link[:3, :3] = turn.T
     to_link[:3, 3] = -turn.T @ matrix[:3, 3]
 
-    def attempt(part: Prim, read_part: Callable, *more: Any) -> Any:
-        try:
-            return read_part(part, *more)
-        except ValueError as error:
-            line = (
-                text.count("\n", 0, max(text.find(str(error), part.start, part.end), part.start))
-                + 1
-            )
-            findings.append(
-                finding(DESCRIPTION_NUMBER, text=str(error), element=part.name, line=line)
-            )
-            return None
-
-    rules = attempt(prim, _rules, to_link @ matrix, scales)
-    stated = rules and attempt(prim, _inertials, rules, scales)
+    rules = attempt(findings, prim, _rules, to_link @ matrix, scales)
+    stated = rules and attempt(findings, prim, _inertials, rules, scales)
     inertial, overridden = stated or (None, None)
-    density = rules and attempt(prim, Prim.number, "physics:density", 0.0)
-    if inertial is not None and rules.center is not None or findings:
+    density = rules and attempt(findings, prim, Prim.number, "physics:density", 0.0)
+    if rules is None or inertial is not None and rules.center is not None or findings:
         rules = None
     elif inertial is not None and inertial.quaternion is None:
         moments, axes = np.linalg.eigh(inertial.tensor)
         rules = rules._replace(moments=moments, axes=axes)
     shapes = []
     for part, place in _parts(prim, matrix):
-        shape = attempt(part, _shape, to_link @ place, scales["length"])
+        shape = attempt(findings, part, _shape, to_link @ place, scales["length"])
         if shape is not None and rules is not None and shape.role == "collision":
-            weight = attempt(part, _weight, density or 0.0, materials, scales)
-            own = attempt(part, _rules, to_link @ place, scales)
+            weight = attempt(findings, part, _weight, density or 0.0, materials, scales)
+            own = attempt(findings, part, _rules, to_link @ place, scales)
             if own and own.axes is None and own.moments is not None:
                 own = own._replace(axes=_turn(to_link @ place))
             shape = replace(shape, weight=weight, rules=own and own._replace(mass=0.0))
         if shape is not None:
             shapes.append(shape)
-    span = len(text[: prim.start].encode()), len(text[: prim.end].encode())
+    span = len(prim.text[: prim.start].encode()), len(prim.text[: prim.end].encode())
     place = Place(prim.line)
     return StatedLink(
         path,

@@ -71,6 +71,25 @@ class Node:
         """Return the text of an attribute, else the default."""
         return self.attributes.get(name, default)
 
+    def unreadable(self, text: str) -> Finding:
+        """Return the finding about a wrong number.
+
+        It names the only element with that text, else this one.
+        """
+        holders = [
+            one
+            for one in self.walk()
+            if any(
+                text in (words, *words.split()) for words in (one.text, *one.attributes.values())
+            )
+        ]
+        holder = holders[0] if len(holders) == 1 else self
+        line, column, file = holder.place
+        source: dict[str, Any] = {"source": file} if file else {}
+        return finding(
+            DESCRIPTION_NUMBER, text=text, element=holder.tag, line=line, column=column, **source
+        )
+
 
 def check_size(depth: int, count: int) -> None:
     """Raise FileError if a file nests too many elements, or has too many."""
@@ -177,10 +196,10 @@ def axis_of(text: str, default: Sequence[float]) -> Array:
 
 
 def attempt(
-    findings: list[Finding], node: Node | None, read: Callable[..., Value], *more: object
+    findings: list[Finding], node: Any, read: Callable[..., Value], *more: object
 ) -> Value | None:
-    """Return the result of `read` for an element; None without an element, or, with a finding, if a
-    number is wrong.
+    """Return the result of `read` for an element or prim; None without one, or, with a finding, if
+    a number is wrong.
     """
     if node is None:
         return None
@@ -188,7 +207,7 @@ def attempt(
         with np.errstate(all="ignore"):  # wrong numbers are refused afterwards
             return read(node, *more)
     except ValueError as error:
-        findings.append(_unreadable(node, error))
+        findings.append(node.unreadable(str(error)))
         return None
 
 
@@ -248,22 +267,3 @@ def stated_link(
     span = None if element is None or is_fixed else (element.start, element.end)
     places = {"place": node.place, "inertial_place": (element or node).place}
     return StatedLink(span=span, findings=tuple(findings), **places, **values)
-
-
-def _unreadable(node: Node, error: Exception) -> Finding:
-    """Return the finding about a wrong number.
-
-    It names the only element with that text, else the node.
-    """
-    text = str(error)
-    holders = [
-        one
-        for one in node.walk()
-        if any(text in (words, *words.split()) for words in (one.text, *one.attributes.values()))
-    ]
-    holder = holders[0] if len(holders) == 1 else node
-    line, column, file = holder.place
-    source: dict[str, Any] = {"source": file} if file else {}
-    return finding(
-        DESCRIPTION_NUMBER, text=text, element=holder.tag, line=line, column=column, **source
-    )

@@ -5,8 +5,6 @@
 A public contract, `body-moments-audit/1`.
 """
 
-from __future__ import annotations
-
 import html
 import json
 from collections.abc import Iterable, Sequence

@@ -9,8 +9,6 @@ scale, so a node above all others scales them. A body has the mass of all links 
 it; nodes without a motion of their own move with the node above.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -9,8 +9,6 @@ are axes of these nodes; fixed directions have the limits zero. Meshes are embed
 files of other formats.
 """
 
-from __future__ import annotations
-
 import base64
 import json
 from collections.abc import Sequence

@@ -4,8 +4,6 @@
 that hold them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 

@@ -5,8 +5,6 @@
 Standard library only.
 """
 
-from __future__ import annotations
-
 import re
 
 AUDIT_SCHEMA = "body-moments-audit/1"

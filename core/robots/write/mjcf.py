@@ -6,8 +6,6 @@ MuJoCo's test that no principal moment exceeds the sum of the others has no tole
 moments of a `fullinertia` are off by rounding, so that it refuses thin plates.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from operator import mul
 from xml.etree.ElementTree import Element, SubElement

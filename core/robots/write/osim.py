@@ -5,8 +5,6 @@
 A body has the tensor about its mass center, along its own axes. Geometry is only seen.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from xml.etree.ElementTree import Element
 

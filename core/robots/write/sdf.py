@@ -5,8 +5,6 @@
 Rounding would change the moments of a full tensor, and Gazebo tests whether they are possible.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Sequence
 from xml.etree.ElementTree import Element

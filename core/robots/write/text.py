@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers, names, angles and elements as the formats of robots write them."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterable
 from math import atan2, cos, hypot, sin

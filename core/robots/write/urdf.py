@@ -7,8 +7,6 @@ products ixy, ixz and iyz are entries of the tensor, such as -∫xy dm. A link's
 joint.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from math import pi
 from xml.etree.ElementTree import Element

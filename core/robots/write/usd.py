@@ -8,8 +8,6 @@ SimReady). A body carries the mass of all links fixed to it, because the mass of
 that of its children.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from math import degrees, inf, radians
