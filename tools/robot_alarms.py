@@ -638,9 +638,9 @@ An alarm is an error or a warning of the audit. The published files have {links}
 - MuJoCo reads the MJCF files.
 - NumPy computes with the numbers of the XML files.
 
-These programs share with the audit only the search for the mesh files. An alarm is confirmed if the
-programs agree with the audit. The number of links with an alarm that is not confirmed is {doubtful}
-({share:.2f} % of all links).
+Only the search for the mesh files is code of the audit itself. An alarm is confirmed if the programs
+agree with the audit. Links with an alarm that is not confirmed: {doubtful} ({share:.2f} % of all
+links).
 
 | alarm | links | confirmed |
 |---|---|---|
