@@ -51,7 +51,7 @@ CONSUMERS = {
         ["pin==4.1.0"],
         {
             "urdf": "",
-            "mjcf": "Pinocchio puts the root at the origin, so we compare with a robot there",
+            "mjcf": "compared with a root at the origin",
         },
     ),
     "Newton 1.8.0": (
