@@ -602,7 +602,8 @@ HEAD = """# Faults Found, and Alarms
 
 This page tests the [audit](robots.md#audit) in two ways. First, we put known faults into published
 robots. The audit has to find these faults. Second, other programs check each alarm of the audit
-about the unchanged robots. The command `python3 tests/project.py alarms` made the page. The robots are the URDF and MJCF files of [Published Robots, Audited](robots-audited.md).
+about the unchanged robots. The command `python3 tests/project.py alarms` made the page. The robots
+are the URDF and MJCF files of [Published Robots, Audited](robots-audited.md).
 
 ## Faults
 
