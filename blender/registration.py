@@ -3,10 +3,11 @@
 """Registration of the modules of a subpackage, such as `operators`.
 
 The classes that a module defines are registered in their order, then those that it makes, its
-CLASSES. The idname of an operator follows from the name of its class, and its tooltip is the
-docstring. Further tables are POINTERS, groups of settings by Blender's type and the name of their
-property, and MENUS, Blender's menus with functions that draw in them. The rest is done by functions
-`register`, which follows the tables, and `unregister`, which precedes them.
+CLASSES. The idname of an operator follows from the name of its class, its tooltip is the docstring,
+and it can be undone unless its `bl_options` say otherwise. Further tables are POINTERS, groups of
+settings by Blender's type and the name of their property, and MENUS, Blender's menus with functions
+that draw in them. The rest is done by functions `register`, which follows the tables, and
+`unregister`, which precedes them.
 """
 
 from collections.abc import Iterable
@@ -56,6 +57,8 @@ def _register(module: ModuleType) -> None:
                 category, name = cls.__name__.split("_OT_")
                 cls.bl_idname = "{:s}.{:s}".format(category.lower(), name)
                 cls.bl_description = " ".join((cls.__doc__ or "").split())
+                if not hasattr(cls, "bl_options"):
+                    cls.bl_options = {"REGISTER", "UNDO"}
             bpy.utils.register_class(cls)
             undo.callback(bpy.utils.unregister_class, cls)
         for (owner, name), group in getattr(module, "POINTERS", {}).items():

@@ -92,7 +92,6 @@ class OBJECT_OT_body_moments_clear_assembly(Operator):
     """Remove the stored results of the assembly. Settings and results of members are kept"""
 
     bl_label = "Clear Assembly Results"
-    bl_options = {"REGISTER", "UNDO"}
 
     target: TARGET
 
@@ -112,7 +111,6 @@ FRAME_OF = "principal_frame_of_assembly"
 
 
 class _SnapToAssembly:
-    bl_options = {"REGISTER", "UNDO"}
     target: TARGET
     _place: Callable[..., str]  # places the cursor, empty or origin, and returns the report
 

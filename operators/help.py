@@ -17,10 +17,10 @@ class WM_OT_body_moments_manual(Operator):
     """Open the manual"""
 
     bl_label = "Body Moments Manual"
+    bl_options = {"REGISTER"}
 
     def execute(self, context: Context) -> set[str]:
-        url = address("index.html")
-        if url:
+        if url := address("index.html"):
             bpy.ops.wm.url_open(url=url)
             return {"FINISHED"}
         path: Path = manual_folder().with_name(FIRST_PAGE)

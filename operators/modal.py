@@ -31,7 +31,6 @@ class ModalSteps:
     window.
     """
 
-    bl_options = {"REGISTER", "UNDO"}
     PROGRESS = "Measuring: {share:.0%}. Esc to cancel"
     CANCELED = "Measuring canceled; nothing was changed"
     MAX_AT_ONCE = 0

@@ -20,8 +20,6 @@ BALANCED = "Nothing to do: the center of mass is over its target"
 class OnArmature:
     """Base of operators on the armature that the panel of bones shows."""
 
-    bl_options = {"REGISTER", "UNDO"}
-
     @classmethod
     def poll(cls, context: Context) -> bool:
         return armature_of(context) is not None or write.reports.unavailable(
@@ -31,8 +29,6 @@ class OnArmature:
 
 class InPoseMode:
     """Base of operators that need an armature in Pose Mode."""
-
-    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:

@@ -51,8 +51,6 @@ def poll_object_mode(cls: type[Operator], context: Context) -> bool:
 class InObjectMode:
     """Base of operators that need Object Mode."""
 
-    bl_options = {"REGISTER", "UNDO"}
-
     @classmethod
     def poll(cls, context: Context) -> bool:
         return poll_object_mode(cls, context)
@@ -60,8 +58,6 @@ class InObjectMode:
 
 class OnSelection:
     """Base of operators that need selected objects, in any mode."""
-
-    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:
@@ -85,7 +81,6 @@ class OnSubject:
     a disabled button.
     """
 
-    bl_options = {"REGISTER", "UNDO"}
     NEEDED = "Make a measurable object active"
     _change: Callable[[Context, Object], set[str]]
 

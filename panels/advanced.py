@@ -30,8 +30,7 @@ class AdvancedPanel:
         obj = session.selected.subject(context)
         scene = context.scene
         rows.button(layout, "object.body_moments_fourier", "MOD_WAVE", short="Fourier")
-        shown = displayed(obj, scene)
-        if shown is not None and shown.live is None:
+        if (shown := displayed(obj, scene)) is not None and shown.live is None:
             numbers = shown.in_frame(scene.body_moments.frame)
             _bounds(layout, obj, numbers)
             _display_mesh(layout, obj, numbers)
@@ -41,8 +40,7 @@ def _display_mesh(layout: UILayout, obj: Object, shown: inertia.PlainBody) -> No
     display = write.properties.optional(obj, "body_display_volume")
     if display is None:
         return
-    body = rows.fold(layout, "body_moments_display_mesh", "Display Mesh")
-    if body is not None:
+    if (body := rows.fold(layout, "body_moments_display_mesh", "Display Mesh")) is not None:
         column = body.column(align=True)
         rows.values(column, ("Volume", "Difference"), "volume", (display, display - shown.volume))
         texts.filled(column, "{:+.3g}% of the volume", 100.0 * (display / shown.volume - 1.0))

@@ -58,8 +58,7 @@ def _level(layout: UILayout, level: stored.cuts.Level) -> None:
     row = layout.row(align=True)
     row.operator("object.body_moments_show_level", text="Show Level").what = "SURFACE"
     row.operator("object.body_moments_show_level", text="", icon="CURVE_DATA").what = "TABLE"
-    body = rows.fold(layout, "body_moments_level_surface", "Free Surface")
-    if body is not None:
+    if (body := rows.fold(layout, "body_moments_level_surface", "Free Surface")) is not None:
         area, least, largest = level.surface_moments
         rows.quantities(
             body,
@@ -78,8 +77,7 @@ def _level(layout: UILayout, level: stored.cuts.Level) -> None:
             center,
             level.volume ** (1 / 3),
         )
-    body = rows.fold(layout, "body_moments_level_table", "Level Table")
-    if body is not None:
+    if (body := rows.fold(layout, "body_moments_level_table", "Level Table")) is not None:
         units = texts.scene_units()
         cells = [
             (units.text("length", height), units.text("volume", volume), repr(volume), "m³")
@@ -103,8 +101,7 @@ def _cut_fill(layout: UILayout, known: stored.cuts.KnownCutFill) -> None:
     )
     for shown in known.findings:
         texts.message(layout, shown)
-    body = rows.fold(layout, "body_moments_cut_fill_centers", "Centers")
-    if body is not None:
+    if (body := rows.fold(layout, "body_moments_cut_fill_centers", "Centers")) is not None:
         for label, part, area in (
             ("Cut", found.cut, found.cut_area),
             ("Fill", found.fill, found.fill_area),

@@ -231,8 +231,7 @@ class OBJECT_PT_body_moments_mixed(Panel):
     bl_region_type = "HEADER"
 
     def draw(self, context: Context) -> None:
-        name = getattr(context, "body_moments_setting", "")
-        if name:
+        if name := getattr(context, "body_moments_setting", ""):
             column = self.layout.column()
             column.label(text="For all selected objects")
             column.prop(context.scene.body_moments_selection, name)

@@ -81,8 +81,7 @@ def _numbers(layout: UILayout, held: stored.floating.Held) -> None:
     )
     smaller, larger = state.metacentric_heights
     rows.quantities(column, [("GM", "length", smaller), ("GM, Lengthwise", "length", larger)])
-    body = rows.fold(layout, "body_moments_floating_more", "Hydrostatics")
-    if body is not None:
+    if (body := rows.fold(layout, "body_moments_floating_more", "Hydrostatics")) is not None:
         keel = state.keel
         rows.quantities(
             body,

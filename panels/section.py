@@ -94,8 +94,7 @@ def _more_numbers(layout: UILayout, section) -> None:
         )
         rows.group(body, "Elastic, at the Outermost Corner", moduli, "volume", section.moduli)
         rows.group(body, "Radii of Gyration", radii, "length", section.radii)
-    body = rows.fold(layout, "body_moments_section_plane", "Plane")
-    if body is not None:
+    if (body := rows.fold(layout, "body_moments_section_plane", "Plane")) is not None:
         column = body.column(align=True)
         texts.filled(column, "x is nearest to the object's {:s} axis", section.plane.x_axis_name)
         for label, axis in zip(("x", "y", "n"), zip(*section.plane.axes)):
@@ -110,8 +109,7 @@ def _more_numbers(layout: UILayout, section) -> None:
         )
         column.label(text="About the centroid, Ix = ∫y² dA, Ixy = +∫xy dA")
         column.label(text="Jp = Ix + Iy is not the torsion constant")
-    body = rows.fold(layout, "body_moments_section_bounds", "Error Bounds")
-    if body is not None:
+    if (body := rows.fold(layout, "body_moments_section_bounds", "Error Bounds")) is not None:
         entries = [
             ("Area", "area", "area", section.area),
             ("Perimeter", "length", "perimeter", section.perimeter),

@@ -600,35 +600,48 @@ def count_alarms(audit: Audit, path: Path, roots: Roots, content: Path, codes: d
 
 HEAD = """# Faults Found, and Alarms
 
-The robots are those of [Published Robots, Audited](robots-audited.md) in URDF and MJCF. The command
-`python3 tests/project.py alarms` puts faults into them, and made this page.
+This page tests the [audit](robots.md#audit) in two ways. First, we put known faults into published
+robots. The audit has to find these faults. Second, other programs check each alarm of the audit
+about the unchanged robots. The command `python3 tests/project.py alarms` made the page. The robots
+are the URDF and MJCF files of [Published Robots, Audited](robots-audited.md).
 
-Each kind of fault is put into up to three links of each URDF. Before that, these links have no
-alarm, and their inertial differs from that of their evenly filled geometry by less than 0.5 %. A
-fault is used only if it changes the inertial by more than 2 %.
+## Faults
+
+Each kind of fault is put into up to three links of each URDF file. These links are right before:
+the audit gives no error or warning about them, and their inertial differs from that of their evenly
+filled geometry by less than 0.5 %. A fault counts only if it changes the inertial by more than 2 %.
+
+The last five rows of the table are faults between several links. Each of them is put into a URDF
+file at most once. The rows about twins also use links whose inertial differs from their evenly
+filled geometry.
 
 - *Planted* is the number of links with the fault.
-- *Found* is the number of links for which the audit then gives an error or a warning.
-- *Undone* is the number of links whose repaired inertial differs from the right inertial by at most
-  2 %.
+- *Found* is the number of these links about which the audit gives an error or a warning.
+- *Undone* is the number of these links whose inertial is right after the repair. The repaired
+  inertial then differs from the inertial before the fault by at most 2 %. For twins, the limit is
+  10 %.
 
-The last five kinds of faults concern several links. They are used at most once in each URDF. For
-twins, the inertial may differ from that of the evenly filled geometry, and a repaired inertial may
-differ from the right one by 10 %. If a fault removes the mass, no repair can find the mass again.
-If two units explain the same numbers, such as kg·in² and lb·in², the audit proposes the likelier
-unit.
+Some faults cannot be undone. If the mass is missing, no repair can know it. If two units explain
+the same numbers, such as kg·in² and lb·in², the audit proposes the likelier unit.
 
 | fault | planted | found | undone |
 |---|---|---|---|
 """
 ALARMS_HEAD = """
-The published files have {links} links, and {alarmed} of these links have an alarm. Other programs
-checked each alarm. trimesh measures the meshes. A linear program of SciPy shows that no masses
-within the hull have this center and inertia. MuJoCo reads MJCF. NumPy takes the numbers from the
-XML. Only the search for files is the audit's own.
+## Alarms
 
-An alarm is not confirmed if these programs disagree with the audit. This is the case for {doubtful}
-links ({share:.2f} % of the links).
+An alarm is an error or a warning of the audit. The published files have {links} links, and
+{alarmed} of these links have an alarm. Each alarm is checked with other programs:
+
+- trimesh measures the meshes.
+- SciPy shows that no masses inside the convex hull have the stated center and inertia.
+- MuJoCo reads the MJCF files.
+- NumPy computes with the numbers of the XML files.
+
+Only the search for the mesh files is code of the audit itself. An alarm is confirmed if these
+programs agree with the audit.
+
+Links with an alarm that is not confirmed: {doubtful} ({share:.2f} % of all links).
 
 | alarm | links | confirmed |
 |---|---|---|

@@ -39,40 +39,48 @@ CONSUMERS = {
     "Drake 1.58.0": (
         "drake",
         ["drake==1.58.0"],
-        {"urdf": "", "sdf": "", "mjcf": "only OBJ meshes", "mjcf, OBJ": "`--mesh-format obj`"},
+        {
+            "urdf": "",
+            "sdf": "",
+            "mjcf": "only OBJ meshes are read",
+            "mjcf, OBJ": "`--mesh-format obj`",
+        },
     ),
     "Pinocchio 4.1.0": (
         "pinocchio",
         ["pin==4.1.0"],
-        {"urdf": "", "mjcf": "the root is at the origin, so its frame is used to compare"},
+        {
+            "urdf": "",
+            "mjcf": "compared with a root at the origin",
+        },
     ),
     "Newton 1.8.0": (
         "newton",
         ["newton[importers]==1.8.0"],
-        {"urdf": "", "mjcf": "", "usd": "`metersPerUnit` is not used"},
+        {"urdf": "", "mjcf": "", "usd": "Newton ignores `metersPerUnit`"},
     ),
     "OpenSim 4.6": ("opensim", ["opensim==4.6"], {"osim": ""}),
     "Genesis 1.4.5": (
         "genesis",
         ["genesis-world==1.4.5", "torch"],
         {
-            "urdf": "every fifth file, because Genesis cuts the meshes into pieces",
-            "mjcf": "every fifth file",
+            "urdf": "only every fifth file, because Genesis takes long to cut meshes into pieces",
+            "mjcf": "only every fifth file",
         },
     ),
     "PyBullet 3.2.7": (
         "pybullet",
         ["pybullet==3.2.7"],
         {
-            "urdf": "with `URDF_USE_INERTIA_FROM_FILE`",
-            "mjcf": "the inertia is that of the geoms, and some masses and places are wrong",
-            "sdf": "the places and the inertia of the file are not used",
+            "urdf": "with the flag `URDF_USE_INERTIA_FROM_FILE`",
+            "mjcf": "PyBullet uses the inertia of the geoms. Some masses and places are wrong",
+            "sdf": "PyBullet ignores the places and the inertia of the file",
         },
     ),
     "PyBullet 3.2.7, no flag": (
         "pybullet_default",
         ["pybullet==3.2.7"],
-        {"urdf": "the inertia is that of the collider's bounding box"},
+        {"urdf": "PyBullet uses the inertia of the collider's bounding box"},
     ),
     "libsdformat 12.3": ("libsdformat", [], {"sdf": ""}),
 }
@@ -90,37 +98,40 @@ PROBES = {
 }
 HEAD = """# Robots in the Programs That Read Them
 
-The command `python3 tests/project.py consumers` made this page. It exports {count} random robots of
-12 links, with joints of all kinds and a mesh for each link. Each robot is exported twice: with and
-without *Merge Fixed Links*. All other options have their default values. Then the newest release of
-each program reads the files.
+This page tests exported robots in the programs that read them. The command
+`python3 tests/project.py consumers` made the page. It makes {count} random robots of 12 links, with
+joints of all kinds and a mesh for each link. It exports each robot twice: with and without *Merge
+Fixed Links*. All other options have their default values. Then each program reads the files. The
+tables name the versions of the programs.
 
-The first table compares the total mass, center and inertia in each program with the exact numbers.
-It shows the largest relative difference over all files of a format. The difference of the centers
-is relative to the radius of gyration. If the center is farther from the origin than this radius,
-the difference is relative to the distance from the origin.
+## Robots with Right Numbers
 
-The remaining differences come from the programs, not from the files:
+The first table compares the total mass, center and inertia of each robot in a program with the
+exact numbers. For each file format it shows the largest relative difference of all files. The
+difference of the centers is a distance. It is divided by the radius of gyration, or by the distance
+of the center from the origin, if this distance is larger.
 
-- Newton computes in single precision. Mass, center and inertia of each single body are right to
-  1e-6. But Newton multiplies the rotations of the joints as quaternions, and never normalizes them.
-  After some joints, the length of a quaternion is therefore wrong by up to 1e-6. This error moves
-  the bodies. It is largest with Newton's MJCF importer.
-- PyBullet finds the principal axes of an inertia tensor step by step. As soon as all products of
-  inertia are below 1e-6 of the trace, PyBullet makes only one more step. The principal moments are
-  then right to 3e-12, and the directions of the axes to 6e-7 radians.
+Two programs have differences above 1e-12 although they use the numbers of the file:
+
+- Newton computes in single precision. Along a chain of joints, its rounding errors add up. They are
+  largest with Newton's MJCF importer.
+- PyBullet computes the principal axes of an inertia in steps, and stops early. The directions of
+  the axes are therefore wrong by up to 6e-7 radians.
 
 | program | format | files read | mass | center | inertia | remark |
 |---|---|---|---|---|---|---|
 {rows}
-The next table shows the mass and the principal moments (kg·m²) that programs give to a link of a
-URDF file. The collider of this link is a cube of 1 m. There is a column for each of three
-inertials:
+## Links with Missing or Impossible Numbers
 
-- no inertial;
-- a mass of 1 kg, and the moments A = 1, B = 2 and C = 3 · (1 + 1e-12) kg·m², so that A + B is
-  slightly smaller than C;
-- a mass of 1 kg, and the moments 1, 1 and 9 kg·m², which no body can have.
+The second table shows how programs read a link of a URDF file whose inertial is missing or
+impossible. The collider of this link is a cube of 1 m. A cell of the table gives the mass of the
+link in the program, and its three principal moments in kg·m². The columns are three tests:
+
+- *no inertial*: the link has no inertial.
+- *A + B < C by 1e-12*: the file states a mass of 1 kg and the moments A = 1, B = 2 and
+  C = 3 · (1 + 1e-12) kg·m². Such a small error can come from rounding.
+- *1, 1, 9*: the file states a mass of 1 kg and the moments 1, 1 and 9 kg·m². No body can have these
+  moments.
 
 | program | no inertial | A + B < C by 1e-12 | 1, 1, 9 |
 |---|---|---|---|

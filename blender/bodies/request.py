@@ -22,18 +22,19 @@ from ..settings.options import AS_SET, MeasureOptions, object_settings
 
 @dataclass(frozen=True, eq=False)
 class Request:
-    """A request to measure an object or the content of a file.
+    """A request to measure an object.
 
-    `settings`: the options `given`, completed by the object's own. `obj`, `depsgraph`: None for the
-    content of a file. `opened`: closes opened resources at the end of the measurement. `findings`:
+    `settings`: the options `given`, completed by the object's own. `scene`: its defaults apply to
+    the object. `opened`: closes opened resources at the end of the measurement. `findings`:
     reasons why a kind of body that fits the object did not read it.
     """
 
     settings: Settings
-    given: MeasureOptions = AS_SET
-    obj: bpy.types.Object = None
-    depsgraph: bpy.types.Depsgraph = None
-    opened: ExitStack = field(default_factory=ExitStack)
+    given: MeasureOptions
+    obj: bpy.types.Object
+    depsgraph: bpy.types.Depsgraph
+    scene: bpy.types.Scene
+    opened: ExitStack
     findings: list[verdict.Finding] = field(default_factory=list)
 
     @classmethod
@@ -51,12 +52,7 @@ class Request:
         """
         scene = bpy.context.scene if depsgraph is None else depsgraph.scene
         settings = object_settings(obj, scene, given, unit)
-        return cls(settings, given, obj, depsgraph, opened or ExitStack())
-
-    @property
-    def scene(self) -> bpy.types.Scene:
-        """The scene, whose defaults apply to the object."""
-        return bpy.context.scene if self.depsgraph is None else self.depsgraph.scene
+        return cls(settings, given, obj, depsgraph, scene, opened or ExitStack())
 
     @cached_property
     def density(self) -> DensityField | None:
@@ -90,11 +86,7 @@ def measurement_of(reading: bodies.Reading, body: Body, request: Request) -> Mea
     """Return the results of measuring a body, or raise MeasureError if it has no mass or unknown
     moments.
     """
-    transform = "" if request.obj is None else fingerprint.transform_key(request.obj)
+    transform = fingerprint.transform_key(request.obj)
     measurement = bodies.measure_reading(reading, body, request.settings, transform)
-    accepted = frozenset() if request.obj is None else accepted_codes(request.obj)
-    return (
-        replace(measurement, findings=with_acceptance(measurement.findings, accepted))
-        if accepted
-        else measurement
-    )
+    accepted = accepted_codes(request.obj)
+    return replace(measurement, findings=with_acceptance(measurement.findings, accepted))

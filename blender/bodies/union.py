@@ -16,7 +16,7 @@ import bpy
 import numpy as np
 
 from ...core import bodies, polyhedron, verdict
-from ...core.mesh import Surface, join_surfaces, overlapping_box_pairs
+from ...core.mesh import Surface, join_surfaces, keep_used, overlapping_box_pairs
 from ...core.numerics import Array, Index, Integers
 from ...core.solid import CAVITIES_BREAK_THROUGH, NON_MANIFOLD_COMPONENTS, measure_solid
 from ..read.mesh import mesh_surface
@@ -93,10 +93,7 @@ def _layers(count: int, left: Index, right: Index) -> Index:
 
 def _with_triangles(surface: Surface, triangles: Integers) -> Surface:
     """Return a surface of some triangles, without the points of others."""
-    used = np.zeros(len(surface.points), bool)
-    used[triangles.ravel()] = True
-    renumbered = (np.cumsum(used) - 1)[triangles]
-    return Surface(surface.points[used], renumbered, displacement=surface.coordinate_error)
+    return Surface(*keep_used(surface.points, triangles), displacement=surface.coordinate_error)
 
 
 def _by_manifold(layers: Sequence[Surface]) -> Surface | None:

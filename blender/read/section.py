@@ -176,7 +176,6 @@ def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
     mesh = evaluated.to_mesh()
     filled = mesh_surface(mesh, edges=False) if mesh is not None and len(mesh.polygons) else None
     evaluated.to_mesh_clear()
-    findings = list(_outline_findings(obj, open_splines))
     drawn = None
     if obj.type == "FONT" and obj.data.follow_curve is not None:
         # Only the evaluated text follows its curve, and only its fill is there to be read.
@@ -204,9 +203,16 @@ def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
             areas = triangle_areas(filled.points.astype(np.float64), filled.all_triangles()[0])
             drawn = float(areas.sum() * np.sqrt(facing @ facing))
     require_finite(obj, surface.points)
-    more = {"loops": loops, "facing": facing, "drawn_area": drawn, "findings": findings}
     return _section(
-        "Text" if obj.type == "FONT" else "Curve", surface, triangles, faces, place, **more
+        "Text" if obj.type == "FONT" else "Curve",
+        surface,
+        triangles,
+        faces,
+        place,
+        loops=loops,
+        facing=facing,
+        drawn_area=drawn,
+        findings=list(_outline_findings(obj, open_splines)),
     )
 
 

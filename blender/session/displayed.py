@@ -108,8 +108,7 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
             parts = [drawn_bone(bone, scene) for bone in obj.pose.bones]
         else:
             parts = [displayed(mesh, scene) for mesh in meshes]
-        total = _as_one(obj, scene, parts)
-        if total is not None:
+        if (total := _as_one(obj, scene, parts)) is not None:
             return total
     current = memory.followed.get(obj)
     if current is not None and (measurement := current.measurement) is not None:

@@ -125,8 +125,7 @@ def balance_print(
             if walls == now.walls:
                 raise
             continue  # thicker than the part
-        allowed = statics.infill_range(flat, empty, full - empty, margin)
-        if allowed is not None:
+        if (allowed := statics.infill_range(flat, empty, full - empty, margin)) is not None:
             low, high = (100.0 * share for share in allowed)
             infill = float(np.clip(now.infill, low, high))
             return PrintBalance(walls, _shorten(infill, low, high), margin, True)

@@ -202,7 +202,6 @@ def address(page: str) -> str:
 def draw_links(layout: UILayout, icons_only: bool = False) -> None:
     """Draw the buttons that open the links, if there is anything to open."""
     for name, (page, icon) in LINKS.items():
-        url = address(page)
-        if url:
+        if url := address(page):
             emboss = {"text": "", "emboss": False} if icons_only else {"text": name}
             layout.operator("wm.url_open", icon=icon, **emboss).url = url

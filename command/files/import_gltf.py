@@ -113,16 +113,14 @@ def _extension(node: Any, name: str) -> dict[str, Any]:
 
 
 def _node_of(vnode: Any, gltf: Any) -> _Shown:
-    is_instance = vnode.mesh_node_idx is None
-    number = vnode.parent if is_instance else vnode.mesh_node_idx
-    node = gltf.data.nodes[number]
-    if not is_instance:
-        return _Shown(number, np.eye(4), node.skin is not None)
+    number = vnode.mesh_node_idx
+    if number is not None:
+        return _Shown(number, np.eye(4), gltf.data.nodes[number].skin is not None)
     translation, rotation, scale = vnode.trs()
     local = node_matrix(
         {"translation": translation, "rotation": np.roll(rotation, -1), "scale": scale}
     )
-    return _Shown(number, local, False)
+    return _Shown(vnode.parent, local, False)
 
 
 class _Pose:

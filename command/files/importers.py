@@ -166,7 +166,13 @@ def _mesh(one: streams.Placed) -> bpy.types.Mesh:
 
 def import_cad(path: str) -> Opened:
     """Add the surfaces of a file to the scene, in meters. Raises FileError and OSError."""
-    return _added(cad.read_surfaces(path, files.file_limits(), for_blender=False))
+    file = cad.read_surfaces(path, files.file_limits(), for_blender=False)
+    unit = 1.0 if file.unit is None else file.unit
+    made = scene.imports.show_bodies(file.bodies, bpy.context.scene.collection, unit)
+    bpy.context.view_layer.update()
+    unread = (finding(cad.FACES_NOT_READ, count=file.unread),) if file.unread else ()
+    by_object: dict[str, tuple[Finding, ...]] = {obj.name: unread for obj in made}
+    return Opened(file.refused, file.notes, by_object)
 
 
 def import_obj(path: str) -> Opened:
@@ -174,26 +180,17 @@ def import_obj(path: str) -> Opened:
 
     Raises FileError and OSError.
     """
-    if not cad.has_surfaces(path):
-        bpy.ops.wm.obj_import(filepath=path)
-        return Opened()
-    with open(path, "rb") as file:
-        has_faces = any(_OBJ_MESH.match(line) for line in file)
-    try:
-        opened = _added(cad.read_surfaces(path, files.file_limits(), for_blender=False))
-    except FileError as error:
-        if not has_faces:
-            raise
-        opened = Opened((error.finding,))
+    opened = Opened()
+    has_faces = True
+    if cad.has_surfaces(path):
+        with open(path, "rb") as file:
+            has_faces = any(_OBJ_MESH.match(line) for line in file)
+        try:
+            opened = import_cad(path)
+        except FileError as error:
+            if not has_faces:
+                raise
+            opened = Opened((error.finding,))
     if has_faces:
         bpy.ops.wm.obj_import(filepath=path)
     return opened
-
-
-def _added(file: cad.SurfaceFile) -> Opened:
-    unit = 1.0 if file.unit is None else file.unit
-    made = scene.imports.show_bodies(file.bodies, bpy.context.scene.collection, unit)
-    bpy.context.view_layer.update()
-    unread = (finding(cad.FACES_NOT_READ, count=file.unread),) if file.unread else ()
-    by_object: dict[str, tuple[Finding, ...]] = {obj.name: unread for obj in made}
-    return Opened(file.refused, file.notes, by_object)

@@ -163,19 +163,19 @@ def check_targets(
 
 def _find_refusal(target: Path, read: Sequence[str | Path], force: bool) -> str:
     """Return the reason why a result must not be written, or an empty text. Raises OSError."""
-    if not target.parent.is_dir():
-        return "no folder {}".format(target.parent)
-    if target.is_dir():
-        return "{} is a folder".format(target)
-    if is_stream(target):
-        return ""
     folder = os.path.dirname(os.path.realpath(target))
-    if not os.access(folder, os.W_OK):
-        return "no file can be written in {}. Use another folder".format(folder)
-    if target.exists() and any(os.path.exists(path) and target.samefile(path) for path in read):
-        return "{} is a file that is read. Use another name".format(target)
-    try:
-        guard(force)(target)
-    except FileExistsError as error:
-        return "{}. Use another name, or --force".format(error)
-    return ""
+    is_read = target.exists() and any(
+        os.path.exists(path) and target.samefile(path) for path in read
+    )
+    lost = "{} is not a result of body_moments and would be lost. Use another name, or --force"
+    refusals = {
+        "no folder {}".format(target.parent): not target.parent.is_dir(),
+        "{} is a folder".format(target): target.is_dir(),
+        "": is_stream(target),  # written to as it is
+        "no file can be written in {}. Use another folder".format(folder): (
+            not os.access(folder, os.W_OK)
+        ),
+        "{} is a file that is read. Use another name".format(target): is_read,
+        lost.format(target): not (force or is_replaceable(target)),
+    }
+    return next((reason for reason, holds in refusals.items() if holds), "")

@@ -162,24 +162,19 @@ def _coarse(piece: Piece) -> Piece:
     from the middle.
     """
     points = piece.points
-    cells = 16
     if len(points) <= COARSE_POINTS:
         return piece
     low = points.min(axis=0)
     extent = np.maximum(np.ptp(points, axis=0), np.finfo(float).tiny)
     far = np.argsort(-((points - points.mean(axis=0)) ** 2).sum(axis=1), kind="stable")
-    while True:
+    for cells in range(16, 1, -1):
         # a thin body keeps both of its sides
         number = np.maximum(np.ceil(cells * extent / extent.max()), 2.0)
-        cell = np.minimum((points - low) / extent * number, number - 1.0).astype(np.intp) @ (
-            cells * cells,
-            cells,
-            1,
-        )
+        place = np.minimum((points - low) / extent * number, number - 1.0).astype(np.intp)
+        cell = place @ (cells * cells, cells, 1)
         _, first, which = np.unique(cell[far], return_index=True, return_inverse=True)
-        if len(first) <= COARSE_POINTS or cells == 2:
+        if len(first) <= COARSE_POINTS:
             break
-        cells -= 1
     chosen = np.empty(len(points), np.intp)
     chosen[far] = far[first][which]
     moved = replace(piece, start=chosen[piece.start], end=chosen[piece.end])

@@ -239,7 +239,7 @@ class SplineAxis:
     @classmethod
     def uniform(cls, count: int, order: int = 1) -> SplineAxis:
         """Return an axis of `count` functions with full supports, centered at whole numbers."""
-        return cls(np.arange(count + order) - order / 2.0, order)
+        return cls(np.arange(count + order, dtype=np.float64) - order / 2.0, order)
 
     @classmethod
     def at_positions(cls, positions: ArrayLike, order: int = 1) -> SplineAxis:

@@ -181,8 +181,8 @@ def threshold_body(
     # The scale of areas is in the sums.
     scaled_as = Measure.VOLUME, Measure.MASS, Measure.VOLUME
     volume, area, mass = (
-        replace(Moments(*each).transform(matrix), measure=measure)
-        for measure, *each in zip(MEASURES, sums.totals, [about] * 3, scaled_as, errors)
+        replace(Moments(raw, about, scaled, error).transform(matrix), measure=measure)
+        for measure, raw, scaled, error in zip(MEASURES, sums.totals, scaled_as, errors)
     )
     return ThresholdBody(volume, area, mass if with_density else None, count, bool(clipped))
 

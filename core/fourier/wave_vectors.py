@@ -135,9 +135,12 @@ class ListWaves:
 
     def dot(self, part: slice, vectors: NDArray) -> Dot:
         """Return a function that returns q·v for the rows of a part and vectors (3, k)."""
-        return lambda wave_rows: sum(
-            np.multiply.outer(q, v) for q, v in zip(self.q[:, wave_rows], vectors)
-        )
+
+        def products(wave_rows: slice) -> Array:
+            x, y, z = self.q[:, wave_rows, None]
+            return x * vectors[0] + y * vectors[1] + z * vectors[2]
+
+        return products
 
     def phase_factors(self, part: slice, points: NDArray) -> Phases:
         """Return a function that returns cos(q·x) and sin(q·x) for the rows of a part and points

@@ -7,7 +7,7 @@ bounds.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -324,15 +324,9 @@ def find_properties(mass: Moments, preferred_axes: NDArray) -> MassProperties:
 
 @dataclass(frozen=True, eq=False)
 class _SurfaceBody(Body):
-    """The body that one surface bounds, with moments to any order."""
-
-    any_order: ClassVar[bool] = True
+    """The body that one surface bounds."""
 
     solid: SolidIntegrals = field(kw_only=True)
-
-    def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
-        """Return the moments of the volume, and of the area if wanted, to an order."""
-        return self.solid.moments(order, order if area else None)
 
     def third_order(self) -> Moments:
         """Return the moments of the volume with exact third order."""

@@ -4,11 +4,10 @@
 from typing import Any
 
 from .boundary import BoundarySum as BoundarySum
+from .box_pairs import boxes_overlap as boxes_overlap
+from .box_pairs import overlapping_box_pairs as overlapping_box_pairs
 from .bvh import Bvh as Bvh
 from .bvh import SortedComponents as SortedComponents
-from .bvh import boxes_overlap as boxes_overlap
-from .bvh import intersecting_pairs as intersecting_pairs
-from .bvh import overlapping_box_pairs as overlapping_box_pairs
 from .bvh import sort_components as sort_components
 from .bvh import tree_of_all as tree_of_all
 from .correspondence import Correspondence as Correspondence
@@ -26,6 +25,7 @@ from .hulls import ConvexHull as ConvexHull
 from .hulls import convex_hull as convex_hull
 from .hulls import convex_polygon as convex_polygon
 from .hulls import hull_volumes as hull_volumes
+from .piercing import intersecting_pairs as intersecting_pairs
 from .planarity import Planarity as Planarity
 from .planarity import PlanarityAccumulator as PlanarityAccumulator
 from .planarity import StackPlanarity as StackPlanarity
@@ -45,6 +45,7 @@ from .surface import face_of_each as face_of_each
 from .surface import half_ulp as half_ulp
 from .surface import has_flipped_corners as has_flipped_corners
 from .surface import join_surfaces as join_surfaces
+from .surface import keep_used as keep_used
 from .surface import normals as normals
 from .surface import triangle_areas as triangle_areas
 from .surface import turned_quads as turned_quads

@@ -1,13 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shells with a tree of boxes each, to locate places inside them and to find shells that go through
-each other.
+"""Shells with a tree of boxes each, to locate places inside them.
 
 The winding number locates a place; it is counted along a ray that is parallel to no axis. The
 crossings are counted in the plane across the ray, with signs that neighboring triangles share, so
 that no ray slips through between two of them (half-open edges, the watertight rule of rasterizers).
-Both searches walk down the trees with all pairs and points at once, in bounded pieces of work.
-Pairs of single boxes that meet are found by a sweep along the best axis.
+The search walks down the trees with all points at once, in bounded pieces of work.
 """
 
 from dataclasses import dataclass
@@ -15,18 +13,17 @@ from functools import cached_property
 
 import numpy as np
 
-from ..numerics import Array, Index, Mask, NDArray, following_pairs, segment_ranges, spread_bits
+from ..numerics import Array, Index, Mask, NDArray, segment_ranges, spread_bits
 from .point_triangle import triangle_distances
 
 RAY_SLOPES = (0.08173, 0.05311)  # the ray is (0.08173, 0.05311, 1)
 TRIANGLES_PER_LEAF = 4  # triangles
 PAIRS_PER_BATCH = 1 << 17  # pairs looked at together
-TRIANGLES_PER_BLOCK = 1 << 14  # triangles whose scratch stays in the cache
 MAX_BOX_PAIRS = 10_000_000  # pairs of boxes looked at
+TRIANGLES_PER_BLOCK = 1 << 14  # triangles whose scratch stays in the cache
 LEAST_SLOPE = 1e-30  # Rays: those along a plane count as this steep
 RAY_RTOL = 1e-9  # Relative to the reach: nearer hits are the ray's own triangle
 CORNER_ATOL = 1e-6  # barycentric: rays through an edge hit
-ROUNDING = 1e-6  # relative to a box's sides
 
 
 @dataclass(frozen=True, eq=False)
@@ -215,7 +212,7 @@ class Bvh:
         query = np.ascontiguousarray(query_points.T)
         height = query[2] - tolerance
         (u, v) = _across(query)
-        pieces = _batches(np.arange(len(query_points)), self.root[component])
+        pieces = batches(np.arange(len(query_points)), self.root[component])
         work = 0
         while pieces:
             place, node = pieces.pop()
@@ -237,12 +234,12 @@ class Bvh:
             child = self.child.take(node)
             leaf = child == -1
             if leaf.any():
-                for at, leaves in _batches(
+                for at, leaves in batches(
                     place[leaf], node[leaf], size=PAIRS_PER_BATCH // TRIANGLES_PER_LEAF
                 ):
                     self._count_crossings(query, at, leaves, tolerance, winding, sure)
             place, child = place[~leaf], child[~leaf]
-            pieces += _batches(np.concatenate([place, place]), np.concatenate([child, child + 1]))
+            pieces += batches(np.concatenate([place, place]), np.concatenate([child, child + 1]))
         return winding, sure
 
     def _count_crossings(
@@ -292,7 +289,7 @@ class Bvh:
         beyond `within`.
         """
         nearest = np.full(len(query_points), np.nextafter(within, np.inf))
-        pieces = _batches(np.arange(len(query_points)), self.root[component])
+        pieces = batches(np.arange(len(query_points)), self.root[component])
         while pieces:
             place, node = pieces.pop()
             point = query_points[place]
@@ -313,7 +310,7 @@ class Bvh:
                 corners = self.corners(triangle).transpose(2, 1, 0)
                 np.minimum.at(nearest, at, triangle_distances(query_points[at], corners))
             place, child = place[~leaf], child[~leaf]
-            pieces += _batches(np.concatenate([place, place]), np.concatenate([child, child + 1]))
+            pieces += batches(np.concatenate([place, place]), np.concatenate([child, child + 1]))
         return np.where(nearest <= within, nearest, np.inf)
 
     def first_hits(self, starts: Array, rays: Array, reach: float) -> tuple[Array, Index]:
@@ -324,7 +321,7 @@ class Bvh:
         hit = np.zeros(len(starts), np.intp)
         inverse = 1.0 / np.where(np.abs(rays) > LEAST_SLOPE, rays, LEAST_SLOPE)
         slack = RAY_RTOL * reach
-        pieces = _batches(np.arange(len(starts)), np.full(len(starts), self.root[0]))
+        pieces = batches(np.arange(len(starts)), np.full(len(starts), self.root[0]))
         while pieces:
             line, node = pieces.pop()
             low, high = self.low[node], self.high[node]
@@ -354,124 +351,8 @@ class Bvh:
             depth[at[order]] = distance[order]
             hit[at[order]] = triangle[order]
             line, child = line[~leaf], child[~leaf]
-            pieces += _batches(np.concatenate([line, line]), np.concatenate([child, child + 1]))
+            pieces += batches(np.concatenate([line, line]), np.concatenate([child, child + 1]))
         return depth, hit
-
-
-def intersecting_pairs(
-    tree: Bvh, first: NDArray, second: NDArray, tolerance: float, vertex: NDArray | None = None
-) -> tuple[Mask, Mask]:
-    """Return (k,) masks of pairs in which an edge pierces the other by the tolerance, and of
-    undecided pairs.
-    """
-    intersects, unfinished = np.zeros((2, len(first)), bool)
-    pieces = _batches(np.arange(len(first)), tree.root[first], tree.root[second])
-    work = 0
-    while pieces:
-        pair, a, b = pieces.pop()
-        going = ~intersects[pair]
-        pair, a, b = (values[going] for values in (pair, a, b))
-        work += len(pair)
-        if work > MAX_BOX_PAIRS:
-            for rest, *_ in [*pieces, (pair,)]:
-                unfinished[rest] = True
-            break
-        meet = np.all(
-            np.minimum(tree.high[a], tree.high[b]) - np.maximum(tree.low[a], tree.low[b]) >= 0.0,
-            axis=1,
-        )
-        pair, a, b = (values[meet] for values in (pair, a, b))
-        child_a, child_b = tree.child[a], tree.child[b]
-        both = (child_a == -1) & (child_b == -1)
-        if both.any():
-            for of, left, right in _batches(
-                pair[both], a[both], b[both], size=PAIRS_PER_BATCH // TRIANGLES_PER_LEAF**2
-            ):
-                _intersect_leaves(tree, of, left, right, tolerance, intersects, vertex)
-            pair, a, b, child_a, child_b = (x[~both] for x in (pair, a, b, child_a, child_b))
-        # The larger box is opened; a leaf never is.
-        extent = (tree.high[a] - tree.low[a]).max(axis=1) >= (tree.high[b] - tree.low[b]).max(
-            axis=1
-        )
-        left = (child_b == -1) | (extent & (child_a != -1))
-        pieces += _batches(
-            np.concatenate([pair[left], pair[left], pair[~left], pair[~left]]),
-            np.concatenate([child_a[left], child_a[left] + 1, a[~left], a[~left]]),
-            np.concatenate([b[left], b[left], child_b[~left], child_b[~left] + 1]),
-        )
-    return intersects, unfinished
-
-
-def _intersect_leaves(
-    tree: Bvh,
-    pair: NDArray,
-    a: NDArray,
-    b: NDArray,
-    tolerance: float,
-    intersects: NDArray,
-    vertex: NDArray | None,
-) -> None:
-    """Mark, in `intersects`, the pairs with a triangle in one leaf that is pierced by an edge in
-    the other.
-    """
-    size_a = tree.last[a] - tree.first[a]
-    size_b = tree.last[b] - tree.first[b]
-    k = segment_ranges(size_a * size_b)
-    row = np.repeat(np.arange(len(a)), size_a * size_b)
-    first = tree.first[a][row] + k // size_b[row]
-    second = tree.first[b][row] + k % size_b[row]
-    pair = pair[row]
-    meet = np.ones(len(pair), bool)
-    for low, high in zip(tree.bottom, tree.top):
-        meet &= (low[first] <= high[second]) & (low[second] <= high[first])
-    first, second, pair = (values[meet] for values in (first, second, pair))
-    if vertex is not None:
-        mine = vertex[tree.ids[:, first]]
-        theirs = vertex[tree.ids[:, second]]
-        apart = np.logical_and.reduce([x != y for x in mine for y in theirs])
-        first, second, pair = (values[apart] for values in (first, second, pair))
-    corner, plane = (tree.corners(triangle).transpose(1, 2, 0) for triangle in (first, second))
-    for _ in range(2):
-        intersects[pair[_edges_cross_triangles(corner, plane, tolerance)]] = True
-        corner, plane = plane, corner
-
-
-def _edges_cross_triangles(corner: Array, plane: Array, tolerance: float) -> Index:
-    """Return the indices of triangles (3, k, 3) with an edge through their partner by over the
-    tolerance.
-    """
-    normal = np.cross(plane[1] - plane[0], plane[2] - plane[0])
-    length = np.linalg.norm(normal, axis=1)[:, None]
-    normal = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0.0)
-    height = np.einsum("kij,ij->ki", corner - plane[0], normal)
-    at = np.flatnonzero((height.max(axis=0) > tolerance) & (height.min(axis=0) < -tolerance))
-    corner = corner[:, at]
-    plane = plane[:, at]
-    normal = normal[at]
-    height = height[:, at]
-    depth = np.full(len(at), -np.inf)
-    for i in range(3):
-        p = corner[i]
-        q = corner[i - 1]
-        rise = height[i]
-        fall = height[i - 1]
-        crosses = (np.minimum(rise, fall) < -tolerance) & (np.maximum(rise, fall) > tolerance)
-        share = rise / np.where(crosses, rise - fall, 1.0)
-        within = np.where(crosses, np.inf, -np.inf)
-        first = np.zeros(len(at))
-        last = np.ones(len(at))
-        for k in range(3):
-            edge = plane[k] - plane[k - 1]
-            inward = np.cross(normal, edge) / np.linalg.norm(edge, axis=1)[:, None]
-            begin, end = (np.einsum("ij,ij->i", inward, point - plane[k]) for point in (p, q))
-            within = np.minimum(within, begin + share * (end - begin))
-            leaves = begin / np.where(begin != end, begin - end, 1.0)
-            first = np.where(begin < 0.0, np.maximum(first, leaves), first)
-            last = np.where(end < 0.0, np.minimum(last, leaves), last)
-        # both ends of the part over the partner
-        over = [np.abs(rise + part * (fall - rise)) for part in (first, last)]
-        depth = np.maximum(depth, np.minimum.reduce([within, *over]))
-    return at[depth > tolerance]
 
 
 def _across(places: Array) -> tuple[Array, Array]:
@@ -479,55 +360,9 @@ def _across(places: Array) -> tuple[Array, Array]:
     return places[0] - RAY_SLOPES[0] * places[2], places[1] - RAY_SLOPES[1] * places[2]
 
 
-def _batches(*arrays: NDArray, size: int = PAIRS_PER_BATCH) -> list[tuple[NDArray, ...]]:
+def batches(*arrays: NDArray, size: int = PAIRS_PER_BATCH) -> list[tuple[NDArray, ...]]:
     """Cut the arrays into parallel pieces of bounded length."""
     return [tuple(array[k : k + size] for array in arrays) for k in range(0, len(arrays[0]), size)]
-
-
-def _sweep(low: NDArray, high: NDArray, margin: float) -> tuple[Index, Index]:
-    """Return (k,) boxes, sorted along the best axis, and (k,) counts of later boxes that begin
-    before each one ends.
-    """
-    sweeps: list[tuple[Index, Index]] = []
-    for axis in range(3):
-        order = np.argsort(low[:, axis], kind="stable")
-        last = np.searchsorted(low[order, axis], high[order, axis] - margin)
-        sweeps.append((order, np.maximum(last - np.arange(1, len(order) + 1), 0)))
-    return min(sweeps, key=lambda sweep: sweep[1].sum())
-
-
-def overlapping_box_pairs(
-    low: NDArray, high: NDArray, margin: float, most: int
-) -> tuple[NDArray, NDArray, int]:
-    """Return about `most` pairs (k,), (k,) of boxes that overlap by over `margin`, and the count of
-    untested pairs.
-    """
-    order, count = _sweep(low, high, margin)
-    left = [np.empty(0, np.intp)]
-    right = [np.empty(0, np.intp)]
-    pair_count = 0
-    tested_count = 0
-    for i, j in following_pairs(order, count, PAIRS_PER_BATCH):
-        if pair_count >= most or tested_count >= 100 * most:
-            break
-        tested_count += len(i)
-        both = np.all(np.minimum(high[i], high[j]) - np.maximum(low[i], low[j]) > margin, axis=1)
-        left.append(i[both])
-        right.append(j[both])
-        pair_count += int(both.sum())
-    return np.concatenate(left), np.concatenate(right), int(count.sum()) - tested_count
-
-
-def boxes_overlap(centers: NDArray, extents: NDArray) -> bool:
-    """Return whether any two of k boxes, (k, 3) centers and half sides, overlap by more than
-    rounding.
-    """
-    extents = extents * (1.0 - ROUNDING)
-    low = centers - extents
-    high = centers + extents
-    # a flat box overlaps another one by nothing
-    pairs = following_pairs(*_sweep(low, high, 0.0), PAIRS_PER_BATCH)
-    return any(bool(((low[i] < high[j]) & (low[j] < high[i])).all(axis=1).any()) for i, j in pairs)
 
 
 def tree_of_all(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> Bvh:

@@ -20,6 +20,7 @@ from ..numerics import (
     Array,
     ArrayLike,
     Floats,
+    Index,
     Integers,
     Mask,
     NDArray,
@@ -161,9 +162,7 @@ class Surface:
 
     def used_points(self) -> Floats:
         """Return the (k, 3) points that are corners of faces."""
-        return self.points[
-            np.bincount(self.all_triangles()[0].ravel(), minlength=len(self.points)) > 0
-        ]
+        return keep_used(self.points, self.all_triangles()[0])[0]
 
     def transform(self, linear: ArrayLike, offset: ArrayLike = (0.0, 0.0, 0.0)) -> Surface:
         """Map the points by (3, 3) `linear` @ x + (3,) `offset` in float64; the surface is then one
@@ -233,6 +232,15 @@ def normals(points: Floats, triangles: Integers) -> Array:
 def triangle_areas(points: Floats, triangles: Integers) -> Array:
     """Return (m,) areas of triangles."""
     return 0.5 * lengths(normals(points, triangles))[:, 0]
+
+
+def keep_used(points: NDArray, triangles: Integers) -> tuple[NDArray, Index]:
+    """Return the (k, 3) points that are corners of (t, 3) triangles, and the triangles over
+    these.
+    """
+    used = np.zeros(len(points), bool)
+    used[triangles] = True
+    return points[used], (np.cumsum(used) - 1)[triangles]
 
 
 def join_surfaces(surfaces: Sequence[Surface]) -> Surface:

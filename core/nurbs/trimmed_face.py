@@ -45,6 +45,7 @@ ACROSS_GAP = 4
 POINTS_PER_BLOCK = 16384
 MAX_DEPTH = 10  # Limit of successive cuts of a strip.
 MIN_TOLERANCE = 1e-13  # of strips, relative to their size
+BLUR_SHARE = 0.1  # of the uncertainty by edges beside the surface: more cuts would tell no more
 ROUNDED_ORDERS = 16  # orders of the bases of a typical surface, for the rounding of its points
 # Factor on the difference of two rules that do not agree yet when a strip is not cut any more.
 UNCONVERGED_FACTOR = 8.0
@@ -145,14 +146,19 @@ class TrimmedFace:
 
     @property
     def uneven(self) -> float:
-        """A bound of the volume that the edges' distance from the surface leaves uncertain.
+        """A bound of the volume that the edges' distance from the surface leaves uncertain."""
+        return self._blur * self.perimeter
+
+    @cached_property
+    def _blur(self) -> float:
+        """The same per unit of length of an edge.
 
         Surfaces meet beside edges near them, at most at the root of distance times size if they
         touch there. Of edges farther off, either the edges or the surfaces may be right.
         """
         is_near = self.deviation <= WELDING_RTOL * self._size
         lever = np.sqrt(self.deviation * self._size) if is_near else self._size / 2.0
-        return self.deviation * self.perimeter * float(lever)
+        return self.deviation * float(lever)
 
     @property
     def _size(self) -> float:
@@ -286,7 +292,8 @@ class TrimmedFace:
         """
         k = len(unit)
         most_unit = np.maximum(unit, 1e-300)[:, None]
-        tolerance = max(tolerance, MIN_TOLERANCE)
+        blurred = BLUR_SHARE * self._blur / max(self._size**2, 1e-300)
+        tolerance = max(tolerance, MIN_TOLERANCE, blurred)
         index, ends, strips = self._strips
         values, estimate, size = np.zeros(k), 0.0, 0.0
         if has_gap and len(self.tracks):

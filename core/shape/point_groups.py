@@ -17,7 +17,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..mesh import Bvh, tree_of_all
+from ..mesh import Bvh, keep_used, tree_of_all
 from ..numerics import Array, Index, Mask, NDArray, cross_rows, lengths, rotation_about
 from .symmetries import Symmetry
 
@@ -45,10 +45,7 @@ class PlacedTriangles:
     """
 
     def __init__(self, points: NDArray, triangles: NDArray, near: float, far: float):
-        is_used = np.zeros(len(points), bool)
-        is_used[triangles] = True
-        self.points = points[is_used]
-        self.triangles = (np.cumsum(is_used) - 1)[triangles]
+        self.points, self.triangles = keep_used(points, triangles)
         self.near, self.far = near, far
         height = self.points @ SKEW
         self._order = np.argsort(height, kind="stable")
@@ -186,9 +183,8 @@ class PlacedTriangles:
         kept = []
         left = np.arange(len(order))
         while len(left):
-            alike = (
-                np.einsum("nij,ij->n", operations[left], operations[left[0]]) > 3.0 - CLEAR_PRODUCT
-            )
+            products = np.einsum("nij,ij->n", operations[left], operations[left[0]])
+            alike = products > 3.0 - CLEAR_PRODUCT
             kept.append(left[alike][worst[left[alike]].argmin()])
             left = left[~alike]
         return operations[kept]

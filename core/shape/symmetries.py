@@ -160,24 +160,17 @@ def _schoenflies(symmetry_found: Symmetry) -> str:
     center = symmetry_found.has_center
     proper = int((np.linalg.det(symmetry_found.operations) > 0.0).sum())
     improper = len(symmetry_found.operations) - proper
-    if not axes and improper:
-        return "Cs" if planes else "Ci"
     if not axes:
-        return "C1"
+        return ("Cs" if planes else "Ci") if improper else "C1"
     axis, n = axes[0]
     is_flat = any(abs(normal @ axis) > 1.0 - EQUAL_OPERATION_ATOL for normal in planes)
+    is_cubic = sum(order == n for _, order in axes) > 1 and n > 2
     if proper == n:
-        if not improper:
-            return "C{:d}".format(n)
-        if is_flat:
-            return "C{:d}h".format(n)
-        return "C{:d}v".format(n) if planes else "S{:d}".format(2 * n)
-    if sum(order == n for _, order in axes) > 1 and n > 2:
-        letter = {3: "T", 4: "O", 5: "I"}[n]
-        mirrors = "h" if center else "d"
-        return letter + mirrors if improper else letter
-    if not improper:
-        return "D{:d}".format(n)
-    if n == 2:
-        return "D2h" if center else "D2d"
-    return "D{:d}{:s}".format(n, "h" if is_flat else "d")
+        if improper and not planes:
+            return "S{:d}".format(2 * n)
+        name, mirrors = "C{:d}".format(n), "h" if is_flat else "v"
+    elif is_cubic:
+        name, mirrors = {3: "T", 4: "O", 5: "I"}[n], "h" if center else "d"
+    else:
+        name, mirrors = "D{:d}".format(n), "h" if (center if n == 2 else is_flat) else "d"
+    return name + mirrors if improper else name

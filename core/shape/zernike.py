@@ -28,8 +28,9 @@ sqrt(2n+3) j_{n+1}(q)/q.
 from collections.abc import Iterator
 from fractions import Fraction
 from functools import lru_cache
-from itertools import count
-from math import ceil, factorial, pi, sqrt
+from itertools import accumulate, count
+from math import ceil, factorial, pi, prod, sqrt
+from operator import mul
 
 import numpy as np
 
@@ -250,14 +251,9 @@ def _spherical_bessel(q: NDArray, order: int) -> Array:
 @lru_cache
 def _radial(k: int, beta: Fraction) -> tuple[Fraction, ...]:
     """Return the coefficients of r^2i, i = 0..k, in P_k^(0, beta)(2r² - 1)."""
-    row = []
-    factor = Fraction((-1) ** k)
-    for i in range(k):
-        factor *= (beta + 1 + i) / (i + 1)
-    for i in range(k + 1):
-        row.append(factor)
-        factor *= (i - k) * (k + beta + 1 + i) / ((beta + 1 + i) * (i + 1))
-    return tuple(row)
+    first = Fraction((-1) ** k) * prod((beta + 1 + i) / (i + 1) for i in range(k))
+    ratios = ((i - k) * (k + beta + 1 + i) / ((beta + 1 + i) * (i + 1)) for i in range(k))
+    return tuple(accumulate(ratios, mul, initial=first))
 
 
 def disc_zernike(moments: Moments, radius: float) -> NDArray[np.complex128]:

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Relations between the closed components of one body: apart, nested or intersecting.
 
-Pairs whose boxes overlap are found by a sweep. Each pair is then tested twice (`core/mesh/bvh.py`):
-points just under the skin of the smaller component are located in the larger one; then edges of one
-that pierce triangles of the other are looked for. Contact within the tolerance is no crossing.
+Pairs whose boxes overlap are found by a sweep. Each pair is then tested twice: points just under
+the skin of the smaller component are located in the larger one (`core/mesh/bvh.py`); then edges of
+one that pierce triangles of the other are looked for (`core/mesh/piercing.py`). Contact within the
+tolerance is no crossing.
 """
 
 from __future__ import annotations

@@ -25,6 +25,7 @@ from ..mesh import (
     LineGrids,
     Surface,
     find_crossings,
+    keep_used,
     line_counts,
     turned_quads,
 )
@@ -65,9 +66,7 @@ def find_self_intersection(checked: CheckedSurface, oriented: OrientedSolid) -> 
     component = None
     if mesh.number > 1:
         parts = oriented.closed_parts()
-        used = np.zeros(len(parts.points), bool)
-        used[parts.triangles.ravel()] = True
-        surface = Surface(parts.points[used], (np.cumsum(used) - 1)[parts.triangles])
+        surface = Surface(*keep_used(parts.points, parts.triangles))
         component = parts.part
     else:
         center = volume.about + volume.raw[1:4] / volume.total

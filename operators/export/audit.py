@@ -25,7 +25,6 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
     """Check mass, center and inertia in a robot description against its meshes; write a text"""
 
     bl_label = "Audit Robot Description"
-    bl_options = {"REGISTER", "UNDO"}
 
     filter_glob: StringProperty(
         default=";".join("*" + end for end in AUDITED_SUFFIXES), options={"HIDDEN"}

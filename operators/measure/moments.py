@@ -56,7 +56,6 @@ class OBJECT_OT_body_moments_measure_section(Operator):
     """
 
     bl_label = "Measure Section"
-    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:
@@ -172,7 +171,6 @@ class OBJECT_OT_body_moments_axis_from_selection(Operator):
     """Take the axis from two selected vertices in Edit Mode or from two objects' origins"""
 
     bl_label = "Axis from Selection"
-    bl_options = {"REGISTER", "UNDO"}
 
     def execute(self, context: Context) -> set[str]:
         points = _selected_points(context)

@@ -32,7 +32,6 @@ class OBJECT_OT_body_moments_select_faults(Operator):
     """
 
     bl_label = "Select Defects"
-    bl_options = {"REGISTER", "UNDO"}
 
     kinds: EnumProperty(
         name="Defects",

@@ -25,7 +25,6 @@ class OBJECT_OT_body_moments_set_material(Operator):
     """
 
     bl_label = "Set Material"
-    bl_options = {"REGISTER", "UNDO"}
     bl_property = "material"
 
     material: EnumProperty(
@@ -77,7 +76,6 @@ class MATERIAL_OT_body_moments_set_density(Operator):
     """Set the density of a Blender material from the material table"""
 
     bl_label = "Set Material Density"
-    bl_options = {"REGISTER", "UNDO"}
     bl_property = "material"
 
     material: EnumProperty(
@@ -118,7 +116,6 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
     """
 
     bl_label = "Copy Settings to Selected"
-    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:

@@ -111,7 +111,6 @@ class SCENE_OT_body_moments_set_millimeters(Operator):
     """Let one unit of the scene be a millimeter, and measure again what was measured"""
 
     bl_label = "Set Units to Millimeters"
-    bl_options = {"REGISTER", "UNDO"}
 
     remeasure: BoolProperty(
         name="Measure Again",

@@ -66,7 +66,6 @@ COUNTS = {  # texts of the report, by similarity
 
 class _SearchMixin:
     bl_label: str
-    bl_options = {"REGISTER", "UNDO"}
     mirrored: bool
     scaled: bool
 
@@ -198,7 +197,6 @@ class OBJECT_OT_body_moments_select_found(Operator):
     """Select these objects and make the first one active"""
 
     bl_label = "Select Similar Object"
-    bl_options = {"REGISTER", "UNDO"}
 
     name: StringProperty(name="Name", description="Objects to select, one a line")
 

@@ -251,7 +251,6 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
     """Create a transform orientation along the principal axes of the active object"""
 
     bl_label = "Orientation from Principal Axes"
-    bl_options = {"REGISTER", "UNDO"}
 
     name: StringProperty(
         name="Name",

@@ -329,19 +329,15 @@ def test_fbx_curves_between_keys_are_the_files(tmp_path, flags, data, slopes, le
         assert close(body["center_of_mass"][0], 0.5 + share / (1 if is_moved else 2), 1e-5)
 
 
-def test_fbx_frames_follow_a_rate_that_is_not_whole(tmp_path):
-    more, links = animation(2, "Lcl Translation", [100.0, 0, 0], 4)
-    models = [("part", "Mesh", {}, 0)]
-    path = write(tmp_path / "t.fbx", models, more=more, more_links=links, rate=9)  # 29.97 Hz
-    body = measured(path, "--at-frame", "26")
-    assert close(body["center_of_mass"][0], 1.5 - 25 / 29.97, 1e-6)
-
-
-@pytest.mark.parametrize(("flags", "share"), [(2, 1.0), (0x102, 0.0)])
-def test_fbx_curve_of_steps_is_the_files(tmp_path, flags, share):
+@pytest.mark.parametrize(
+    ("flags", "rate", "frame", "center"),
+    [(2, 0, 9, 1.5), (0x102, 0, 9, 0.5), (4, 9, 26, 1.5 - 25 / 29.97)],  # steps; 29.97 Hz
+)
+def test_fbx_steps_and_frames_are_the_files(tmp_path, flags, rate, frame, center):
     more, links = animation(2, "Lcl Translation", [100.0, 0, 0], flags)
-    path = write(tmp_path / "t.fbx", [("part", "Mesh", {}, 0)], more=more, more_links=links)
-    assert close(measured(path, "--at-frame", "9")["center_of_mass"][0], 0.5 + share, 1e-6)
+    models = [("part", "Mesh", {}, 0)]
+    path = write(tmp_path / "t.fbx", models, more=more, more_links=links, rate=rate)
+    assert close(measured(path, "--at-frame", frame)["center_of_mass"][0], center, 1e-6)
 
 
 LOW, HIGH = (

@@ -4,6 +4,7 @@
 input.
 """
 
+import io
 import json
 import os
 from pathlib import Path
@@ -36,6 +37,9 @@ def foreign():
     yield "array", json.dumps([{"schema": "others/1"}]).encode()
     yield "csv", b"file,frame,name,mass\n"
     yield "csv_edited", b"x," + "".join(documents.to_csv([])).encode()
+    arrays = io.BytesIO()
+    np.savez(arrays, q=1, F=2, error=3, input=4, method=5, frame=6, mine=7)
+    yield "arrays", arrays.getvalue()
 
 
 @pytest.mark.parametrize("content", [pytest.param(content, id=name) for name, content in foreign()])
@@ -49,15 +53,6 @@ def test_foreign_file_is_kept_before_measuring(tmp_path, main, no_measuring, opt
     )
     assert code == 2 and str(target) in said and "--force" in said
     assert target.read_bytes() == content
-
-
-def test_foreign_arrays_are_kept(tmp_path, main, no_measuring):
-    part = files.box_file(tmp_path / "part.stl")
-    target = tmp_path / "target.npz"
-    np.savez(target, q=1, F=2, error=3, input=4, method=5, frame=6, mine=7)
-    kept = target.read_bytes()
-    for words in (("--fourier", target, *WAVES), ("--output", target)):
-        assert main("measure", part, *words)[0] == 2 and target.read_bytes() == kept
 
 
 def test_force_replaces_a_foreign_file(tmp_path, main):

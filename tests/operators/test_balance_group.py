@@ -91,21 +91,13 @@ def character():
     bpy.ops.object.mode_set(mode="OBJECT")
     meshes = []
     for number in range(5):
-        skin = objects.add(
-            objects.mesh_body(f"Skin {number}"), f"Skin {number}", location=(0.1, 0.2, number)
-        )
-        skin.data.update()
-        skin.parent = rig
+        skin, hat = f"Skin {number}", f"Hat {number}"
+        skin = objects.add(objects.mesh_body(skin), skin, (0.1, 0.2, number), parent=rig)
         skin.modifiers.new("Armature", "ARMATURE").object = rig
         group = skin.vertex_groups.new(name=f"Bone {number}")
         for vertex in range(len(skin.data.vertices)):
             group.add([vertex], 0.3 + 0.6 * (vertex % 2), "REPLACE")
-        hat = objects.add(
-            objects.mesh_body(f"Hat {number}"),
-            f"Hat {number}",
-            location=(1.0, 0.0, 0.5),
-            scale=(0.3,) * 3,
-        )
+        hat = objects.add(objects.mesh_body(hat), hat, (1.0, 0.0, 0.5), scale=(0.3,) * 3)
         hat.parent, hat.parent_type, hat.parent_bone = rig, "BONE", f"Bone {number}"
         hat.body_moments.density = 2000.0 + number
         meshes += [skin, hat]
@@ -137,8 +129,8 @@ def test_the_center_of_a_character_is_that_of_its_parts(scene):
 
 def test_an_armature_stands_for_its_meshes(scene):
     rig, meshes = character()
-    beside, held = (objects.add(objects.mesh_body(), name) for name in ("Beside", "Held"))
-    beside.parent = rig
+    objects.add(objects.mesh_body(), "Beside", parent=rig)
+    held = objects.add(objects.mesh_body(), "Held")
     held.parent, held.parent_type = objects.add(bpy.data.armatures.new("Other"), "Other"), "BONE"
     scene.frame_start, scene.frame_end = 1, 12
     objects.only(rig)

@@ -327,8 +327,7 @@ def store_rest(context: Context, armature: Object) -> None:
     at rest.
     """
     with suppress(verdict.MeasureError):
-        rig = _measure_outdated(context, armature)
-        if rig is not None:
+        if (rig := _measure_outdated(context, armature)) is not None:
             stored.results.store_rig(rig)
 
 

@@ -273,8 +273,7 @@ def _read_again(context: Context, members: Sequence[Object]) -> Afloat:
         or known.rest.body.density != afloat.rest.body.density
     ):
         return afloat
-    turn = _turn_since(known, members, context.scene)
-    if turn is not None:
+    if (turn := _turn_since(known, members, context.scene)) is not None:
         settle_at = afloat.rest.body.settle
         with suppress(verdict.MeasureError):
             afloat.rests = tuple(settle_at(turn[:3, :3] @ rest.up) for rest in known.rests)

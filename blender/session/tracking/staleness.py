@@ -355,6 +355,5 @@ def write_notes() -> None:
     """Write the noted edits into the stamps stored on the objects."""
     note_all_edits()
     for obj in bpy.data.objects if len(memory.edited) else ():
-        edited = memory.edited.get(obj)
-        if edited and obj.is_editable:
+        if (edited := memory.edited.get(obj)) and obj.is_editable:
             stamps.write_edited(obj, edited)

@@ -133,7 +133,8 @@ def source_texts():
     constants = (
         node for tree in trees for node in ast.walk(tree) if isinstance(node, ast.Constant)
     )
-    return {constant.value for constant in constants if isinstance(constant.value, str)}
+    texts = {constant.value for constant in constants if isinstance(constant.value, str)}
+    return texts | {" ".join(text.split()) for text in texts}  # as descriptions of operators
 
 
 @pytest.mark.parametrize("path", FILES)

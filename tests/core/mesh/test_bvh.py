@@ -4,14 +4,14 @@
 
 import numpy as np
 import pytest
-from body_moments.core.mesh.bvh import (
-    RAY_SLOPES,
+from body_moments.core.mesh import (
     Bvh,
     boxes_overlap,
     intersecting_pairs,
     overlapping_box_pairs,
     sort_components,
 )
+from body_moments.core.mesh.bvh import RAY_SLOPES
 from hypothesis import given
 
 from tests.close import close
