@@ -31,7 +31,7 @@ EQUAL = 0.01  # Equal geometry under two maps differs less.
 ALIKE = 1e-3  # Volumes of a pair without sides in the names differ less.
 _WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|\d+|[^A-Za-z\d]+")
 # The second side of each word; some programs put left and right first.
-_SIDES: dict[str, str] = {"left": "right", "l": "r"}
+_SIDES = {"left": "right", "l": "r"}
 _SIDES |= {place + "l": place + "r" for place in "frhbm"}
 _SIDES |= {"l" + place: "r" + place for place in "fhbmr"}
 _OWN_MAPS = [
@@ -124,7 +124,7 @@ def _fitting_maps(
 
 def _other_side(name: str) -> str:
     """Return the name of the right link of a left one; other names as they are."""
-    words = _WORD.findall(name)
+    words: list[str] = _WORD.findall(name)
     return "".join(_cased(_SIDES.get(word.lower(), word), word) for word in words)
 
 
