@@ -600,10 +600,10 @@ def count_alarms(audit: Audit, path: Path, roots: Roots, content: Path, codes: d
 
 HEAD = """# Faults Found, and Alarms
 
-This page tests the [audit](robots.md#audit) in two ways. First, known faults are put into published
-robots, and the audit has to find these faults. Second, other programs check each alarm of the audit
-about the robots as they were published. The command `python3 tests/project.py alarms` made the
-page. The robots are the URDF and MJCF files of [Published Robots, Audited](robots-audited.md).
+This page tests the [audit](robots.md#audit) in two ways. First, we put known faults into published
+robots. The audit has to find these faults. Second, other programs check each alarm of the audit
+about the unchanged robots. The command `python3 tests/project.py alarms` made the page. The robots
+are the URDF and MJCF files of [Published Robots, Audited](robots-audited.md).
 
 ## Faults
 
@@ -638,9 +638,10 @@ An alarm is an error or a warning of the audit. The published files have {links}
 - MuJoCo reads the MJCF files.
 - NumPy computes with the numbers of the XML files.
 
-These programs share with the audit only the search for the mesh files. An alarm is confirmed if the
-programs agree with the audit. The number of links with an alarm that is not confirmed is {doubtful}
-({share:.2f} % of all links).
+Only the search for the mesh files is code of the audit itself. An alarm is confirmed if these
+programs agree with the audit.
+
+Links with an alarm that is not confirmed: {doubtful} ({share:.2f} % of all links).
 
 | alarm | links | confirmed |
 |---|---|---|

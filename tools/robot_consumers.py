@@ -49,7 +49,10 @@ CONSUMERS = {
     "Pinocchio 4.1.0": (
         "pinocchio",
         ["pin==4.1.0"],
-        {"urdf": "", "mjcf": "compared with the root at the origin, as Pinocchio puts it there"},
+        {
+            "urdf": "",
+            "mjcf": "compared with a root at the origin",
+        },
     ),
     "Newton 1.8.0": (
         "newton",
@@ -126,7 +129,7 @@ link in the program, and its three principal moments in kg·m². The columns are
 
 - *no inertial*: the link has no inertial.
 - *A + B < C by 1e-12*: the file states a mass of 1 kg and the moments A = 1, B = 2 and
-  C = 3 · (1 + 1e-12) kg·m². A + B is slightly smaller than C, as after rounding.
+  C = 3 · (1 + 1e-12) kg·m². Such a small error can come from rounding.
 - *1, 1, 9*: the file states a mass of 1 kg and the moments 1, 1 and 9 kg·m². No body can have these
   moments.
 

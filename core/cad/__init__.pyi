@@ -13,7 +13,6 @@ from .surface_file import read_source as read_source
 from .surface_file import read_surfaces as read_surfaces
 from .surfaces import MAX_ORDER as MAX_ORDER
 from .surfaces import SurfaceBody as SurfaceBody
-from .surfaces import SurfaceFile as SurfaceFile
 from .surfaces import is_storable as is_storable
 from .surfaces import revolved_solid as revolved_solid
 

@@ -82,7 +82,7 @@ _TABLE = (
         "Export glTF as Blender does, with rigid bodies of the exact mass, center and inertia in "
         "it",
         "KHR_physics_rigid_bodies and OMI_physics_body, with y up",
-        "gltf_robot",
+        "gltf",
         holds_meshes=True,
         binary_suffixes=(".glb",),
     ),

@@ -31,9 +31,9 @@ EQUAL = 0.01  # Equal geometry under two maps differs less.
 ALIKE = 1e-3  # Volumes of a pair without sides in the names differ less.
 _WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|\d+|[^A-Za-z\d]+")
 # The second side of each word; some programs put left and right first.
-_SIDES = {"left": ["right"], "l": ["r"]}
-_SIDES |= {place + "l": [place + "r"] for place in "frhbm"}
-_SIDES |= {"l" + place: ["r" + place] for place in "fhbmr"}
+_SIDES = {"left": "right", "l": "r"}
+_SIDES |= {place + "l": place + "r" for place in "frhbm"}
+_SIDES |= {"l" + place: "r" + place for place in "fhbmr"}
 _OWN_MAPS = [
     Pose(rotation=np.diag(signs))
     for signs in ((1.0, 1.0, 1.0), (-1.0, 1.0, 1.0), (1.0, -1.0, 1.0), (1.0, 1.0, -1.0))
@@ -66,10 +66,9 @@ def find_pairs(audits: Sequence[LinkAudit], tree: Tree) -> list[Pair]:
     indices = {one.link.name: index for index, one in enumerate(audits) if one.link.inertial}
     places = [tree.poses[one.link.name] for one in audits]
     sides = [
-        (indices[name], indices[other])
-        for name in indices
-        for other in _other_sides(name)
-        if other in indices
+        (index, indices[other])
+        for name, index in indices.items()
+        if (other := _other_side(name)) != name and other in indices
     ]
     plane = _plane([(places[first], places[second]) for first, second in sides])
 
@@ -123,14 +122,10 @@ def _fitting_maps(
     return [pose for pose, value in zip(maps, apart) if value <= min(apart) + EQUAL]
 
 
-def _other_sides(name: str) -> Iterator[str]:
-    """Yield the possible names of the right link of a left one."""
-    words = _WORD.findall(name)
-    swapped = [
-        [_cased(other, word) for other in _SIDES.get(word.lower(), ())] or [word] for word in words
-    ]
-    if any(other[0] != word for other, word in zip(swapped, words)):
-        yield "".join(other[0] for other in swapped)
+def _other_side(name: str) -> str:
+    """Return the name of the right link of a left one; other names as they are."""
+    words: list[str] = _WORD.findall(name)
+    return "".join(_cased(_SIDES.get(word.lower(), word), word) for word in words)
 
 
 def _cased(word: str, like: str) -> str:

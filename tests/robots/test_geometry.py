@@ -154,7 +154,7 @@ def placed(document):
 
 
 @pytest.mark.parametrize("away", [False, True])
-def test_gltf_robot_is_valid_and_stands_in_place(away):
+def test_gltf_is_valid_and_stands_in_place(away):
     chain = bodies(24, chain=True, away=away)
     dressed = Link("dressed", chain.links[0].inertial, Pose(), shapes(chain.links[1].pose))
     robot = Robot("arm", (*chain.links, dressed), chain.joints)

@@ -28,7 +28,7 @@ from body_moments.core.robots.model import (
     Robot,
     combine_inertials,
 )
-from body_moments.core.robots.write import gltf_robot, mjcf, sdf, urdf, usd
+from body_moments.core.robots.write import gltf, mjcf, sdf, urdf, usd
 from body_moments.core.robots.write.shapes import with_primitives, without_collision
 from body_moments.core.robots.write.texts import check, robot_text
 from pxr import UsdPhysics, UsdValidation
@@ -310,7 +310,7 @@ def test_fixed_base_does_not_fall_in_any_format():
                 < 1e-6
             )
         (node,) = [
-            node for node in json.loads(gltf_robot.write(robot))["nodes"] if node["name"] == "base"
+            node for node in json.loads(gltf.write(robot))["nodes"] if node["name"] == "base"
         ]
         khr, omi = (
             node["extensions"][name]["motion"]
@@ -375,7 +375,7 @@ def test_stated_values_of_joints_are_in_each_format():
             and drive.GetMaxForceAttr().Get() == 12.0
         )
         assert abs(drive.GetStiffnessAttr().Get() - 7.0 * unit) < 1e-7
-    joints = json.loads(gltf_robot.write(robot))["extensions"]["KHR_physics_rigid_bodies"][
+    joints = json.loads(gltf.write(robot))["extensions"]["KHR_physics_rigid_bodies"][
         "physicsJoints"
     ]
     common = {"mode": "force", "axis": 0, "damping": 0.5, "stiffness": 7.0, "maxForce": 12.0}
@@ -441,7 +441,7 @@ def test_colliders_are_left_out_on_request():
     assert "collision" not in urdf.write(robot) and urdf.write(robot).count("<visual>") == 3
     assert "collision" not in sdf.write(robot) and 'group="3"' not in mjcf.write(robot)
     assert "PhysicsCollisionAPI" not in usd.write(robot) and usd.write(robot).count("def Cube") == 3
-    assert "collider" not in gltf_robot.write(robot)
+    assert "collider" not in gltf.write(robot)
     assert replace(robot.links[0].shapes[0], collides=True).collides
 
 

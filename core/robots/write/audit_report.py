@@ -260,17 +260,12 @@ def _total_rows(document: dict[str, Any]) -> list[tuple[str, str]]:
 
 def _remarks(documents: Sequence[dict[str, Any]]) -> list[str]:
     """Return the sentences about the report as a whole."""
-    remarks = [RESTS_ON] if _rests_on_geometry(documents) else []
-    return remarks if any(not one["errors"] for one in documents) else [NONE_READ]
-
-
-def _rests_on_geometry(documents: Iterable[dict[str, Any]]) -> bool:
-    codes = {INERTIAL_CENTER_OUTSIDE, INERTIAL_SPREAD_OUTSIDE}
+    if all(one["errors"] for one in documents):
+        return [NONE_READ]
+    of_geometry = {INERTIAL_CENTER_OUTSIDE, INERTIAL_SPREAD_OUTSIDE}
     entries = (found for one in documents for link in one["links"] for found in link["findings"])
-    return any(
-        codes & {found["code"], *(reason["code"] for reason in found["reasons"])}
-        for found in entries
-    )
+    codes = {reason["code"] for found in entries for reason in (found, *found["reasons"])}
+    return [RESTS_ON] if codes & of_geometry else []
 
 
 def _numbers(inertial: dict[str, Any] | None) -> str:
