@@ -285,7 +285,7 @@ def _oriented(
             raise SurfaceRefusedError(SURFACE_TRIMMED)
         if held == {not len(witness)}:
             tracks = [track.reverse() for track in tracks]
-            is_whole = -total < 0.0
+            is_whole = not is_whole
     return list(tracks), base, [ends] if is_whole else []
 
 

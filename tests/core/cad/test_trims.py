@@ -6,7 +6,13 @@ import numpy as np
 import pytest
 from body_moments.core.cad.iges_entities import conic_pieces
 from body_moments.core.cad.trimmed import face_within, flat_region
-from body_moments.core.nurbs import TURN, Quadric, measure_patches, reverse_curves
+from body_moments.core.nurbs import (
+    TURN,
+    Quadric,
+    bezier_curves,
+    measure_patches,
+    reverse_curves,
+)
 from body_moments.core.verdict import MeasureError
 
 from tests.core.polygons import polygon
@@ -42,3 +48,19 @@ def test_bound_covers_a_ball_whose_small_rim_misses_its_surface():
         height = radius - frame[2, 3]
         truth = np.pi * height**2 * (radius - height / 3.0)
         assert abs(volume.total - truth) <= bound
+
+
+def test_torus_whose_seam_is_in_other_pieces_one_way_is_whole():
+    tube = np.eye(4)[:, [0, 2, 1, 3]]
+    tube[0, 3] = 3.0
+    around = conic_pieces(np.eye(4), (4.0, 4.0), (0.0, TURN))
+    across = conic_pieces(tube, (1.0, 1.0), (0.0, TURN))
+    back = reverse_curves(around)
+    low, high = back[0].space.domain
+    middle = 0.7 * low + 0.3 * high
+    back[:1] = bezier_curves(back[0], (low, middle)) + bezier_curves(back[0], (middle, high))
+    torus = face_within(
+        Quadric(np.eye(4), 3.0, 1.0), [[*around, *across, *back, *reverse_curves(across)]]
+    )
+    area = torus.area_moments(0, np.zeros(3))
+    assert abs(area.total - 12.0 * np.pi**2) <= area.rounding_error[0] <= 1e-9
