@@ -37,7 +37,7 @@ from body_moments.core.fourier.transform import run_to_completion, solid_transfo
 from body_moments.core.fourier.wave_vectors import FrequencyGrid
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.moments.moments import monomials
+from body_moments.core.moments.raw import monomials
 from body_moments.core.papers.sheynin_tuzikov_2001 import sigma
 from body_moments.core.polyhedron import integration
 from body_moments.core.solid.measure import measure_solid

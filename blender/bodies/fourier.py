@@ -33,7 +33,7 @@ from .findings import (
     FOURIER_NO_EXTENT,
     FOURIER_OF_UNIFORM_DENSITY,
 )
-from .flat.flat import area_findings, flat_region
+from .flat.region import area_findings, flat_region
 from .mesh import mesh_body
 
 

@@ -19,11 +19,11 @@ from ...core.bodies import name_subject
 from ..settings.options import AS_SET, MeasureOptions
 from . import grid, mesh, nurbs, stack, wire
 from .assembly.given import point_measurement, read_point, with_given
-from .flat import flat
+from .flat import region
 from .request import Request, measurement_of
 
 THREADS = os.cpu_count() or 1  # for long measurements
-KINDS = (grid, wire, flat, mesh, nurbs)
+KINDS = (grid, wire, region, mesh, nurbs)
 
 
 def measure_body(

@@ -26,7 +26,7 @@ from ...core.shape import MAX_FIT_RTOL, RigidMatch
 from ...core.verdict import EditRefusedError, Finding, Procedure
 from ..bodies.measure_body import measure_body
 from ..bodies.measure_object import measured_in_turn
-from ..bodies.shape.shape import NoShapeError, shape_of_measured
+from ..bodies.shape.object_shape import NoShapeError, shape_of_measured
 from ..bodies.stack import Measured
 from ..scale import meters_per_unit
 from ..settings.given import COLLIDER
@@ -37,7 +37,7 @@ from .transforms import world
 
 if TYPE_CHECKING:
     from ..bodies.flat.flat_shape import FlatShape
-    from ..bodies.shape.shape import Shape
+    from ..bodies.shape.object_shape import Shape
 
 MAX_DIRECTION_NOISE = 1e-3  # rounding in float32 of directions fixed by moments of higher order
 DIAGONAL_RTOL = 4e-7  # products of inertia by rounding in float32, relative to the trace

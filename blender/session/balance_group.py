@@ -121,7 +121,7 @@ class BalanceGroup:
     def _center(self, motion: Motion, depsgraph: Depsgraph) -> numerics.Array:
         """Return the common center at this frame, in Blender's units."""
         if self._assembly is not None:
-            body = bodies.assembly.assembly.measure_assembly(
+            body = bodies.assembly.measure.measure_assembly(
                 self._assembly, depsgraph
             ).measurement.mass_properties
             return body.center / scale.meters_per_unit(depsgraph.scene)

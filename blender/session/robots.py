@@ -18,7 +18,7 @@ from ...core.measurement import Measurement
 from ...core.robots.write.shapes import with_colliders
 from .. import read, scene, settings, write
 from ..bodies import measure_object, overlaps
-from ..bodies.assembly.assembly import measure_assembly
+from ..bodies.assembly.measure import measure_assembly
 from ..bodies.rig import measure_rig
 from .findings import LEFT_OUT_OF_ROBOT
 

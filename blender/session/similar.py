@@ -76,9 +76,9 @@ class SimilarSearch:
         depsgraph = self._depsgraph
         flat = isinstance(wanted_shape, bodies.flat.flat_shape.FlatShape)
         if flat:
-            of_body = partial(bodies.shape.shape.surface_shape_of, depsgraph=depsgraph)
+            of_body = partial(bodies.shape.object_shape.surface_shape_of, depsgraph=depsgraph)
         else:
-            of_body = bodies.shape.shape.signed_in_turn(objects, depsgraph, DESCRIPTOR_ORDER)
+            of_body = bodies.shape.object_shape.signed_in_turn(objects, depsgraph, DESCRIPTOR_ORDER)
 
         def compare(obj: Object) -> Generator[float, None, None]:
             nonlocal skin
@@ -91,7 +91,7 @@ class SimilarSearch:
                 yield 0.6
                 skin = skin or bodies.flat.flat_shape.distance_from(wanted_shape)
                 if isinstance(shape, Signature):
-                    shape = bodies.shape.shape.surface_shape_of(obj, depsgraph)
+                    shape = bodies.shape.object_shape.surface_shape_of(obj, depsgraph)
                 skin_compared = bodies.flat.flat_shape.distance_from(shape)
                 yield 0.9
                 match = bodies.shape.surface_distance.register_surfaces(

@@ -20,7 +20,7 @@ from ...core.measurement import Measurement
 from ...core.verdict import FileError, Finding, finding
 from ..findings import ASSETS_NOT_MEASURED, RESULTS_NOT_STORED
 from ..supervisor.listing import COPY_SUFFIX
-from .files import reason
+from .opening import reason
 
 _PACKED = (b"\x28\xb5\x2f\xfd", b"\x1f\x8b")  # start of a .blend compressed with zstd or gzip
 _METADATA = (

@@ -13,7 +13,7 @@ from typing import Any
 import bpy
 
 from ...blender import bodies, read, settings
-from ...blender.bodies.assembly.assembly import Assembly, measure_assembly
+from ...blender.bodies.assembly.measure import Assembly, measure_assembly
 from ...blender.read.assembly import Root, is_assembly, settings_of
 from ...blender.session import stored
 from ...core.measurement import Measurement, record

@@ -15,9 +15,10 @@ import bpy
 
 from ...blender import read, session, write
 from ...blender.bodies import fourier, stack
-from ...blender.bodies.flat import flat, flat_shape
+from ...blender.bodies.flat import flat_shape
+from ...blender.bodies.flat.region import area_findings, clearer_refusal, flat_region
 from ...blender.bodies.measure_object import measure_object, measured_in_turn
-from ...blender.bodies.shape.shape import NoShapeError, shape_of
+from ...blender.bodies.shape.object_shape import NoShapeError, shape_of
 from ...blender.read import assembly, visibility
 from ...blender.settings.given import shows_collection
 from ...blender.settings.options import MeasureOptions
@@ -130,7 +131,7 @@ def record_of_flat(
     more: dict[str, Any] = {"pose": None} if options.pose else {}
     invariants = []
     try:
-        region = flat.flat_region(obj, depsgraph, selected=False, unit=unit)
+        region = flat_region(obj, depsgraph, selected=False, unit=unit)
         moments = region.moments(max(order or 0, LEAST_ORDER))
         if options.signature:
             shape = flat_shape.flat_shape_of(obj, depsgraph, unit)
@@ -139,13 +140,13 @@ def record_of_flat(
             normalized = normalize(moments)
             invariants = [*hu_invariants(normalized), *flusser_invariants(normalized)]
     except MeasureError as error:
-        raise flat.clearer_refusal(refusal, error) from None
+        raise clearer_refusal(refusal, error) from None
     return flat_record(
         label,
         obj.type,
         region.plane,
         moments,
-        (*region.findings, *flat.area_findings(region, moments.total), *posed, *findings),
+        (*region.findings, *area_findings(region, moments.total), *posed, *findings),
         order=order,
         invariants=invariants,
         more=more,

@@ -14,7 +14,7 @@ import bpy
 
 from ...blender import read, session, write
 from ...blender.bodies import cuts, overlaps, stack
-from ...blender.bodies.flat.flat import NO_BODY
+from ...blender.bodies.flat.region import NO_BODY
 from ...blender.bodies.measure_body import measure_body
 from ...blender.session.stored import floating
 from ...blender.session.tracking.staleness import mark_up_to_date
@@ -28,7 +28,7 @@ from ...core.floating import Flotation
 from ...core.measurement import Measurement, record
 from ...core.verdict import FileError, Finding, MeasureError, QueryError, finding, system_reason
 from ..files import references, saving, suffixes
-from ..files.files import newer_version, open_file, open_name
+from ..files.opening import newer_version, open_file, open_name
 from ..findings import (
     FOURIER_OBJECT_COUNT,
     MEASURED_AS_SHELL,

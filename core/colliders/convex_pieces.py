@@ -167,7 +167,8 @@ def _coarse(piece: Piece) -> Piece:
     low = points.min(axis=0)
     extent = np.maximum(np.ptp(points, axis=0), np.finfo(float).tiny)
     far = np.argsort(-((points - points.mean(axis=0)) ** 2).sum(axis=1), kind="stable")
-    for cells in range(16, 1, -1):
+    cells = 16
+    while True:  # 2 cells a side are few enough
         # a thin body keeps both of its sides
         number = np.maximum(np.ceil(cells * extent / extent.max()), 2.0)
         place = np.minimum((points - low) / extent * number, number - 1.0).astype(np.intp)
@@ -175,6 +176,7 @@ def _coarse(piece: Piece) -> Piece:
         _, first, which = np.unique(cell[far], return_index=True, return_inverse=True)
         if len(first) <= COARSE_POINTS:
             break
+        cells -= 1
     chosen = np.empty(len(points), np.intp)
     chosen[far] = far[first][which]
     moved = replace(piece, start=chosen[piece.start], end=chosen[piece.end])

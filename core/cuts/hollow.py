@@ -20,7 +20,7 @@ import numpy as np
 from ..inertia import frame_about
 from ..mesh import first_at_equal_position, uncancelled_sides
 from ..moments import Moments, U
-from ..moments.moments import TINY
+from ..moments.raw import TINY
 from ..numerics import (
     Array,
     ArrayLike,

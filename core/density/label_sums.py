@@ -14,7 +14,7 @@ from math import comb
 import numpy as np
 
 from ..moments import KNOWN_ORDER, Measure, Moments
-from ..moments.moments import U, monomial_index, monomials
+from ..moments.raw import U, monomial_index, monomials
 from ..numerics import Index, NDArray
 from ..verdict import ReadError
 from .findings import LABELS_UNFIT

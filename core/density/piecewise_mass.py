@@ -25,7 +25,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..moments import factorial_ratios
-from ..moments.moments import (
+from ..moments.raw import (
     FLOAT32_HALF_ULP,
     PAIRWISE_SUM_ROUNDINGS,
     Measure,

@@ -26,7 +26,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..moments.moments import Measure, Moments, U, monomials
+from ..moments.raw import Measure, Moments, U, monomials
 from ..numerics import Array, ArrayLike, NDArray, float_array, number_array
 from ..verdict import MeasureError
 from .findings import DENSITY_NON_FINITE, GRID_TRANSFORM_SINGULAR

@@ -29,7 +29,7 @@ from itertools import product
 
 import numpy as np
 
-from ..moments.moments import Measure, Moments, U, monomials
+from ..moments.raw import Measure, Moments, U, monomials
 from ..numerics import (
     Array,
     ArrayLike,

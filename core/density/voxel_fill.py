@@ -18,7 +18,7 @@ import math
 
 import numpy as np
 
-from ..moments.moments import Measure, Moments, U, monomials
+from ..moments.raw import Measure, Moments, U, monomials
 from ..numerics import Array, ArrayLike, NDArray, batches, float_array, power_table, triangle_rule
 from ..verdict import NO_FACES, MeasureError
 from .findings import DENSITY_NON_FINITE

@@ -37,8 +37,6 @@ from .findings import NO_VOLUME as NO_VOLUME
 from .findings import UNIFORM_DENSITIES as UNIFORM_DENSITIES
 from .findings import WALL_UNSUPPORTED as WALL_UNSUPPORTED
 from .findings import ZERO_QUANTITY as ZERO_QUANTITY
-from .measurement import Body as Body
-from .measurement import Measurement as Measurement
 from .page import to_html as to_html
 from .plain_text import PROGRAM as PROGRAM
 from .plain_text import counted as counted
@@ -46,6 +44,8 @@ from .plain_text import print_message as print_message
 from .plain_text import visible as visible
 from .record import described as described
 from .record import flat_record as flat_record
+from .results import Body as Body
+from .results import Measurement as Measurement
 from .settings import VERSION as VERSION
 from .settings import Pocket as Pocket
 from .settings import PrintSettings as PrintSettings

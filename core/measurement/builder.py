@@ -40,7 +40,7 @@ from .findings import (
     WALL_UNSUPPORTED,
     ZERO_QUANTITY,
 )
-from .measurement import Body, Measurement
+from .results import Body, Measurement
 from .settings import Settings
 
 NO_AXES_FIXED = "isotropic"

@@ -32,7 +32,7 @@ from ..numerics import Array, NDArray
 from ..verdict import Finding, MeasureError, Severity, find_verdict, sentence, severity
 from .documents import TOTAL, plain
 from .findings import UNIFORM_DENSITIES
-from .measurement import Measurement
+from .results import Measurement
 
 MAX_ELEMENTS = 1000  # Limit for one finding.
 _FIRST = ((1, 0, 0), (0, 1, 0))

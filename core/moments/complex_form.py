@@ -22,7 +22,7 @@ from ..verdict import MeasureError
 from .affine_maps import apply_translation
 from .exponents import monomial_index, monomials
 from .findings import NORMALIZATION_UNDEFINED
-from .moments import Measure, Moments, U
+from .raw import Measure, Moments, U
 from .solid_harmonics import circular_coefficients
 
 SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")

@@ -12,7 +12,7 @@ import numpy as np
 from ..numerics import ArrayLike, NDArray, check_filled, float_array
 from .affine_maps import absolute_moments, to_trailing_axis, transform_by_horner
 from .exponents import monomial_count, monomials
-from .moments import Moments, U, image, measure_scale_factors
+from .raw import Moments, U, image, measure_scale_factors
 
 MAPS_PER_BLOCK = (
     2048  # maps at a time at order 3, fewer at higher ones: their functionals stay in the cache

@@ -21,7 +21,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from ..moments.moments import Measure, Moments, U, monomials
+from ..moments.raw import Measure, Moments, U, monomials
 from ..numerics import Array, NDArray, check_type, cross, dot
 from ..verdict import check_size
 from .bezier import ROUNDING, VOLUME_RTOL, bernstein, halves

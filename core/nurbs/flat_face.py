@@ -17,7 +17,7 @@ import numpy as np
 
 from ..flat import orient_loops
 from ..mesh import overlapping_box_pairs
-from ..moments.moments import Measure, Moments, U, monomials
+from ..moments.raw import Measure, Moments, U, monomials
 from ..numerics import Array, ArrayLike, NDArray, SplineSpace
 from ..verdict import WELDING_RTOL, MeasureError
 from .curve_moments import curves_center, plane_moments

@@ -25,7 +25,7 @@ from math import ceil
 
 import numpy as np
 
-from ..moments.moments import Measure, Moments, U, monomials, sum_moments
+from ..moments.raw import Measure, Moments, U, monomials, sum_moments
 from ..numerics import (
     Array,
     NDArray,

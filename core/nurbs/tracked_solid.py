@@ -18,7 +18,7 @@ from functools import partial
 
 import numpy as np
 
-from ..moments.moments import Measure, Moments, monomials, sum_moments
+from ..moments.raw import Measure, Moments, monomials, sum_moments
 from ..numerics import Array, NDArray, SplineSpace
 from ..verdict import Procedure, welding_tolerance
 from .bezier import MAX_CELLS, cells_of_nets

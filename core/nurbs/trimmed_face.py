@@ -27,7 +27,7 @@ from typing import TypeAlias, cast
 
 import numpy as np
 
-from ..moments.moments import Measure, Moments, U, monomials
+from ..moments.raw import Measure, Moments, U, monomials
 from ..numerics import Array, Index, NDArray, SplineSpace, cross, gauss_legendre
 from ..verdict import WELDING_RTOL
 from .bezier import ROUNDING, VOLUME_RTOL

@@ -19,7 +19,7 @@ from math import comb, factorial, sqrt
 from operator import mul
 from typing import Any
 
-from ..moments.moments import monomials
+from ..moments.raw import monomials
 from ..numerics import Number, Vector, cross, dot, subtract
 
 

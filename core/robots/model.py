@@ -19,7 +19,7 @@ import numpy as np
 from ..inertia import EQUAL_MOMENTS_RTOL, combine
 from ..mesh import Surface
 from ..moments import KNOWN_ORDER
-from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, monomial_count
+from ..moments.raw import SECOND_MOMENT_INDEX, Measure, Moments, monomial_count
 from ..numerics import Array, NDArray, second_of_inertia
 
 # Known values of an axis: N·m·s/rad or N·s/m, N·m or N, N·m/rad or N/m, N·m or N, rad/s or m/s.

@@ -12,7 +12,7 @@ from math import pi, sqrt
 
 import numpy as np
 
-from ..moments.moments import Moments
+from ..moments.raw import Moments
 from ..numerics import Array, NDArray
 from ..polyhedron import integrate
 from .model import Inertial, Pose, Shape, second_moments

@@ -4,6 +4,9 @@
 from typing import Any
 
 from .catalog import declared as declared
+from .decision import Verdict as Verdict
+from .decision import find_verdict as find_verdict
+from .decision import open_body_caveats as open_body_caveats
 from .finding_types import Code as Code
 from .finding_types import EditRefusedError as EditRefusedError
 from .finding_types import FileError as FileError
@@ -53,9 +56,6 @@ from .tolerances import NEGLIGIBLE as NEGLIGIBLE
 from .tolerances import WELDING_RTOL as WELDING_RTOL
 from .tolerances import check_size as check_size
 from .tolerances import welding_tolerance as welding_tolerance
-from .verdict import Verdict as Verdict
-from .verdict import find_verdict as find_verdict
-from .verdict import open_body_caveats as open_body_caveats
 
 __all__ = [
     "Finding",

@@ -14,7 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..mesh import Surface, find_edges
-from ..moments.moments import Measure, Moments, U, monomials
+from ..moments.raw import Measure, Moments, U, monomials
 from ..numerics import Array, check_type, cross, gauss_legendre
 from ..polyhedron import polyhedron_moments
 from .walls import ORDER, OffsetSolid

@@ -23,7 +23,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..mesh import Surface, find_edges, sort_components
-from ..moments.moments import (
+from ..moments.raw import (
     PAIRWISE_SUM_ROUNDINGS,
     Measure,
     Moments,

@@ -15,8 +15,7 @@ import pytest
 
 bpy = pytest.importorskip("bpy")
 import numpy as np
-from body_moments.command.files import files as opening
-from body_moments.command.files import suffixes
+from body_moments.command.files import opening, suffixes
 from body_moments.command.findings import NO_SHAPES
 from body_moments.core.files import NOT_REGULAR
 from body_moments.core.streams.stl import BY_WORD

@@ -9,7 +9,7 @@ from math import gamma
 
 import numpy as np
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.moments.moments import monomials
+from body_moments.core.moments.raw import monomials
 
 CORNERS = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
 SIDES = np.array(

@@ -8,7 +8,7 @@ the mean of the points.
 from math import factorial
 
 import numpy as np
-from body_moments.core.moments.moments import Moments, monomial_index, monomials
+from body_moments.core.moments.raw import Moments, monomial_index, monomials
 
 
 def moments(part, order, about=None):

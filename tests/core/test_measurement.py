@@ -7,7 +7,7 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 from body_moments.core import measurement, polyhedron, verdict
-from body_moments.core.moments.moments import Measure, Moments
+from body_moments.core.moments.raw import Measure, Moments
 
 from tests.core import bodies
 

@@ -10,7 +10,7 @@ from fractions import Fraction
 from itertools import product
 
 import numpy as np
-from body_moments.core.moments.moments import monomials
+from body_moments.core.moments.raw import monomials
 
 
 def pieces(knots: list[Fraction], i: int, k: int) -> dict[int, list[Fraction]]:

@@ -23,7 +23,7 @@ from ....core.measurement import (
     fingerprint,
     measure_total,
 )
-from ....core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count
+from ....core.moments.raw import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count
 from ....core.numerics import Array, NDArray, shortest_decimal
 from ...read.fingerprint import matrix_hash
 from ...read.objects import locate

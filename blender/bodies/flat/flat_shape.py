@@ -33,9 +33,9 @@ from ....core.shape import (
     match_flat,
 )
 from ...read.fingerprint import matrix_hash, settings_hash
-from ..shape.shape import Shape, surface_shape_of
+from ..shape.object_shape import Shape, surface_shape_of
 from ..shape.surface_distance import EXACT_DISTANCE, SURFACE_SAMPLES, SurfaceDistance, thinned
-from .flat import NO_BODY, FlatRegion, clearer_refusal, flat_region
+from .region import NO_BODY, FlatRegion, clearer_refusal, flat_region
 
 # curves and text are read with this resolution, because shapes must not depend on the drawn one
 OUTLINE_RESOLUTION = 64

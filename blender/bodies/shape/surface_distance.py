@@ -16,7 +16,7 @@ from ....core.shape import RigidMatch
 
 if TYPE_CHECKING:
     from ..flat.flat_shape import FlatShape
-    from .shape import Shape
+    from .object_shape import Shape
 
 # Relative to the size: distances between these two are wrong for thin triangles in single
 # precision.

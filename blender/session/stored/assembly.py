@@ -20,7 +20,7 @@ from ....core.inertia import TENSOR, PlainBody, add_bodies
 from ....core.measurement import digest, find_properties, table
 from ....core.verdict import Finding, Severity, finding, internal_error, of_severity, sentence
 from ... import read, scale, write
-from ...bodies.assembly.assembly import Assembly, MemberBody, assembly_measurement
+from ...bodies.assembly.measure import Assembly, MemberBody, assembly_measurement
 from ...bodies.findings import ASSEMBLY_MASS_GIVEN, MEMBERS_DENSITY_UNSET
 from ...bodies.stack import Measured
 from ..tracking import handlers, staleness, stamps

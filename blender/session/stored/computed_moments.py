@@ -12,7 +12,7 @@ import numpy as np
 from ....core import inertia, measurement, numerics, polyhedron, verdict
 from ....core.flat import Plane, foot, plane_positions
 from ....core.moments import Invariant, flusser_invariants, hu_invariants, normalize
-from ....core.moments.moments import Moments, monomials
+from ....core.moments.raw import Moments, monomials
 from ..findings import (
     INVARIANTS_ORDER,
     MASS_MOMENTS_UNKNOWN,

@@ -16,7 +16,7 @@ from bpy.types import Context, Depsgraph, Object, Scene
 
 from ....core import inertia, verdict
 from ....core.moments import Invariant
-from ....core.moments.moments import Measure, Moments, monomial_count, monomials
+from ....core.moments.raw import Measure, Moments, monomial_count, monomials
 from ... import bodies, write
 from ...settings.options import MeasureOptions
 from .. import memory
@@ -52,7 +52,7 @@ def compute_moments(
     flat = None
     not_flat = None
     try:
-        region = bodies.flat.flat.flat_region(obj, depsgraph)
+        region = bodies.flat.region.flat_region(obj, depsgraph)
         flat = FlatMoments(region.moments(order), region.plane)
     except verdict.MeasureError as error:
         not_flat = error
@@ -64,7 +64,7 @@ def compute_moments(
         )
     except verdict.MeasureError as refusal:
         if not_flat is not None:
-            raise bodies.flat.flat.clearer_refusal(refusal, not_flat) from None
+            raise bodies.flat.region.clearer_refusal(refusal, not_flat) from None
         measurement = None
     if measurement is None or measurement.length is not None:
         if region is None or flat is None:
@@ -74,7 +74,7 @@ def compute_moments(
         )
         return computed, (
             *region.findings,
-            *bodies.flat.flat.area_findings(region, flat.moments.total),
+            *bodies.flat.region.area_findings(region, flat.moments.total),
         )
     area = measurement.area_moments.truncate(order)
     volume = measurement.volume_moments or replace(

@@ -15,7 +15,7 @@ import numpy as np
 
 from ...files import parse_numbers
 from ...mesh import Surface, convex_hull, first_at_equal_position
-from ...moments.moments import SECOND_MOMENT_INDEX, Moments
+from ...moments.raw import SECOND_MOMENT_INDEX, Moments
 from ...numerics import Array, NDArray
 from ...polyhedron import integrate
 from ...verdict import MeasureError

@@ -9,7 +9,7 @@ from fractions import Fraction
 import bpy
 import numpy as np
 import pytest
-from body_moments.blender.bodies.assembly.assembly import measure_assembly
+from body_moments.blender.bodies.assembly.measure import measure_assembly
 from body_moments.blender.read.assembly import MemberKind
 from body_moments.blender.read.visibility import measurable_objects
 from body_moments.core.verdict import MeasureError

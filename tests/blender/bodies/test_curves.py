@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from body_moments.blender.bodies.flat.flat import flat_region
+from body_moments.blender.bodies.flat.region import flat_region
 from body_moments.blender.bodies.measure_body import measure_body
 from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.read.splines import FALLOFFS

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 bpy = pytest.importorskip("bpy")
-from body_moments.core.moments.moments import monomials
+from body_moments.core.moments.raw import monomials
 
 from tests.blender.batch_files import measured
 from tests.blender.grids import vdb_grid, volume_object

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.bodies import measure_object, overlaps, stack
-from body_moments.blender.bodies.assembly.assembly import measure_assembly
+from body_moments.blender.bodies.assembly.measure import measure_assembly
 from body_moments.blender.session.robots import collection_links, object_links
 
 from tests.blender.batch_files import codes, document

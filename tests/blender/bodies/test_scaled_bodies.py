@@ -10,7 +10,7 @@ import pytest
 from body_moments.blender.bodies.measure_body import measure_body
 from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.settings.options import MeasureOptions
-from body_moments.core.moments.moments import monomials
+from body_moments.core.moments.raw import monomials
 
 from tests.blender.objects import add, mesh_body
 from tests.blender.spline_bodies import surface

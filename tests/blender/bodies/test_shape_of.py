@@ -10,7 +10,7 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from body_moments.blender.bodies.shape.shape import NoShapeError, shape_of
+from body_moments.blender.bodies.shape.object_shape import NoShapeError, shape_of
 from body_moments.blender.bodies.shape.surface_distance import SurfaceDistance
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.numerics.rotations import rotation_matrix

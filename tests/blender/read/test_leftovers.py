@@ -7,11 +7,11 @@ gives the same.
 import bpy
 import numpy as np
 import pytest
-from body_moments.blender.bodies.flat.flat import flat_region
 from body_moments.blender.bodies.flat.flat_shape import flat_shape_of
+from body_moments.blender.bodies.flat.region import flat_region
 from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.bodies.mesh import object_hull
-from body_moments.blender.bodies.shape.shape import shape_of
+from body_moments.blender.bodies.shape.object_shape import shape_of
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.core.verdict import MeasureError
 

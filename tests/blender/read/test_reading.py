@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from body_moments.blender.bodies.union import union_surface
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.moments.moments import FLOAT32_HALF_ULP
+from body_moments.core.moments.raw import FLOAT32_HALF_ULP
 from body_moments.core.polyhedron import polyhedron_moments
 
 from tests.blender.read_bodies import CUBE, CUBE_FACES

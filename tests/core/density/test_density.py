@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from body_moments.core.density.spline_grid import SplineAxis, density_moments, grid_moments
 from body_moments.core.inertia.mass_properties import MassProperties
-from body_moments.core.moments.moments import monomials
+from body_moments.core.moments.raw import monomials
 from body_moments.tests.core.trivariate import exact_moments
 
 from tests.close import close

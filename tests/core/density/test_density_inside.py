@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from body_moments.core.density.voxel_fill import inside_moments
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.moments.moments import monomials
+from body_moments.core.moments.raw import monomials
 from body_moments.core.polyhedron import polyhedron_moments
 
 from tests.close import close

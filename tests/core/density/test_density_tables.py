@@ -8,7 +8,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from body_moments.core.density.spline_grid import SplineAxis, full_support_integrals
-from body_moments.core.moments.moments import U
+from body_moments.core.moments.raw import U
 from body_moments.core.papers.soldea_elber_rivlin_2002_theorem_4_2 import integral_of_basis
 from body_moments.tests.core.trivariate import integral
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from body_moments.core.bodies.grid import label_value
 from body_moments.core.density import label_moments, label_sums, sum_labels
-from body_moments.core.moments.moments import monomials
+from body_moments.core.moments.raw import monomials
 from body_moments.core.verdict import MeasureError
 
 

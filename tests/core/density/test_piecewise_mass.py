@@ -16,7 +16,7 @@ from body_moments.core.density.piecewise_mass import (
 )
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.moments.moments import Moments
+from body_moments.core.moments.raw import Moments
 from body_moments.core.solid.measure import measure_solid
 
 from tests.close import close

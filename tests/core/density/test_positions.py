@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from body_moments.core.density import grid_moments
 from body_moments.core.density.spline_grid import SplineAxis
-from body_moments.core.moments.moments import monomials
+from body_moments.core.moments.raw import monomials
 from body_moments.core.scans.formats import place_samples, read_all_positions, read_positions
 from body_moments.core.verdict import FileError, finding
 from body_moments.tests.close import close

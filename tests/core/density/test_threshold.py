@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from body_moments.core.density import threshold, threshold_body
-from body_moments.core.moments.moments import monomials
+from body_moments.core.moments.raw import monomials
 from body_moments.core.verdict import MeasureError
 
 from tests.close import close

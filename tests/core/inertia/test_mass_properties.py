@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from body_moments.core.inertia.mass_properties import MassProperties, combine
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.moments.moments import Moments, monomials, sum_moments
+from body_moments.core.moments.raw import Moments, monomials, sum_moments
 from body_moments.core.solid.measure import measure_solid
 
 from tests.close import close

@@ -10,7 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 from body_moments.core.inertia.principal_frames import PrincipalFrame, principal_frame
-from body_moments.core.moments.moments import Moments, monomials, sum_moments
+from body_moments.core.moments.raw import Moments, monomials, sum_moments
 
 from tests.close import close
 from tests.core.findings import refused

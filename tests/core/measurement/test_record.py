@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.measurement import Measurement, documents, record
-from body_moments.core.moments.moments import Moments, monomials
+from body_moments.core.moments.raw import Moments, monomials
 from body_moments.core.verdict import Method, Procedure, finding
 
 from tests.close import close

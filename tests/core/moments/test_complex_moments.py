@@ -11,7 +11,7 @@ from body_moments.core.moments.complex_form import (
     flusser_invariants,
     hu_invariants,
 )
-from body_moments.core.moments.moments import Moments, U, monomials
+from body_moments.core.moments.raw import Moments, U, monomials
 
 RNG = np.random.default_rng(7)
 WEIGHTS, PLACES = (

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from body_moments.core.inertia import MassProperties, pose_matrix
 from body_moments.core.moments import are_similarities, normalize, sum_of_images
-from body_moments.core.moments.moments import (
+from body_moments.core.moments.raw import (
     Measure,
     Moments,
     U,

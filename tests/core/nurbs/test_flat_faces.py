@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.moments.moments import monomials
+from body_moments.core.moments.raw import monomials
 from body_moments.core.numerics.bspline import clamped_space
 from body_moments.core.nurbs import Curve, FlatFace, Patch, measure_patches, planar_region
 from body_moments.core.nurbs.patch_moments import area_moments, sheet_moments, volume_moments

@@ -6,7 +6,7 @@ rules.
 
 import numpy as np
 import pytest
-from body_moments.core.moments.moments import monomials
+from body_moments.core.moments.raw import monomials
 from body_moments.core.numerics import SplineSpace, clamped_space, gauss_legendre_with_ends
 from body_moments.core.nurbs import Patch, bezier_patches, patch_moments
 from body_moments.core.nurbs.bezier import cells_of

@@ -6,7 +6,7 @@ from math import prod
 
 import numpy as np
 import pytest
-from body_moments.core.moments.moments import monomials
+from body_moments.core.moments.raw import monomials
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs import (
     Curve,

@@ -13,7 +13,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.moments.moments import monomials
+from body_moments.core.moments.raw import monomials
 from body_moments.core.papers import durso_2005 as durso
 from body_moments.core.papers import sheynin_tuzikov_2001 as sheynin_tuzikov
 from body_moments.core.papers import zhang_chen_2001 as zhang_chen

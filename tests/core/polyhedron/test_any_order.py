@@ -13,7 +13,7 @@ from functools import partial
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.moments.moments import monomial_count, monomials
+from body_moments.core.moments.raw import monomial_count, monomials
 from body_moments.core.polyhedron import any_order as recursion
 from body_moments.core.polyhedron import any_order_kernel as levels
 from body_moments.core.polyhedron import integration

@@ -14,7 +14,7 @@ from math import comb, gamma, prod
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.moments.moments import monomials
+from body_moments.core.moments.raw import monomials
 from body_moments.core.polyhedron import polyhedron_moments
 from hypothesis import given
 

@@ -16,7 +16,7 @@ from body_moments.core.inertia.principal_frames import (
 )
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments.images import invert_through_point
-from body_moments.core.moments.moments import Moments, monomial_index, monomials
+from body_moments.core.moments.raw import Moments, monomial_index, monomials
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.shape.unique_frames import equivalent_frames, nearest_frame, unique_frame
 from body_moments.core.solid.measure import measure_solid

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from body_moments.core.flat import directed_edges, region_moments
 from body_moments.core.measurement.record import plain
-from body_moments.core.moments.moments import stack_moments
+from body_moments.core.moments.raw import stack_moments
 from body_moments.core.numerics.quadrature import triangle_rule
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.shape.findings import NO_SHAPE

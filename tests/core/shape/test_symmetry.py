@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 from body_moments.core.flat import directed_edges, region_moments
-from body_moments.core.moments.moments import Moments
+from body_moments.core.moments.raw import Moments
 from body_moments.core.shape import UNDECIDED, PlacedTriangles, Symmetry, disc_zernike, symmetry
 from body_moments.core.shape.registration import (
     MIRROR,

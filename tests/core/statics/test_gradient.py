@@ -9,7 +9,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from body_moments.core.inertia.mass_properties import MassProperties
-from body_moments.core.moments.moments import monomials
+from body_moments.core.moments.raw import monomials
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.statics.gradient import area_gradient, volume_gradient
 

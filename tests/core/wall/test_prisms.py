@@ -7,7 +7,7 @@ from math import isqrt
 
 import numpy as np
 import pytest
-from body_moments.core.moments.moments import U
+from body_moments.core.moments.raw import U
 from body_moments.core.wall.walls import first_positive_root
 
 

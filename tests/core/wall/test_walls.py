@@ -8,7 +8,7 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 from body_moments.core.inertia.mass_properties import MassProperties
-from body_moments.core.moments.moments import monomials
+from body_moments.core.moments.raw import monomials
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.verdict import MeasureError
 from body_moments.core.wall.directions import offset_directions

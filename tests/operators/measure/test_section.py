@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender import bodies
-from body_moments.blender.bodies.flat.flat import flat_region
+from body_moments.blender.bodies.flat.region import flat_region
 from body_moments.blender.read.section import read_section
 from body_moments.blender.session.tracking import staleness
 from body_moments.blender.session.tracking.stamps import Kind, Stale
