@@ -2,16 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Robot descriptions and meshes from strangers: what is read, and what is refused."""
 
+import contextlib
 import json
 import os
 import struct
 
-import pytest
-
-bpy = pytest.importorskip("bpy")
-import contextlib
-
+import bpy
 import numpy as np
+import pytest
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.robots.read import xml
 from body_moments.core.robots.read.descriptions import Roots, read_description
