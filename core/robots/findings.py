@@ -51,8 +51,8 @@ JOINT_VALUES_LOST = warning(
 )
 JOINT_VALUE_UNUSABLE = warning(
     "joint_value_unusable",
-    "{joint}: {key} is {value}, and is ignored. Set a positive number; a mimic takes the name of "
-    "another joint about one axis, for a joint about one axis.",
+    "{joint}: {key} is {value}, and is ignored. A mimic names another joint, and both have one "
+    "axis. Other values are positive numbers.",
 )
 ROBOT_SCALED = warning(
     "robot_scaled",
