@@ -180,6 +180,13 @@ def test_model_without_bodies_has_no_links(tmp_path, content):
     assert read_description(write(tmp_path / "a.xml", content)).links == ()
 
 
+def test_names_in_plugins_of_sdf_may_repeat(tmp_path):
+    plugin = "<plugin name='p' filename='f'><joint name='j'/><joint name='j'/></plugin>"
+    text = "<sdf version='1.9'><model name='m'><link name='a'/>{}</model></sdf>".format(plugin)
+    (link,) = read_description(write(tmp_path / "a.sdf", text)).links
+    assert link.name == "a"
+
+
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="not on this system")
 def test_a_pipe_is_not_waited_for(tmp_path):
     os.mkfifo(tmp_path / "a.urdf")
