@@ -56,6 +56,12 @@ def assert_same(found, expected):
     if isinstance(expected, Exception):
         assert isinstance(found, Exception) and str(found) == str(expected)
         return
+    assert np.array_equal(found.reading.matrix, expected.reading.matrix)
+    assert found.reading.matrix.dtype == np.float64
+    places, own_places = (
+        [matrices for _, matrices in getattr(each.body, "solids", ())] for each in (found, expected)
+    )
+    assert np.array_equal(places, own_places)
     one, other = found.measurement, expected.measurement
     for name in SAME:
         assert getattr(one, name) == getattr(other, name), (one.name, name)
