@@ -8,11 +8,9 @@ import os
 from dataclasses import replace
 from pathlib import Path
 
-import pytest
-
-pytest.importorskip("bpy")
 import body_moments
 import bpy
+import pytest
 from body_moments.blender.bodies import measure_body, measure_object
 from body_moments.blender.read import objects
 from body_moments.blender.scene import empties, reframe
