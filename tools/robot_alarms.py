@@ -607,13 +607,14 @@ are the URDF and MJCF files of [Published Robots, Audited](robots-audited.md).
 
 ## Faults
 
-Each kind of fault is put into up to three links of each URDF file. These links are right before:
-the audit gives no error or warning about them, and their inertial differs from that of their evenly
-filled geometry by less than 0.5 %. A fault counts only if it changes the inertial by more than 2 %.
+Each kind of fault is put into up to three links of each URDF file. Without the fault, these links
+are right: the audit gives no error or warning about them, and their inertial differs from that of
+their evenly filled geometry by less than 0.5 %. A fault counts only if it changes the inertial by
+more than 2 %.
 
-The last five rows of the table are faults between several links. Each of them is put into a URDF
-file at most once. The rows about twins also use links whose inertial differs from their evenly
-filled geometry.
+The faults in the last five rows of the table below concern several links together. Each of these
+faults is put into a URDF file at most once. The faults of twins are also put into links whose
+inertial differs from that of their evenly filled geometry.
 
 - *Planted* is the number of links with the fault.
 - *Found* is the number of these links about which the audit gives an error or a warning.
@@ -621,8 +622,9 @@ filled geometry.
   inertial then differs from the inertial before the fault by at most 2 %. For twins, the limit is
   10 %.
 
-Some faults cannot be undone. If the mass is missing, no repair can know it. If two units explain
-the same numbers, such as kg·in² and lb·in², the audit proposes the likelier unit.
+Some faults cannot be undone. If the mass is missing, no repair can know it. If the mass is in lb
+and the inertia is in lb·in², the numbers also fit a mass in kg and an inertia in kg·in². In this
+case the audit proposes kg·in², unless a center in inches shows the right units.
 
 | fault | planted | found | undone |
 |---|---|---|---|
@@ -634,14 +636,14 @@ An alarm is an error or a warning of the audit. The published files have {links}
 {alarmed} of these links have an alarm. Each alarm is checked with other programs:
 
 - trimesh measures the meshes.
-- SciPy shows that no masses inside the convex hull have the stated center and inertia.
+- SciPy shows that no set of masses inside the convex hull has the stated center and inertia.
 - MuJoCo reads the MJCF files.
 - NumPy computes with the numbers of the XML files.
 
 Only the search for the mesh files is code of the audit itself. An alarm is confirmed if these
 programs agree with the audit.
 
-Links with an alarm that is not confirmed: {doubtful} ({share:.2f} % of all links).
+Of the {links} links, {doubtful} links ({share:.2f} %) have an alarm that is not confirmed.
 
 | alarm | links | confirmed |
 |---|---|---|

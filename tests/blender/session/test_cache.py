@@ -2,11 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The session remembers loaded objects only, by uid, and registers each handler once."""
 
-import pytest
-
-pytest.importorskip("bpy")
 import body_moments
 import bpy
+import pytest
 from body_moments.blender.session import displayed, memory
 from body_moments.blender.session.stored import moments as moments_table
 from body_moments.blender.session.tracking import handlers, staleness
