@@ -59,17 +59,16 @@ def parse(argv: list[str]) -> argparse.Namespace:
     )
     parser.add_argument("command", metavar="audit")
     parser.add_argument("files", nargs="+", type=Path, metavar="FILE")
-    parser.add_argument(
-        "--package-path",
-        dest="root",
-        action="append",
-        type=Path,
-        default=[],
-        metavar="FOLDER",
-        help="packages and meshes may be in it; repeatable",
-    )
     parser.add_options(
         {
+            "--package-path": value(
+                Path,
+                "FOLDER",
+                "packages and meshes may be in it; repeatable",
+                dest="root",
+                action="append",
+                default=[],
+            ),
             "--root": value(Path, "FOLDER", argparse.SUPPRESS, action="append", default=[]),
             "--allow-outside": flag("meshes may be anywhere (refused)"),
             "--repair": value(Path, "FOLDER", "write repaired copies there, of what has a repair"),

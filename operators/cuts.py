@@ -10,7 +10,7 @@ from ..blender.session import memory, stored
 from . import selection
 
 
-class InObjectMode(selection.OnSubject):
+class OnSubjectInObjectMode(selection.OnSubject):
     """Base of operators on the object that the panel is about, in Object Mode."""
 
     @classmethod
@@ -18,7 +18,7 @@ class InObjectMode(selection.OnSubject):
         return selection.poll_object_mode(cls, context) and super().poll(context)
 
 
-class WithDialog(InObjectMode):
+class WithDialog(OnSubjectInObjectMode):
     """Base of operators on the object that the panel is about, after a dialog."""
 
     NEEDED = "Select a mesh"
@@ -85,7 +85,7 @@ class OBJECT_OT_body_moments_level(WithDialog, Operator):
         return selection.report(self, write.reports.phrase("Filled “{object}”", object=obj.name))
 
 
-class OBJECT_OT_body_moments_show_level(InObjectMode, Operator):
+class OBJECT_OT_body_moments_show_level(OnSubjectInObjectMode, Operator):
     """Add the liquid's surface, or the curve of volume and level, as a mesh object"""
 
     bl_label = "Show Level"

@@ -71,14 +71,14 @@ def _density_source(column: UILayout, settings: PropertyGroup) -> None:
     """Draw the source of the density, without polynomials unless one is in use or the preferences
     show them.
     """
-    source = common(settings, "density_from")
+    source = common(settings, "density_from")  # None: the objects differ
     if preferences.shows_advanced() or source in (None, "POLYNOMIAL"):
         rows.settings(column, settings, "density_from")
         return
     grid = column.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
     grid.use_property_split = False  # each choice has its name on it
-    for source in ("VALUE", "MATERIALS", "ATTRIBUTE", "VOLUME"):
-        grid.prop_enum(settings, "density_from", source)
+    for choice in ("VALUE", "MATERIALS", "ATTRIBUTE", "VOLUME"):
+        grid.prop_enum(settings, "density_from", choice)
 
 
 def _settings(layout: UILayout, context: Context) -> None:

@@ -607,13 +607,14 @@ are the URDF and MJCF files of [Published Robots, Audited](robots-audited.md).
 
 ## Faults
 
-Each kind of fault is put into up to three links of each URDF file. These links are right before:
-the audit gives no error or warning about them, and their inertial differs from that of their evenly
-filled geometry by less than 0.5 %. A fault counts only if it changes the inertial by more than 2 %.
+Each kind of fault is put into up to three links of each URDF file. Without the fault, these links
+are right: the audit gives no error or warning about them, and their inertial differs from that of
+their evenly filled geometry by less than 0.5 %. A fault counts only if it changes the inertial by
+more than 2 %.
 
-The last five rows of the table are faults between several links. Each of them is put into a URDF
-file at most once. The rows about twins also use links whose inertial differs from their evenly
-filled geometry.
+The faults in the last five rows of the table below concern several links together. Each of these
+faults is put into a URDF file at most once. The faults of twins are also put into links whose
+inertial differs from that of their evenly filled geometry.
 
 - *Planted* is the number of links with the fault.
 - *Found* is the number of these links about which the audit gives an error or a warning.
@@ -621,8 +622,10 @@ filled geometry.
   inertial then differs from the inertial before the fault by at most 2 %. For twins, the limit is
   10 %.
 
-Some faults cannot be undone. If the mass is missing, no repair can know it. If two units explain
-the same numbers, such as kg·in² and lb·in², the audit proposes the likelier unit.
+Some faults cannot be undone. If the mass is missing, no repair can know it. A mass in lb with an
+inertia in lb·in² cannot be distinguished from a mass in kg with an inertia in kg·in², because the
+inertia divided by the mass has the same value. In this case the audit proposes kg·in², unless a
+center in inches shows the right units.
 
 | fault | planted | found | undone |
 |---|---|---|---|
@@ -633,15 +636,15 @@ ALARMS_HEAD = """
 An alarm is an error or a warning of the audit. The published files have {links} links, and
 {alarmed} of these links have an alarm. Each alarm is checked with other programs:
 
-- trimesh measures the meshes.
-- SciPy shows that no masses inside the convex hull have the stated center and inertia.
+- The library trimesh measures the meshes.
+- SciPy shows that no set of masses inside the convex hull has the stated center and inertia.
 - MuJoCo reads the MJCF files.
 - NumPy computes with the numbers of the XML files.
 
 Only the search for the mesh files is code of the audit itself. An alarm is confirmed if these
 programs agree with the audit.
 
-Links with an alarm that is not confirmed: {doubtful} ({share:.2f} % of all links).
+Of the {links} links, {doubtful} links ({share:.2f} %) have an alarm that is not confirmed.
 
 | alarm | links | confirmed |
 |---|---|---|

@@ -42,7 +42,7 @@ CONSUMERS = {
         {
             "urdf": "",
             "sdf": "",
-            "mjcf": "only OBJ meshes are read",
+            "mjcf": "Drake reads only OBJ meshes",
             "mjcf, OBJ": "`--mesh-format obj`",
         },
     ),
@@ -51,7 +51,7 @@ CONSUMERS = {
         ["pin==4.1.0"],
         {
             "urdf": "",
-            "mjcf": "compared with a root at the origin",
+            "mjcf": "compared as if the root link were at the origin",
         },
     ),
     "Newton 1.8.0": (
@@ -107,16 +107,16 @@ tables name the versions of the programs.
 ## Robots with Right Numbers
 
 The first table compares the total mass, center and inertia of each robot in a program with the
-exact numbers. For each file format it shows the largest relative difference of all files. The
-difference of the centers is a distance. It is divided by the radius of gyration, or by the distance
-of the center from the origin, if this distance is larger.
+exact numbers. Each row of this table shows the largest relative differences of all files in one
+format. The difference of the centers is a distance. To make it relative, we divide it by the larger
+of two lengths: the radius of gyration, and the distance of the center from the origin.
 
 Two programs have differences above 1e-12 although they use the numbers of the file:
 
 - Newton computes in single precision. Along a chain of joints, its rounding errors add up. They are
   largest with Newton's MJCF importer.
-- PyBullet computes the principal axes of an inertia in steps, and stops early. The directions of
-  the axes are therefore wrong by up to 6e-7 radians.
+- PyBullet computes the principal axes of an inertia by iteration, and ends the iteration too soon.
+  The directions of the axes are therefore wrong by up to 6e-7 radians.
 
 | program | format | files read | mass | center | inertia | remark |
 |---|---|---|---|---|---|---|
@@ -125,11 +125,12 @@ Two programs have differences above 1e-12 although they use the numbers of the f
 
 The second table shows how programs read a link of a URDF file whose inertial is missing or
 impossible. The collider of this link is a cube of 1 m. A cell of the table gives the mass of the
-link in the program, and its three principal moments in kg·m². The columns are three tests:
+link in the program, and its three principal moments in kg·m². The last three columns are tests:
 
 - *no inertial*: the link has no inertial.
-- *A + B < C by 1e-12*: the file states a mass of 1 kg and the moments A = 1, B = 2 and
-  C = 3 · (1 + 1e-12) kg·m². Such a small error can come from rounding.
+- *A + B < C by 1e-12*: the moment C is too large by 1e-12 of its value. In the file, the moments
+  are A = 1, B = 2 and C = 3 · (1 + 1e-12) kg·m², and the mass is 1 kg. Such a small error can come
+  from rounding.
 - *1, 1, 9*: the file states a mass of 1 kg and the moments 1, 1 and 9 kg·m². No body can have these
   moments.
 

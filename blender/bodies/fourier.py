@@ -108,10 +108,8 @@ def object_transform(
             total = body.volume.total
         if frame == "object":
             axes = reading.rotation.T
-            turn = moments.affine_matrices(
-                axes, -axes @ reading.location * unit
-            )  # to the object's frame
-            parts = [(surface, turn @ matrices) for surface, matrices in parts]
+            to_frame = moments.affine_matrices(axes, -axes @ reading.location * unit)
+            parts = [(surface, to_frame @ matrices) for surface, matrices in parts]
         if callable(q):
             q = q(_extent(parts))
         transform = BodyTransform(parts, q, of, total, resolved.threads)

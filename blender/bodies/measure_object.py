@@ -16,6 +16,7 @@ import numpy as np
 
 from ...core.measurement import Measurement, Settings
 from ...core.mesh import Surface
+from ...core.solid import measure_again
 from ...core.verdict import internal_error
 from .. import bodies  # `measure_body` is imported when an object needs it
 from ..read.mesh import mesh_surface, plain_mesh
@@ -180,7 +181,8 @@ class _Collector:
         alone.
         """
         try:
-            rows = measure_members(self.members, self.surfaces)
+            members = self.members
+            rows = measure_members(members, measure_again(self.surfaces)) if members else []
         except Exception as error:
             internal_error.finding_of(error)
             rows = []

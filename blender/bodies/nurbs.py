@@ -178,9 +178,8 @@ def body(reading: bodies.Reading, request: Request) -> Body:
         procedures.append(rest.method.procedure)
     display = None
     if settings.compare:
-        with suppress(
-            verdict.MeasureError
-        ):  # a display mesh that cannot be measured compares with nothing
+        # A display mesh that cannot be measured compares with nothing.
+        with suppress(verdict.MeasureError):
             display = mesh_body(
                 reading, unit, shell=False, union=False, threads=threads
             ).volume.total

@@ -118,9 +118,9 @@ def _closed_surface(
     """
     try:
         reading = (
-            read.objects.read_object(obj, depsgraph, edges=False)
-            if measured is None or measured.reading.has_patches
-            else measured.reading
+            measured.reading
+            if measured is not None
+            else read.objects.read_object(obj, depsgraph, edges=False)
         )
     except verdict.MeasureError:  # such as a grid of densities
         return None

@@ -366,9 +366,7 @@ class _Measuring:
 def _area(sheet: Surface, metric: Array, order: int) -> Moments:
     """Return the area moments of a sheet mapped to its place in the world."""
     if are_similarities(metric[None, :3, :3])[0]:  # the mapped points would be rounded once more
-        return polyhedron.polyhedron_moments(sheet, 0, area_order=order, allow_open=True)[
-            1
-        ].transform(metric)
-    return polyhedron.polyhedron_moments(
-        sheet.transform(metric[:3, :3], metric[:3, 3]), 0, area_order=order, allow_open=True
-    )[1]
+        area = polyhedron.polyhedron_moments(sheet, 0, area_order=order, allow_open=True)[1]
+        return area.transform(metric)
+    placed = sheet.transform(metric[:3, :3], metric[:3, 3])
+    return polyhedron.polyhedron_moments(placed, 0, area_order=order, allow_open=True)[1]

@@ -28,7 +28,7 @@ from ...core.measurement import (
     fingerprint,
 )
 from ...core.numerics import Array, Index, Mask, NDArray, rotation_matrix
-from ...core.solid import SmallSolid, SolidStack, measure_again
+from ...core.solid import SmallSolid, SolidStack
 from ...core.verdict import Finding, Method, Procedure
 from ..read.fingerprint import transform_key
 from ..settings.accepted import accepted_codes, with_acceptance
@@ -128,19 +128,18 @@ class Measured:
         )
 
 
-def measure_members(members: list[Member], surfaces: list[mesh.Surface]) -> list[Measured]:
+def measure_members(members: list[Member], solids: SolidStack) -> list[Measured]:
     """Return the measurements of the members with certain volume and mass, as one stack; all
-    members have the same unit.
+    members have the same unit. solids: those of all shapes.
     """
 
     def measure_some(usable: Mask) -> list[Measured]:
         """Measure the usable members; the others are refused by themselves."""
-        return measure_members([members[i] for i in np.flatnonzero(usable)], surfaces)
+        return measure_members([members[i] for i in np.flatnonzero(usable)], solids)
 
     if not members:
         return []
     unit = members[0].settings.unit
-    solids = measure_again(surfaces)
     own = solids.volume
     which = np.array([member.shape for member in members])
     matrices = np.array([member.matrix for member in members], np.float64)

@@ -11,6 +11,7 @@ body, such as cutters and helpers, are found here, too.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
@@ -292,13 +293,19 @@ def copies_caveats(objects: Iterable[Object]) -> list[Finding]:
 
 def copies_in_place(objects: Iterable[Object]) -> list[str]:
     """Return the names of objects that show the geometry of an earlier one at the same place."""
-    seen: dict[tuple, list[Object]] = {}
+    shown = [
+        (obj, (obj.type, obj.matrix_world.copy().freeze()))
+        for obj in objects
+        if shows_collection(obj) or obj.data is not None and obj.instance_type == "NONE"
+    ]
+    numbers = Counter(place for _, place in shown)
+    seen: set[tuple] = set()
     copies = []
-    for obj in objects:
-        if shows_collection(obj) or obj.data is not None and obj.instance_type == "NONE":
-            others = seen.setdefault((obj.type, obj.matrix_world.copy().freeze()), [])
-            copies += [obj.name] * any(_shape(obj) == _shape(other) for other in others)
-            others.append(obj)
+    for obj, place in shown:
+        if numbers[place] > 1:
+            shape = place, _shape(obj)
+            copies += [obj.name] * (shape in seen)
+            seen.add(shape)
     return copies
 
 
@@ -309,12 +316,12 @@ def _shape(obj: Object) -> tuple:
     is_mesh = obj.type == "MESH"
     vertices = obj.data.vertices if is_mesh else ()
     return (
-        [*map(tuple, obj.bound_box)],
-        [modifier.type for modifier in obj.modifiers],
+        tuple(map(tuple, obj.bound_box)),
+        tuple(modifier.type for modifier in obj.modifiers),
         obj.instance_collection,
         len(vertices),
         len(obj.data.polygons) if is_mesh else obj.data,
-        [vertices[i].co for i in range(0, len(vertices), max(len(vertices) // SAMPLED, 1))],
+        tuple(vertices[i].co[:] for i in range(0, len(vertices), max(len(vertices) // SAMPLED, 1))),
     )
 
 

@@ -240,13 +240,14 @@ def _levels(modifier, render) -> tuple[int, int]:
     """Return a modifier's levels, steps or resolution in the viewport and in the render; (0, 0) if
     it has none.
     """
-    names = {
+    names_by_type = {
         "SUBSURF": ("levels", "render_levels"),
         "MULTIRES": ("levels", "render_levels"),
         "SCREW": ("steps", "render_steps"),
         "OCEAN": ("viewport_resolution", "resolution"),
     }
-    here, there = (getattr(modifier, name) for name in names.get(modifier.type, ("type", "type")))
+    names = names_by_type.get(modifier.type)
+    here, there = (getattr(modifier, name) for name in names) if names else (0, 0)
     if render.use_simplify and modifier.type in {"SUBSURF", "MULTIRES"}:
         here = min(here, render.simplify_subdivision)
         there = min(there, render.simplify_subdivision_render)

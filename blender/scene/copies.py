@@ -510,6 +510,9 @@ def _uses_own_axes(tree: NodeTree, seen: set[NodeTree]) -> bool:
 
 
 def _shows_own_axes(node: Node) -> bool:
+    """Return whether a shader node draws by the object's own axes: by a linked output, by generated
+    coordinates, or by a choice.
+    """
     outputs = OWN_AXES_OUTPUTS.get(node.type, ())
     vector = node.inputs.get("Vector")
     if getattr(node, "object", None) is None and any(

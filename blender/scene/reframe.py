@@ -192,6 +192,9 @@ def _groups(plans: Iterable[Plan]) -> list[list[Plan]]:
 
 
 def _reframe_group(group: list[Plan], users: dict[Object, set[Object]]) -> SceneChange:
+    """Move the frames of objects with common data while their shapes stay. Each `yield` waits for
+    Blender to evaluate the scene, and gives the new depsgraph. An error puts all back.
+    """
     depsgraph = yield
     objects = [plan.obj for plan in group]
     data = group[0].obj.data

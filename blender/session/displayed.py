@@ -325,23 +325,24 @@ def _sum(scene: Scene, layer: ViewLayer, *chosen: Object) -> Total:
     of_places, overlaps = memory.overlaps.get(scene) or (None, ())
     if stale or of_places != places(parts):
         overlaps = ()
+    verdict = max((shown.verdict for shown in parts.values()), key=RANKS.__getitem__, default=None)
+    if missing and parts:
+        verdict = Verdict.INCOMPLETE
     return Total(
-        len(parts),
-        sum(world.volume for world in worlds),
-        sum(world.area for world in worlds),
-        add_bodies(worlds) if len(worlds) > 1 else alone,
-        tuple(missing),
-        stale,
-        sum(shown.is_assumed for shown in parts.values()),
-        (
+        count=len(parts),
+        volume=sum(world.volume for world in worlds),
+        area=sum(world.area for world in worlds),
+        numbers=add_bodies(worlds) if len(worlds) > 1 else alone,
+        missing=tuple(missing),
+        stale=stale,
+        assumed=sum(shown.is_assumed for shown in parts.values()),
+        findings=(
             *open_body_caveats((obj.name, write.properties.method(obj)) for obj in parts),
             *read.assembly.total_caveats(parts, layer),
             *overlaps,
         ),
-        Verdict.INCOMPLETE
-        if missing and parts
-        else max((shown.verdict for shown in parts.values()), key=RANKS.__getitem__, default=None),
-        tuple(
+        verdict=verdict,
+        groups=tuple(
             grouped(
                 (obj.name_full, found) for obj, shown in parts.items() for found in shown.findings
             )

@@ -172,15 +172,22 @@ state = State()
 
 def until_change(function: Callable[Arguments, Value]) -> Callable[Arguments, Value]:
     """Decorate a function of data-blocks and values: it keeps its results until the next change."""
-    results: dict[tuple, tuple[int, Value]] = _remembered({})
+    results: dict[tuple, Value] = _remembered({})
+    kept_at = state.generation
 
     @wraps(function)
     def current(*arguments: Arguments.args, **options: Arguments.kwargs) -> Value:
+        nonlocal kept_at
+        if kept_at != (generation := state.generation):
+            results.clear()
+            kept_at = generation
         key = tuple(getattr(one, "session_uid", one) for one in (*arguments, *options.values()))
-        known = results.get(key)
-        if known is None or known[0] != state.generation:
-            known = results[key] = state.generation, function(*arguments, **options)
-        return known[1]
+        if key in results:
+            return results[key]
+        value = function(*arguments, **options)
+        if generation == state.generation:  # else it was of before
+            results[key] = value
+        return value
 
     return current
 

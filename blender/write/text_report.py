@@ -66,10 +66,14 @@ def text(file_document: dict[str, Any]) -> str:
     if file_document["file"]:
         lines.append("File: {}".format(file_document["file"]))
     for entry in file_document["objects"]:
-        lines += ["", entry["name"], *starmap(report_line, _rows(entry, file_document["frame"]))]
+        lines += [
+            "",
+            entry["name"],
+            *starmap(report_line, _report_rows(entry, file_document["frame"])),
+        ]
     if len(file_document["objects"]) > 1:
         heading = "Total of {} objects, world frame".format(len(file_document["objects"]))
-        lines += ["", heading, *starmap(report_line, _rows(file_document["total"], "world"))]
+        lines += ["", heading, *starmap(report_line, _report_rows(file_document["total"], "world"))]
     for heading, entries in (
         ("Left out", file_document["left_out"]),
         ("Not measured", file_document["errors"]),
@@ -81,7 +85,7 @@ def text(file_document: dict[str, Any]) -> str:
     return "".join(measurement.visible(line) + "\n" for line in lines)
 
 
-def _rows(entry: dict[str, Any], frame: str) -> Iterator[tuple[str, ...]]:
+def _report_rows(entry: dict[str, Any], frame: str) -> Iterator[tuple[str, ...]]:
     """Yield the label, value and unit of each line about a record, as far as it has them."""
     if "method" in entry:
         walled = any(found["code"] == wall.WALL_MEASURED for found in entry.get("findings", ()))

@@ -67,16 +67,17 @@ def open_file(path: str | None, frame: float | None = None) -> Opened:
         if path is not None:  # it replaces the open scene
             _open_blend(os.path.abspath(path))
         return Opened() if frame is None else Opened(notes=placing.measure_at(frame))
-    except AttributeError as error:
-        fault = "it has no importer for {} files".format(kind)
-        raise FileError(FILE_UNREADABLE, error=fault) from error
     except (OSError, RuntimeError) as error:  # such as from a failing disk
         raise FileError(FILE_UNREADABLE, error=reason(error)) from error
 
 
 def _imported(path: str, kind: str, frame: float | None) -> Opened:
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    found = _ANIMATED[kind](path, frame) if kind in _ANIMATED else _IMPORTERS[kind](path)
+    try:
+        found = _ANIMATED[kind](path, frame) if kind in _ANIMATED else _IMPORTERS[kind](path)
+    except AttributeError as error:
+        fault = "it has no importer for {} files".format(kind)
+        raise FileError(FILE_UNREADABLE, error=fault) from error
     opened = found if isinstance(found, Opened) else Opened()
     for name in opened.hidden:
         bpy.data.objects[name].hide_render = True

@@ -51,11 +51,12 @@ class Combined:
         ]
         bones = [
             record.record(
-                replace(part.measurement, place_error=self.unit * _place_error(rig)),
+                replace(part.measurement, place_error=moved),
                 frame,
                 more={"armature": rig.armature.name},
             )
             for rig in self.rigs
+            for moved in [self.unit * _place_error(rig)]
             for part in rig.parts
             if part.measurement is not None
         ]

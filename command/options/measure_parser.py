@@ -268,13 +268,8 @@ _OPTIONS: dict[str, dict[str, Any]] = {
     "--blender": value(str, "PATH", "the Blender that measures (this one, or the bpy module)"),
     "--no-supervisor": flag("measure in this process, which a damaged file may end"),
 }
-_ONE_OF = {
-    "--density",
-    "--mass",
-    "--material",
-    "--polynomial",
-    "--density-from",
-}  # of these options, one at most
+# At most one of these.
+_ONE_OF = {"--density", "--mass", "--material", "--polynomial", "--density-from"}
 
 
 def measure_parser() -> Parser:

@@ -297,9 +297,8 @@ def _orient_outward(
 ) -> mesh.Surface:
     """Return the surface with faces outward if it is closed, else unchanged with a finding."""
     if solid.method in (Procedure.EXACT, Procedure.REORIENTED):
-        area = polyhedron.polyhedron_moments(solid.repaired_surface, area_order=0, allow_open=True)[
-            1
-        ].total
+        repaired = solid.repaired_surface
+        area = polyhedron.polyhedron_moments(repaired, area_order=0, allow_open=True)[1].total
         # else the repair has removed faces
         if abs(area - solid.area.total) <= SAME_AREA_RTOL * solid.area.total:
             findings += [

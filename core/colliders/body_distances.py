@@ -19,21 +19,21 @@ from .convex_pieces import distances_from_triangles
 
 MOST_CONVEX_FACES = 400  # Larger surfaces are not tested for being their own hull.
 HULL_RTOL = 1e-8  # relative to the size: distances that count as none
-# sides of triangles between samples, over the extent of what is sampled
+# The extent of a surface, over the side of the triangles between its samples.
 STEPS = 24
 COARSE_STEPS = 6
 MOST_SAMPLES = 20_000
-# of the polyhedra in round shapes
+# Points of the polyhedra that stand for round shapes, and of their rings.
 ROUND_POINTS = 400
 RING_POINTS = 96
 END = np.array([0.0, 0.0, 0.5])
-BALL_SAG = 0.012  # relative to the radius: the greatest depth of their faces in a ball
+BALL_SAG = 0.012  # relative to the radius: the greatest depth of these polyhedra's faces in a ball
 CONVEX_RTOL = 1e-9  # share of the volume that a convex body lacks in its hull
 PAIRS_PER_BLOCK = 1 << 20
 INSIDE_RTOL = 1e-9  # relative to the size
 SLIVER_RTOL = 1e-9  # relative to the size: width of faces that count as none
 TINY = float(np.finfo(np.float64).tiny)
-# relative to the size: reach of the first searches for the body around a place
+# Reach of the first searches for the body around a place, relative to the size.
 ON_BODY_RTOL = 1e-10
 NEAR_BODY = 0.02
 
@@ -99,16 +99,26 @@ def distances(
     if is_convex or outward > enough:
         return max(outward, 0.0), inward, step + max(sags)
     tree = tree_of_all(surface.points, surface.all_triangles()[0])
-    own_step = 0.0
+    sampled, own_step = farthest_sample(tree, solids, size, enough)
+    return max(outward, sampled), inward, max(step, own_step) + max(sags)
+
+
+def farthest_sample(
+    tree: Bvh, solids: Sequence[ConvexHull], size: float, enough: float
+) -> tuple[float, float]:
+    """Return the largest distance of the surface of solids outside a body from it, inf if it is
+    above `enough`, and the bound of `_samples`. Coarse samples come first if they may suffice.
+    """
+    farthest = step = 0.0
     for fineness in (COARSE_STEPS, STEPS) if enough < inf else (STEPS,):
-        places, own_step = outer_samples(solids, size, fineness)
-        outward = max(outward, farthest_outside(tree, places - tree.origin, size, enough))
-        if outward > enough:
+        places, step = _outer_samples(solids, size, fineness)
+        farthest = max(farthest, _farthest_outside(tree, places - tree.origin, size, enough))
+        if farthest > enough:
             break
-    return outward, inward, max(step, own_step) + max(sags)
+    return farthest, step
 
 
-def farthest_outside(tree: Bvh, places: Array, size: float, enough: float) -> float:
+def _farthest_outside(tree: Bvh, places: Array, size: float, enough: float) -> float:
     """Return the largest distance of places outside a body from it; inf if it is above `enough`.
 
     Most places are on the body or near to it, and short searches leave few for the long one.
@@ -127,10 +137,8 @@ def farthest_outside(tree: Bvh, places: Array, size: float, enough: float) -> fl
     return inf if len(places) else farthest
 
 
-def outer_samples(solids: Sequence[ConvexHull], size: float, fineness: int) -> tuple[Array, float]:
-    """Return places on the surface of the union of solids, and the bound of their distances as of
-    `_samples`.
-    """
+def _outer_samples(solids: Sequence[ConvexHull], size: float, fineness: int) -> tuple[Array, float]:
+    """Return places on the surface of the union of solids, and the bound of `_samples`."""
     kept, steps = [], []
     for solid in solids:
         reach = max(size, float(np.ptp(solid.points, axis=0).max()))

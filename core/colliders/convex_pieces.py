@@ -168,7 +168,7 @@ def _coarse(piece: Piece) -> Piece:
     extent = np.maximum(np.ptp(points, axis=0), np.finfo(float).tiny)
     far = np.argsort(-((points - points.mean(axis=0)) ** 2).sum(axis=1), kind="stable")
     cells = 16
-    while True:  # 2 cells a side are few enough
+    while True:  # It ends: two cells a side hold 8 points at most.
         # a thin body keeps both of its sides
         number = np.maximum(np.ceil(cells * extent / extent.max()), 2.0)
         place = np.minimum((points - low) / extent * number, number - 1.0).astype(np.intp)

@@ -14,22 +14,14 @@ from ..inertia import MassProperties
 from ..mesh import ConvexHull, Surface, convex_hull, normals, tree_of_all, triangle_areas
 from ..numerics import Array, NDArray
 from ..robots import Inertial, Pose, Shape, equal_inertia_shape, primitive_moments
-from .body_distances import (
-    COARSE_STEPS,
-    STEPS,
-    distances,
-    farthest_outside,
-    hull_of,
-    hull_volume,
-    outer_samples,
-)
+from .body_distances import distances, farthest_sample, hull_of, hull_volume
 from .convex_pieces import cut_into_pieces
 
 AXES_CORNERS = 96  # The faces and edges of such a hull give the directions of boxes.
 BALL_RTOL = 1e-12  # points outside a ball by less are on it
 SIMPLE = ("sphere", "box", "capsule", "cylinder", "hull")  # tried in this order, before pieces
 EQUAL = "equal_"
-MERGING_SHARE = 0.95  # of the work that is completed when pieces are merged
+MERGING_SHARE = 0.95  # share of the work that is complete while pieces are merged
 
 
 @dataclass(frozen=True)
@@ -116,11 +108,7 @@ def _merge_within(
         while trials:
             yield MERGING_SHARE
             _, i, j, merged = trials.pop(0)
-            if all(
-                farthest_outside(tree, places - tree.origin, size, wanted.outward) < inf
-                for fineness in (COARSE_STEPS, STEPS)
-                for places in (outer_samples([merged], size, fineness)[0],)
-            ):
+            if farthest_sample(tree, [merged], size, wanted.outward)[0] < inf:
                 break
         else:
             return [*pieces.values()]
@@ -132,8 +120,8 @@ def _merge_within(
 
 
 class _Fits:
-    """The shapes around a hull. axes: principal axes as columns. corners: of a simpler hull, at
-    most.
+    """The shapes around a hull. axes: principal axes as columns. corners: the most of a simpler
+    hull.
     """
 
     def __init__(self, hull: ConvexHull, axes: Array, corners: int) -> None:

@@ -8,7 +8,7 @@ rows of at most ROW voxels; all further sums are of whole numbers.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from math import comb
 
 import numpy as np
@@ -22,7 +22,7 @@ from .spline_grid import Blocks
 
 ROW = 1 << 12  # voxels along each axis of a block
 BLOCK = 1 << 18  # voxels of a block, at most, and bins of its sums
-NARROW = 1 << 10  # range of labels in a block that are all counted, there or not
+NARROW = 1 << 18  # range of labels in a block that are told apart by counts, without sorting
 MAX_LABELS = 10_000
 LARGEST = 1 << 62
 POWERS = monomials(KNOWN_ORDER)
@@ -30,11 +30,9 @@ POWERS = monomials(KNOWN_ORDER)
 CUBE = (1.0, 0.0, 1.0 / 12.0, 0.0)
 
 
-def _number_labels(block: NDArray) -> tuple[Sequence[int], Index]:
-    """Return labels of a block, with more between those of a narrow range, and the place of each
-    voxel's label among them.
-
-    Raises ReadError if the block has no labels.
+def _number_labels(block: NDArray) -> tuple[list[int], Index]:
+    """Return the labels of a block and the place of each voxel's label among them; ReadError if it
+    has no labels.
     """
     if block.dtype.kind == "f":
         whole = np.rint(block)
@@ -47,8 +45,12 @@ def _number_labels(block: NDArray) -> tuple[Sequence[int], Index]:
     if high >= LARGEST:
         raise ReadError(LABELS_UNFIT, cause="a label is too large")
     if high - low < NARROW:
-        return range(low, high + 1), block.astype(np.intp) - low
-    labels, places = np.unique(block, return_inverse=True)
+        places = block.astype(np.intp) - low
+        is_used = np.bincount(places.ravel()) > 0
+        labels = np.flatnonzero(is_used) + low
+        places = (np.cumsum(is_used) - 1)[places]
+    else:
+        labels, places = np.unique(block, return_inverse=True)
     _check_count(len(labels))
     return labels.tolist(), places.reshape(block.shape)
 
@@ -91,11 +93,9 @@ def sum_labels(samples: NDArray | Blocks) -> dict[int, NDArray]:
         if not block.size:
             continue
         labels, places = _number_labels(block)
-        own = _block_sums(places, len(labels))
-        used = np.flatnonzero(own[:, 0])
-        moved = own[used].astype(object) @ _shift(offset)
-        for place, row in zip(used.tolist(), moved):
-            sums[labels[place]] = sums.get(labels[place], 0) + row
+        moved = _block_sums(places, len(labels)).astype(object) @ _shift(offset)
+        for label, row in zip(labels, moved):
+            sums[label] = sums.get(label, 0) + row
         _check_count(len(sums))
     return sums
 

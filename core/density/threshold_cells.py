@@ -33,7 +33,7 @@ class Cells:
         corners = np.empty((len(i), 2, 2, 2))
         for a, b, c in np.ndindex(2, 2, 2):
             corners[:, a, b, c] = values[i + a, j + b, k + c]
-        return cls(corners, np.stack(places, axis=1) + origin, np.ones(len(i)))
+        return cls(corners, origin=np.stack(places, axis=1) + origin, size=np.ones(len(i)))
 
     @classmethod
     def join(cls, parts: list[Cells]) -> Cells:

@@ -76,8 +76,10 @@ class Body:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Measurement:
-    """One object in SI units and world axes; in a stack, numbers have a leading axis, and texts,
-    methods, findings and sources of density are lists.
+    """One object in SI units and world axes.
+
+    In a stack, numbers have a leading axis; names, types, methods, fingerprints, findings and
+    sources of density are lists; all have one kind, and health is None.
 
     kind: "solid", "shell", "printed" or "wire". method: the verdict and its source: polygons,
     B-spline patches measured instead of

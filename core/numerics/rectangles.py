@@ -9,8 +9,8 @@ import numpy as np
 from .array_types import Array, Index
 from .arrays import batches, segment_ranges
 
-MAX_CELLS = 2048  # of the grid along an axis
-MAX_ENTRIES = 1 << 22  # of rectangles in cells, beside a few for each
+MAX_CELLS = 2048  # cells of the grid along an axis
+MAX_ENTRIES = 1 << 22  # entries of rectangles in cells, besides 16 for each rectangle
 PAIRS_PER_BLOCK = 1 << 15
 Rectangles = tuple[Array, Array]
 

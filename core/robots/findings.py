@@ -51,8 +51,8 @@ JOINT_VALUES_LOST = warning(
 )
 JOINT_VALUE_UNUSABLE = warning(
     "joint_value_unusable",
-    "{joint}: {key} is {value}, and is ignored. Set a positive number; a mimic takes the name of "
-    "another joint about one axis, for a joint about one axis.",
+    "{joint}: {key} is {value}, and is ignored. A mimic names another joint, and both have one "
+    "axis. Other values are positive numbers.",
 )
 ROBOT_SCALED = warning(
     "robot_scaled",
@@ -87,8 +87,8 @@ SDF_FRAMES_ADDED = note(
 )
 INERTIA_TOO_SMALL = warning(
     "inertia_too_small",
-    "The mass or a principal moment of {links} is below the {limit:.3g} kg or kg·m² that {program} "
-    "holds. {remedy:word}.",
+    "The mass or a principal moment of {links} is below {limit:.3g} kg or kg·m², the least that "
+    "{program} holds. {remedy:word}.",
 )
 RAISED = "It is raised. Fix the link to its parent, or model in larger units"
 TOO_SMALL_FOR_SINGLE = "Read newton:inertia, or use a stage in smaller units"

@@ -181,8 +181,10 @@ def _least_turn(tensor: NDArray) -> Array:
         if abs(own[i, j]) <= SINGLE * own.trace():  # Equal moments keep their axes.
             break
         angle = atan2(2.0 * own[i, j], abs(own[j, j] - own[i, i])) / 2.0
-        angle = angle if own[j, j] >= own[i, i] else -angle
-        axes = axes @ rotation_about(np.eye(3)[3 - i - j], -angle)
+        if own[j, j] >= own[i, i]:
+            angle = -angle
+        third = 3 - i - j  # the axis that stays
+        axes = axes @ rotation_about(np.eye(3)[third], angle)
     return axes
 
 

@@ -118,7 +118,8 @@ def _extension_labels(text: bytes, order: Literal["little", "big"]) -> dict[int,
         for element in text[8:size].decode("utf-8", "replace").split("<Label ")[1:]:
             head, _, content = element.partition(">")
             values = dict(_ATTRIBUTE.findall(head))
-            name = content.partition("</Label>")[0].removeprefix("<![CDATA[").removesuffix("]]>")
+            name = content.partition("</Label>")[0].strip()
+            name = name.removeprefix("<![CDATA[").removesuffix("]]>")
             with suppress(ValueError, KeyError):
                 color = read_color(parse_number(values[key]) for key in ("Red", "Green", "Blue"))
                 labels[parse_whole(values["Key"])] = Label(html.unescape(name).strip(), color)

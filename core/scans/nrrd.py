@@ -121,7 +121,10 @@ _PER_AXIS = {
 # Other forms of names.
 _NAMES = {"centerings": "centers"} | {
     name.replace(" ", ""): name
-    for name in ("axis mins", "axis maxs", "data file", "line skip", "byte skip", "space units")
+    for name in (
+        *("axis mins", "axis maxs", "data file", "line skip", "byte skip"),
+        *("space directions", "space origin", "space units"),
+    )
 }
 _HEADER_END = re.compile(rb"\r?\n\r?\n")
 _WORD = re.compile(r'"([^"]*)"|([^\s"]+)')

@@ -321,7 +321,7 @@ EVEN_TRIPLES = [
     for triple in combinations_with_replacement(_multiplets(COUPLED_ORDER), 3)
     if _can_couple(triple) and sum(l for _, l in triple) % 2 == 0
 ]
-# Of three different multiplets: with two alike, an odd coupling is zero.
+# Three different multiplets: with two alike, an odd coupling is zero.
 CHIRAL_TRIPLES = [
     triple
     for triple in combinations(_multiplets(CHIRAL_ORDER), 3)

@@ -41,7 +41,7 @@ from .findings import (
     VERTICES_WELDED,
 )
 from .orientation import ClosedParts, ComponentComparison, OrientedSolid
-from .repaired_mesh import RepairedMesh, copy_with
+from .repaired_mesh import NO_INDICES, RepairedMesh, copy_with
 from .self_intersection import SelfIntersection
 
 MIN_REPORTED_AMBIGUITY = 1e-6  # Share of the volume; smaller ambiguities are not reported.
@@ -178,7 +178,7 @@ def judge(
             raw=np.zeros_like(volume.raw),
             rounding_error=volume.rounding_error + np.abs(volume.raw),
         )
-    flipped = np.empty(0, np.int64)
+    flipped = NO_INDICES
     inverted = np.flatnonzero(oriented.turned)
     if mesh.flipped.any():
         flipped, inverted = _flipped_faces(mesh, oriented.turned)
@@ -383,7 +383,10 @@ def _intersection_findings(intersection: SelfIntersection, volume: float) -> lis
 
 
 def planarity_findings(count: int, spread: float, volume: float) -> list[Finding]:
-    """Return findings about faces with diagonals that make a difference. count: of these faces."""
+    """Return findings about faces with diagonals that make a difference.
+
+    count: number of these faces. spread: difference that they make to the volume.
+    """
     if not spread > MIN_REPORTED_AMBIGUITY * volume > 0.0:
         return []
     share = float(spread / volume)

@@ -2,13 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Objects of many kinds, measured together."""
 
+import bpy
 import numpy as np
-import pytest
 from body_moments.blender.write import properties
 
 from tests.corpus import shapes as s
-
-bpy = pytest.importorskip("bpy")
 
 KINDS = {
     "shard": lambda rng, i: s.random_hull(i),

@@ -93,7 +93,10 @@ def damaged(file: str, code: str, **values) -> str:
             nrrd(box(), encoding="gzip")[:-1] + b"!",
             (),
             damaged(
-                "a.nrrd", "damage_incomplete", kind="gzip stream", error="incorrect length check"
+                "a.nrrd",
+                "damage_incomplete",
+                kind="gzip stream",
+                error="Incorrect length of data produced",
             ),
         ),
     ],

@@ -89,7 +89,7 @@ def test_header_of_nrrd_names_and_colors_segments(tmp_path, color):
 def test_extension_of_nifti_names_labels(tmp_path):
     xml = (
         b'<CaretExtension><VolumeInformation Index="0"><LabelTable><Label Key="2" Red="0.5" '
-        b'Green="0" Blue="1" Alpha="1"><![CDATA[Spleen]]></Label></LabelTable>'
+        b'Green="0" Blue="1" Alpha="1">\n<![CDATA[Spleen]]>\n</Label></LabelTable>'
         b"</VolumeInformation></CaretExtension>"
     )
     xml += b"\0" * (-(len(xml) + 8) % 16)

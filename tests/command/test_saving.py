@@ -125,7 +125,7 @@ def test_a_file_that_cannot_be_replaced_is_left_as_it_was(tmp_path, monkeypatch)
     def refuse(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("body_moments.command.files.files.os.replace", refuse)
+    monkeypatch.setattr("body_moments.command.files.opening.os.replace", refuse)
     found = document(path, "--write")
     assert [entry["name"] for entry in found["objects"]] == [files.BOX_NAME]
     (error,) = found["errors"]

@@ -114,6 +114,30 @@ def test_children_and_tanks_float_as_one_body(scene):
     assert held(boat).state.draught == pytest.approx(depth, rel=1e-5)
 
 
+@pytest.mark.parametrize("kind", ["CHILD_OF", "COPY_LOCATION"])
+@pytest.mark.parametrize("follower", [0, 1])
+def test_constrained_root_is_moved_once(scene, kind, follower):
+    water(scene)
+    boat = hull(density=300.0, location=(1.0, 0.0, 4.0))
+    cargo = hull((1.0, 1.0, 0.2), density=300.0, location=(1.0, 0.0, 5.0))
+    bodies = [boat, cargo]
+    constraint = bodies[follower].constraints.new(kind)
+    constraint.target = bodies[1 - follower]
+    if kind == "CHILD_OF":
+        constraint.inverse_matrix = constraint.target.matrix_world.inverted()
+    else:
+        constraint.use_offset = True
+        bodies[follower].location -= constraint.target.location
+    bpy.context.view_layer.update()
+    for obj in bodies:
+        obj.select_set(True)
+    assert bpy.ops.object.body_moments_float(as_one=True) == {"FINISHED"}
+    bpy.context.view_layer.update()
+    height = 0.5 - (3600.0 + 60.0) / 12000.0
+    for obj, z in ((boat, height), (cargo, height + 1.0)):
+        assert tuple(obj.matrix_world.translation) == pytest.approx((1.0, 0.0, z), abs=1e-5)
+
+
 def test_second_draw_looks_at_no_object_of_the_scene(scene, monkeypatch):
     water(scene)
     boat = hull(density=300.0)

@@ -66,9 +66,8 @@ def weigh(reading: bodies.Reading, body: bodies.MeshBody, request: Request) -> b
     """Return the body with mass moments to the requested order, or raise MeasureError if a density
     is impossible.
     """
-    measurement.find_extent(
-        body, request.settings
-    )  # raises MeasureError before anything is weighed
+    # It raises MeasureError before anything is weighed.
+    measurement.find_extent(body, request.settings)
     order = request.settings.order
     if _field(request).kind == "volume":
         if request.settings.kind == "shell":

@@ -224,17 +224,17 @@ def float_body(
     size = rest.body.size / unit
     saved = [TransformChannels(root) for root in roots]
     is_moved = False
-    targets = [matrix @ world(member) for member in members]
+    targets = {member: matrix @ world(member) for member in members}
     try:
-        for root in roots:
-            target = matrix @ world(root)
+        for root in roots * 2:  # some may follow others, which move later
+            target = targets[root]
             off = np.abs(target - world(root))
             if off[:, :3].max() > 1e-6 * np.abs(target[:, :3]).max() or off[
                 :, 3
             ].max() > reframe.location_tolerance(root, size):
                 is_moved = True
                 reframe.move(context, reframe.Plan(root, target, size, move_only=False))
-        for member, target in zip(members, targets):
+        for member, target in targets.items():
             if not _is_close(world(member), target, size):
                 raise verdict.EditRefusedError(findings.CHILD_NOT_HELD, object=member.name)
     except BaseException:

@@ -55,13 +55,14 @@ def store_many(
 def _noted(
     items: Sequence[tuple[Object, bodies.stack.Measured]], stack: Measurement, scene: Scene
 ) -> Measurement:
-    """Return the objects' rows of a stack, with notes on unset densities."""
+    """Return the objects' rows of a stack, in their order, with notes on unset densities."""
     obj, first = items[0]
     if first.index is None:
         return density.noted(obj, stack, scene)
     part: Any = stack
-    if len(items) < len(part.findings):
-        part = stack.at([found.index for _, found in items if found.index is not None])
+    rows = [found.index for _, found in items if found.index is not None]
+    if rows != [*range(len(part.findings))]:
+        part = stack.at(rows)
     findings = [
         density.with_default_note(own, "density")
         if source is core.measurement.DENSITY_FROM_VALUE

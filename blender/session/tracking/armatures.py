@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import bpy
-from bpy.types import Object
+from bpy.types import Object, ViewLayer
 
 from ... import read, settings, write
 from .. import memory
@@ -25,14 +25,17 @@ def stands_for_meshes(obj: Object) -> bool:
     return obj.type == "ARMATURE" and obj.mode == "POSE"
 
 
-@memory.until_change
 def deformed_meshes(armature: Object) -> tuple[Object, ...]:
     """Return the meshes of the window's view layer that an original armature deforms, in the
     layer's order.
     """
-    objects = bpy.context.view_layer.objects
+    return _deformed_meshes(armature, bpy.context.view_layer)
+
+
+@memory.until_change
+def _deformed_meshes(armature: Object, layer: ViewLayer) -> tuple[Object, ...]:
     return tuple(
-        obj for obj in objects if obj.type == "MESH" and read.rig.is_skin_of(obj, armature)
+        obj for obj in layer.objects if obj.type == "MESH" and read.rig.is_skin_of(obj, armature)
     )
 
 

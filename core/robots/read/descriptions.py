@@ -268,8 +268,7 @@ def _include(root: Node, roots: Roots, own: Path) -> None:
                 children.append(child)
                 waiting.append((child, depth + 1, here, above, model))
                 continue
-            uri = child.find("uri")
-            name = child.get("file") if is_mjcf else uri.text.strip() if uri is not None else ""
+            name = child.get("file") if is_mjcf else getattr(child.find("uri"), "text", "").strip()
             place = {
                 "line": child.place.line,
                 "column": child.place.column,

@@ -47,7 +47,8 @@ HINGES = ("revolute", "continuous", "universal", "revolute2")
 def read(root: Node, data: bytes) -> Description:
     """Return a description from the element `sdf`: all links, wherever their models are."""
     models = [node for node in root.walk() if node.tag == "model"]
-    for node in root.walk():  # Siblings have names of their own.
+    # Siblings have names of their own; content of plugins is free.
+    for node in (root, *root.all("world"), *models):
         for tag in ("model", "link", "joint"):
             check_names("sdf", [(one.get("name"), one.place) for one in node.all(tag)])
     scopes: dict[Node, _Scope] = {}

@@ -6,7 +6,7 @@ MuJoCo's test that no principal moment exceeds the sum of the others has no tole
 moments of a `fullinertia` are off by rounding, so that it refuses thin plates.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from operator import mul
 from xml.etree.ElementTree import Element, SubElement
 
@@ -39,26 +39,26 @@ def check(robot: Robot) -> list[Finding]:
     )
 
 
-def smallest_inertials(robot: Robot, limit: float) -> dict[str, float]:
-    """Return the smaller of mass and least moment of each link where it is below a limit, by
-    name.
-    """
-    inertials = [(link.name, link.inertial) for link in robot.links if link.inertial is not None]
-    least = {name: float(min(inertial.mass, inertial.moments[0])) for name, inertial in inertials}
-    return {name: value for name, value in least.items() if value < limit}
+def small_links(robot: Robot, limit: float) -> list[str]:
+    """Return the names of the links whose mass or least moment is below a limit."""
+    return [
+        link.name
+        for link in robot.links
+        if link.inertial is not None and min(link.inertial.mass, link.inertial.moments[0]) < limit
+    ]
 
 
 def raised_inertials(robot: Robot, limit: float) -> list[Finding]:
     """Return the finding about links whose mass or moments MuJoCo raises to a limit, empty if there
     are none.
     """
-    return too_small(smallest_inertials(robot, limit), limit, "MuJoCo", RAISED)
+    return too_small(small_links(robot, limit), limit, "MuJoCo", RAISED)
 
 
-def too_small(links: Iterable[str], limit: float, program: str, remedy: str) -> list[Finding]:
+def too_small(links: list[str], limit: float, program: str, remedy: str) -> list[Finding]:
     """Return the finding about links of too little inertia, empty if there are none."""
-    values = {"links": [*links], "limit": limit, "program": program, "remedy": remedy}
-    return [finding(INERTIA_TOO_SMALL, **values)] if values["links"] else []
+    values = {"links": links, "limit": limit, "program": program, "remedy": remedy}
+    return [finding(INERTIA_TOO_SMALL, **values)] if links else []
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
@@ -79,7 +79,7 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
     root = Element("mujoco", model=xml_text(robot.name))
     if not inertial_only:
         bounds: dict[str, str] = {}
-        if smallest_inertials(robot, LEAST):
+        if small_links(robot, LEAST):
             bounds = {"boundmass": number(LEAST), "boundinertia": number(LEAST)}
         SubElement(root, "compiler", bounds, angle="radian", autolimits="true")
     robot = robot if inertial_only else with_masses(robot)

@@ -42,9 +42,9 @@ def _order(joint: Joint) -> bool | None:
     neither.
     """
     kinds = [free.kind for free in joint.free]
-    return (
-        True if kinds == sorted(kinds, reverse=True) else False if kinds == sorted(kinds) else None
-    )
+    if kinds == sorted(kinds, reverse=True):
+        return True
+    return False if kinds == sorted(kinds) else None
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:

@@ -19,7 +19,7 @@ from ..findings import ROBOT_BASE_ADDED, URDF_EFFORT_UNKNOWN, URDF_ROOT_WITHOUT_
 from ..model import FreeAxis, Inertial, Joint, Pose, Robot, Shape
 from ..stated import ENTRIES, StatedInertial
 from .joints import lost_values, with_axis_frames
-from .mjcf import raised_inertials, smallest_inertials
+from .mjcf import raised_inertials, small_links
 from .shapes import box_of_ellipsoid, capsule_pieces, ellipsoids_as_boxes, shape_values
 from .text import (
     document,
@@ -120,7 +120,7 @@ def _compiler(robot: Robot) -> Element:
     """
     values = {"fusestatic": "false", "strippath": "false"}
     is_bare = any(link.inertial is None and robot.joint_of(link.name) for link in robot.links)
-    if is_bare or smallest_inertials(robot, BOUNDED):
+    if is_bare or small_links(robot, BOUNDED):
         values |= {"boundmass": number(LEAST), "boundinertia": number(LEAST)}
     return element("mujoco", element("compiler", **values))
 

@@ -7,10 +7,8 @@ left alone.
 import os
 from dataclasses import replace
 
-import pytest
-
-pytest.importorskip("bpy")
 import numpy as np
+import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.robots import Auditor, Inertial, Link, Pose, Robot, Shape, repaired_copy
 from body_moments.core.robots.plausibility import impossible

@@ -6,7 +6,7 @@ frames, fingerprints.
 
 import numpy as np
 import pytest
-from body_moments.blender.bodies import measure_object, stack
+from body_moments.blender.bodies import measure_object
 from body_moments.blender.bodies.measure_body import measure_body
 from body_moments.blender.settings.options import AS_SET, MeasureOptions
 from body_moments.core.solid import SmallSolid
@@ -56,6 +56,12 @@ def assert_same(found, expected):
     if isinstance(expected, Exception):
         assert isinstance(found, Exception) and str(found) == str(expected)
         return
+    assert np.array_equal(found.reading.matrix, expected.reading.matrix)
+    assert found.reading.matrix.dtype == np.float64
+    places, own_places = (
+        [matrices for _, matrices in getattr(each.body, "solids", ())] for each in (found, expected)
+    )
+    assert np.array_equal(places, own_places)
     one, other = found.measurement, expected.measurement
     for name in SAME:
         assert getattr(one, name) == getattr(other, name), (one.name, name)
@@ -252,7 +258,7 @@ def test_edited_mesh_is_integrated_again(modifier):
 def test_a_stack_that_fails_measures_each_alone(monkeypatch, capfd):
     objects = shards(1)
     whole, _ = all_outcomes(objects)
-    monkeypatch.setattr(stack, "measure_again", lambda *_: 1 / 0)
+    monkeypatch.setattr(measure_object, "measure_again", lambda *_: 1 / 0)
     again, _ = all_outcomes(objects)
     assert not any(_is_stacked(found) for _, found in again)
     assert "ZeroDivisionError" in capfd.readouterr().err

@@ -6,10 +6,9 @@ the bounds.
 
 import math
 
+import bpy
 import numpy as np
 import pytest
-
-bpy = pytest.importorskip("bpy")
 from body_moments.core.moments.raw import monomials
 
 from tests.blender.batch_files import measured

@@ -7,10 +7,9 @@ totals, the order of what is reported.
 import contextlib
 import random
 
+import bpy
 import numpy as np
 import pytest
-
-bpy = pytest.importorskip("bpy")
 from body_moments.blender.bodies.findings import BODIES_OVERLAP
 from body_moments.blender.session import displayed
 from body_moments.blender.session.stored import outcome

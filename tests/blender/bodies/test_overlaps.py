@@ -82,6 +82,13 @@ def test_overlaps_of_cavities_sheets_and_given_masses_do_not_count():
     assert notes(shell, core) == []
 
 
+def test_nurbs_torus_and_box_overlap():
+    bpy.ops.surface.primitive_nurbs_surface_torus_add()
+    torus = bpy.context.object
+    (found,) = notes(torus, box(here(), (1, 1, 1), (1, 0, 0), name="Box"))
+    assert found.values["pairs"] == [["Box", torus.name]]
+
+
 def test_many_overlaps_are_counted_and_one_is_named():
     boxes = [box(here(), (1.1, 1, 1), (i, 0, 0), name="Box {:02d}".format(i)) for i in range(30)]
     (found,) = notes(*boxes)

@@ -2,10 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The signatures of objects that are measured together are those of each by itself."""
 
+import bpy
 import numpy as np
 import pytest
-
-bpy = pytest.importorskip("bpy")
 from body_moments.blender.bodies.shape.object_shape import signed_in_turn, surface_shape_of
 from body_moments.core.shape.signatures import Signature, similarity
 from body_moments.core.verdict import MeasureError

@@ -6,10 +6,9 @@ refusals, the slider.
 
 import math
 
+import bpy
 import numpy as np
 import pytest
-
-bpy = pytest.importorskip("bpy")
 from body_moments.blender.session.tracking import staleness, stamps
 
 from tests.blender.findings import said

@@ -2,11 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Instances are read as one surface with many places, exactly those that Blender draws."""
 
+import bpy
 import numpy as np
 import pytest
-
-bpy = pytest.importorskip("bpy")
-
 from body_moments.blender.read.objects import read_object
 from body_moments.blender.read.visibility import measurable_objects
 

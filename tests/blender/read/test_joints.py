@@ -6,10 +6,9 @@ simulation.
 
 from math import inf
 
-import pytest
-
-bpy = pytest.importorskip("bpy")
+import bpy
 import numpy as np
+import pytest
 from body_moments.blender.session.robots import bone_links, collection_links, object_links
 from mathutils import Matrix
 

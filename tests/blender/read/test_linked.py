@@ -4,9 +4,8 @@
 named.
 """
 
+import bpy
 import pytest
-
-bpy = pytest.importorskip("bpy")
 
 from tests.blender.objects import add, mesh_body, only
 

@@ -2,12 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A mesh read by arrays is the mesh that Blender tessellates, triangle by triangle."""
 
+import bmesh
+import bpy
 import numpy as np
 import pytest
-
-bpy = pytest.importorskip("bpy")
-
-import bmesh
 from body_moments.blender.read.mesh import vertex_values
 from body_moments.blender.read.objects import read_object
 

@@ -5,11 +5,9 @@
 import math
 import shutil
 
+import bpy
 import numpy as np
 import pytest
-
-bpy = pytest.importorskip("bpy")
-
 from body_moments.blender.read.objects import read_object
 from body_moments.blender.read.visibility import measurable, measurable_objects
 from body_moments.core.verdict import MeasureError, Severity, finding, severity

@@ -4,10 +4,8 @@
 state of them.
 """
 
-import pytest
-
-pytest.importorskip("bpy")
 import numpy as np
+import pytest
 
 from tests.blender.robot_truth import (
     about,

@@ -7,10 +7,8 @@ placed.
 import json
 import struct
 
-import pytest
-
-pytest.importorskip("bpy")
 import numpy as np
+import pytest
 from body_moments.core.robots.read.meshes import read_mesh
 from body_moments.core.verdict import FileError
 

@@ -6,10 +6,8 @@ descriptions may hold.
 
 import json
 
-import pytest
-
-pytest.importorskip("bpy")
 import numpy as np
+import pytest
 from body_moments.core.robots.read import descriptions
 from body_moments.core.verdict import FileError
 

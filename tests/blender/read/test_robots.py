@@ -2,16 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Robot descriptions and meshes from strangers: what is read, and what is refused."""
 
+import contextlib
 import json
 import os
 import struct
 
-import pytest
-
-bpy = pytest.importorskip("bpy")
-import contextlib
-
+import bpy
 import numpy as np
+import pytest
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.robots.read import xml
 from body_moments.core.robots.read.descriptions import Roots, read_description
@@ -180,6 +178,13 @@ def test_invalid_descriptions_are_refused(tmp_path):
 )
 def test_model_without_bodies_has_no_links(tmp_path, content):
     assert read_description(write(tmp_path / "a.xml", content)).links == ()
+
+
+def test_names_in_plugins_of_sdf_may_repeat(tmp_path):
+    plugin = "<plugin name='p' filename='f'><joint name='j'/><joint name='j'/></plugin>"
+    text = "<sdf version='1.9'><model name='m'><link name='a'/>{}</model></sdf>".format(plugin)
+    (link,) = read_description(write(tmp_path / "a.sdf", text)).links
+    assert link.name == "a"
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="not on this system")

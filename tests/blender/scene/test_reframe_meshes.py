@@ -2,10 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Many meshes that get other frames at once, and nothing visible moves."""
 
+import bpy
 import numpy as np
 import pytest
-
-bpy = pytest.importorskip("bpy")
 
 from tests.blender.objects import place
 from tests.corpus import shapes as s

@@ -2,14 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The session remembers loaded objects only, by uid, and registers each handler once."""
 
-import pytest
-
-pytest.importorskip("bpy")
 import body_moments
 import bpy
+import pytest
 from body_moments.blender.session import displayed, memory
 from body_moments.blender.session.stored import moments as moments_table
-from body_moments.blender.session.tracking import staleness
+from body_moments.blender.session.tracking import handlers, staleness
 
 from tests.blender.objects import add, dent, measure, mesh_body
 
@@ -35,6 +33,35 @@ def test_cache_follows_renaming_and_ends_with_object():
     assert cache.get(obj) == 1
     bpy.data.objects.remove(obj)
     assert bpy.data.objects.new("Renamed", None) not in cache
+
+
+def test_results_until_change_end_with_the_next_change():
+    calls = []
+
+    @memory.until_change
+    def name(obj, suffix):
+        calls.append(suffix)
+        return obj.name + suffix
+
+    kept = memory._containers.pop()
+    (obj,) = objects(1)
+    assert [name(obj, suffix) for suffix in "abab"] == [obj.name + end for end in "abab"]
+    assert calls == ["a", "b"] and len(kept) == 2
+    handlers.count_change(obj)
+    obj.name = "Renamed"
+    assert name(obj, "a") == "Renameda"
+    assert len(kept) == 1
+
+
+def test_result_is_not_kept_after_change_within_function():
+    @memory.until_change
+    def generation(obj):
+        handlers.count_change(obj)
+        return memory.state.generation
+
+    memory._containers.pop()
+    (obj,) = objects(1)
+    assert generation(obj) < generation(obj)
 
 
 def remember():

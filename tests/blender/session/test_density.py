@@ -4,11 +4,9 @@
 changes more than a factor leaves them, out of date.
 """
 
+import bpy
 import numpy as np
 import pytest
-
-pytest.importorskip("bpy")
-import bpy
 from body_moments.blender.session import displayed
 from body_moments.blender.session.displayed import Verdict, drawn
 from body_moments.blender.session.tracking import staleness

@@ -4,11 +4,9 @@
 
 import json
 
-import pytest
-
-bpy = pytest.importorskip("bpy")
-
 import body_moments
+import bpy
+import pytest
 
 
 @pytest.fixture

@@ -8,12 +8,11 @@ import os
 from dataclasses import replace
 from pathlib import Path
 
-import pytest
-
-pytest.importorskip("bpy")
 import body_moments
 import bpy
-from body_moments.blender.bodies import measure_body, measure_object, request
+import pytest
+from body_moments.blender.bodies import measure_body, measure_object
+from body_moments.blender.read import objects
 from body_moments.blender.scene import empties, reframe
 from body_moments.blender.session.stored import outcome
 from body_moments.blender.write import properties, section
@@ -52,7 +51,7 @@ def three(flat=False):
     return bodies
 
 
-def plant(monkeypatch, error, *names, module=request, function="read_object"):
+def plant(monkeypatch, error, *names, module=objects, function="read_object"):
     """The error, wherever one of these objects is read, by itself or together with others."""
     for place_, name in ((module, function), (measure_object, "plain_mesh")):
         monkeypatch.setattr(place_, name, failing_for(names, error, getattr(place_, name)))

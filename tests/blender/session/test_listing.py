@@ -8,10 +8,8 @@ import csv
 import io
 import json
 
-import pytest
-
-pytest.importorskip("bpy")
 import bpy
+import pytest
 from body_moments.blender.session import displayed
 from body_moments.blender.session.displayed import SortBy, listed_masses, listing
 from body_moments.panels.texts import scene_units

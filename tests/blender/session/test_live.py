@@ -7,11 +7,9 @@ full afterwards.
 import itertools
 from math import dist, isclose
 
+import bpy
 import numpy as np
 import pytest
-
-pytest.importorskip("bpy")
-import bpy
 from body_moments.blender.session import memory
 from body_moments.blender.session.displayed import Verdict, displayed, drawn, total
 from body_moments.blender.session.live import following, mapping

@@ -3,8 +3,6 @@
 """A few random sessions; `python3 tests/project.py soak sessions` runs more of them."""
 
 import pytest
-
-pytest.importorskip("bpy")
 from body_moments.blender.read import mesh
 
 from tools.soak import sessions

@@ -9,9 +9,11 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.bodies.measure_object import measure_many
 from body_moments.blender.session import displayed
 from body_moments.blender.session.displayed import drawn
-from body_moments.blender.session.tracking import handlers
+from body_moments.blender.session.stored import results
+from body_moments.blender.session.tracking import armatures, handlers
 from body_moments.core.inertia.mass_properties import combine
 
 from tests.blender.boxes import armature_with, box, collection
@@ -59,6 +61,30 @@ def test_total_names_missing_stale_and_doubtful_objects(scene):
     nothing = total_of(exact)
     assert nothing.numbers is None and nothing.count == 1
     assert drawn(exact, scene) is None
+
+
+def test_measurements_stored_in_reverse_reach_their_objects(scene):
+    objects = [add(mesh_body(), scale=(size,) * 3) for size in (1, 2, 3)]
+    batches = measure_many(objects, bpy.context.evaluated_depsgraph_get())
+    measurements = [pair for batch in batches for pair in batch]
+    results.store_measured(bpy.context, measurements[::-1])
+    volumes = np.array([obj["body_volume"] for obj in objects])
+    assert close(volumes / volumes[0], [1, 8, 27], 1e-6)
+
+
+def test_armature_in_two_view_layers_deforms_the_meshes_of_each(scene):
+    here, there = add(mesh_body(), "here"), add(mesh_body(), "there")
+    armature = armature_with(here, there)
+    layer = scene.view_layers.new("Layer")
+    hidden = collection()
+    hidden.objects.link(there)
+    scene.collection.objects.unlink(there)
+    layer.layer_collection.children[hidden.name].exclude = True
+    layer.update()
+    handlers.count_change()
+    assert set(armatures.deformed_meshes(armature)) == {here, there}
+    with bpy.context.temp_override(view_layer=layer):
+        assert armatures.deformed_meshes(armature) == (here,)
 
 
 def test_assembly_counts_without_its_selected_parts(scene):

@@ -4,11 +4,9 @@
 how far it holds.
 """
 
-import pytest
-
-pytest.importorskip("bpy")
 import bpy
 import numpy as np
+import pytest
 from body_moments.blender.session.displayed import Verdict, drawn, drawn_bone
 from body_moments.blender.session.tracking.stamps import Stale
 from mathutils import Matrix

@@ -4,12 +4,10 @@
 not.
 """
 
-import pytest
-
-pytest.importorskip("bpy")
 import bmesh
 import body_moments
 import bpy
+import pytest
 from body_moments.blender.session.tracking import staleness
 from body_moments.blender.session.tracking.stamps import Kind, Stale
 from body_moments.blender.write import text_report

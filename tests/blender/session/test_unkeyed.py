@@ -4,11 +4,9 @@
 back wherever it evaluates animation, and nothing here may make it do so.
 """
 
-import pytest
-
-pytest.importorskip("bpy")
 import bpy
 import numpy as np
+import pytest
 from body_moments.blender.session import memory
 from body_moments.blender.session.live import measuring as live
 from body_moments.blender.session.tracking import staleness

@@ -2,10 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Updates during animation, undo and removal are counted for the right objects."""
 
-import pytest
-
-pytest.importorskip("bpy")
 import bpy
+import pytest
 from body_moments.blender.session.tracking import handlers
 
 from tests.blender.objects import add, mesh_body

@@ -4,9 +4,8 @@
 
 import json
 
+import bpy
 import pytest
-
-bpy = pytest.importorskip("bpy")
 from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.write import properties
 from body_moments.core.verdict import EditRefusedError, finding

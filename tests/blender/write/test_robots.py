@@ -10,8 +10,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-
-pytest.importorskip("bpy")
 from body_moments.core.files import gltf_document, replace_gltf_document, to_glb
 from body_moments.core.robots.model import Link, Robot
 from body_moments.core.robots.write import mjcf, stl, text, usd

@@ -4,9 +4,8 @@
 
 import re
 
+import bpy
 import pytest
-
-bpy = pytest.importorskip("bpy")
 from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.read.places import place_error
 from body_moments.blender.write import text_report

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sums over the voxels of labels: whole numbers, equal to those over lists of indices."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 from body_moments.core.bodies.grid import label_value
@@ -52,6 +54,20 @@ def test_sums_of_long_thin_maps_stay_exact(axis):
     sums = sum_labels(np.ones(np.where(np.arange(3) == axis, count, 1), np.uint8))[1]
     cubes = monomials(3).tolist().index([3 * (axis == i) for i in range(3)])
     assert sums[0] == count and sums[cubes] == (count * (count - 1) // 2) ** 2
+
+
+def test_thin_map_of_distant_labels_takes_little_memory():
+    labels = np.arange(1 << 14).reshape(128, 128, 1) % 2 * 1000
+    tracemalloc.start()
+    try:
+        sums = sum_labels(labels)
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert {label: row.tolist() for label, row in sums.items()} == {
+        label: listed_sums(labels, label) for label in (0, 1000)
+    }
+    assert peak < 100 * labels.nbytes
 
 
 @pytest.mark.parametrize(

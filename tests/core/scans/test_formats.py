@@ -205,6 +205,10 @@ def test_nrrd_placement_is_read(tmp_path):
     head = nrrd(values(), "space directions: (1,0,0) (0,2,0) (0,0,3)", "space origin: none")
     scan = read_scan(written(tmp_path / "c.nrrd", head))
     assert np.array_equal(scan.matrix, np.diag([1, 2, 3, 1])) and scan.is_placed
+    head = nrrd(values(), "spacedirections: (1,0,0) (0,2,0) (0,0,3)", "spaceorigin: (4,5,6)")
+    scan = read_scan(written(tmp_path / "d.nrrd", head))
+    assert np.array_equal(scan.matrix[:3], [[1, 0, 0, 4], [0, 2, 0, 5], [0, 0, 3, 6]])
+    assert scan.is_placed
 
 
 @pytest.mark.parametrize(

@@ -5,11 +5,9 @@
 import re
 from xml.etree import ElementTree
 
-import pytest
-
-pytest.importorskip("bpy")
 import bpy
 import numpy as np
+import pytest
 from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.bodies.rig import measure_rig
 from body_moments.core.files import gltf_document

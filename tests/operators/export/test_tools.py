@@ -4,11 +4,9 @@
 
 from xml.etree import ElementTree
 
-import pytest
-
-pytest.importorskip("bpy")
 import bpy
 import numpy as np
+import pytest
 from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.robots.write.stl import to_stl

@@ -2,11 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fourier transforms of objects: on the command line and by the operator."""
 
+import bpy
 import numpy as np
 import pytest
-
-pytest.importorskip("bpy")
-import bpy
 from body_moments.blender.bodies.fourier import object_transform
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.core.fourier import instances as fourier_body

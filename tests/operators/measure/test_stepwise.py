@@ -2,11 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Operators that work in steps: what Esc, the end and a fault between two steps leave behind."""
 
+import bpy
 import numpy as np
 import pytest
-
-pytest.importorskip("bpy")
-import bpy
 from body_moments.operators import modal as stepwise
 from body_moments.operators.measure.fourier import OBJECT_OT_body_moments_fourier
 from body_moments.operators.measure.measure_selected import OBJECT_OT_body_moments_measure
