@@ -62,7 +62,7 @@ from .surfaces import (
     is_storable,
     placed_surface,
 )
-from .trimmed import face_within, flat_region, lifted, patch_sides
+from .trimmed import face_within, flat_region, is_flat, lifted, patch_sides
 
 TURNING = 3.0  # the norm of a matrix (3, 3) of ones
 MATRIX = 124
@@ -147,11 +147,12 @@ Pair: TypeAlias = tuple[Value, Value]
 @dataclass(frozen=True, eq=False)
 class Boundary:
     """A closed boundary of a face: its curves in space, and in the surface's parameters; None if
-    they are unknown.
+    they are unknown. prefers_parameters: True if the file says so.
     """
 
     curves: list[Curve] | None
     parameters: list[Curve] | None = None
+    prefers_parameters: bool = False
 
 
 class IgesReader:
@@ -358,11 +359,11 @@ class IgesReader:
             entry = self._entry(pointer, PARAMETER_CURVE)
         except (ValueError, LookupError):
             return Boundary(None, None)
-        _, surface, by_parameters, in_space = integers(self._text.fields(entry), 4)
+        _, surface, by_parameters, in_space, preferred = integers(self._text.fields(entry), 5)
         if surface != base.number:
             return Boundary(None, None)
         space = self._curves.read(in_space, matrix @ self._matrix(entry))
-        return Boundary(space, self._curves.read(by_parameters, None))
+        return Boundary(space, self._curves.read(by_parameters, None), preferred == 1)
 
     def _bounded(self, entry: Entry, matrix: NDArray) -> list[Face]:
         """Return the faces of a surface within boundaries (141), the first of which is the outer
@@ -626,6 +627,8 @@ def _trimmed_faces(
         choices.insert(0, (surface, boundaries))
     elif surface and all(one.curves and one.parameters for one in boundaries):
         choices.append((patch, [replace(one, curves=None) for one in boundaries]))
+        if any(one.prefers_parameters for one in boundaries) and is_flat(patch, rounding):
+            choices.reverse()
     faults = []
     for base, some in choices:
         try:

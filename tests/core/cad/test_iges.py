@@ -255,6 +255,17 @@ def test_plane_within_curves_is_a_face(tmp_path, given, way):
     assert read.refused == () and close(found, np.array([3.75 * np.pi, 36.0 - 0.25 * np.pi]), 1e-14)
 
 
+@pytest.mark.parametrize(("preferred", "area"), [(1, 4.0 * np.pi), (2, 8.0)])
+def test_preferred_curves_bound_a_flat_face(tmp_path, preferred, area):
+    file = IgesFile(1)
+    base = file.surface(PLATE, status="00010000")
+    curves = chain(file, arcs(2.0)), chain(file, polygon((2, 0), (0, 2), (-2, 0), (0, -2)))
+    boundary = file.add(142, [0, base, *curves, preferred], status="00010000")
+    file.add(144, [base, 1, 0, boundary], label="PLATE")
+    (body,) = read_surfaces(file.write(tmp_path / "a.igs"), for_blender=False).bodies
+    assert close(area_moments(body.patches, 0)[0].total, area, 1e-14)
+
+
 @pytest.mark.parametrize(
     "loop",
     [arcs(1.0)[:3], polygon((0, 0), (2, 2), (2, 0), (0, 2)), [*arcs(1.0)[:3], *arcs(1.0, 0.2)[3:]]],
