@@ -622,9 +622,10 @@ inertial differs from that of their evenly filled geometry.
   inertial then differs from the inertial before the fault by at most 2 %. For twins, the limit is
   10 %.
 
-Some faults cannot be undone. If the mass is missing, no repair can know it. If the mass is in lb
-and the inertia is in lb·in², the numbers also fit a mass in kg and an inertia in kg·in². In this
-case the audit proposes kg·in², unless a center in inches shows the right units.
+Some faults cannot be undone. If the mass is missing, no repair can know it. A mass in lb with an
+inertia in lb·in² cannot be distinguished from a mass in kg with an inertia in kg·in², because the
+inertia divided by the mass has the same value. In this case the audit proposes kg·in², unless a
+center in inches shows the right units.
 
 | fault | planted | found | undone |
 |---|---|---|---|
@@ -635,7 +636,7 @@ ALARMS_HEAD = """
 An alarm is an error or a warning of the audit. The published files have {links} links, and
 {alarmed} of these links have an alarm. Each alarm is checked with other programs:
 
-- trimesh measures the meshes.
+- The library trimesh measures the meshes.
 - SciPy shows that no set of masses inside the convex hull has the stated center and inertia.
 - MuJoCo reads the MJCF files.
 - NumPy computes with the numbers of the XML files.
