@@ -403,6 +403,11 @@ def _round(z: float, center: NDArray, begin: NDArray, end: NDArray) -> list[Curv
     return conic_pieces(frame, (radius, radius), (angles[0], angles[0] + turn))
 
 
+def arc_steps(turn: float) -> int:
+    """Return the number of quadratic pieces of an arc that turns by an angle."""
+    return max(1, math.ceil(turn / MAX_ARC - 1e-9))
+
+
 def conic_pieces(
     frame: NDArray,
     sizes: tuple[float, float],
@@ -414,7 +419,7 @@ def conic_pieces(
 
     sizes: both half axes, or both sizes of a hyperbola, or the focal length twice.
     """
-    steps = math.ceil((ends[1] - ends[0]) / MAX_ARC - 1e-9) if kind == "ELLIPSE" else 1
+    steps = arc_steps(ends[1] - ends[0]) if kind == "ELLIPSE" else 1
     marks = np.linspace(*ends, steps + 1)
     pieces = []
     for low, high in zip(marks[:-1], marks[1:]):

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..numerics import NDArray, SplineSpace, clamped_space, lengths
 from ..nurbs import TURN, Curve, Patch, Quadric
-from .iges_entities import MAX_ARC
+from .iges_entities import arc_steps
 
 SAME_RTOL = 1e-12  # relative to the size: lines and circles by rounding
 
@@ -25,7 +25,7 @@ def revolve(curve: Curve, begin: NDArray, axis: NDArray, start: float, end: floa
     axis = axis / np.linalg.norm(axis)
     if not 0.0 < end - start <= TURN * (1.0 + 1e-9):
         raise ValueError("angles of no surface")
-    steps = math.ceil((end - start) / MAX_ARC - 1e-9)
+    steps = arc_steps(end - start)
     half = (end - start) / steps / 2.0
     angles = np.linspace(start, end, 2 * steps + 1)
     ring = np.where(np.arange(2 * steps + 1) % 2, math.cos(half), 1.0)

@@ -118,7 +118,7 @@ def curved_region(
     if isinstance(chart, SplineChart) and _follow_sides(chart, tracks, rounding):
         return chart.patch
     lines = np.concatenate([np.zeros((0, 2, 2)), *(track.lines for track in tracks), *whole])
-    return TrimmedFace(
+    face = TrimmedFace(
         chart,
         tuple(track.curves for track in tracks),
         np.concatenate([sample_pieces([])[..., :2], *(track.pieces for track in tracks)]),
@@ -127,6 +127,12 @@ def curved_region(
         base,
         deviation,
     )
+    # A seam that is in other pieces each way shows no side of it.
+    is_unsure = chart.is_closed and tracks and beyond is None and not len(witness)
+    thin = SEAM_RTOL * size * face.perimeter
+    if is_unsure and face.area_moments(0, box[0]).total <= thin:
+        raise SurfaceRefusedError(SURFACE_TRIMMED)
+    return face
 
 
 def _follow_sides(chart: SplineChart, tracks: Sequence[Track], rounding: float) -> bool:
@@ -285,7 +291,7 @@ def _oriented(
             raise SurfaceRefusedError(SURFACE_TRIMMED)
         if held == {not len(witness)}:
             tracks = [track.reverse() for track in tracks]
-            is_whole = -total < 0.0
+            is_whole = not is_whole
     return list(tracks), base, [ends] if is_whole else []
 
 

@@ -79,6 +79,7 @@ class StepReader:
         self._twins: dict[int, list[int]] = {}  # representations of the same coordinates
         self._owners: dict[int, int] = {}  # product definitions by representation
         self._aspects: set[int] = set()  # representations of parts of a shape
+        self._items: set[int] = set()  # of all representations
         self._relations: dict[int, int] = {}  # child definitions by relationship
         self._colors: dict[int, tuple[float, ...]] = {}
         self._hidden: set[int] = set()
@@ -185,8 +186,10 @@ class StepReader:
         self._children.setdefault(parent, []).append(_Child(child, frame, parent_frame))
 
     def _map(self, number: int) -> None:
-        """Take the mapped items of a representation."""
-        for item in self._attribute(number, 1):
+        """Take the items of a representation, and the representations that it maps."""
+        items = self._attribute(number, 1)
+        self._items.update(items)
+        for item in items:
             values = self._text[item].get("MAPPED_ITEM")
             if values and item not in self._hidden:
                 origin, child = self._text[values[1]]["REPRESENTATION_MAP"]
@@ -297,13 +300,13 @@ class StepReader:
             raise FileError(FILE_TOO_LARGE, limit=MAX_PLACED, content="surfaces")
 
     def _is_body(self, number: int) -> bool:
-        """Return whether an item has a volume or an area; not a tessellation of another item."""
+        """Return whether an item has a volume or an area; not a tessellation of a placed item."""
         parts = self._text[number]
         if "GEOMETRIC_SET" in parts:
             return any(
                 name.endswith(BODIES) for k in parts["GEOMETRIC_SET"][1] for name in self._text[k]
             )
-        is_shown = isinstance(parts.get("TESSELLATED_SOLID", [None])[-1], Reference)
+        is_shown = parts.get("TESSELLATED_SOLID", [None])[-1] in self._items
         return not is_shown and any(name.endswith(BODIES) for name in parts)
 
     def _add_items(self, items: Sequence[int], owner: int, matrix: NDArray) -> None:

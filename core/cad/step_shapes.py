@@ -378,7 +378,8 @@ def _offset(shapes: Shapes, _: Any, values: list[Any], loops: list[list[Curve]])
     """Return the surface at a distance from a plane, a cylinder, a cone, a sphere or a torus."""
     surface = shapes.surface(values[1], loops)
     if isinstance(surface, Quadric):
-        away = float(values[2]) * math.hypot(1.0, surface.slope)
+        side = np.sign(np.linalg.det(surface.frame))  # -1.0 if the normal points inward
+        away = side * float(values[2]) * math.hypot(1.0, surface.slope)
         name = "minor" if surface.minor else "radius"
         size = getattr(surface, name) + away
         if size <= 0.0 and not surface.slope:

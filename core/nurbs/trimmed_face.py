@@ -147,7 +147,10 @@ class TrimmedFace:
     @property
     def uneven(self) -> float:
         """A bound of the volume that the edges' distance from the surface leaves uncertain."""
-        return self._blur * self.perimeter
+        skin = 0.0
+        if not self._is_near:  # The whole surface may be off by the distance of its edges.
+            skin = self.area_moments(0, self.points[0, 0]).total + self.deviation * self.slope
+        return max(self._blur * self.perimeter, self.deviation * skin)
 
     @cached_property
     def _blur(self) -> float:
@@ -156,9 +159,13 @@ class TrimmedFace:
         Surfaces meet beside edges near them, at most at the root of distance times size if they
         touch there. Of edges farther off, either the edges or the surfaces may be right.
         """
-        is_near = self.deviation <= WELDING_RTOL * self._size
-        lever = np.sqrt(self.deviation * self._size) if is_near else self._size / 2.0
+        lever = np.sqrt(self.deviation * self._size) if self._is_near else self._size / 2.0
         return self.deviation * float(lever)
+
+    @property
+    def _is_near(self) -> bool:
+        """Whether the edges lie on the surface within the tolerance of welding."""
+        return self.deviation <= WELDING_RTOL * self._size
 
     @property
     def _size(self) -> float:

@@ -732,3 +732,14 @@ def test_body_with_a_refused_face_is_left_out_whole(tmp_path):
     file.surface(unrolled(torus()))
     read = read_surfaces(file.write(tmp_path / "a.igs"), for_blender=False)
     assert len(read.refused) == 1 and close(volume(read).total, DONUT, 1e-14)
+
+
+@pytest.mark.parametrize("angle", [1e-10, 1.0])
+def test_surface_of_any_angle_of_revolution_is_read(tmp_path, angle):
+    file = IgesFile()
+    inner = {"status": "00010000"}
+    axis = file.add(110, [0.0, 0.0, 0.0, 0.0, 0.0, 1.0], **inner)
+    profile = file.add(110, [2.0, 0.0, 0.0, 2.0, 0.0, 3.0], **inner)
+    file.add(120, [axis, profile, 0.0, angle])
+    read = read_surfaces(file.write(tmp_path / "a.igs"), for_blender=False)
+    assert close(area_moments(read.bodies[0].patches, 0, np.zeros(3))[0].total, 6.0 * angle, 1e-7)

@@ -210,9 +210,14 @@ def test_bound_covers_both_readings_of_edges_beside_a_surface(tmp_path):
 
 def test_torus_across_its_axis_is_the_part_that_the_file_names(tmp_path):
     sphere = r"SPHERICAL_SURFACE\('',(#\d+),5\.\)"
-    for way, radius in (("T", 2.0), ("F", -2.0)):  # the outer part, and the inner one
-        torus = r"DEGENERATE_TOROIDAL_SURFACE('',\1,2.,3.,.{}.)".format(way)
-        text = re.sub(sphere, torus, TEXTS["sphere"])
+    torus = r"DEGENERATE_TOROIDAL_SURFACE('',\1,2.,{},.{}.)"
+    offset = r"OFFSET_SURFACE('',#9901,0.5,.F.);#9901="
+    for way, radius, base in (  # the outer part, and the inner one, which faces inward
+        ("T", 2.0, torus.format("3.", "T")),
+        ("F", -2.0, torus.format("3.", "F")),
+        ("F", -2.0, offset + torus.format("3.5", "F")),
+    ):
+        text = re.sub(sphere, base, TEXTS["sphere"])
         text = re.sub(r"(ADVANCED_FACE.*)\.T\.", r"\1.{}.".format(way), text)
         (body,) = read(tmp_path, text).bodies
         measure = measure_patches(body.patches, stored=body.rounding)
@@ -348,6 +353,7 @@ def test_other_items_are_refused_by_name_and_curves_noted(tmp_path):
         93: "GEOMETRIC_SET('',(#94))",
         94: "CURVE_BOUNDED_SURFACE('',#31,(),.T.)",
         95: "GEOMETRIC_CURVE_SET('',(#25,#49))",
+        96: "TESSELLATED_SOLID('',(),#31)",  # of an item that nothing places
     }
     lines = "".join("#9900{}={};".format(k, entity) for k, entity in items.items())
     lines = re.sub(r"#(9\d)\b", r"#9900\1", lines)
@@ -355,10 +361,10 @@ def test_other_items_are_refused_by_name_and_curves_noted(tmp_path):
     text = TEXTS["cylinder"].replace("(#11,#15)", "(#11,#15,{})".format(more))
     file = read(tmp_path, (lines + "ENDSEC;").join(text.rsplit("ENDSEC;", 1)))
     assert len(file.bodies) == 1
-    assert [one.values["base"] for one in file.refused] == [
-        "TESSELLATED_SOLID",
-        "GEOMETRIC_SET",
-        "CURVE_BOUNDED_SURFACE",
+    assert [(one.values["base"], one.values["count"]) for one in file.refused] == [
+        ("TESSELLATED_SOLID", 2),
+        ("GEOMETRIC_SET", 1),
+        ("CURVE_BOUNDED_SURFACE", 1),
     ]
     assert [(one.code, one.values["count"]) for one in file.notes] == [("curves_left_out", 2)]
 
