@@ -86,7 +86,7 @@ def test_all_moments_to_order_20_are_right_to_2e_15():
     truth = exact.volume_moments(points, triangles, order=20)
     assert (
         share(volume, truth, exact.volume_moments(points, triangles, order=20, absolute=True))
-        < 1e-14
+        < 2e-15
     )
     assert_within(volume, truth)
 
