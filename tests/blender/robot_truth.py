@@ -5,8 +5,7 @@
 from dataclasses import replace
 
 import numpy as np
-from body_moments.core.robots.audit import repaired_copy
-from body_moments.core.robots.read.descriptions import read_description
+from body_moments.core.robots import read_description, repaired_copy
 
 
 def near(found, truth, rel):

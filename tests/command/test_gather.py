@@ -17,8 +17,7 @@ import numpy as np
 import pytest
 from body_moments.command.parser import COMMANDS
 from body_moments.command.supervisor import listing
-from body_moments.core.measurement import documents
-from body_moments.core.measurement.page import to_html
+from body_moments.core.measurement import documents, to_html
 
 from tests.blender import batch_files as files
 from tests.blender.batch_files import document, measured

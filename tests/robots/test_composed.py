@@ -7,8 +7,7 @@ xacro.
 import sys
 
 import pytest
-from body_moments.core.robots.audit import Auditor
-from body_moments.core.robots.read.descriptions import Roots, read_description
+from body_moments.core.robots import Auditor, Roots, read_description
 from body_moments.core.verdict import MeasureError
 from pxr import Gf, Usd, UsdGeom, UsdPhysics, UsdUtils
 

@@ -13,11 +13,10 @@ import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.numerics.rotations import rotation_matrix
+from body_moments.core.robots import is_ours, robot_text
 from body_moments.core.robots.model import Joint, Link, Pose, Robot, Shape
 from body_moments.core.robots.write import gltf, usd
-from body_moments.core.robots.write.marker import is_ours
 from body_moments.core.robots.write.shapes import with_meshes
-from body_moments.core.robots.write.texts import robot_text
 from pxr import Sdf, UsdGeom, UsdPhysics
 
 from tests.robots.links import bodies, inertial, near, rotation, shaped, shapes

@@ -18,7 +18,13 @@ import opensim
 import pinocchio
 import pytest
 from body_moments.core.numerics.rotations import rotation_matrix
-from body_moments.core.robots.links import Candidate, Connection, assemble_robot
+from body_moments.core.robots import (
+    Candidate,
+    Connection,
+    assemble_robot,
+    with_primitives,
+    without_collision,
+)
 from body_moments.core.robots.model import (
     FreeAxis,
     Joint,
@@ -29,7 +35,6 @@ from body_moments.core.robots.model import (
     combine_inertials,
 )
 from body_moments.core.robots.write import gltf, mjcf, sdf, urdf, usd
-from body_moments.core.robots.write.shapes import with_primitives, without_collision
 from body_moments.core.robots.write.texts import check, robot_text
 from pxr import UsdPhysics, UsdValidation
 from urdf_parser_py.urdf import URDF

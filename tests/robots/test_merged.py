@@ -10,7 +10,14 @@ import numpy as np
 import pinocchio
 import pytest
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.robots import FORMATS, Auditor
+from body_moments.core.robots import (
+    FORMATS,
+    Auditor,
+    Roots,
+    merge_fixed,
+    read_description,
+    with_primitives,
+)
 from body_moments.core.robots.model import (
     FreeAxis,
     Joint,
@@ -20,9 +27,6 @@ from body_moments.core.robots.model import (
     Shape,
     combine_inertials,
 )
-from body_moments.core.robots.read.descriptions import Roots, read_description
-from body_moments.core.robots.write.joints import merge_fixed
-from body_moments.core.robots.write.shapes import with_primitives
 from body_moments.core.robots.write.stl import write_meshes
 
 from tests.core.bodies import box

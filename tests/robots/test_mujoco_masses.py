@@ -5,8 +5,7 @@
 import mujoco
 import numpy as np
 import pytest
-from body_moments.core.robots.audit import Auditor
-from body_moments.core.robots.read.descriptions import Roots, read_description
+from body_moments.core.robots import Auditor, Roots, read_description
 
 from tests.robots.mjcf_models import check_links, matrix
 

@@ -7,8 +7,7 @@ have them.
 import mujoco
 import numpy as np
 import pytest
-from body_moments.core.robots.audit import Auditor, repaired_copy
-from body_moments.core.robots.read.descriptions import Roots, read_description
+from body_moments.core.robots import Auditor, Roots, read_description, repaired_copy
 from body_moments.core.verdict import FileError
 
 from tests.robots.mjcf_models import check_links

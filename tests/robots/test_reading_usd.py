@@ -4,8 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.robots.audit import Auditor
-from body_moments.core.robots.read.descriptions import Roots, read_description
+from body_moments.core.robots import Auditor, Roots, read_description
 from pxr import Gf, Usd, UsdGeom, UsdPhysics
 
 from tests.robots.links import near, rotation

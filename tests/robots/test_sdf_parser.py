@@ -11,8 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from body_moments.core.numerics.rotations import rotation_matrix
-from body_moments.core.robots.model import Inertial, Link, Pose, Robot
-from body_moments.core.robots.read.descriptions import read_description
+from body_moments.core.robots import Inertial, Link, Pose, Robot, read_description
 from body_moments.core.robots.write import sdf
 
 from tests.robots.links import bodies, shapes

@@ -4,9 +4,8 @@
 
 import numpy as np
 import pytest
-from body_moments.core.robots import FORMATS, Auditor
+from body_moments.core.robots import FORMATS, Auditor, Roots, read_description
 from body_moments.core.robots.model import combine_inertials
-from body_moments.core.robots.read.descriptions import Roots, read_description
 
 from tests.robots.links import bodies, near
 

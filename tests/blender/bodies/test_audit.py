@@ -10,9 +10,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.robots import Auditor, Inertial, Link, Pose, Robot, Shape, repaired_copy
+from body_moments.core.robots import (
+    Auditor,
+    Inertial,
+    Link,
+    Pose,
+    Robot,
+    Roots,
+    Shape,
+    read_description,
+    repaired_copy,
+)
 from body_moments.core.robots.plausibility import impossible
-from body_moments.core.robots.read.descriptions import Roots, read_description
 from body_moments.core.robots.read.meshes import read_mesh
 from body_moments.core.robots.write import mjcf, sdf, stl, usd
 from body_moments.core.robots.write.text import roll_pitch_yaw

@@ -11,8 +11,7 @@ import bpy
 import pytest
 from body_moments.blender.write import properties
 from body_moments.core.files import replace_gltf_document, to_glb
-from body_moments.core.measurement import documents
-from body_moments.core.measurement.page import to_html
+from body_moments.core.measurement import documents, to_html
 from body_moments.core.robots.write import audit_report
 from body_moments.core.verdict import finding
 

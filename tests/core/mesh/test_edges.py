@@ -11,6 +11,7 @@ from body_moments.core.mesh import (
     Surface,
     closed_side_faces,
     consistent_orientation,
+    faces_beside_edges,
     find_edges,
     first_at_equal_position,
     first_at_near_position,
@@ -18,7 +19,6 @@ from body_moments.core.mesh import (
     same_vertices_groups,
     vertex_tolerance,
 )
-from body_moments.core.mesh.edges import faces_beside_edges
 from body_moments.core.numerics import connected_components, first_occurrence
 from body_moments.core.solid.measure import measure_solid
 from hypothesis import given

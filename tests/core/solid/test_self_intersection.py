@@ -8,8 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from body_moments.core.mesh.scan_lines import Crossings, LineGrids
-from body_moments.core.mesh.surface import Surface
+from body_moments.core.mesh import Crossings, LineGrids, Surface
 from body_moments.core.solid import measure_solid, self_intersection
 from body_moments.core.solid.self_intersection import measure_excess
 from body_moments.core.verdict import Intersection
