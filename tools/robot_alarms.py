@@ -613,8 +613,9 @@ their evenly filled geometry by less than 0.5 %. A fault counts only if it chang
 more than 2 %.
 
 The faults in the last five rows of the table below concern several links together. Each of these
-faults is put into a URDF file at most once. The faults of twins are also put into links whose
-inertial differs from that of their evenly filled geometry.
+faults is put into a URDF file at most once. [Twins](robots.md#twins) are two links that should have
+equal or mirrored inertials. The faults of twins are also put into links whose inertial differs from
+that of their evenly filled geometry.
 
 - *Planted* is the number of links with the fault.
 - *Found* is the number of these links about which the audit gives an error or a warning.
@@ -624,8 +625,8 @@ inertial differs from that of their evenly filled geometry.
 
 Some faults cannot be undone. If the mass is missing, no repair can know it. A mass in lb with an
 inertia in lb·in² cannot be distinguished from a mass in kg with an inertia in kg·in², because the
-inertia divided by the mass has the same value. In this case the audit proposes kg·in², unless a
-center in inches shows the right units.
+inertia divided by the mass is the same number for both pairs of units. For such a link the audit
+proposes kg·in², unless a center in inches shows the right units.
 
 | fault | planted | found | undone |
 |---|---|---|---|
@@ -641,10 +642,10 @@ An alarm is an error or a warning of the audit. The published files have {links}
 - MuJoCo reads the MJCF files.
 - NumPy computes with the numbers of the XML files.
 
-Only the search for the mesh files is code of the audit itself. An alarm is confirmed if these
-programs agree with the audit.
+For these checks, only the search for the mesh files uses code of the audit itself. An alarm is
+confirmed if these programs agree with the audit.
 
-Of the {links} links, {doubtful} links ({share:.2f} %) have an alarm that is not confirmed.
+{verdict}
 
 | alarm | links | confirmed |
 |---|---|---|
@@ -697,7 +698,10 @@ def main() -> None:
         text += "| {} | {} | {} | {} |\n".format(
             kind, count["planted"], count["found"], count["undone"]
         )
-    text += ALARMS_HEAD.format(share=100.0 * links["doubtful"] / links["links"], **links)
+    verdict = "All alarms of these {alarmed} links are confirmed."
+    if links["doubtful"]:
+        verdict = "{doubtful} of these {alarmed} links have an alarm that is not confirmed."
+    text += ALARMS_HEAD.format(verdict=verdict.format(**links), **links)
     for code, count in sorted(codes.items()):
         text += "| {} | {} | {} |\n".format(
             WORDS.get(code, code), count["alarms"], count["confirmed"]

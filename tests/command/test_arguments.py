@@ -3,8 +3,6 @@
 """Options of `measure` with valid and invalid values, and combinations that are refused."""
 
 import pytest
-
-pytest.importorskip("bpy")
 from body_moments.command.options import arguments
 
 NO_NUMBERS = ("1_0", "٣", "1.0D0", "0x1", "1e", "1.0.0", "--1")

@@ -13,8 +13,6 @@ from pathlib import Path
 import fastjsonschema
 import numpy as np
 import pytest
-
-pytest.importorskip("bpy")
 from body_moments.command import audit
 from body_moments.core.robots.write import audit_report
 from body_moments.operators import batch

@@ -6,8 +6,6 @@ import json
 
 import numpy as np
 import pytest
-
-pytest.importorskip("bpy")
 from body_moments.command import audit
 
 LINK = (

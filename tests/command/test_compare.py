@@ -6,8 +6,6 @@ import copy
 import math
 
 import pytest
-
-pytest.importorskip("bpy")
 from body_moments.command.results.compare import differences
 
 from tests.blender.batch_files import add_box, document

@@ -15,8 +15,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-pytest.importorskip("bpy")
-
 from tests.command import slurm_controller
 from tests.command.processes import BLENDER, ROOT, in_blender, process, script
 from tools.soak import commands

@@ -12,8 +12,6 @@ from math import cos, pi, sin, sqrt
 import numpy as np
 import pytest
 
-pytest.importorskip("bpy")
-
 from tests.blender.batch_files import codes, document, run, write_text
 from tests.close import close
 

@@ -7,8 +7,6 @@ import signal
 
 import numpy as np
 import pytest
-
-pytest.importorskip("bpy")
 from body_moments.command.interruption import check_interruption, interruptible
 from body_moments.operators import batch
 

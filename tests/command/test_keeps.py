@@ -11,8 +11,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
-pytest.importorskip("bpy")
 from body_moments.command.files import output
 from body_moments.command.measure import measuring
 from body_moments.core.measurement import documents

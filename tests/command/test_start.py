@@ -8,8 +8,6 @@ import sys
 import numpy as np
 import pytest
 
-pytest.importorskip("bpy")
-
 from tests.blender import batch_files as files
 from tests.command.processes import SCRIPT, process, script
 

@@ -14,8 +14,6 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
-
-pytest.importorskip("bpy")
 from body_moments.command.supervisor import lifeline, processes
 from body_moments.command.supervisor.journal import Journal
 from body_moments.command.supervisor.pool import Limits, Pool

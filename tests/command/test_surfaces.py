@@ -7,8 +7,6 @@ import tarfile
 import numpy as np
 import pytest
 
-pytest.importorskip("bpy")
-
 from tests.blender.batch_files import document, measured
 from tests.close import close
 from tests.core.exact_splines import sphere, torus

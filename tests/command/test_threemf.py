@@ -8,9 +8,6 @@ import zipfile
 
 import numpy as np
 import pytest
-
-pytest.importorskip("bpy")
-
 from body_moments.core.files.limits import Limits
 from body_moments.core.streams import threemf
 from body_moments.core.verdict import FileError
