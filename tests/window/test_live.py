@@ -15,10 +15,8 @@ bpy.context.scene.unit_settings.scale_length = 1.0
 bpy.ops.surface.primitive_nurbs_surface_torus_add()
 bpy.ops.view3d.view_selected()
 """
-MODULE = (
-    "__import__('sys').modules['bl_ext.user_default.body_moments.blender.session.live.following']"
-)
-LIVE = MODULE + ".current_numbers(bpy.context.object)"
+SESSION = "__import__('sys').modules['bl_ext.user_default.body_moments.blender.session.{}']"
+LIVE = SESSION.format("memory") + ".followed.get(bpy.context.object)"
 TORUS_VOLUME = f"getattr({LIVE}, 'measurement', None) and {LIVE}.measurement.volume"
 TORUS = 2.0 * math.pi**2 * 0.75 * 0.0625 * (1.0 - 1.9e-7)
 
@@ -90,13 +88,11 @@ bpy.ops.object.body_moments_measure()
 bpy.ops.object.body_moments_live()
 bpy.ops.object.mode_set(mode="SCULPT")
 """
-SESSION = "__import__('sys').modules['bl_ext.user_default.body_moments.blender.session.{}']"
-FOLLOWING, MAPPING, STALENESS, OUTCOME = (
-    SESSION.format(name)
-    for name in ("live.following", "live.mapping", "tracking.staleness", "stored.outcome")
+MAPPING, STALENESS, OUTCOME = (
+    SESSION.format(name) for name in ("live.mapping", "tracking.staleness", "stored.outcome")
 )
 SPHERE = "bpy.context.object"
-VOLUME = f"{FOLLOWING}.current_numbers({SPHERE}).measurement.volume"
+VOLUME = f"{LIVE}.measurement.volume"
 TRUTH = (
     f"import bmesh\nb = bmesh.new()\nb.from_mesh({SPHERE}.data)\nresult = b.calc_volume()\nb.free()"
 )
@@ -141,8 +137,8 @@ def test_dynamic_topology_is_refused(window):
     window.ask("bpy.ops.sculpt.dynamic_topology_toggle()")
     window.wait(f"{SPHERE}.use_dynamic_topology_sculpting")
     stroke(window)
-    window.wait(f"{FOLLOWING}.current_numbers({SPHERE}).refusal is not None")
-    assert window.get(f"{FOLLOWING}.current_numbers({SPHERE}).refusal.code") == "sculpted_mesh"
+    window.wait(f"{LIVE}.refusal is not None")
+    assert window.get(f"{LIVE}.refusal.code") == "sculpted_mesh"
     window.press("object.body_moments_measure")
     window.wait(f"{OUTCOME}.last() is not None")
     assert "Dyntopo" in window.get(f"str({OUTCOME}.last().groups[0].finding)")
