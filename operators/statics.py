@@ -150,14 +150,19 @@ class OBJECT_OT_body_moments_balance_group(modal.ModalDialog, Operator):
         )
 
     def draw(self, _context: Context) -> None:
-        column = selection.draw_properties(self)
-        column.prop_search(self, "collection", bpy.data, "collections")
-        column.prop_search(self, "contacts", bpy.data, "collections")
-        ground = ("ground", "reach") if self.contacts else ()
-        selection.draw_properties(self, *ground, "use_scene_range")
-        column = selection.draw_properties(self, "frame_start", "frame_end")
+        layout = self.layout
+        layout.use_property_split = True
+        layout.prop_search(self, "collection", bpy.data, "collections")
+        layout.prop_search(self, "contacts", bpy.data, "collections")
+        if self.contacts:
+            layout.prop(self, "ground")
+            layout.prop(self, "reach")
+        layout.prop(self, "use_scene_range")
+        column = layout.column(align=True)
         column.active = not self.use_scene_range
-        selection.draw_properties(self, "frame_step")
+        column.prop(self, "frame_start")
+        column.prop(self, "frame_end")
+        layout.prop(self, "frame_step")
 
     def _begin(self, context: Context) -> int:
         scene = context.scene
