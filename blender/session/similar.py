@@ -78,7 +78,9 @@ class SimilarSearch:
         if flat:
             of_body = partial(bodies.shape.object_shape.surface_shape_of, depsgraph=depsgraph)
         else:
-            of_body = bodies.shape.object_shape.signed_in_turn(objects, depsgraph, DESCRIPTOR_ORDER)
+            of_body = bodies.shape.signatures.signatures_in_turn(
+                objects, depsgraph, DESCRIPTOR_ORDER
+            )
 
         def compare(obj: Object) -> Generator[float, None, None]:
             nonlocal skin

@@ -8,7 +8,7 @@ shell's sheet.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import frexp
@@ -19,8 +19,8 @@ import numpy as np
 
 from ....core import bodies, inertia, mesh, polyhedron, verdict
 from ....core.measurement import WALL_UNSUPPORTED, Body, Measurement
-from ....core.moments import Moments, are_similarities
-from ....core.numerics import Array, NDArray, segment_starts
+from ....core.moments import Moments
+from ....core.numerics import Array, NDArray
 from ....core.shape import (
     MAX_AXIS_ORDER,
     MAX_DESCRIPTOR_ERROR,
@@ -45,28 +45,22 @@ from ....core.shape.axial_harmonics import (
     axis_last,
     turn_by_harmonics,
 )
-from ....core.shape.signatures import Signature, signature, signatures
-from ....core.solid import SmallSolid
+from ....core.shape.signatures import Signature, signature
 from ...settings.options import MeasureOptions
-from .. import measure_object, stack
+from .. import stack
 from ..measure_body import THREADS, measure_body
 from .surface_distance import EXACT_DISTANCE
 
 EQUAL_AXES_ATOL = 1e-12  # cosine: harmonics about axes nearer to each other are equal
 # factors on the level of noise: a unique frame is the same for all of them
-NOISE_FACTORS = (
-    0.5,
-    1.0,
-    2.0,
-)
+NOISE_FACTORS = (0.5, 1.0, 2.0)
 MAX_FRAME_CHANGE = 0.1  # between two frames that are the same but for noise
 MAX_POSE_BOUND = 1e-2  # radians, and relative to the size: above it a pose is not called unique
 MATRIX_STRAIN = 2.0**-23  # of a body by the rounding of its matrix to float32
 MAX_MISFIT = 0.02  # relative to the size: coordinates with a larger misfit tell no group
 COARSE_NOISE = 1e-4, 1e-3  # noise in the moments of a ball with facets
-MAX_FACETS = (
-    0.05  # relative to the size: between a body of revolution and the polygons that stand for it
-)
+# relative to the size: distance between a body of revolution and the polygons that stand for it
+MAX_FACETS = 0.05
 SURFACE_OPTIONS = MeasureOptions(threads=THREADS)  # for the shape of a surface
 
 
@@ -115,11 +109,11 @@ class Shape:
         """
         with np.errstate(over="ignore", invalid="ignore"):
             volume, area = self.body.moments(MAX_ORDER, self._sheets)
-        found = volume if area is None else area
-        if not np.isfinite([found.raw, found.rounding_error]).all():
+        moments = volume if area is None else area
+        if not np.isfinite([moments.raw, moments.rounding_error]).all():
             raise verdict.ReadError(verdict.OBJECT_SIZE, fault=verdict.TOO_LARGE)
-        known = self.body.area if self._sheets else self.body.volume
-        return bodies.with_input_error(found, known).about_center()
+        measured = self.body.area if self._sheets else self.body.volume
+        return bodies.with_input_error(moments, measured).about_center()
 
     def piece_moments(self) -> Moments:
         """Return moments like `moments`, but of the polygons, which replace a smooth surface in
@@ -158,48 +152,38 @@ class Shape:
         """Return the pose for a record (`docs/shape.md`), with harmonics to order 30 if the body
         may be round.
         """
-        body = self.measurement.mass_properties
-        constant = self.body.mass is None
+        properties = self.measurement.mass_properties
+        is_uniform = self.body.mass is None
+        moments = self.moments if is_uniform else self.measurement.mass_moments[0]
         principal = self.principal_frame()
         axes = principal.axes
-        unique = principal.is_unique
-        moments = self.moments if constant else self.measurement.mass_moments[0]
-        alike = equivalent_frames(moments)
-        factors = NOISE_FACTORS
-        pose: dict[str, Any] = {"symmetry": None, "symmetry_order": None}
-        if constant:
-            if len(alike.revolution_axes) == 1 and self._is_polygonal:
-                alike = turn_by_harmonics(alike, self._harmonics(axis_last(alike)))
-                if not alike.revolution_axes:
-                    axes = nearest_frame(alike, axes)
-                    unique = len(alike.frames) == 1
-                    factors = ()
-            pose = self._point_group()
-        angle = (
-            alike.tilt
-            if inertia.EQUAL_AXES[body.principal.symmetry]
-            else body.axes_bound(MATRIX_STRAIN)
-        )
-        if (
-            constant
-            and alike.revolution_axes
-            and not str(pose["symmetry"]).endswith(("K", "∞v", "∞h"))
-        ):
-            angle = np.pi  # noise hides the axes that the body has
-        position = body.rounding_error["center"] + body.input_error["center"]
-        unique = unique and max(angle, position / self.size) <= MAX_POSE_BOUND
-        for factor in factors if unique else ():
-            each = equivalent_frames(moments, factor * inertia.NOISE_LEVEL)
-            is_same = (
-                len(each.frames) == 1 and np.abs(each.frames[0] - axes).max() < MAX_FRAME_CHANGE
-            )
-            unique = unique and bool(is_same) and not each.revolution_axes
+        is_unique = principal.is_unique
+        frames = equivalent_frames(moments)
+        is_fixed_by_harmonics = False
+        if is_uniform and len(frames.revolution_axes) == 1 and self._is_polygonal:
+            frames = turn_by_harmonics(frames, self._harmonics(axis_last(frames)))
+            is_fixed_by_harmonics = not frames.revolution_axes
+        if is_fixed_by_harmonics:
+            axes = nearest_frame(frames, axes)
+            is_unique = len(frames.frames) == 1
+        group = self._point_group() if is_uniform else {"symmetry": None, "symmetry_order": None}
+        is_revolved = str(group["symmetry"]).endswith(("K", "∞v", "∞h"))
+        if is_uniform and frames.revolution_axes and not is_revolved:
+            angle_bound = np.pi  # noise hides the axes that the body has
+        elif inertia.EQUAL_AXES[properties.principal.symmetry]:
+            angle_bound = frames.tilt
+        else:
+            angle_bound = properties.axes_bound(MATRIX_STRAIN)
+        position_bound = properties.rounding_error["center"] + properties.input_error["center"]
+        is_sharp = max(angle_bound, position_bound / self.size) <= MAX_POSE_BOUND
         return {
-            "matrix": inertia.pose_matrix(body.center, axes),
-            "unique": unique,
-            "angle_bound": angle,
-            "position_bound": position,
-        } | pose
+            "matrix": inertia.pose_matrix(properties.center, axes),
+            "unique": is_unique
+            and is_sharp
+            and (is_fixed_by_harmonics or _is_stable_frame(moments, axes)),
+            "angle_bound": angle_bound,
+            "position_bound": position_bound,
+        } | group
 
     def _point_group(self) -> dict[str, Any]:
         """Return the body's point group, and the order of the moments that show it.
@@ -209,13 +193,13 @@ class Shape:
         harmonics show.
         """
         axial = self._harmonics if self._is_polygonal else None
-        found = symmetry(self.moments, axial=axial)
-        group: str | None = found.group
+        by_moments = symmetry(self.moments, axial=axial)
+        group: str | None = by_moments.group
         if self._is_polygonal:
-            group = self._confirmed_group(found)
+            group = self._confirmed_group(by_moments)
         elif group in UNDECIDED:
-            group = "{} or {}".format(UNDECIDED[group], group)
-        return {"symmetry": group, "symmetry_order": found.order}
+            group = f"{UNDECIDED[group]} or {group}"
+        return {"symmetry": group, "symmetry_order": by_moments.order}
 
     def _harmonics(self, frame: NDArray) -> AxialHarmonics:
         """Return the harmonics about the third axis of a frame, cached for the last axis."""
@@ -228,36 +212,39 @@ class Shape:
             ]
         return self._known_harmonics[0].in_frame(frame)
 
-    def _confirmed_group(self, found: Symmetry) -> str | None:
+    def _confirmed_group(self, by_moments: Symmetry) -> str | None:
         """Return the group that the surface has, or the groups that it may have; None if
         coordinates are too coarse.
         """
-        moved = (
+        coordinate_error = (
             max(float(np.linalg.norm(piece.coordinate_error)) for piece in self.pieces())
             / self.size
         )
-        near = inertia.NOISE_LEVEL + 4.0 * moved
-        far = 4.0 * inertia.NOISE_LEVEL + 16.0 * moved
+        near = inertia.NOISE_LEVEL + 4.0 * coordinate_error
+        far = 4.0 * inertia.NOISE_LEVEL + 16.0 * coordinate_error
         if far > MAX_MISFIT:
             return None
-        placed = self._placed_triangles(near, far)
-        is_round = len(found.revolution_axes) > 0 and placed.is_round(found, MAX_FACETS)
-        if is_round and max(map(placed.turn_order, found.revolution_axes)) > MAX_AXIAL_ORDER:
-            return found.group
-        finite = [Symmetry(each, np.empty((0, 3)), 0) for each in placed.groups() or ()]
-        names = [each.group for each in finite]
+        triangles = self._placed_triangles(near, far)
+        axes = by_moments.revolution_axes
+        is_round = len(axes) > 0 and triangles.is_round(by_moments, MAX_FACETS)
+        if is_round and max(map(triangles.turn_order, axes)) > MAX_AXIAL_ORDER:
+            return by_moments.group
+        by_corners = [
+            Symmetry(operations, np.empty((0, 3)), 0) for operations in triangles.groups() or ()
+        ]
+        names = [finite.group for finite in by_corners]
         if is_round:
-            order = max([n for each in finite[:1] for _, n in each.axes], default=0)
+            order = max([n for _, n in by_corners[0].axes], default=0) if by_corners else 0
             # An axis of a higher order than harmonics show, or facets that are no misfit, count as
             # round.
-            known = order > MAX_AXIAL_ORDER or placed.is_round(found, near)
-            names = [found.group] if known else [*names, found.group]
-        elif not finite:  # as many corners at one distance as a ball has
+            is_certain = order > MAX_AXIAL_ORDER or triangles.is_round(by_moments, near)
+            names = [by_moments.group] if is_certain else [*names, by_moments.group]
+        elif not by_corners:  # as many corners at one distance as a ball has
             coarse = [symmetry(self.moments, noise, self._harmonics) for noise in COARSE_NOISE]
             names = [
-                each.group
-                for each in coarse
-                if len(each.revolution_axes) and placed.is_round(each, MAX_FACETS)
+                candidate.group
+                for candidate in coarse
+                if len(candidate.revolution_axes) and triangles.is_round(candidate, MAX_FACETS)
             ]
         return " or ".join(dict.fromkeys(names)) or None
 
@@ -280,31 +267,30 @@ class Shape:
         # range of numbers.
         scale = 2.0 ** frexp(radius)[1]  # a power of two rounds nothing
         radius /= scale
-        sheets = self._sheets
-
-        def pieces() -> Iterator[mesh.Surface]:
-            return (
-                piece.transform(np.eye(3) / scale, -self.center / scale) for piece in self.pieces()
-            )
-
-        known = min(order, MAX_ORDER_BY_MOMENTS)
+        moment_order = min(order, MAX_ORDER_BY_MOMENTS)
         volume, area = polyhedron.polyhedron_moments(
-            pieces(),
-            known,
-            area_order=known if sheets else None,
+            self._scaled_pieces(scale),
+            moment_order,
+            area_order=moment_order if self._sheets else None,
             about=np.zeros(3),
             reach=radius,
             threads=self.threads,
             allow_open=True,
         )
         result = signature(volume if area is None else area, radius)
-        if (order > MAX_ORDER_BY_MOMENTS or result.error > MAX_DESCRIPTOR_ERROR) and not sheets:
-            whole = mesh.join_surfaces(list(pieces()))
+        is_imprecise = order > MAX_ORDER_BY_MOMENTS or result.error > MAX_DESCRIPTOR_ERROR
+        if is_imprecise and not self._sheets:
+            whole = mesh.join_surfaces(list(self._scaled_pieces(scale)))
             triangles = whole.all_triangles()[0]
             result = signature(
                 volume, radius, zernike_quadrature(whole.points / radius, triangles, order)
             )
         return replace(result, size=scale * result.size)
+
+    def _scaled_pieces(self, scale: float) -> Iterator[mesh.Surface]:
+        """Yield the surfaces of the body about its center, divided by `scale`."""
+        for piece in self.pieces():
+            yield piece.transform(np.eye(3) / scale, -self.center / scale)
 
     def match(self, target: Shape, residual: Residual) -> RigidMatch:
         """Return the motion that lays this shape onto another one; `residual` as for
@@ -317,26 +303,34 @@ class Shape:
         the size.
         """
         # The tolerance for moments is the same as for the surface.
-        allowed = symmetry(self.piece_moments(), max(inertia.NOISE_LEVEL, tolerance))
-        placed = self._placed_triangles(tolerance, tolerance)
-        found = allowed
-        is_round = placed.is_round(allowed, tolerance)
-        # Axes of a higher order than groups can have count as axes of revolution.
-        if (
-            not is_round
-            and max(map(placed.turn_order, allowed.revolution_axes), default=np.inf)
-            <= MAX_AXIS_ORDER
-        ):
-            operations = (placed.groups() or [np.eye(3)[None]])[0]
-            found = Symmetry(operations, np.empty((0, 3)), allowed.order)
-        held = [placed.holds(operation, tolerance) for operation in found.operations]
-        return replace(found, operations=found.operations[held]), allowed
+        by_moments = symmetry(self.piece_moments(), max(inertia.NOISE_LEVEL, tolerance))
+        triangles = self._placed_triangles(tolerance, tolerance)
+        by_surface = by_moments
+        if not triangles.is_round(by_moments, tolerance):
+            turn_orders = map(triangles.turn_order, by_moments.revolution_axes)
+            # Axes of a higher order than groups can have count as axes of revolution.
+            if max(turn_orders, default=np.inf) <= MAX_AXIS_ORDER:
+                operations = (triangles.groups() or [np.eye(3)[None]])[0]
+                by_surface = Symmetry(operations, np.empty((0, 3)), by_moments.order)
+        is_held = [triangles.holds(operation, tolerance) for operation in by_surface.operations]
+        return replace(by_surface, operations=by_surface.operations[is_held]), by_moments
 
     def _placed_triangles(self, near: float, far: float) -> PlacedTriangles:
         """Return the triangles about the center, in units of the size."""
         whole = mesh.join_surfaces(list(self.pieces()))
         points = (whole.points.astype(np.float64) - self.center) / self.size
         return PlacedTriangles(points, whole.all_triangles()[0], near, far)
+
+
+def _is_stable_frame(moments: Moments, axes: NDArray) -> bool:
+    """Return whether moments fix this frame alone, at every level of noise that is tried."""
+    for factor in NOISE_FACTORS:
+        equivalent = equivalent_frames(moments, factor * inertia.NOISE_LEVEL)
+        if len(equivalent.frames) != 1 or equivalent.revolution_axes:
+            return False
+        if np.abs(equivalent.frames[0] - axes).max() >= MAX_FRAME_CHANGE:
+            return False
+    return True
 
 
 class NoShapeError(verdict.ReadError):
@@ -393,99 +387,3 @@ def shape_of_measured(measured: stack.Measured, threads: int) -> Shape:
             verdict.finding(bodies.SHAPE_UNAVAILABLE, cause=bodies.FAR_FROM_ORIGIN), measurement
         )
     return shape
-
-
-def signed_in_turn(
-    objects: Sequence[bpy.types.Object], depsgraph: bpy.types.Depsgraph, order: int
-) -> Callable[[bpy.types.Object], Signature | Shape]:
-    """Return a function from an object to its signature, or to its `Shape` if it was measured
-    outside a stack.
-    """
-    measured = measure_object.measured_in_turn(objects, depsgraph, SURFACE_OPTIONS)
-    known: dict[Measurement, list[Signature | None]] = {}
-
-    def signed(obj: bpy.types.Object) -> Signature | Shape:
-        outcome = measured(obj)
-        if outcome.index is None:
-            return surface_shape(outcome)
-        if outcome.stack not in known:
-            known.clear()
-            known[outcome.stack] = stack_signatures(outcome, order)
-        return known[outcome.stack][outcome.index] or surface_shape_of(obj, depsgraph)
-
-    return signed
-
-
-def stack_signatures(row: stack.Measured, order: int) -> list[Signature | None]:
-    """Return the signatures of all members of a row's stack; None for repaired, distant and
-    ill-conditioned members.
-    """
-    members = row.members
-    found: list[Signature | None] = [None] * len(members)
-    linear = np.array([member.matrix[:3, :3] for member in members])
-    is_even = are_similarities(linear)
-    determinant = np.linalg.det(linear)
-    # A body is a shape in its own coordinates, or the unevenly mapped shape of a single object.
-    body_of: dict[tuple[int, int], int] = {}
-    solids = []
-    maps = []
-    of_member = {}
-    for i, member in enumerate(members):
-        solid = row.shapes[member.shape]
-        if not isinstance(solid, SmallSolid):
-            continue
-        key = (member.shape, -1 if is_even[i] else i)
-        if key not in body_of:
-            body_of[key] = len(solids)
-            solids.append(solid)
-            maps.append(np.eye(3) if is_even[i] else linear[i])
-        of_member[i] = body_of[key]
-    if not solids:
-        return found
-    of_bodies, scale = _signatures(solids, maps, order)
-    center = row.stack.mass_properties.center
-    reach = np.finfo(np.float64).eps * np.abs(center).max(axis=1)
-    stretch = row.stack.volume / row.shapes.volume.total[[member.shape for member in members]]
-    for i, body in of_member.items():
-        own = of_bodies[body]
-        mapped = 1.0 if is_even[i] else abs(determinant[i])
-        size = float(scale[body] * own.size * np.cbrt(stretch[i] / mapped))
-        if own.error > MAX_DESCRIPTOR_ERROR or reach[i] > EXACT_DISTANCE / 2.0 * size:
-            continue
-        is_mirrored = bool(is_even[i] and determinant[i] < 0.0)
-        found[i] = replace(
-            own, size=size, chirality=-own.chirality if is_mirrored else own.chirality
-        )
-    return found
-
-
-def _signatures(
-    solids: list[SmallSolid], maps: list[NDArray], order: int
-) -> tuple[list[Signature], Array]:
-    """Return the signatures of linearly mapped solids, each scaled to about unit size, and the
-    (k,) scales.
-    """
-    points = []
-    triangles = []
-    first = 0
-    for solid, linear in zip(solids, maps):
-        parts = solid.parts()
-        points.append((parts.points - solid.volume.center) @ linear.T)
-        step = -1 if np.linalg.det(linear) < 0.0 else 1
-        triangles.append(parts.triangles[:, ::step] + first)
-        first += len(parts.points)
-    counts = np.array([len(corners) for corners in triangles])
-    point_counts = np.array([len(own) for own in points])
-    starts = segment_starts(point_counts)
-    places = np.concatenate(points)
-    radius = np.sqrt(np.maximum.reduceat((places * places).sum(axis=1), starts))
-    scale = 2.0 ** np.frexp(radius)[1]  # a power of two rounds nothing
-    places /= np.repeat(scale, point_counts)[:, None]
-    reach = np.maximum.reduceat(np.abs(places), starts)
-    nothing = np.zeros((len(solids), 3))
-    joined = np.concatenate(triangles)
-    volume = polyhedron.small_moments(
-        places, joined, counts, nothing, reach, nothing, area=False, area_moments=False
-    )[0]
-    volume = polyhedron.extend_small_moments(volume, order, places, joined, counts, reach)
-    return signatures(volume, radius / scale), scale

@@ -5,7 +5,8 @@
 import bpy
 import numpy as np
 import pytest
-from body_moments.blender.bodies.shape.object_shape import signed_in_turn, surface_shape_of
+from body_moments.blender.bodies.shape.object_shape import surface_shape_of
+from body_moments.blender.bodies.shape.signatures import signatures_in_turn
 from body_moments.core.shape.signatures import Signature, similarity
 from body_moments.core.verdict import MeasureError
 
@@ -31,7 +32,7 @@ def test_stacked_signatures_equal_single_ones():
     bpy.context.scene.unit_settings.scale_length = 1e-3
     objects = shards()
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    signed = signed_in_turn(objects, depsgraph, ORDER)
+    signed = signatures_in_turn(objects, depsgraph, ORDER)
     together, mirrored = 0, 0
     for obj in objects:
         found, alone = refusal_or(signed, obj), refusal_or(surface_shape_of, obj, depsgraph)
