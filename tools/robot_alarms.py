@@ -601,21 +601,20 @@ def count_alarms(audit: Audit, path: Path, roots: Roots, content: Path, codes: d
 HEAD = """# Faults Found, and Alarms
 
 This page tests the [audit](robots.md#audit) in two ways. First, we put known faults into published
-robots. The audit has to find these faults. Second, other programs check each alarm of the audit
-about the unchanged robots. The command `python3 tests/project.py alarms` made the page. The robots
-are the URDF and MJCF files of [Published Robots, Audited](robots-audited.md).
+robots, and count how many of these faults the audit finds. Second, other programs check the alarms
+of the audit about the unchanged robots. The robots are the URDF and MJCF files of [Published
+Robots, Audited](robots-audited.md). The command `python3 tests/project.py alarms` made this page.
 
 ## Faults
 
-Each kind of fault is put into up to three links of each URDF file. Without the fault, these links
-are right: the audit gives no error or warning about them, and their inertial differs from that of
-their evenly filled geometry by less than 0.5 %. A fault counts only if it changes the inertial by
-more than 2 %.
+The inertial of a link is its mass, center and inertia. Each kind of fault is put into up to three
+links of each URDF file. We choose links that are right without the fault: the audit gives no error
+or warning about them, and their inertial differs from that of their evenly filled geometry by less
+than 0.5 %. A fault is left out if it changes the inertial by less than 2 %.
 
 The faults in the last five rows of the table below concern several links together. Each of these
 faults is put into a URDF file at most once. [Twins](robots.md#twins) are two links that should have
-equal or mirrored inertials. The faults of twins are also put into links whose inertial differs from
-that of their evenly filled geometry.
+equal or mirrored inertials. They need not be filled evenly.
 
 - *Planted* is the number of links with the fault.
 - *Found* is the number of these links about which the audit gives an error or a warning.
@@ -623,10 +622,19 @@ that of their evenly filled geometry.
   inertial then differs from the inertial before the fault by at most 2 %. For twins, the limit is
   10 %.
 
-Some faults cannot be undone. If the mass is missing, no repair can know it. A mass in lb with an
-inertia in lb·in² cannot be distinguished from a mass in kg with an inertia in kg·in², because the
-inertia divided by the mass is the same number for both pairs of units. For such a link the audit
-proposes kg·in², unless a center in inches shows the right units.
+Some names of faults need an explanation:
+
+- *A + B < C*: A, B and C are the principal moments. No body can have such moments.
+- *order of …*: the six entries of the inertia are in the order of another program, or in the order
+  of a matrix below its diagonal.
+- *inertia of mass 1*: the inertia is divided by the mass.
+- *parallel axes of the wrong sign*: the inertia was moved from the origin to the center, although
+  it was already about the center.
+- *by the expected total*: the audit finds the fault because the total mass is wrong.
+
+Some faults cannot be undone. No repair can know a missing mass. Pounds can look like kilograms: if
+mass and inertia are in lb and lb·in², their quotient is the same number as for kg and kg·in². The
+audit then proposes kg·in². But if the center is in inches, too, the audit proposes pounds.
 
 | fault | planted | found | undone |
 |---|---|---|---|
@@ -642,8 +650,8 @@ An alarm is an error or a warning of the audit. The published files have {links}
 - MuJoCo reads the MJCF files.
 - NumPy computes with the numbers of the XML files.
 
-For these checks, only the search for the mesh files uses code of the audit itself. An alarm is
-confirmed if these programs agree with the audit.
+An alarm is confirmed if these programs agree with the audit. The checks use no code of the audit
+itself, except for the search for the mesh files.
 
 {verdict}
 

@@ -99,22 +99,22 @@ PROBES = {
 HEAD = """# Robots in the Programs That Read Them
 
 This page tests exported robots in the programs that read them. The command
-`python3 tests/project.py consumers` made the page. It makes {count} random robots of 12 links, with
-joints of all kinds and a mesh for each link. It exports each robot twice: with and without *Merge
-Fixed Links*. All other options have their default values. Then each program reads the files. The
-tables name the versions of the programs.
+`python3 tests/project.py consumers` makes {count} random robots. Each robot has 12 links, joints of
+all kinds, and a mesh for each link. The command exports each robot twice: with and without *Merge
+Fixed Links*. All other options have their default values. Each program then reads the files, and
+the command writes this page.
 
 ## Robots with Right Numbers
 
 The first table compares the total mass, center and inertia of each robot in a program with the
-exact numbers. Each row of this table shows the largest relative differences of all files in one
-format. The difference of the centers is a distance. To make it relative, we divide it by the larger
-of two lengths: the radius of gyration, and the distance of the center from the origin.
+exact numbers. Each row shows the largest relative differences of all files in one format. The
+difference of the centers is a distance. To make it relative, we divide it by the larger of two
+lengths: the radius of gyration, and the distance of the center from the origin.
 
 Two programs have differences above 1e-12 although they use the numbers of the file:
 
-- Newton computes in single precision. Along a chain of joints, its rounding errors add up. They are
-  largest with Newton's MJCF importer.
+- Newton computes in single precision. Along a chain of joints, the rounding errors add up. The
+  errors are largest with Newton's MJCF importer.
 - PyBullet computes the principal axes of an inertia by iteration, and ends the iteration too soon.
   The directions of the axes are therefore wrong by up to 6e-7 radians.
 
@@ -123,16 +123,17 @@ Two programs have differences above 1e-12 although they use the numbers of the f
 {rows}
 ## Links with Missing or Impossible Numbers
 
-The second table shows how programs read a link of a URDF file whose inertial is missing or
-impossible. The collider of this link is a cube of 1 m. A cell of the table gives the mass of the
-link in the program, and its three principal moments in kg·m². The last three columns are tests:
+The inertial of a link is its mass, center and inertia. The second table shows how programs read a
+link of a URDF file if its inertial is missing or impossible. The collider of this link is a cube of
+1 m. A cell of the table gives the mass of the link in the program, and its three principal moments
+in kg·m². There are three tests:
 
-- *no inertial*: the link has no inertial.
-- *A + B < C by 1e-12*: the moment C is too large by 1e-12 of its value. In the file, the moments
-  are A = 1, B = 2 and C = 3 · (1 + 1e-12) kg·m², and the mass is 1 kg. Such a small error can come
-  from rounding.
-- *1, 1, 9*: the file states a mass of 1 kg and the moments 1, 1 and 9 kg·m². No body can have these
-  moments.
+- *no inertial*: the file states no inertial for the link.
+- *A + B < C by 1e-12*: the file states a mass of 1 kg, and the principal moments A, B and C: 1, 2
+  and 3 · (1 + 1e-12) kg·m². C is too large by 1e-12 of its value. Such a small error can come from
+  rounding.
+- *1, 1, 9*: the file states a mass of 1 kg, and the principal moments 1, 1 and 9 kg·m². No body can
+  have these moments.
 
 | program | no inertial | A + B < C by 1e-12 | 1, 1, 9 |
 |---|---|---|---|
