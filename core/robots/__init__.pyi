@@ -6,6 +6,9 @@ from typing import Any
 from .audit import Audit as Audit
 from .audit import Auditor as Auditor
 from .audit import repaired_copy as repaired_copy
+from .comparison import Effect as Effect
+from .comparison import compare as compare
+from .comparison import ratio as ratio
 from .findings import AUDIT_TOTAL as AUDIT_TOTAL
 from .findings import DESCRIPTION_UNKNOWN as DESCRIPTION_UNKNOWN
 from .findings import JOINT_VALUE_UNUSABLE as JOINT_VALUE_UNUSABLE
@@ -22,7 +25,6 @@ from .links import assemble_robot as assemble_robot
 from .links import make_candidate as make_candidate
 from .links import robot_name as robot_name
 from .model import VALUES as VALUES
-from .model import Effect as Effect
 from .model import FreeAxis as FreeAxis
 from .model import Inertial as Inertial
 from .model import Link as Link
@@ -30,8 +32,6 @@ from .model import Mimic as Mimic
 from .model import Pose as Pose
 from .model import Robot as Robot
 from .model import Shape as Shape
-from .model import compare as compare
-from .model import ratio as ratio
 from .primitives import equal_inertia_shape as equal_inertia_shape
 from .primitives import moments_of as moments_of
 from .primitives import primitive_moments as primitive_moments

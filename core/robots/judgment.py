@@ -2,16 +2,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Judgments of links: the faults of stated inertials, by what is possible and by geometry."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from math import inf
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from ..mesh import hull_volumes
 from ..numerics import inertia_of_second, second_of_inertia
-from ..verdict import Finding, Severity, finding, sentence, severity
-from .diagnosis import DENSITIES, DIFFERS, Diagnosis, Reference, diagnose, diagnose_density
+from ..verdict import Finding, finding
+from .diagnosis import Diagnosis, diagnose, diagnose_density
+from .entries import Entry, LinkAudit
 from .findings import (
     AUDIT_DENSITY,
     AUDIT_INSTEAD,
@@ -21,75 +21,10 @@ from .findings import (
     INERTIAL_TRIANGLE_SLIGHTLY,
     UNIFORM,
 )
-from .model import Effect
 from .pieces import Geometry
 from .plausibility import CENTER_RTOL, LEAST_MASS, Hull, impossible
+from .reference import DIFFERS, LARGEST_DENSITY, Reference
 from .stated import Place, StatedInertial, StatedLink
-
-
-@dataclass(frozen=True, eq=False)
-class Entry:
-    """One fault of a link, or a note about it.
-
-    finding: the fault; the change that corrects it, if there is one that explains it. reasons: why
-    the stated inertial is impossible, as far as the finding explains that. change: the change that
-    corrects the fault, None if unknown. certainty: "certain" if geometry and inertial then agree to
-    the digits of files, "likely" if they do so after several different changes, "guess" if the
-    change merely makes the inertial possible. place: of the element in the file. compares: True if
-    the fault is one of the stated inertial.
-    """
-
-    finding: Finding
-    place: Place
-    reasons: tuple[Finding, ...] = ()
-    change: Finding | None = None
-    certainty: str = ""
-    compares: bool = False
-
-    @property
-    def severity(self) -> Severity:
-        """The severity of the finding, but an error if the inertial is impossible."""
-        return Severity.ERROR if self.reasons else severity(self.finding)
-
-    @property
-    def message(self) -> str:
-        """The sentences of the reasons and the finding."""
-        return " ".join(map(sentence, (*self.reasons, self.finding)))
-
-
-@dataclass(frozen=True, eq=False)
-class LinkAudit:
-    """Entries about one link. repaired: its corrected inertial, None if it stays. density: kg/m³,
-    None if unknown.
-
-    reference: the evenly filled geometry, the drawn one if it is certain; None if unknown. apart:
-    the relative difference from the geometry. is_impossible: True if no body within the geometry
-    has the stated inertial. colliders: what the collision geometry beside the inertial does.
-    is_drawn: True if the reference is the drawn geometry, or nothing is drawn.
-    """
-
-    link: StatedLink
-    entries: tuple[Entry, ...]
-    repaired: StatedInertial | None = None
-    density: float | None = None
-    reference: Reference | None = None
-    apart: float = inf
-    is_impossible: bool = False
-    colliders: Effect | None = None
-    is_drawn: bool = False
-
-    @property
-    def findings(self) -> tuple[Finding, ...]:
-        """All findings, first the reasons of each entry."""
-        return tuple(found for entry in self.entries for found in (*entry.reasons, entry.finding))
-
-    @property
-    def has_impossible(self) -> bool:
-        """True if a finding says that no body has the inertial."""
-        return any(
-            one.code.startswith("inertial_") and severity(one) == Severity.ERROR
-            for one in self.findings
-        )
 
 
 def judge(link: StatedLink, stated: StatedInertial, geometry: Geometry) -> LinkAudit:
@@ -99,104 +34,145 @@ def judge(link: StatedLink, stated: StatedInertial, geometry: Geometry) -> LinkA
     references = [*geometry.references.values()]
     reference = references[0] if references else None
     reasons = impossible(stated, hull)
-    wrong = [one for one in reasons if one.code != INERTIAL_TRIANGLE_SLIGHTLY]
-    entries = [Entry(one, place, compares=True) for one in reasons if one not in wrong]
-    codes = {one.code for one in wrong}
+    codes = {reason.code for reason in reasons}
     if not stated.mass > LEAST_MASS or INERTIAL_NOT_FINITE in codes:
-        entries = [Entry(one, place, compares=True) for one in reasons]
-        return LinkAudit(link, tuple(entries), reference=reference, is_impossible=True)
+        return LinkAudit(link, _plain_entries(place, reasons), reference=reference)
+    slight = [reason for reason in reasons if reason.code == INERTIAL_TRIANGLE_SLIGHTLY]
+    reasons = [reason for reason in reasons if reason.code != INERTIAL_TRIANGLE_SLIGHTLY]
     diagnoses = diagnose(
         stated, references, geometry.in_degrees(), INERTIAL_CENTER_OUTSIDE in codes
     )
-    changes = [one for one in diagnoses if one.is_change]
+    changes = [diagnosis for diagnosis in diagnoses if diagnosis.is_change]
     repaired = changes[-1].repaired if changes else None
-    left = [] if changes else wrong
-    if repaired is not None:
-        codes = {one.code for one in impossible(repaired, hull)}
-        left = [one for one in wrong if one.code in codes]
-    entries += _entries(place, diagnoses, [one for one in wrong if one not in left])
+    unexplained = _unexplained(reasons, changes, hull)
+    explained = [reason for reason in reasons if reason not in unexplained]
+    entries = (*_plain_entries(place, slight), *_diagnosis_entries(place, diagnoses, explained))
     if reference is None:
-        entries += [Entry(one, place, compares=True) for one in left]
-        return LinkAudit(link, tuple(entries), repaired, is_impossible=bool(wrong))
-    if left:
-        guessed = _guess(stated, reference, hull)
-        if guessed.center is reference.center:  # It adds nothing to errors.
-            entries = [one for one in entries if one.finding.code != AUDIT_NOT_UNIFORM]
+        return LinkAudit(link, (*entries, *_plain_entries(place, unexplained)), repaired)
+    if unexplained:
+        repaired = _guess(stated, reference, hull)
+        if repaired.center is reference.center:  # The note adds nothing to errors.
+            entries = tuple(entry for entry in entries if entry.finding.code != AUDIT_NOT_UNIFORM)
         # Geometry that cannot hold the mass, in kg or another unit, shows nothing about its place.
         unusual = diagnose_density(stated, reference)
-        guess = (
-            finding(AUDIT_INSTEAD, source=UNIFORM)
-            if all(one.is_change for one in unusual)
-            else None
-        )
-        repaired = guessed if guess else None
-        certainty = "guess" if guess else ""
-        entries = [*(Entry(one, place, (), guess, certainty, True) for one in left), *entries]
+        if any(not diagnosis.is_change for diagnosis in unusual):
+            repaired = None
+        entries = (*_guess_entries(place, unexplained, repaired), *entries)
         if unusual:
-            density = finding(AUDIT_DENSITY, density=stated.mass / reference.volume)
-            entries.append(Entry(density, place, compares=True))
-    # The mass may lie anywhere in the hull: a motor in a cover.
-    least = stated.mass / max(one.volume for one in references)
-    if least > DENSITIES[1] and hull is not None:
-        room = float(hull_volumes(hull.points, np.zeros(1, np.intp), 0.0)[0])
-        least = min(least, stated.mass / room) if room > 0.0 else least
-    is_told = any(one.change or one.finding.code == AUDIT_DENSITY for one in entries)
-    if least > DENSITIES[1] and not wrong and not is_told:
-        entries.append(Entry(finding(AUDIT_DENSITY, density=least), place, compares=True))
+            density = finding(AUDIT_DENSITY, density=reference.density(stated))
+            entries = (*entries, Entry(density, place, compares=True))
+    is_told = any(entry.change or entry.finding.code == AUDIT_DENSITY for entry in entries)
+    if not reasons and not is_told:
+        least = _least_density(stated, references, hull)
+        if least > LARGEST_DENSITY:
+            density = finding(AUDIT_DENSITY, density=least)
+            entries = (*entries, Entry(density, place, compares=True))
+    draws_any = any(shape.role == "visual" for shape, _ in geometry.pieces)
     return LinkAudit(
         link,
-        tuple(entries),
+        entries,
         repaired,
-        stated.mass / reference.volume,
-        reference,
-        min(one.compare(stated) for one in references),
-        bool(wrong),
-        is_drawn="visual" in geometry.references
-        or all(one.role != "visual" for one, _ in geometry.pieces),
+        density=reference.density(stated),
+        reference=reference,
+        apart=min(each.compare(stated) for each in references),
+        is_drawn="visual" in geometry.references or not draws_any,
     )
+
+
+def _plain_entries(place: Place, findings: Sequence[Finding]) -> tuple[Entry, ...]:
+    """Return an entry without a change for each finding about an inertial."""
+    return tuple(Entry(found, place, compares=True) for found in findings)
+
+
+def _unexplained(
+    reasons: Sequence[Finding], changes: Sequence[Diagnosis], hull: Hull | None
+) -> Sequence[Finding]:
+    """Return the reasons of an impossible inertial that hold without, or in spite of, its changes.
+
+    A change of the geometry explains all of them.
+    """
+    if not changes:
+        return reasons
+    repaired = changes[-1].repaired
+    if repaired is None:
+        return []
+    codes = {reason.code for reason in impossible(repaired, hull)}
+    return [reason for reason in reasons if reason.code in codes]
+
+
+def _least_density(
+    stated: StatedInertial, references: Sequence[Reference], hull: Hull | None
+) -> float:
+    """Return the density, kg/m³, of the stated mass in the largest geometry, or in the hull if that
+    is too much: the mass may lie anywhere in it, such as a motor in a cover.
+    """
+    density = min(reference.density(stated) for reference in references)
+    if density <= LARGEST_DENSITY or hull is None:
+        return density
+    volume = float(hull_volumes(hull.points, np.zeros(1, np.intp), 0.0)[0])
+    return min(density, stated.mass / volume) if volume > 0.0 else density
 
 
 def _guess(stated: StatedInertial, reference: Reference, hull: Hull | None) -> StatedInertial:
     """Return the inertial of the evenly filled geometry, about the stated center if that is
     possible.
     """
-    geometry = reference.uniform(stated.mass)
+    uniform = reference.uniform(stated.mass)
     if (
         hull is None
         or hull.distance(stated.center) > CENTER_RTOL * hull.size
         or reference.compare_centers(stated) <= DIFFERS
     ):
-        return geometry
-    second = second_of_inertia(geometry.inertia)
-    way = stated.center - geometry.center
-    way = way / np.linalg.norm(way)
+        return uniform
+    second = second_of_inertia(uniform.inertia)
+    arm = stated.center - uniform.center
+    direction = arm / np.linalg.norm(arm)
     # Near the border of the hull the geometry is shrunk towards it, until it fits.
-    for part in 0.5 ** np.arange(10.0):
-        shrink = np.eye(3) - (1.0 - part) * np.outer(way, way)
+    for factor in 0.5 ** np.arange(10.0):
+        shrink = np.eye(3) - (1.0 - factor) * np.outer(direction, direction)
         tensor = inertia_of_second(shrink @ second @ shrink)
-        guessed = replace(geometry, center=stated.center, tensor=tensor)
+        guessed = replace(uniform, center=stated.center, tensor=tensor)
         if not impossible(guessed, hull):
             return guessed
-    return geometry
+    return uniform
 
 
-def _entries(
-    place: Place, diagnoses: Sequence[Diagnosis], explained: Sequence[Finding]
-) -> list[Entry]:
-    """Return one entry for each diagnosis, with the reasons that it explains: the center's, or all
-    other ones.
+def _guess_entries(
+    place: Place, reasons: Sequence[Finding], guessed: StatedInertial | None
+) -> Sequence[Entry]:
+    """Return an entry for each reason, whose change is to state a guessed inertial; without one, no
+    change.
     """
-    entries = []
-    is_single = sum(one.is_change for one in diagnoses) == 1
-    for index, one in enumerate(diagnoses):
-        if not one.is_change:
-            entries.append(Entry(one.finding, place, compares=True))
+    if guessed is None:
+        return _plain_entries(place, reasons)
+    instead = finding(AUDIT_INSTEAD, source=UNIFORM)
+    return [
+        Entry(reason, place, change=instead, certainty="guess", compares=True) for reason in reasons
+    ]
+
+
+def _diagnosis_entries(
+    place: Place, diagnoses: Sequence[Diagnosis], reasons: Sequence[Finding]
+) -> Iterator[Entry]:
+    """Yield one entry for each diagnosis, with the reasons that it explains.
+
+    A single change explains all of them; of two, the first is one of the center.
+    """
+    is_single = sum(diagnosis.is_change for diagnosis in diagnoses) == 1
+    for index, diagnosis in enumerate(diagnoses):
+        if not diagnosis.is_change:
+            yield Entry(diagnosis.finding, place, compares=True)
             continue
-        reasons = [
+        explained = [
             reason
-            for reason in explained
+            for reason in reasons
             if is_single or (index == 0) == (reason.code == INERTIAL_CENTER_OUTSIDE)
         ]
-        certainty = "certain" if one.is_certain else "likely"
-        entries.append(Entry(one.finding, place, tuple(reasons), one.finding, certainty, True))
-    return entries
+        yield Entry(
+            diagnosis.finding,
+            place,
+            tuple(explained),
+            change=diagnosis.finding,
+            certainty="certain" if diagnosis.is_certain else "likely",
+            compares=True,
+        )

@@ -1,22 +1,18 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Links, joints and their contents in SI units: the data that robot formats are written from.
-
-A body is compared with another one that stands for it: its colliders, or a link's collision
-geometry.
-"""
+"""Links, joints and their contents in SI units: the data that robot formats are written from."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from math import asin, inf, sqrt
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
 
-from ..inertia import EQUAL_MOMENTS_RTOL, combine
+from ..inertia import combine
 from ..mesh import Surface
 from ..moments import KNOWN_ORDER
 from ..moments.raw import SECOND_MOMENT_INDEX, Measure, Moments, monomial_count
@@ -85,11 +81,11 @@ class Inertial:
         largest = np.abs(inertia).max()
         along = axes.T @ inertia @ axes
         if np.abs(along - np.diag(moments)).max() > AGREEING_RTOL * largest:
-            values, turn = np.linalg.eigh(along)
-            axes = axes @ turn
-            axes = axes * (1.0, 1.0, np.sign(np.linalg.det(axes)))
+            moments_of_tensor, turn = np.linalg.eigh(along)
+            axes = right_handed(axes @ turn)
             # A rod's least moment is known far better than the tensor has it.
-            moments = np.where(np.abs(values - moments) > AGREEING_RTOL * largest, values, moments)
+            differs = np.abs(moments_of_tensor - moments) > AGREEING_RTOL * largest
+            moments = np.where(differs, moments_of_tensor, moments)
             moments[2] = min(moments[2], moments[0] + moments[1])
         return cls(float(mass), center, inertia, moments, axes)
 
@@ -208,6 +204,16 @@ class Link:
     scale: Array = field(default_factory=lambda: np.ones(3))
     is_fixed: bool = False
 
+    def moved_to(self, origin: Array) -> Link:
+        """Return the same link with its frame's origin at a (3,) point of the former frame."""
+        back = Pose(-origin)
+        return replace(
+            self,
+            inertial=self.inertial and self.inertial.place(back),
+            pose=self.pose @ Pose(origin),
+            shapes=tuple(replace(shape, pose=back @ shape.pose) for shape in self.shapes),
+        )
+
 
 @dataclass(frozen=True, eq=False)
 class Robot:
@@ -228,7 +234,7 @@ class Robot:
             [name for joint in self.joints for name in (joint.parent, joint.child)]
         ):
             raise ValueError("joint without link")
-        if sum(1 for _ in self.ordered()) < len(self.links):
+        if len([*self.ordered()]) < len(self.links):  # Links of a loop are below no root.
             raise ValueError("joints close a loop")
 
     @cached_property
@@ -286,29 +292,24 @@ class Robot:
         """Return the robot with all its roots fixed to the world."""
         roots = {link.name for link in self.roots}
         return replace(
-            self, links=tuple(replace(one, is_fixed=one.name in roots) for one in self.links)
+            self, links=tuple(replace(link, is_fixed=link.name in roots) for link in self.links)
         )
 
     def at_joints(self) -> Robot:
         """Return the robot with each link's origin at its joint, its axes unturned, for formats
         that demand it.
         """
-        places = {
+        origins = {
             joint.child: joint.pose.position for joint in self.joints if joint.pose.position.any()
         }
-        links = []
-        for link in self.links:
-            if link.name in places:
-                place = Pose(places[link.name])
-                back = Pose(-places[link.name])
-                shapes = tuple(replace(shape, pose=back @ shape.pose) for shape in link.shapes)
-                inertial = link.inertial and link.inertial.place(back)
-                link = replace(link, inertial=inertial, pose=link.pose @ place, shapes=shapes)
-            links.append(link)
+        links = tuple(
+            link.moved_to(origins[link.name]) if link.name in origins else link
+            for link in self.links
+        )
         joints = tuple(
             replace(joint, pose=Pose(rotation=joint.pose.rotation)) for joint in self.joints
         )
-        return replace(self, links=tuple(links), joints=joints)
+        return replace(self, links=links, joints=joints)
 
     def rigid_parts(self, link: Link) -> list[Link]:
         """Return a link and all links below it that are connected by fixed joints only, parents
@@ -328,14 +329,21 @@ class Robot:
         all lack mass.
         """
         to_link = link.pose.inverse()
-        parts = [
-            (part, part.inertial) for part in self.rigid_parts(link) if part.inertial is not None
-        ]
-        if len(parts) == 1 and parts[0][0] is link:
-            return link.inertial
-        if not parts:
+        inertials = {
+            part.name: part.inertial.place(to_link @ part.pose)
+            for part in self.rigid_parts(link)
+            if part.inertial is not None
+        }
+        if not inertials:
             return None
-        return combine_inertials([inertial.place(to_link @ part.pose) for part, inertial in parts])
+        if inertials.keys() == {link.name}:  # Its own numbers stay without rounding.
+            return link.inertial
+        return combine_inertials([*inertials.values()])
+
+
+def right_handed(axes: NDArray) -> Array:
+    """Return (3, 3) orthogonal axes, as columns, with the third one reversed if they mirror."""
+    return axes * (1.0, 1.0, np.sign(np.linalg.det(axes)))
 
 
 def second_moments(
@@ -352,87 +360,11 @@ def second_moments(
 
 def combine_inertials(inertials: list[Inertial]) -> Inertial:
     """Return the total of several inertials that are given in the same frame."""
-    seconds = [second_of_inertia(one.inertia) for one in inertials]
-    bodies = [
-        (second_moments(one.mass, one.center, second, Measure.MASS), 1.0)
-        for one, second in zip(inertials, seconds)
+    moments = [
+        second_moments(one.mass, one.center, second_of_inertia(one.inertia), Measure.MASS)
+        for one in inertials
     ]
-    total = combine(bodies)
+    total = combine([(body, 1.0) for body in moments])
     return Inertial.with_agreeing_axes(
         total.mass, total.center, total.inertia, total.principal.moments, total.principal.axes
     )
-
-
-@dataclass(frozen=True)
-class Effect:
-    """Mass properties of colliders beside those of the body, in the body's frame, SI.
-
-    The ratios are those of colliders to body, None if the body's number is zero. center_shift: (3,)
-    m, from the body's center. moment_ratios: (3,) of the ascending principal moments. axes_turn:
-    the angle between the principal axes that both have, rad. inertia_change: the norm of the change
-    of the tensor, in parts of the norm of the body's.
-    """
-
-    volume_ratio: float | None
-    mass_ratio: float | None
-    center_shift: tuple[float, ...]
-    moment_ratios: tuple[float | None, ...]
-    axes_turn: float
-    inertia_change: float | None
-
-    def as_record(self) -> dict[str, float | list[float | None] | None]:
-        """Return the plain numbers by their keys in a record."""
-        return {
-            key: list(value) if isinstance(value, tuple) else value
-            for key, value in asdict(self).items()
-        }
-
-
-def compare(
-    own: Inertial, mass: float, shift: NDArray, second: NDArray, volume_ratio: float | None
-) -> Effect:
-    """Compare a body with another one of a mass, kg, whose center is shifted, (3,) m.
-
-    second: (3, 3) ∫ x xᵀ dm of the other body about its center, kg·m².
-    """
-    spreads, axes = np.linalg.eigh(second)
-    spreads = np.maximum(spreads[::-1], 0.0)
-    axes = axes[:, ::-1]
-    moments = spreads.sum() - spreads
-    inertia = second.trace() * np.eye(3) - second
-    return Effect(
-        volume_ratio,
-        ratio(mass, own.mass),
-        tuple(shift.tolist()),
-        tuple(ratio(a, b) for a, b in zip(moments.tolist(), own.moments.tolist())),
-        _axes_turn(own.moments, own.axes, moments, axes),
-        ratio(float(np.linalg.norm(inertia - own.inertia)), float(np.linalg.norm(own.inertia))),
-    )
-
-
-def ratio(value: float, of: float) -> float | None:
-    """Return value / of, None if that is not positive."""
-    return value / of if of > 0.0 else None
-
-
-def _axes_turn(own: NDArray, own_axes: NDArray, moments: NDArray, axes: NDArray) -> float:
-    """Return the least angle that turns a body's principal axes to others; moments ascend, (3, 3)
-    columns are axes.
-
-    Equal moments leave their axes free: then the angle between the third axes counts, or none if
-    all are equal.
-    """
-    equal = [(np.diff(one) <= EQUAL_MOMENTS_RTOL * one[2]).tolist() for one in (own, moments)]
-    low = equal[0][0] or equal[1][0]
-    high = equal[0][1] or equal[1][1]
-    if low and high:
-        return 0.0
-    if low or high:
-        axis = 2 if low else 0
-        a, b = own_axes[:, axis], axes[:, axis]
-        return 2.0 * asin(min(1.0, float(min(np.linalg.norm(a - b), np.linalg.norm(a + b))) / 2.0))
-    along = np.diagonal(own_axes.T @ axes)
-    signs = np.where(along < 0.0, -1.0, 1.0)
-    if np.linalg.det(axes * signs) < 0.0:
-        signs[np.abs(along).argmin()] *= -1.0
-    return 2.0 * asin(min(1.0, float(np.linalg.norm(axes * signs - own_axes)) / sqrt(8.0)))

@@ -20,14 +20,15 @@ from ..moments import SECOND_MOMENT_INDEX, Moments
 from ..numerics import Array, NDArray, first_occurrence, inertia_of_second
 from ..verdict import Finding, MeasureError, Procedure, finding
 from . import read
-from .diagnosis import Reference
+from .entries import Entry
 from .findings import AUDIT_ANGLES
 from .model import Pose, Shape
 from .plausibility import Hull, spread_directions
 from .primitives import primitive_moments
 from .read.descriptions import Roots
 from .read.mjcf_meshes import CLOSED
-from .stated import Place, StatedShape, rotation_of_angles
+from .reference import Reference
+from .stated import StatedShape, rotation_of_angles
 from .totals import Body
 
 BALL = 2000  # points of a ball
@@ -68,17 +69,16 @@ class Measurer:
     roots: Roots
     meshes: dict[tuple, Piece] = field(default_factory=dict)
 
-    def measure(self, shapes: Iterable[StatedShape]) -> tuple[Pieces, list[tuple[Finding, Place]]]:
-        """Return the measured shapes, and findings about shapes that cannot be measured."""
+    def measure(self, shapes: Iterable[StatedShape]) -> tuple[Pieces, list[Entry]]:
+        """Return the measured shapes, and entries about shapes that cannot be measured."""
         pieces = []
-        unread: list[tuple[Finding, Place]] = []
+        unread: dict[Finding, Entry] = {}
         for stated in shapes:
             try:
                 pieces.append((stated, self._piece(stated)))
             except MeasureError as error:
-                if error.finding not in [one for one, _ in unread]:
-                    unread.append((error.finding, stated.place))
-        return pieces, unread
+                unread.setdefault(error.finding, Entry(error.finding, stated.place))
+        return pieces, [*unread.values()]
 
     def _piece(self, stated: StatedShape) -> Piece:
         """Return a measured shape in its own coordinates; raise MeasureError if its mesh cannot be

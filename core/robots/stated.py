@@ -13,7 +13,7 @@ import numpy as np
 
 from ..numerics import Array, NDArray, rotation_about
 from ..verdict import Finding
-from .model import Inertial, Pose, Shape
+from .model import Inertial, Pose, Shape, right_handed
 
 if TYPE_CHECKING:
     from .read.mjcf_meshes import Fit, Weight
@@ -61,6 +61,11 @@ class StatedInertial:
         with np.errstate(invalid="ignore", over="ignore"):  # numbers of a file, not yet audited
             return self.rotation @ self.tensor @ self.rotation.T
 
+    @property
+    def is_turned(self) -> bool:
+        """True if the inertial frame is not along the link's axes."""
+        return bool((self.rotation != np.eye(3)).any())
+
     def along_link(self, inertia: NDArray | None = None, **changes) -> StatedInertial:
         """Return a copy in a frame along the link's axes, with its own or a given inertia, and
         other changes.
@@ -76,9 +81,8 @@ class StatedInertial:
         """
         tensor = (self.inertia + self.inertia.T) / 2.0
         moments, axes = np.linalg.eigh(tensor)
-        axes = axes * (1.0, 1.0, np.sign(np.linalg.det(axes)))
         moments[2] = min(moments[2], moments[0] + moments[1])
-        return Inertial(self.mass, self.center, tensor, moments, axes)
+        return Inertial(self.mass, self.center, tensor, moments, right_handed(axes))
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,17 +142,19 @@ class Rules(NamedTuple):
         if body is None:
             if not self.mass or not self.radius and self.moments is None:
                 return None
-            body = StatedInertial(1.0, np.zeros(3), 0.4 * self.radius**2 * np.eye(3))
-            body = replace(body, center=body.center if self.center is None else self.center)
+            center = np.zeros(3) if self.center is None else self.center
+            body = StatedInertial(1.0, center, 0.4 * self.radius**2 * np.eye(3))  # a ball
         mass = self.mass or body.mass
-        inertia = body.inertia * (mass / body.mass)
         center = body.center if self.center is None else self.center
-        arm = center - body.center  # Programs state it about the new center with this term.
-        inertia = inertia + mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+        # Programs keep the shapes' place, and take their inertia about the stated center.
+        term = parallel_axis_term(mass, center - body.center)
+        inertia = body.inertia * (mass / body.mass) + term
         if self.moments is not None or self.axes is not None:
-            axes = _least_turn(inertia)
-            moments = np.diag(axes.T @ inertia @ axes) if self.moments is None else self.moments
-            axes = axes if self.axes is None else self.axes
+            nearest_axes = _least_turn(inertia)
+            moments = self.moments
+            if moments is None:
+                moments = np.diag(nearest_axes.T @ inertia @ nearest_axes)
+            axes = nearest_axes if self.axes is None else self.axes
             inertia = (axes * moments) @ axes.T
         return StatedInertial(mass, center, inertia)
 
@@ -156,18 +162,19 @@ class Rules(NamedTuple):
         """Return the inertial within the bounds; itself if nothing changes."""
         if stated is None and not self.least_mass > 0.0 and not self.least_moment > 0.0:
             return None
-        old = stated or StatedInertial(0.0, np.zeros(3), np.zeros((3, 3)))
-        moments, axes = np.linalg.eigh(old.inertia)
+        body = stated or StatedInertial(0.0, np.zeros(3), np.zeros((3, 3)))
+        moments, axes = np.linalg.eigh(body.inertia)
         # MuJoCo refuses a full tensor of negative moments, and never bounds them.
-        if moments[0] < 0.0 and (old.tensor != np.diag(np.diag(old.tensor))).any():
+        if moments[0] < 0.0 and (body.tensor != np.diag(np.diag(body.tensor))).any():
             return stated
-        mass = max(old.mass, self.least_mass or -inf)
-        used = np.maximum(moments, self.least_moment or -inf)
-        if self.balances and used[2] > used[0] + used[1]:
-            used[:] = used.mean()
-        if mass == old.mass and (used == moments).all():
+        # A bound of 0 is none: negative numbers stay.
+        mass = max(body.mass, self.least_mass or -inf)
+        bounded = np.maximum(moments, self.least_moment or -inf)
+        if self.balances and bounded[2] > bounded[0] + bounded[1]:
+            bounded[:] = bounded.mean()
+        if mass == body.mass and (bounded == moments).all():
             return stated
-        return old.along_link((axes * used) @ axes.T, mass=mass)
+        return body.along_link((axes * bounded) @ axes.T, mass=mass)
 
 
 def _least_turn(tensor: NDArray) -> Array:
@@ -176,12 +183,12 @@ def _least_turn(tensor: NDArray) -> Array:
     """
     axes = np.eye(3)
     for _ in range(24):  # USD's own limit
-        own = axes.T @ tensor @ axes
-        i, j = max(((1, 2), (2, 0), (0, 1)), key=lambda pair: abs(own[pair]))
-        if abs(own[i, j]) <= SINGLE * own.trace():  # Equal moments keep their axes.
+        along = axes.T @ tensor @ axes
+        i, j = max(((1, 2), (2, 0), (0, 1)), key=lambda pair: abs(along[pair]))
+        if abs(along[i, j]) <= SINGLE * along.trace():  # Equal moments keep their axes.
             break
-        angle = atan2(2.0 * own[i, j], abs(own[j, j] - own[i, i])) / 2.0
-        if own[j, j] >= own[i, i]:
+        angle = atan2(2.0 * along[i, j], abs(along[j, j] - along[i, i])) / 2.0
+        if along[j, j] >= along[i, i]:
             angle = -angle
         third = 3 - i - j  # the axis that stays
         axes = axes @ rotation_about(np.eye(3)[third], angle)
@@ -284,12 +291,17 @@ class Description:
     findings: tuple[Finding, ...] = ()
 
 
+def parallel_axis_term(mass: float, arm: NDArray) -> Array:
+    """Return the (3, 3) inertia of a mass at a (3,) distance from the point that it is about."""
+    return mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+
+
 def rotation_of_angles(roll: float, pitch: float, yaw: float) -> Array:
     """Return the (3, 3) rotation Rz(yaw) Ry(pitch) Rx(roll), as in URDF and SDF, of angles in
     radians.
     """
-    (cr, cp, cy) = np.cos([roll, pitch, yaw])
-    (sr, sp, sy) = np.sin([roll, pitch, yaw])
+    cr, cp, cy = np.cos([roll, pitch, yaw])
+    sr, sp, sy = np.sin([roll, pitch, yaw])
     return np.array(
         [
             [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],

@@ -17,10 +17,19 @@ import numpy as np
 
 from ..numerics import Array
 from ..verdict import Finding, finding
+from .entries import Entry
 from .findings import AUDIT_JOINT, AUDIT_TOTAL, JOINT_VALUE_UNUSABLE
 from .model import Pose
 from .plausibility import LARGEST
-from .stated import Description, Place, StatedInertial, StatedJoint, StatedLink
+from .stated import (
+    Description,
+    Motion,
+    Place,
+    StatedInertial,
+    StatedJoint,
+    StatedLink,
+    parallel_axis_term,
+)
 
 MOVABLE = ("hinge", "slide")
 NOWHERE = Place()
@@ -47,7 +56,7 @@ class Body(NamedTuple):
             return Body(mass)
         arm = other.center - self.center
         share = other.mass / mass
-        term = share * self.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+        term = parallel_axis_term(share * self.mass, arm)
         return Body(mass, self.center + share * arm, self.inertia + other.inertia + term)
 
 
@@ -58,7 +67,7 @@ class Tree:
     description: Description
     above: Mapping[str, StatedJoint]
     poses: Mapping[str, Pose | None]
-    findings: Sequence[tuple[Finding, Place]] = ()
+    entries: Sequence[Entry] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,10 +125,37 @@ def build_tree(description: Description, values: Mapping[str, float]) -> Tree:
     """Return the places of all links. values: of joints, by their names, radians or meters; others
     are at zero.
     """
-    links = {}
+    links: dict[str, StatedLink] = {}
     for link in description.links:
         links.setdefault(link.name, link)
-    findings = [(one, Place(one.values.get("line", 1))) for one in description.findings]
+    above, entries = _joints_above(description, links)
+    positions, wrong = _joint_values(above, values, description.format == "mjcf")
+    entries += wrong
+    roots = links.keys() - above.keys()
+    if description.format == "urdf" and len(roots) == 1:  # The root's frame is the model's.
+        (root,) = roots
+        links[root] = replace(links[root], pose=Pose())
+    poses: dict[str, Pose | None] = {}
+    for name in _parents_first(links, above):
+        joint = above.get(name)
+        with np.errstate(invalid="ignore", over="ignore"):
+            pose = _pose(links, joint, links[name], poses, positions)
+        if pose is not None and not (np.abs(pose.matrix) <= LARGEST).all():
+            pose = None
+            cause = "its place is no number, or too far away. Correct its origin"
+            place = joint.place if joint else links[name].place
+            entries.append(_unusable(joint.name if joint and joint.name else name, cause, place))
+        poses[name] = pose
+    return Tree(description, above, poses, entries)
+
+
+def _joints_above(
+    description: Description, links: Mapping[str, StatedLink]
+) -> tuple[dict[str, StatedJoint], list[Entry]]:
+    """Return the usable joint above each link that has one, without loops, and entries about
+    others.
+    """
+    entries = [Entry(found, Place(found.values.get("line", 1))) for found in description.findings]
     above: dict[str, StatedJoint] = {}
     for joint in description.joints:
         cause = ""
@@ -132,60 +168,53 @@ def build_tree(description: Description, values: Mapping[str, float]) -> Tree:
                 "its child has a parent already, so that it closes a loop. Keep one of both joints"
             )
         if cause:
-            findings.append(_unusable(joint.name or joint.child, cause, joint.place))
+            entries.append(_unusable(joint.name or joint.child, cause, joint.place))
         else:
             above[joint.child] = joint
-    findings += _open_loops(above)
-    values, wrong = _joint_values(above, values, description.format == "mjcf")
-    findings += wrong
-    if (
-        description.format == "urdf" and len(links) - len(above) == 1
-    ):  # The root's frame is the model's.
-        (root,) = links.keys() - above.keys()
-        links[root] = replace(links[root], pose=Pose())
-    poses: dict[str, Pose | None] = {}
+    for joint in _looping_joints(above):
+        del above[joint.child]
+        cause = "it closes a loop, which has no root. Remove it, or give another parent"
+        entries.append(_unusable(joint.name or joint.child, cause, joint.place))
+    return above, entries
+
+
+def _unusable(name: str, cause: str, place: Place = NOWHERE) -> Entry:
+    return Entry(finding(AUDIT_JOINT, joint=name, cause=cause), place)
+
+
+def _looping_joints(above: Mapping[str, StatedJoint]) -> list[StatedJoint]:
+    """Return one joint of each loop."""
+    looping = []
+    start_of: dict[str, str] = {}  # The link from which each visited one was reached.
+    for start in above:
+        name = start
+        while name in above and name not in start_of:
+            start_of[name] = start
+            name = above[name].parent
+        if start_of.get(name) == start:  # The way up has met itself.
+            looping.append(above[name])
+    return looping
+
+
+def _parents_first(
+    links: Mapping[str, StatedLink], above: Mapping[str, StatedJoint]
+) -> Iterator[str]:
+    """Yield the names of all links, each after its parent, else in the order of the file."""
+    done: set[str] = set()
     for name in links:
-        waiting = [name]
-        while (joint := above.get(waiting[-1])) and joint.parent and waiting[-1] not in poses:
-            waiting.append(joint.parent)
-        for below in reversed(waiting):
-            if below not in poses:
-                with np.errstate(invalid="ignore", over="ignore"):
-                    pose = _pose(links, above.get(below), links[below], poses, values)
-                if pose is not None and not (np.abs(pose.matrix) <= LARGEST).all():
-                    joint = above.get(below)
-                    name = joint.name if joint and joint.name else below
-                    place = joint.place if joint else links[below].place
-                    cause = "its place is no number, or too far away. Correct its origin"
-                    findings.append(_unusable(name, cause, place))
-                    pose = None
-                poses[below] = pose
-    return Tree(description, above, poses, findings)
-
-
-def _unusable(name: str, cause: str, place: Place = NOWHERE) -> tuple[Finding, Place]:
-    return finding(AUDIT_JOINT, joint=name, cause=cause), place
-
-
-def _open_loops(above: dict[str, StatedJoint]) -> Iterator[tuple[Finding, Place]]:
-    """Remove one joint of each loop, and yield the finding about it."""
-    state: dict[str, int] = {}
-    for index, name in enumerate([*above]):
-        while name and name not in state:
-            state[name] = index
-            joint = above.get(name)
-            name = joint.parent if joint else ""
-        if name and state[name] == index and name in above:
-            joint = above.pop(name)
-            cause = "it closes a loop, which has no root. Remove it, or give another parent"
-            yield _unusable(joint.name or joint.child, cause, joint.place)
+        path = []
+        while name and name not in done:
+            path.append(name)
+            name = above[name].parent if name in above else ""
+        done.update(path)
+        yield from reversed(path)
 
 
 def _joint_values(
     above: Mapping[str, StatedJoint], stated: Mapping[str, float], is_mjcf: bool
-) -> tuple[dict[str, float], list[tuple[Finding, Place]]]:
+) -> tuple[dict[str, float], list[Entry]]:
     """Return the values of all motions that are not at zero, also of those that follow others, and
-    findings about unusable names.
+    entries about unusable names.
     """
     motions = [motion for joint in above.values() for motion in joint.motions]
     by_name = {motion.name: motion for motion in motions if motion.name}
@@ -198,27 +227,30 @@ def _joint_values(
                 _unusable(name, "its position is not one number. Give --joint a hinge or slide")
             )
     # MuJoCo's qpos0 does not obey equalities, so that only stated positions have followers.
-    zeros = {one.name: one.zero for one in motions if one.name and not one.leader}
-    values = ({} if is_mjcf else zeros) | dict(stated)
+    zeros = {motion.name: motion.zero for motion in motions if motion.name and not motion.leader}
+    values = dict(stated) if is_mjcf else zeros | dict(stated)
     for _ in motions:  # Followers may follow followers.
-        more = {
-            motion.name: motion.zero
-            + sum(
-                factor * (values[motion.leader] - by_name[motion.leader].zero) ** power
-                for power, factor in enumerate(motion.powers)
-            )
+        followers = {
+            motion.name: motion.zero + _followed(motion, by_name[motion.leader], values)
             for motion in motions
             if motion.leader in values.keys() & by_name.keys() and motion.name not in values
         }
-        if not more:
+        if not followers:
             break
-        values |= more
+        values |= followers
     for joint in () if is_mjcf else above.values():  # MuJoCo leaves such an equality out.
-        for name, *_, leader, _ in joint.motions:
-            if leader and (leader not in by_name or name not in values):
-                fault = finding(JOINT_VALUE_UNUSABLE, joint=name, key="mimic", value=leader)
-                wrong.append((fault, joint.place))
+        for motion in joint.motions:
+            leader = motion.leader
+            if leader and (leader not in by_name or motion.name not in values):
+                fault = finding(JOINT_VALUE_UNUSABLE, joint=motion.name, key="mimic", value=leader)
+                wrong.append(Entry(fault, joint.place))
     return values, wrong
+
+
+def _followed(motion: Motion, leader: Motion, values: Mapping[str, float]) -> float:
+    """Return the distance of a motion from its zero that its leader's value gives it."""
+    distance = values[leader.name] - leader.zero
+    return sum(factor * distance**power for power, factor in enumerate(motion.powers))
 
 
 def _pose(
@@ -228,20 +260,24 @@ def _pose(
     poses: Mapping[str, Pose | None],
     values: Mapping[str, float],
 ) -> Pose | None:
+    """Return the pose of a link in the model, moved by its joint; None if it is unknown. poses: of
+    the links above it.
+    """
     if joint is None:
         return link.pose
     outer = poses[joint.parent] if joint.parent else Pose()
-    pose = joint.pose
-    if pose is None and joint.parent:
-        parent = links[joint.parent].pose
-        pose = None if parent is None or link.pose is None else parent.inverse() @ link.pose
-    elif pose is None:
-        pose = link.pose
-    if outer is None or pose is None:
+    unmoved = joint.pose
+    if unmoved is None:
+        unmoved = link.pose
+        if joint.parent:
+            parent = links[joint.parent].pose
+            unmoved = parent.inverse() @ link.pose if parent and link.pose else None
+    if outer is None or unmoved is None:
         return None
+    pose = unmoved
     for motion in joint.motions:
-        value = values.get(motion.name, 0.0) if motion.name else 0.0
-        if motion.kind in MOVABLE and motion.name in values and value != motion.zero:
+        value = values.get(motion.name, motion.zero) if motion.name else motion.zero
+        if motion.kind in MOVABLE and value != motion.zero:
             pose = pose @ motion.pose(value)
     return outer @ pose
 
@@ -250,17 +286,18 @@ def add_up(tree: Tree, used: Sequence[tuple[StatedLink, bool]]) -> Totals:
     """Return the totals of links with the inertials that their program uses, each with whether it
     is impossible.
     """
-    groups: dict[str, list[str]] = {name: [] for name in ("missing", "frames", "left_out")}
+    missing = []
+    frames = []
+    left_out = []
     sums = dict.fromkeys(tree.poses, Body())
     for link, _ in used:
         inertial = link.inertial
-        if inertial is None:
-            is_frame = not link.shapes and not link.findings
-            groups["frames" if is_frame else "missing"].append(link.name)
-        elif link.is_frame:
-            groups["frames"].append(link.name)
+        if link.is_frame or inertial is None and not link.shapes and not link.findings:
+            frames.append(link.name)
+        elif inertial is None:
+            missing.append(link.name)
         elif not 0.0 < inertial.mass <= LARGEST:
-            groups["left_out"].append(link.name)
+            left_out.append(link.name)
         else:
             body = _placed(inertial, tree.poses[link.name])
             sums[link.name] = sums[link.name].add(body)
@@ -272,7 +309,7 @@ def add_up(tree: Tree, used: Sequence[tuple[StatedLink, bool]]) -> Totals:
         else:
             whole = whole.add(sums[name])
     impossible = [link.name for link, is_impossible in used if is_impossible]
-    return Totals(whole, sums, impossible=impossible, **groups)
+    return Totals(whole, sums, missing, frames, impossible, left_out)
 
 
 def _placed(inertial: StatedInertial, pose: Pose | None) -> Body:

@@ -13,18 +13,16 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from ..numerics import Array
-from .diagnosis import Reference
+from .entries import LinkAudit
 from .model import Pose
+from .reference import Reference
 from .stated import StatedInertial
 from .totals import Tree
-
-if TYPE_CHECKING:
-    from .judgment import LinkAudit
 
 TOLERANCE = 0.05  # of masses, relative to the larger one, and of tensors
 EQUAL = 0.01  # Equal geometry under two maps differs less.

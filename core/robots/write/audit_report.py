@@ -15,8 +15,8 @@ import numpy as np
 from ...measurement import counted, plain, table, visible
 from ...verdict import Finding, Severity, sentence, severity
 from ..audit import Audit
+from ..entries import Entry, LinkAudit
 from ..findings import INERTIAL_CENTER_OUTSIDE, INERTIAL_SPREAD_OUTSIDE
-from ..judgment import Entry, LinkAudit
 from ..stated import StatedInertial
 from ..totals import Body
 from .annotations import to_github, to_sarif

@@ -10,20 +10,20 @@ from math import degrees, radians
 
 import numpy as np
 import pytest
+from body_moments.core.density import POUND
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.mesh import Surface, convex_hull
 from body_moments.core.numerics.rotations import quaternion
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.robots.diagnosis import (
+from body_moments.core.robots.diagnosis import diagnose
+from body_moments.core.robots.mistakes import (
     IMPERIAL_INERTIAS,
     INCH,
     LENGTHS,
-    POUND,
     WHOLE_IMPERIAL,
-    Reference,
     _times,
-    diagnose,
 )
+from body_moments.core.robots.reference import Reference
 from body_moments.core.robots.stated import StatedInertial, rotation_of_angles
 
 from tests.close import close

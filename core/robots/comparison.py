@@ -1,0 +1,94 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A body beside another one that stands for it: its colliders, or a link's collision geometry."""
+
+from dataclasses import asdict, dataclass
+from math import asin, sqrt
+
+import numpy as np
+
+from ..inertia import EQUAL_MOMENTS_RTOL
+from ..numerics import NDArray
+from .model import Inertial
+
+
+@dataclass(frozen=True)
+class Effect:
+    """Mass properties of colliders beside those of the body, in the body's frame, SI.
+
+    The ratios are those of colliders to body, None if the body's number is zero. center_shift: (3,)
+    m, from the body's center. moment_ratios: (3,) of the ascending principal moments. axes_turn:
+    the angle between the principal axes that both have, rad. inertia_change: the norm of the change
+    of the tensor, in parts of the norm of the body's.
+    """
+
+    volume_ratio: float | None
+    mass_ratio: float | None
+    center_shift: tuple[float, ...]
+    moment_ratios: tuple[float | None, ...]
+    axes_turn: float
+    inertia_change: float | None
+
+    def as_record(self) -> dict[str, float | list[float | None] | None]:
+        """Return the plain numbers by their keys in a record."""
+        return {
+            key: list(value) if isinstance(value, tuple) else value
+            for key, value in asdict(self).items()
+        }
+
+
+def compare(
+    body: Inertial, mass: float, shift: NDArray, second: NDArray, volume_ratio: float | None
+) -> Effect:
+    """Compare a body with colliders of a mass, kg, whose center is shifted, (3,) m.
+
+    second: (3, 3) ∫ x xᵀ dm of the colliders about their center, kg·m².
+    """
+    ascending, axes = np.linalg.eigh(second)
+    # The moment about an axis is the sum of the other spreads: the largest spread comes first.
+    spreads = np.maximum(ascending[::-1], 0.0)
+    axes = axes[:, ::-1]
+    moments = spreads.sum() - spreads
+    change = second.trace() * np.eye(3) - second - body.inertia
+    return Effect(
+        volume_ratio,
+        ratio(mass, body.mass),
+        tuple(shift.tolist()),
+        tuple(ratio(*pair) for pair in zip(moments.tolist(), body.moments.tolist())),
+        _axes_turn(body.moments, body.axes, moments, axes),
+        ratio(float(np.linalg.norm(change)), float(np.linalg.norm(body.inertia))),
+    )
+
+
+def ratio(value: float, of: float) -> float | None:
+    """Return value / of, None if that is not positive."""
+    return value / of if of > 0.0 else None
+
+
+def _axes_turn(
+    moments: NDArray, axes: NDArray, other_moments: NDArray, other_axes: NDArray
+) -> float:
+    """Return the least angle, rad, that turns principal axes to others; moments ascend, (3, 3)
+    columns are axes, whose signs do not matter.
+
+    Equal moments leave their axes free: then the angle between the axes of the remaining moment
+    counts, or none if all are equal.
+    """
+    is_equal = np.zeros(2, bool)  # first and second moment; second and third
+    for several in (moments, other_moments):
+        is_equal |= np.diff(several) <= EQUAL_MOMENTS_RTOL * several[2]
+    if is_equal.all():
+        return 0.0
+    if is_equal.any():
+        single = 2 if is_equal[0] else 0
+        first = axes[:, single]
+        second = other_axes[:, single]
+        chord = min(np.linalg.norm(first - second), np.linalg.norm(first + second))
+        return 2.0 * asin(min(1.0, float(chord) / 2.0))
+    along = np.diagonal(axes.T @ other_axes)
+    signs = np.where(along < 0.0, -1.0, 1.0)
+    if np.linalg.det(other_axes * signs) < 0.0:
+        signs[np.abs(along).argmin()] *= -1.0
+    # The norm of R - 1 is √8 times the sine of half the angle of a rotation R.
+    distance = float(np.linalg.norm(other_axes * signs - axes))
+    return 2.0 * asin(min(1.0, distance / sqrt(8.0)))
