@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -42,6 +43,7 @@ MIN_CLEARANCE = (
 AXES = 64  # directions among which a sphere's axis is chosen
 BESIDE = 1e-5  # of a period: a spot so near to a seam is in the region too
 MIN_STEP = 1e-12  # relative to the coordinates' range: a gap of a track that needs no line
+Chart: TypeAlias = Quadric | SplineChart
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +73,7 @@ class Track:
 
 
 def curved_region(
-    chart: Quadric | SplineChart,
+    chart: Chart,
     loops: Sequence[Sequence[Curve]],
     rounding: float,
     beyond: NDArray | None,
@@ -82,19 +84,19 @@ def curved_region(
     beyond: (n, 3) points outside of the region; None if loops run with the region on their left.
     """
     curves = [curve for loop in loops for curve in loop]
-    box = np.concatenate([np.zeros((0, 3)), *(curve.points for curve in curves)])
-    size = float(np.linalg.norm(np.ptp(box, axis=0))) if curves else 0.0
+    controls = np.concatenate([np.zeros((0, 3)), *(curve.points for curve in curves)])
+    size = float(np.linalg.norm(np.ptp(controls, axis=0))) if curves else 0.0
     near = SEAM_RTOL * size + 4.0 * rounding
-    curves = [one for one in curves if np.ptp(one.points, axis=0).max() > near]
-    counts = np.cumsum([len(curve.space.spans) for curve in curves])
-    pieces = np.split(sample_pieces(curves), counts[:-1]) if curves else []
-    samples = [row.reshape(-1, 3) for row in pieces]
-    kept, seams = _without_seams(samples, near)
-    if not (kept or chart.is_closed):
+    curves = [curve for curve in curves if np.ptp(curve.points, axis=0).max() > near]
+    piece_counts = np.cumsum([len(curve.space.spans) for curve in curves])
+    pieces = np.split(sample_pieces(curves), piece_counts[:-1]) if curves else []
+    samples = [piece.reshape(-1, 3) for piece in pieces]
+    boundary, seams = _without_seams(samples, near)
+    if not (boundary or chart.is_closed):
         raise SurfaceRefusedError(SURFACE_TRIMMED)
-    chains = _chains(samples, kept, MISS_RTOL * size + 4.0 * rounding)
+    chains = _chains(samples, boundary, MISS_RTOL * size + 4.0 * rounding)
     if isinstance(chart, Quadric) and chart.is_closed and not chart.radius:
-        chart = _away_from_poles(chart, samples, kept)
+        chart = _away_from_poles(chart, samples, boundary)
     tracks = []
     deviation = 0.0
     for chain in chains:
@@ -109,28 +111,35 @@ def curved_region(
     if turns.any(axis=0).all():
         raise SurfaceRefusedError(SURFACE_TRIMMED)
     axis = 0 if turns[:, 1].any() else 1
-    witness = np.concatenate([samples[k][len(samples[k]) // 2][None] for k in seams] or [box[:0]])
+    no_points = np.zeros((0, 3))
+    # The middles of seams, which are in the region.
+    seam_points = np.concatenate(
+        [no_points, *(samples[k][len(samples[k]) // 2][None] for k in seams)]
+    )
     if beyond is not None:
-        around = np.concatenate([samples[k] for k in kept] or [box[:0]])
+        around = np.concatenate([no_points, *(samples[k] for k in boundary)])
         apart = np.linalg.norm(beyond[:, None] - around, axis=2).min(axis=1, initial=np.inf)
         beyond = beyond[apart > CLEAR_RTOL * size]
-    tracks, base, whole = _oriented(chart, tracks, axis, witness, beyond, size)
-    if isinstance(chart, SplineChart) and _follow_sides(chart, tracks, rounding):
+    if chart.is_closed:
+        region = _closed_surface_region(chart, tracks, axis, seam_points, beyond)
+    else:
+        region = _open_surface_region(chart, tracks, axis, size)
+    if isinstance(chart, SplineChart) and _follow_sides(chart, region.tracks, rounding):
         return chart.patch
-    lines = np.concatenate([np.zeros((0, 2, 2)), *(track.lines for track in tracks), *whole])
+    track_lines = [track.lines for track in region.tracks]
     face = TrimmedFace(
         chart,
-        tuple(track.curves for track in tracks),
-        np.concatenate([sample_pieces([])[..., :2], *(track.pieces for track in tracks)]),
-        lines,
+        tuple(track.curves for track in region.tracks),
+        np.concatenate([sample_pieces([])[..., :2], *(track.pieces for track in region.tracks)]),
+        np.concatenate([np.zeros((0, 2, 2)), *track_lines, *region.whole_surface]),
         axis,
-        base,
+        region.base,
         deviation,
     )
     # A seam that is in other pieces each way shows no side of it.
-    is_unsure = chart.is_closed and tracks and beyond is None and not len(witness)
+    is_unsure = chart.is_closed and tracks and beyond is None and not len(seam_points)
     thin = SEAM_RTOL * size * face.perimeter
-    if is_unsure and face.area_moments(0, box[0]).total <= thin:
+    if is_unsure and face.area_moments(0, controls[0]).total <= thin:
         raise SurfaceRefusedError(SURFACE_TRIMMED)
     return face
 
@@ -153,43 +162,51 @@ def _follow_sides(chart: SplineChart, tracks: Sequence[Track], rounding: float) 
 
 def _without_seams(samples: Sequence[NDArray], near: float) -> tuple[list[int], list[int]]:
     """Return the indices of curves that no other curve runs backward, and of one of each pair of
-    others.
+    others, by (m, 3) samples of each curve.
     """
-    ends = np.array([row[[0, -1]] for row in samples]).reshape(-1, 2, 3)
+    ends = np.array([points[[0, -1]] for points in samples]).reshape(-1, 2, 3)
+    # Equal for a curve and its reverse.
     keys = np.concatenate([ends.sum(axis=1), np.abs(ends[:, 0] - ends[:, 1])], axis=1)
-    kept = dict.fromkeys(range(len(samples)))
+    single = dict.fromkeys(range(len(samples)))
     seams = []
     for k, j in sorted(zip(*map(np.ndarray.tolist, close_pairs(keys, 2.0 * near)))):
-        is_open = k in kept and j in kept and len(samples[k]) == len(samples[j])
-        if is_open and np.abs(samples[j] - samples[k][::-1]).max() <= near:
-            del kept[k], kept[j]
+        is_possible = k in single and j in single and len(samples[k]) == len(samples[j])
+        if is_possible and np.abs(samples[j] - samples[k][::-1]).max() <= near:
+            del single[k], single[j]
             seams.append(k)
-    return list(kept), seams
+    return list(single), seams
 
 
-def _chains(samples: Sequence[NDArray], kept: Sequence[int], near: float) -> list[list[int]]:
-    """Return closed loops of curves, each of which begins where the one before ends."""
-    begins, ends = np.array([samples[k][[0, -1]] for k in kept]).reshape(-1, 2, 3).swapaxes(0, 1)
-    left = np.ones(len(kept), bool)
+def _chains(samples: Sequence[NDArray], boundary: Sequence[int], near: float) -> list[list[int]]:
+    """Return closed loops of curves, each of which begins where the one before ends.
+
+    boundary: the indices of the curves in `samples` that are used.
+    """
+    ends = np.array([samples[k][[0, -1]] for k in boundary]).reshape(-1, 2, 3)
+    is_left = np.ones(len(boundary), bool)
     chains = []
-    while left.any():
-        chain = [int(left.argmax())]
-        # An edge may be shorter than the tolerance.
-        while left[chain[0]]:
-            gaps = np.where(left, np.linalg.norm(begins - ends[chain[-1]], axis=1), np.inf)
+    while is_left.any():
+        chain = [int(is_left.argmax())]
+        # The first curve is left until the chain returns to it. An edge may be shorter than the
+        # tolerance, so the nearest begin is taken.
+        while is_left[chain[0]]:
+            gaps = np.linalg.norm(ends[:, 0] - ends[chain[-1], 1], axis=1)
+            gaps = np.where(is_left, gaps, np.inf)
             chain.append(int(gaps.argmin()))
             if gaps[chain[-1]] > near:
                 raise refuse("a loop that does not close")
-            left[chain[-1]] = False
-        chains.append([kept[k] for k in chain[:-1]])
+            is_left[chain[-1]] = False
+        chains.append([boundary[k] for k in chain[:-1]])
     return chains
 
 
-def _away_from_poles(sphere: Quadric, samples: Sequence[NDArray], kept: Sequence[int]) -> Quadric:
+def _away_from_poles(
+    sphere: Quadric, samples: Sequence[NDArray], boundary: Sequence[int]
+) -> Quadric:
     """Return a sphere with its axis so that no curve runs near a pole."""
-    if not kept:
+    if not boundary:
         return sphere
-    points = np.concatenate([samples[k] for k in kept])
+    points = np.concatenate([samples[k] for k in boundary])
     arms = np.linalg.solve(sphere.frame[:3, :3], (points - sphere.frame[:3, 3]).T) / sphere.minor
     axes = np.concatenate([[[0.0, 0.0, 1.0]], spread_directions(AXES)])
     clearance = 1.0 - np.abs(axes @ arms).max(axis=1)
@@ -202,102 +219,114 @@ def _away_from_poles(sphere: Quadric, samples: Sequence[NDArray], kept: Sequence
 
 
 def _track(
-    chart: Quadric | SplineChart, curves: Sequence[Curve], points: NDArray, size: float
+    chart: Chart, curves: Sequence[Curve], points: NDArray, size: float
 ) -> tuple[Track, float]:
     """Return a loop in coordinates, by (c, m, 3) samples of its pieces, and its largest distance
     from the surface.
     """
     flat = points.reshape(-1, 3)
-    found = chart.project(flat)
-    place, along, _ = chart.evaluate(*found.T)
+    projected = chart.project(flat)
+    place, along, _ = chart.evaluate(*projected.T)
     distance = float(np.linalg.norm(place.T - flat, axis=1).max())
-    found = found.reshape(*points.shape[:2], 2)
-    pole = (np.linalg.norm(along, axis=0) <= POLE_RTOL * size).reshape(found.shape[:2])
+    coordinates = projected.reshape(*points.shape[:2], 2)
+    at_pole = (np.linalg.norm(along, axis=0) <= POLE_RTOL * size).reshape(coordinates.shape[:2])
     periods = np.array(chart.periods)
-
-    def wrapped(steps: NDArray) -> NDArray:
-        return steps - periods * np.round(steps / np.where(periods > 0.0, periods, 1.0))
-
-    for row, is_pole in zip(found, pole):  # A pole has any angle: go on as beside it.
-        for end, one, two in ((0, 1, 2), (-1, -2, -3)):
+    for piece, is_pole in zip(coordinates, at_pole):
+        # A pole has any angle: go on as beside it.
+        for end, beside, farther in ((0, 1, 2), (-1, -2, -3)):
             if is_pole[end]:
-                row[end, 0] = row[one, 0] + wrapped(row[one] - row[two])[0]
-    runs = found.reshape(-1, 2)
-    runs = runs[0] + np.concatenate(
-        [np.zeros((1, 2)), np.cumsum(wrapped(np.diff(runs, axis=0)), axis=0)]
-    )
-    pieces = runs.reshape(found.shape)
-    closing = wrapped(runs[0] - runs[-1])
+                step = _shortest(piece[beside] - piece[farther], periods)
+                piece[end, 0] = piece[beside, 0] + step[0]
+    wrapped = coordinates.reshape(-1, 2)
+    steps = _shortest(np.diff(wrapped, axis=0), periods)
+    runs = wrapped[0] + np.concatenate([np.zeros((1, 2)), np.cumsum(steps, axis=0)])
+    pieces = runs.reshape(coordinates.shape)
+    closing = _shortest(runs[0] - runs[-1], periods)
     turns = np.round((runs[-1] + closing - runs[0]) / np.where(periods > 0.0, periods, 1.0))
     begins = np.concatenate([pieces[1:, 0], [runs[-1] + closing]])
     lines = np.stack([pieces[:, -1], begins], axis=1)
-    span = np.ptp(runs, axis=0)
-    lines = lines[(np.abs(np.diff(lines, axis=1)[:, 0]) > MIN_STEP * span.max()).any(axis=1)]
-    return Track(tuple(curves), pieces, lines, turns), distance
+    is_gap = np.abs(np.diff(lines, axis=1)[:, 0]) > MIN_STEP * np.ptp(runs, axis=0).max()
+    return Track(tuple(curves), pieces, lines[is_gap.any(axis=1)], turns), distance
 
 
-def _oriented(
-    chart: Quadric | SplineChart,
-    tracks: Sequence[Track],
-    axis: int,
-    witness: NDArray,
-    beyond: NDArray | None,
-    size: float,
-) -> tuple[list[Track], float, list[Array]]:
-    """Return loops with the region on their left, the base line of the strips, and the line that
-    adds the whole surface if it is needed.
+def _shortest(steps: NDArray, periods: NDArray) -> Array:
+    """Return (..., 2) steps of coordinates without whole periods."""
+    return steps - periods * np.round(steps / np.where(periods > 0.0, periods, 1.0))
+
+
+class _Region(NamedTuple):
+    """Loops with the region on their left. base: the line where strips begin. whole_surface: a
+    (1, 2, 2) line, from which strips cover the whole surface, if the loops only bound the rest.
     """
-    low, high = chart.limits if axis else (-np.inf, np.inf)
-    along = [track.pieces[..., axis] for track in tracks]
-    least = min((float(row.min()) for row in along), default=low if np.isfinite(low) else 0.0)
+
+    tracks: list[Track]
+    base: float
+    whole_surface: list[Array]
+
+
+def _open_surface_region(chart: Chart, tracks: list[Track], axis: int, size: float) -> _Region:
+    """Return the region within loops on a surface with a boundary."""
     # Loops in pairs bound a band, whatever their directions; a single one goes round an apex.
     winds = int(sum(abs(track.turns[1 - axis]) for track in tracks)) % 2
-    base = least
-    if not chart.is_closed and winds:
-        base = _apex(chart, low, high, size)
-    elif chart.is_closed and not chart.periods[axis]:
-        base = low
-    sign = -1.0 if axis else 1.0
+    least = min(float(track.pieces[..., axis].min()) for track in tracks)
+    base = _apex(chart, axis, size) if winds else least
+    areas = [_signed_area(track, axis, base) for track in tracks]
+    outer = int(np.argmax(np.abs(areas)))
+    oriented = [
+        track if (area > 0.0) == (k == outer) else track.reverse()
+        for k, (track, area) in enumerate(zip(tracks, areas))
+    ]
+    return _Region(oriented, base, [])
 
-    def area(track: Track) -> float:
-        begin, end = np.moveaxis(track.steps, 1, 0)
-        heights = (begin + end)[:, axis] / 2.0 - base
-        return sign * float((heights * (end - begin)[:, 1 - axis]).sum())
 
-    areas = [area(track) for track in tracks]
-    if not chart.is_closed:
-        outer = int(np.argmax(np.abs(areas)))
-        tracks = [
-            track if (value > 0.0) == (k == outer) else track.reverse()
-            for k, (track, value) in enumerate(zip(tracks, areas))
-        ]
-        return tracks, base, []
-    top = base + chart.periods[axis] if chart.periods[axis] else high
-    start = min((float(track.pieces[..., 1 - axis].min()) for track in tracks), default=0.0)
-    ends = np.zeros((1, 2, 2))
-    ends[:, :, axis] = top
-    ends[0, :, 1 - axis] = start, start + chart.periods[1 - axis]
-    if axis:
-        ends = ends[:, ::-1]
-    total = sum(areas)
-    # Reversed loops bound all the rest.
-    is_whole = total < 0.0 or not tracks
+def _closed_surface_region(
+    chart: Chart, tracks: list[Track], axis: int, seam_points: NDArray, beyond: NDArray | None
+) -> _Region:
+    """Return the region within loops on a surface without a boundary: on the side where points of a
+    seam are, else where points beyond are not, else on the left of the loops.
+    """
+    base, top = chart.limits
+    if chart.periods[axis]:
+        base = min((float(track.pieces[..., axis].min()) for track in tracks), default=base)
+        top = base + chart.periods[axis]
+    # Loops of a negative area bound all the rest.
+    bounds_rest = sum(_signed_area(track, axis, base) for track in tracks) < 0.0 or not tracks
     if tracks:
         steps = np.concatenate([track.steps for track in tracks])
-        known = witness[:1] if len(witness) or beyond is None else beyond
-        spots = chart.project(known) if len(known) else ()
-        held = {_covers(chart, steps, spot, axis, base) + is_whole > 0 for spot in spots}
-        if len(held) > 1 or not held and beyond is not None:
+        has_seam = len(seam_points) > 0
+        spots = seam_points[:1] if has_seam or beyond is None else beyond
+        coordinates = chart.project(spots) if len(spots) else ()
+        are_inside = {
+            _covers(chart, steps, spot, axis, base) + bounds_rest > 0 for spot in coordinates
+        }
+        if len(are_inside) > 1 or not are_inside and beyond is not None:
             raise SurfaceRefusedError(SURFACE_TRIMMED)
-        if held == {not len(witness)}:
+        if are_inside == {not has_seam}:
             tracks = [track.reverse() for track in tracks]
-            is_whole = not is_whole
-    return list(tracks), base, [ends] if is_whole else []
+            bounds_rest = not bounds_rest
+    if not bounds_rest:
+        return _Region(tracks, base, [])
+    other = 1 - axis
+    start = min((float(track.pieces[..., other].min()) for track in tracks), default=0.0)
+    line = np.full((1, 2, 2), top)
+    line[0, :, other] = start, start + chart.periods[other]
+    return _Region(tracks, base, [line[:, ::-1] if axis else line])
 
 
-def _apex(chart: Quadric | SplineChart, low: float, high: float, size: float) -> float:
-    """Return the end of the second coordinate that is a point; SurfaceRefusedError if none is."""
-    for end in (low, high):
+def _signed_area(track: Track, axis: int, base: float) -> float:
+    """Return the area in coordinates between a base line and a loop, positive if the loop has the
+    region on its left.
+    """
+    begin, end = np.moveaxis(track.steps, 1, 0)
+    heights = (begin + end)[:, axis] / 2.0 - base
+    return (-1.0 if axis else 1.0) * float((heights * (end - begin)[:, 1 - axis]).sum())
+
+
+def _apex(chart: Chart, axis: int, size: float) -> float:
+    """Return the end of the second coordinate that is a point; SurfaceRefusedError if none is, or
+    if strips run along the first coordinate (axis 0).
+    """
+    for end in chart.limits if axis else ():
         if np.isfinite(end):
             place = chart.evaluate(chart.periods[0] * np.linspace(0.0, 1.0, 5), np.full(5, end))[0]
             if np.ptp(place, axis=1).max() <= SEAM_RTOL * size:
@@ -305,15 +334,14 @@ def _apex(chart: Quadric | SplineChart, low: float, high: float, size: float) ->
     raise SurfaceRefusedError(SURFACE_TRIMMED)
 
 
-def _covers(
-    chart: Quadric | SplineChart, steps: NDArray, spot: NDArray, axis: int, base: float
-) -> int:
+def _covers(chart: Chart, steps: NDArray, spot: NDArray, axis: int, base: float) -> int:
     """Return how often strips from the base line to (n, 2, 2) steps cover a spot (2,)."""
-    period = chart.periods[1 - axis]
+    other = 1 - axis
+    period = chart.periods[other]
     # A seam often ends where a loop begins: its own coordinate is that of a sample.
     spot = spot + BESIDE * period
-    begin, end = (
-        np.floor((row[:, 1 - axis] - spot[1 - axis]) / period) for row in np.moveaxis(steps, 1, 0)
+    begin_turns, end_turns = (
+        np.floor((places[:, other] - spot[other]) / period) for places in np.moveaxis(steps, 1, 0)
     )
     heights = steps[:, :, axis].mean(axis=1)
     if chart.periods[axis]:
@@ -321,4 +349,4 @@ def _covers(
         above = turns - np.floor((base - spot[axis]) / chart.periods[axis])
     else:
         above = heights > spot[axis]
-    return int(round(float(((end - begin) * above).sum()))) * (-1 if axis else 1)
+    return int(round(float(((end_turns - begin_turns) * above).sum()))) * (-1 if axis else 1)

@@ -27,7 +27,7 @@ from .findings import CURVES_LEFT_OUT, SURFACE_DAMAGED, SURFACES_HIDDEN
 from .iges_entities import MAX_DEPTH
 from .part21 import Part21, Reference
 from .step_shapes import EntityError, Shapes, blame
-from .surfaces import MISSING, Refusals, SurfaceBody, SurfaceFile, refuse
+from .surfaces import MISSING, RECURSION, Refusals, SurfaceBody, SurfaceFile, refuse
 
 SOLIDS = (
     "MANIFOLD_SOLID_BREP",
@@ -70,11 +70,11 @@ class StepReader:
         self._stem = path.stem
         self._shapes = Shapes(self._text)
         self._refusals = Refusals()
-        self._edges: dict[int, list[Curve]] = {}
-        self._uses: Counter[int] = Counter()
+        self._edges: dict[int, list[Curve]] = {}  # of the present solid
+        self._uses: Counter[int] = Counter()  # of edges in the present shell
         self._solids: dict[int, tuple[list[Face], float]] = {}  # with the gaps of their edges
-        self._places: set[tuple[int, bytes]] = set()
-        self._contexts: dict[int, tuple[float, float, float]] = {}
+        self._places: set[tuple[int, bytes]] = set()  # solids with the matrices that placed them
+        self._contexts: dict[int, tuple[float, float, float]] = {}  # results of `_units`
         self._children: dict[int, list[_Child]] = {}  # by representation
         self._twins: dict[int, list[int]] = {}  # representations of the same coordinates
         self._owners: dict[int, int] = {}  # product definitions by representation
@@ -85,10 +85,11 @@ class StepReader:
         self._hidden: set[int] = set()
         self._left_out: Counter[str] = Counter()  # items by the code of a note
         self._bodies: list[SurfaceBody] = []
-        self._visited: set[int] = set()
-        self._noted: set[int] = set()
+        self._visited: set[int] = set()  # representations
+        self._noted: set[int] = set()  # refused entities
         self._placed = 0
-        self._unit = 0.0
+        self._unit = 0.0  # m, of the first context; 0 before it is read
+        self._is_whole = True  # False if a part of the present solid was refused
 
     def read(self) -> SurfaceFile:
         """Read the solids. FileError if none can be kept."""
@@ -97,13 +98,13 @@ class StepReader:
             fault = "the end of the file, which comes too early: parts and places are missing"
             self._note(EntityError(text.torn, SURFACE_DAMAGED, {"fault": fault}))
         for name, take in (
-            ("SHAPE_DEFINITION_REPRESENTATION", self._own),
-            ("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION", self._use),
-            ("SHAPE_REPRESENTATION_RELATIONSHIP", self._twin),
-            ("REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION", self._relate),
-            ("INVISIBILITY", self._hide),
-            ("STYLED_ITEM", self._style),
-            ("OVER_RIDING_STYLED_ITEM", self._style),
+            ("SHAPE_DEFINITION_REPRESENTATION", self._take_owner),
+            ("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION", self._take_usage),
+            ("SHAPE_REPRESENTATION_RELATIONSHIP", self._take_twins),
+            ("REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION", self._take_placed_part),
+            ("INVISIBILITY", self._take_hidden),
+            ("STYLED_ITEM", self._take_style),
+            ("OVER_RIDING_STYLED_ITEM", self._take_style),
         ):
             for number in text.named.get(name, ()):
                 with self._noting(number):
@@ -116,25 +117,29 @@ class StepReader:
         ]
         for number in representations:
             with self._noting(number):
-                self._map(number)
+                self._take_items(number)
         placed = {
-            twin
-            for row in self._children.values()
-            for one in row
-            for twin in self._group(one.number)
+            representation
+            for children in self._children.values()
+            for child in children
+            for representation in self._group(child.number)
         }
         # First the roots, then what only a circle of assemblies places.
-        roots = [one for one in representations if one not in placed | self._aspects]
+        roots = [number for number in representations if number not in placed | self._aspects]
         for number in [*roots, *representations]:
-            is_known = number in self._aspects and self._solids.keys() & self._attribute(number, 1)
+            has_placed_solid = self._solids.keys() & self._attribute(number, 1)
+            is_known = number in self._aspects and has_placed_solid
             if number not in self._visited and not is_known:
                 self._place(number, np.eye(4), ())
         notes = [finding(code, count=count) for code, count in self._left_out.items() if count]
+        # A body is kept whole or not at all, so no body lacks an unread face.
         return replace(self._refusals.file(self._bodies, self._unit or None, notes), unread=0)
 
     @contextmanager
     def _noting(self, number: int) -> Iterator[None]:
-        """Note refusals within an entity, except for those that the file's end explains."""
+        """Note refusals within an entity, except for those that the file's end explains; the
+        present solid is not whole then.
+        """
         torn = self._text.torn
         try:
             with blame(number):
@@ -156,7 +161,7 @@ class StepReader:
         """Return an attribute of the first entity of an instance."""
         return next(iter(self._text[number].values()))[index]
 
-    def _own(self, _: int, values: list[Any]) -> None:
+    def _take_owner(self, _: int, values: list[Any]) -> None:
         """Take the product that has a representation, or note one of a part of its shape."""
         owner = self._attribute(values[0], 2)
         if any(name.startswith("PRODUCT_DEFINITION") for name in self._text[owner]):
@@ -164,28 +169,30 @@ class StepReader:
         else:
             self._aspects.add(values[1])
 
-    def _use(self, _: int, values: list[Any]) -> None:
+    def _take_usage(self, _: int, values: list[Any]) -> None:
         """Take the part that a relationship places: the related one of a usage."""
         self._relations[values[0]] = self._attribute(self._attribute(values[1], 2), 4)
 
-    def _twin(self, number: int, values: list[Any]) -> None:
+    def _take_twins(self, number: int, values: list[Any]) -> None:
         """Take two representations in the same coordinates."""
         if "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION" not in self._text[number]:
             for one, other in (values[2:4], values[3:1:-1]):
                 self._twins.setdefault(one, []).append(other)
 
-    def _relate(self, number: int, values: list[Any]) -> None:
+    def _take_placed_part(self, number: int, values: list[Any]) -> None:
         """Take a placed part of an assembly: by custom the first representation."""
         _, _, child, parent = self._text[number]["REPRESENTATION_RELATIONSHIP"]
         _, frames = self._shapes.pick(values[0], ("ITEM_DEFINED_TRANSFORMATION",))
         part = self._relations.get(number)
-        owners = [{self._owners.get(one) for one in self._group(end)} for end in (child, parent)]
+        child_owners, parent_owners = (
+            {self._owners.get(twin) for twin in self._group(end)} for end in (child, parent)
+        )
         frame, parent_frame = frames[2:4]
-        if part in owners[1] and part not in owners[0]:
+        if part in parent_owners and part not in child_owners:
             child, parent, frame, parent_frame = parent, child, parent_frame, frame
         self._children.setdefault(parent, []).append(_Child(child, frame, parent_frame))
 
-    def _map(self, number: int) -> None:
+    def _take_items(self, number: int) -> None:
         """Take the items of a representation, and the representations that it maps."""
         items = self._attribute(number, 1)
         self._items.update(items)
@@ -195,7 +202,7 @@ class StepReader:
                 origin, child = self._text[values[1]]["REPRESENTATION_MAP"]
                 self._children.setdefault(number, []).append(_Child(child, origin, values[2]))
 
-    def _hide(self, _: int, values: list[Any]) -> None:
+    def _take_hidden(self, _: int, values: list[Any]) -> None:
         """Take the items of hidden styles and layers."""
         for one in values[0]:
             with self._noting(one):
@@ -203,13 +210,14 @@ class StepReader:
                 items = self._shapes.pick(one, kinds)[1][2]
                 self._hidden.update(items if isinstance(items, list) else [items])
 
-    def _style(self, _: int, values: list[Any]) -> None:
+    def _take_style(self, _: int, values: list[Any]) -> None:
         """Take the first color of a styled item."""
         color = self._color(values[1], set())
         if color:
             self._colors[values[2]] = color
 
     def _color(self, value: Any, seen: set[int]) -> tuple[float, ...] | None:
+        """Return the first color to which attributes lead, or None. seen: references on the way."""
         if isinstance(value, (list, tuple)):
             return next(filter(None, (self._color(one, seen) for one in value)), None)
         if not isinstance(value, Reference) or value in seen or len(seen) > MAX_STYLES:
@@ -234,20 +242,21 @@ class StepReader:
         context = self._attribute(number, 2)
         if context not in self._contexts:
             with blame(context):
-                found = {"LENGTH_UNIT": 0.0, "PLANE_ANGLE_UNIT": 1.0}
-                for unit in self._text[context].get("GLOBAL_UNIT_ASSIGNED_CONTEXT", [[]])[0]:
-                    for kind in found.keys() & self._text[unit].keys():
-                        found[kind] = self._size(unit, 0)
-                if not min(found.values()) > 0.0:
+                sizes = {"LENGTH_UNIT": 0.0, "PLANE_ANGLE_UNIT": 1.0}
+                parts = self._text[context]
+                for unit in parts.get("GLOBAL_UNIT_ASSIGNED_CONTEXT", [[]])[0]:
+                    for kind in sizes.keys() & self._text[unit].keys():
+                        sizes[kind] = self._size(unit, 0)
+                if not min(sizes.values()) > 0.0:
                     raise refuse("a unit of no known length")
-                length, angle = found["LENGTH_UNIT"], found["PLANE_ANGLE_UNIT"]
+                length, angle = sizes["LENGTH_UNIT"], sizes["PLANE_ANGLE_UNIT"]
                 uncertainty = 0.0
-                for one in self._text[context].get("GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT", [[]])[0]:
-                    value, unit = self._measure(one)
+                for measure in parts.get("GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT", [[]])[0]:
+                    value, unit = self._measure(measure)
                     if "LENGTH_UNIT" in self._text[unit]:
                         uncertainty = max(uncertainty, value * self._size(unit, 0) / length)
                 self._contexts[context] = length, angle, uncertainty
-                self._unit = self._unit or found["LENGTH_UNIT"]
+                self._unit = self._unit or length
         return self._contexts[context]
 
     def _size(self, number: int, depth: int) -> float:
@@ -266,11 +275,13 @@ class StepReader:
 
     def _measure(self, number: int) -> tuple[float, int]:
         """Return the value of a measure and its unit."""
-        value, unit = next(row for row in self._text[number].values() if len(row) > 1)[:2]
+        values = self._text[number].values()
+        value, unit = next(attributes for attributes in values if len(attributes) > 1)[:2]
         # OpenCascade leaves out the type of the value in AP203.
         return float(value[1][0] if isinstance(value, tuple) else value), unit
 
     def _matrix(self, frame: int, representation: int) -> Array:
+        """Return the (4, 4) matrix of a placement in a representation, in the file's unit."""
         matrix = self._shapes.frame(frame)
         matrix[:3, 3] *= self._units(representation)[0] / self._unit
         return matrix
@@ -278,23 +289,23 @@ class StepReader:
     def _place(self, number: int, matrix: NDArray, path: tuple[int, ...]) -> None:
         """Add the bodies of a representation and of its parts. path: representations around it."""
         if number in path or len(path) >= MAX_DEPTH:
-            raise refuse("references to itself, or nested too deeply")
+            raise refuse(RECURSION)
         self._count(1)  # Parts without a body take time, too.
         group = self._group(number)
         self._visited |= set(group)
-        for one in group:
-            with self._noting(one):
-                length, self._shapes.angle, self._shapes.uncertainty = self._units(one)
+        for twin in group:
+            with self._noting(twin):
+                length, self._shapes.angle, self._shapes.uncertainty = self._units(twin)
                 scaled = matrix @ np.diag([*[length / self._unit] * 3, 1.0])
-                self._add_items(self._attribute(one, 1), one, scaled)
-                for child, frame, parent_frame in self._children.get(one, ()):
+                self._add_items(self._attribute(twin, 1), twin, scaled)
+                for child, frame, parent_frame in self._children.get(twin, ()):
                     with self._noting(child):
-                        within = self._matrix(parent_frame, one) @ np.linalg.inv(
-                            self._matrix(frame, child)
-                        )
-                        self._place(child, matrix @ within, (*path, *group))
+                        from_child = np.linalg.inv(self._matrix(frame, child))
+                        to_parent = self._matrix(parent_frame, twin) @ from_child
+                        self._place(child, matrix @ to_parent, (*path, *group))
 
     def _count(self, more: int) -> None:
+        """Count placed faces and parts; FileError if there are too many."""
         self._placed += more
         if self._placed > MAX_PLACED:
             raise FileError(FILE_TOO_LARGE, limit=MAX_PLACED, content="surfaces")
@@ -310,14 +321,13 @@ class StepReader:
         return not is_shown and any(name.endswith(BODIES) for name in parts)
 
     def _add_items(self, items: Sequence[int], owner: int, matrix: NDArray) -> None:
-        """Add the solids of a representation; its open surfaces are one."""
+        """Add the visible solids and surface models of a representation; count the other items."""
         solids = [item for item in items if self._is_body(item)]
         hidden = self._hidden.intersection(solids)
-        curves = [
-            values for item in items if (values := self._text[item].get("GEOMETRIC_CURVE_SET"))
-        ]
         self._left_out[SURFACES_HIDDEN] += len(hidden)
-        self._left_out[CURVES_LEFT_OUT] += sum(len(values[1]) for values in curves)
+        for item in items:
+            _, curves = self._text[item].get("GEOMETRIC_CURVE_SET", ("", ()))
+            self._left_out[CURVES_LEFT_OUT] += len(curves)
         for item in solids:
             if item not in hidden:
                 self._add(item, owner, matrix, len(solids) == 1)
@@ -342,45 +352,42 @@ class StepReader:
         self._count(len(faces))
         label = self._attribute(number, 0)
         scale = float(np.linalg.norm(matrix[:3, :3], 2))
-        reach = max(
-            factor * float(np.abs(face.points).max())
-            for factor, own in ((1.0, faces), (scale, local))
-            for face in own
-        )
-        shells = [number, *np.ravel(self._attribute(number, 1)).tolist(), owner]
-        line = "#{}=SHAPE_REPRESENTATION('',(#{}),#{});\n".format(
+        reach = max(_reach(faces), scale * _reach(local))
+        styled = [number, *np.ravel(self._attribute(number, 1)).tolist(), owner]
+        representation = "#{}=SHAPE_REPRESENTATION('',(#{}),#{});\n".format(
             owner, number, self._attribute(owner, 2)
         )
         self._bodies.append(
             SurfaceBody(
-                (self._product(owner) if is_alone or not label else label) or self._stem,
-                tuple(faces),
-                scale * gap + 4.0 * self._text.precision * reach,
-                next((self._colors[one] for one in shells if one in self._colors), None),
-                lambda: zlib.compress(self._text.extract(line)),
-                matrix,
+                name=(self._product(owner) if is_alone or not label else label) or self._stem,
+                patches=tuple(faces),
+                rounding=scale * gap + 4.0 * self._text.precision * reach,
+                color=next((self._colors[item] for item in styled if item in self._colors), None),
+                source=lambda: zlib.compress(self._text.extract(representation)),
+                matrix=matrix,
             )
         )
 
     def _product(self, number: int) -> str:
-        """Return the name of the product that has a representation."""
-        owner = next(
-            (self._owners[one] for one in self._group(number) if one in self._owners), None
-        )
-        if owner is None:
-            return ""
-        product = self._attribute(self._attribute(owner, 2), 2)
-        return self._attribute(product, 1) or self._attribute(product, 0)
+        """Return the name of the product that has a representation, or an empty text."""
+        for twin in self._group(number):
+            if twin in self._owners:
+                product = self._attribute(self._attribute(self._owners[twin], 2), 2)
+                return self._attribute(product, 1) or self._attribute(product, 0)
+        return ""
 
     def _solid(self, number: int) -> list[Face]:
         """Return the faces of a solid, or of a model of surfaces."""
         _, values = self._shapes.pick(number, SOLIDS)
-        shells = [
-            one for value in values[1:] for one in (value if isinstance(value, list) else [value])
-        ]
-        return [face for shell in shells for face in self._shell(shell)]
+        faces: list[Face] = []
+        # The outer shell of a solid is a single reference, other shells are lists.
+        for value in values[1:]:
+            for shell in value if isinstance(value, list) else [value]:
+                faces += self._shell(shell)
+        return faces
 
     def _shell(self, number: int) -> list[Face]:
+        """Return the faces of a shell, without those that are refused."""
         name, values = self._shapes.pick(number, (*SHELLS, *ORIENTED_SHELLS))
         outward = True
         if name in ORIENTED_SHELLS:
@@ -389,19 +396,27 @@ class StepReader:
             name, values = self._shapes.pick(number, SHELLS)
         faces: list[Face] = []
         self._uses.clear()
-        for one in values[1]:
-            with self._noting(one):
-                faces.append(self._face(one, outward))
-        single = [self._edges[edge] for edge, uses in self._uses.items() if uses == 1]
-        if name == "CLOSED_SHELL" and self._is_whole and single:
-            middles = np.array([curves[len(curves) // 2].samples(2)[1] for curves in single])
-            pairs = close_pairs(middles, WELDING_RTOL * patches_size(faces))
-            if len(np.unique(pairs)) < len(single):
-                with blame(number):
-                    raise refuse("a face that is missing")
+        for face in values[1]:
+            with self._noting(face):
+                faces.append(self._face(face, outward))
+        if name == "CLOSED_SHELL" and self._is_whole and self._has_lone_edge(faces):
+            with blame(number):
+                raise refuse("a face that is missing")
         return faces
 
+    def _has_lone_edge(self, faces: Sequence[Face]) -> bool:
+        """Return whether one of the edges that the present shell uses once has its middle where no
+        other one has.
+        """
+        used_once = [self._edges[edge] for edge, uses in self._uses.items() if uses == 1]
+        if not used_once:
+            return False
+        middles = np.array([curves[len(curves) // 2].samples(2)[1] for curves in used_once])
+        pairs = close_pairs(middles, WELDING_RTOL * patches_size(faces))
+        return len(np.unique(pairs)) < len(used_once)
+
     def _face(self, number: int, outward: bool) -> Face:
+        """Return a face, on the outward or the inward side of its shell."""
         _, (_, bounds, surface, same, *_) = self._shapes.pick(
             number, ("ADVANCED_FACE", "FACE_SURFACE")
         )
@@ -426,15 +441,13 @@ class StepReader:
         else:
             for use in values[1]:
                 _, (_, _, _, edge, ahead) = self._shapes.pick(use, ("ORIENTED_EDGE",))
-                made = self._edge(edge)
-                curves += made if ahead else reverse_curves(made)
+                edge_curves = self._edge(edge)
+                curves += edge_curves if ahead else reverse_curves(edge_curves)
                 self._uses[edge] += 1
         ends = np.array([curve.points[[0, -1]] for curve in curves])
-        gaps = np.abs(ends[:, 0] - np.roll(ends[:, 1], 1, axis=0)).max()
-        if (
-            gaps
-            > WELDING_RTOL * np.ptp(np.concatenate([one.points for one in curves]), axis=0).max()
-        ):
+        gap = np.abs(ends[:, 0] - np.roll(ends[:, 1], 1, axis=0)).max()
+        extent = np.ptp(np.concatenate([curve.points for curve in curves]), axis=0).max()
+        if gap > WELDING_RTOL * extent:
             raise refuse("a loop that does not close")
         return curves if is_ahead else reverse_curves(curves)
 
@@ -445,9 +458,14 @@ class StepReader:
                 _, values = self._shapes.pick(number, ("EDGE_CURVE",))
                 _, *vertices, curve, same = values
                 ends = [
-                    self._shapes.point(self._shapes.pick(one, ("VERTEX_POINT",))[1][1])
-                    for one in vertices
+                    self._shapes.point(self._shapes.pick(vertex, ("VERTEX_POINT",))[1][1])
+                    for vertex in vertices
                 ]
-                made = self._shapes.curve(curve, ends if same else ends[::-1])
-                self._edges[number] = made if same else reverse_curves(made)
+                curves = self._shapes.curve(curve, ends if same else ends[::-1])
+                self._edges[number] = curves if same else reverse_curves(curves)
         return self._edges[number]
+
+
+def _reach(faces: Sequence[Face]) -> float:
+    """Return the largest coordinate of faces."""
+    return max(float(np.abs(face.points).max()) for face in faces)

@@ -12,12 +12,13 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from ..numerics import Array, SplineSpace, clamped_space
 from ..nurbs import (
+    TURN,
     Curve,
     Face,
     Quadric,
@@ -28,16 +29,18 @@ from ..nurbs import (
 )
 from ..verdict import FileError, MeasureError
 from .findings import SURFACE_UNSUPPORTED
-from .iges_entities import MAX_DEPTH, conic_pieces
-from .iges_sweeps import TURN, join_pieces, revolve, revolved_quadric, rule
+from .iges_entities import MAX_DEPTH
 from .part21 import Part21, Reference
 from .regions import MISS_RTOL
-from .surfaces import SurfaceRefusedError, bezier_surface, placed_surface, reason, refuse
+from .surfaces import RECURSION, SurfaceRefusedError, bezier_surface, placed_surface, reason, refuse
+from .sweeps import conic_pieces, join_pieces, revolve, revolved_quadric, rule
 from .trimmed import face_within, flat_region
 
 UNCERTAINTIES = 20.0  # A vertex may be so many uncertainties of the file from its curve.
 SAMPLES = 257  # points of a spline where the search for the parameters of vertices begins
-OVERLAP = 1.0 + 1e-3  # length of a swept surface, relative to its boundary
+MARGIN = 1e-3  # by which a swept surface goes beyond its boundary, relative to this
+Ends: TypeAlias = "Sequence[Array] | None"  # of a curve; None for the whole curve
+Loops: TypeAlias = list[list[Curve]]
 
 
 class EntityError(Exception):
@@ -126,19 +129,19 @@ class Shapes:
         self._depth += 1
         try:
             if self._depth > MAX_DEPTH:
-                raise refuse("references to itself, or nested too deeply")
+                raise refuse(RECURSION)
             yield
         finally:
             self._depth -= 1
 
-    def curve(self, number: int, ends: Sequence[Array] | None) -> list[Curve]:
+    def curve(self, number: int, ends: Ends) -> list[Curve]:
         """Return a curve from the first to the second of two points, the whole curve for None."""
         name, values = self.pick(number, (*_CURVES, *_BASES))
         with self._nested():
             if name not in _BASES:
                 with blame(number):
-                    made = _CURVES[name](self, self.text[number], values, ends)
-                return made if ends is None else self._ending(made, ends)
+                    curves = _CURVES[name](self, self.text[number], values, ends)
+                return curves if ends is None else self._moved_to_vertices(curves, ends)
             if name != "TRIMMED_CURVE":
                 return self.curve(values[1], ends)
             _, base, *trims, same, _ = values
@@ -147,10 +150,10 @@ class Shapes:
             return self.curve(base, ends) if same else reverse_curves(self.curve(base, ends[::-1]))
 
     def _trim(self, base: int, trims: Sequence[Any]) -> Array:
-        """Return the point where a curve is trimmed."""
-        for one in trims:
-            if isinstance(one, Reference):
-                return self.point(one)
+        """Return the point where a curve is trimmed: a point of the file, else by a parameter."""
+        for trim in trims:
+            if isinstance(trim, Reference):
+                return self.point(trim)
         name, values = self.pick(base, _CURVES)
         at = trims[0][1][0] if isinstance(trims[0], tuple) else trims[0]
         if name == "LINE":
@@ -163,8 +166,8 @@ class Shapes:
         (curve,) = self.curve(base, None)
         return curve.evaluate([at])[0]
 
-    def _ending(self, curves: list[Curve], ends: Sequence[Array]) -> list[Curve]:
-        """Return curves whose ends are moved to the vertices."""
+    def _moved_to_vertices(self, curves: list[Curve], ends: Sequence[Array]) -> list[Curve]:
+        """Return curves end to end whose first and last point are moved to vertices."""
         gap = max(float(np.linalg.norm(curves[k].points[k] - ends[k])) for k in (0, -1))
         size = max(float(np.ptp(curve.points, axis=0).max()) for curve in curves)
         if gap > max(MISS_RTOL * size, UNCERTAINTIES * self.uncertainty):
@@ -176,14 +179,14 @@ class Shapes:
             curves[k] = replace(curves[k], points=points)
         return curves
 
-    def face(self, number: int, loops: list[list[Curve]]) -> Face:
+    def face(self, number: int, loops: Loops) -> Face:
         """Return the face of a surface within loops, with its normal."""
         surface = self.surface(number, loops)
         if isinstance(surface, np.ndarray):
             return flat_region(loops, surface)
         return face_within(surface, loops, self.gap)
 
-    def surface(self, number: int, loops: list[list[Curve]]) -> Any:
+    def surface(self, number: int, loops: Loops) -> Any:
         """Return a plane's normal, a patch, or a quadric."""
         name, values = self.pick(number, (*_SURFACES, "RECTANGULAR_TRIMMED_SURFACE"))
         with self._nested():
@@ -192,7 +195,7 @@ class Shapes:
             return self.surface(values[1], loops)
 
 
-def _line(shapes: Shapes, _: Any, values: list[Any], ends: Sequence[Array] | None) -> list[Curve]:
+def _line(shapes: Shapes, _: Any, values: list[Any], ends: Ends) -> list[Curve]:
     if ends is None:
         raise ValueError("a line without ends")
     begin = shapes.point(values[1])
@@ -201,9 +204,7 @@ def _line(shapes: Shapes, _: Any, values: list[Any], ends: Sequence[Array] | Non
     return [Curve(clamped_space(2), np.array(places))]
 
 
-def _conic(
-    shapes: Shapes, values: list[Any], ends: Sequence[Array] | None, kind: str
-) -> list[Curve]:
+def _conic(shapes: Shapes, values: list[Any], ends: Ends, kind: str) -> list[Curve]:
     """Return pieces of a conic between points, or all of an ellipse."""
     frame = shapes.frame(values[1])
     x_size, y_size = values[2], values[-1]
@@ -232,16 +233,19 @@ def _conic_of(kind: str) -> Callable[..., list[Curve]]:
 def _knots(
     parts: dict[str, list[Any]], kind: str, degree: int, count: int, multiple: Sequence[Any]
 ) -> list[float]:
-    """Return the knots of a B-spline: those of its kind, else from their counts and values."""
+    """Return the knots of a B-spline of `count` control points: those that its name implies, else
+    the ones of `multiple`, which has their multiplicities and their values.
+    """
     simple = np.arange(-degree, count + 1.0)
-    knots = {
-        "UNIFORM_": simple,
-        "QUASI_UNIFORM_": simple.clip(0.0, count - degree),
-        "BEZIER_": np.ceil(simple.clip(1.0 - degree, count - 1.0) / degree),
-    }
-    implied = (row for name, row in knots.items() if name + kind in parts)
-    known = next(implied, None)
-    return (np.repeat(multiple[1], multiple[0]) if known is None else known).tolist()
+    if "UNIFORM_" + kind in parts:
+        knots = simple
+    elif "QUASI_UNIFORM_" + kind in parts:
+        knots = simple.clip(0.0, count - degree)
+    elif "BEZIER_" + kind in parts:
+        knots = np.ceil(simple.clip(1.0 - degree, count - 1.0) / degree)
+    else:
+        knots = np.repeat(multiple[1], multiple[0])
+    return knots.tolist()
 
 
 def _spline_values(parts: dict[str, list[Any]], kind: str) -> tuple[list[Any], Any]:
@@ -254,9 +258,7 @@ def _spline_values(parts: dict[str, list[Any]], kind: str) -> tuple[list[Any], A
     return values, weights and np.array(weights[0], np.float64)
 
 
-def _spline(
-    shapes: Shapes, parts: dict[str, list[Any]], _: Any, ends: Sequence[Array] | None
-) -> list[Curve]:
+def _spline(shapes: Shapes, parts: dict[str, list[Any]], _: Any, ends: Ends) -> list[Curve]:
     (degree, points, _, _, _, *multiple), weights = _spline_values(parts, "CURVE")
     places = np.array([shapes.point(point) for point in points])
     knots = _knots(parts, "CURVE", degree, len(places), multiple)
@@ -264,34 +266,33 @@ def _spline(
     return _part(Curve(space, places, weights), ends)
 
 
-def _polyline(
-    shapes: Shapes, _: Any, values: list[Any], ends: Sequence[Array] | None
-) -> list[Curve]:
+def _polyline(shapes: Shapes, _: Any, values: list[Any], ends: Ends) -> list[Curve]:
     places = np.array([shapes.point(point) for point in values[1]])
     steps = np.arange(len(places), dtype=np.float64)
     return _part(Curve(SplineSpace((0.0, *steps, steps[-1]), 2, len(places)), places), ends)
 
 
-def _composite(
-    shapes: Shapes, _: Any, values: list[Any], ends: Sequence[Array] | None
-) -> list[Curve]:
+def _composite(shapes: Shapes, _: Any, values: list[Any], ends: Ends) -> list[Curve]:
     """Return the curves of a chain of trimmed curves."""
     curves: list[Curve] = []
     for segment in values[1]:
         _, same, curve = shapes.pick(segment, ("COMPOSITE_CURVE_SEGMENT",))[1]
-        made = shapes.curve(curve, None)
-        curves += made if same else reverse_curves(made)
-    gaps = [np.abs(one.points[-1] - two.points[0]).max() for one, two in zip(curves, curves[1:])]
+        segment_curves = shapes.curve(curve, None)
+        curves += segment_curves if same else reverse_curves(segment_curves)
+    gaps = [
+        np.abs(curve.points[-1] - after.points[0]).max() for curve, after in zip(curves, curves[1:])
+    ]
     size = np.ptp(np.concatenate([curve.points for curve in curves]), axis=0).max()
     if max(gaps, default=0.0) > MISS_RTOL * size:
         raise refuse("a chain of curves with a gap")
-    is_back = ends is not None and np.linalg.norm(curves[0].points[0] - ends[0]) > np.linalg.norm(
-        curves[-1].points[-1] - ends[0]
-    )
-    return reverse_curves(curves) if is_back else curves
+    if ends is None:
+        return curves
+    first_gap = np.linalg.norm(curves[0].points[0] - ends[0])
+    is_backward = first_gap > np.linalg.norm(curves[-1].points[-1] - ends[0])
+    return reverse_curves(curves) if is_backward else curves
 
 
-def _part(curve: Curve, ends: Sequence[Array] | None) -> list[Curve]:
+def _part(curve: Curve, ends: Ends) -> list[Curve]:
     """Return the pieces of a spline from the first to the second of two points, or all of it."""
     if ends is None:
         return [curve]
@@ -299,41 +300,35 @@ def _part(curve: Curve, ends: Sequence[Array] | None) -> list[Curve]:
     samples = curve.evaluate(np.linspace(low, high, SAMPLES))
     size = float(np.ptp(samples, axis=0).max())
     start, end = nearest_parameters(curve, samples, np.array(ends), 1e-9 * size).tolist()
-    if np.linalg.norm(samples[0] - samples[-1]) <= 1e-6 * size and end <= start + 1e-9 * (
-        high - low
-    ):
-        parts_used = [(start, high), (low, end)]
-    else:
-        parts_used = [(start, end)]
-    rest = 1e-9 * (high - low)
-    made = [
+    shortest = 1e-9 * (high - low)
+    is_closed = np.linalg.norm(samples[0] - samples[-1]) <= 1e-6 * size
+    parts = [(start, high), (low, end)] if is_closed and end <= start + shortest else [(start, end)]
+    pieces = [
         piece
-        for begin, stop in parts_used
-        if stop - begin > rest
+        for begin, stop in parts
+        if stop - begin > shortest
         for piece in bezier_curves(curve, (begin, stop))
     ]
-    if not made:
+    if not pieces:
         raise refuse("an edge whose ends are not on its curve")
-    return made
+    return pieces
 
 
 def _spline_surface(shapes: Shapes, parts: dict[str, list[Any]], *_: Any) -> Any:
     values, weights = _spline_values(parts, "SURFACE")
-    degrees, rows, multiple = values[:2], values[2], values[7:11]
+    degree_s, degree_t, rows = values[:3]
     points = np.array([[shapes.point(point) for point in row] for row in rows])
-    knots = [
-        _knots(parts, "SURFACE", degree, count, multiple[axis::2])
-        for axis, (degree, count) in enumerate(zip(degrees, points.shape))
-    ]
-    surface = placed_surface(
-        (knots[0], knots[1]), (degrees[0] + 1, degrees[1] + 1), points, weights, np.eye(4)
-    )
+    multiple = values[7:11]  # multiplicities of both directions, then values of both
+    s_knots = _knots(parts, "SURFACE", degree_s, points.shape[0], multiple[0::2])
+    t_knots = _knots(parts, "SURFACE", degree_t, points.shape[1], multiple[1::2])
+    orders = (degree_s + 1, degree_t + 1)
+    surface = placed_surface((s_knots, t_knots), orders, points, weights, np.eye(4))
     patches = bezier_surface(surface, (None, None), False)
     return patches[0] if len(patches) == 1 else surface
 
 
 def _quadric_of(minor: int | None, major: int | None = 2) -> Callable[..., Quadric]:
-    """Return the maker of a quadric whose radii are these attributes."""
+    """Return the maker of a quadric whose radii are the attributes at these indices, 0 for None."""
 
     def make(shapes: Shapes, _: Any, values: list[Any], __: Any) -> Quadric:
         radii = [0.0 if at is None else float(values[at]) for at in (major, minor)]
@@ -344,18 +339,19 @@ def _quadric_of(minor: int | None, major: int | None = 2) -> Callable[..., Quadr
     return make
 
 
-def _cone(shapes: Shapes, _: Any, values: list[Any], loops: list[list[Curve]]) -> Quadric:
+def _cone(shapes: Shapes, _: Any, values: list[Any], loops: Loops) -> Quadric:
     """Return the part of a cone on that side of its apex where its boundary is."""
     slope = math.tan(shapes.angle * values[3])
     frame = shapes.frame(values[1])
     radius = float(values[2])
-    points = np.concatenate([frame[:1, 3], *(one.points for loop in loops for one in loop)][1:])
-    if radius + slope * float(np.mean((points - frame[:3, 3]) @ frame[:3, 2])) < 0.0:
+    points = np.concatenate([curve.points for loop in loops for curve in loop])
+    mean_height = float(np.mean((points - frame[:3, 3]) @ frame[:3, 2]))
+    if radius + slope * mean_height < 0.0:
         return Quadric(frame @ np.diag([1.0, -1.0, -1.0, 1.0]), -radius, 0.0, slope)
     return Quadric(frame, radius, 0.0, slope)
 
 
-def _torus(shapes: Shapes, parts: Any, values: list[Any], loops: list[list[Curve]]) -> Any:
+def _torus(shapes: Shapes, parts: Any, values: list[Any], loops: Loops) -> Any:
     """Return a torus, or the part where its boundary is if its tube crosses the axis; the inner
     one faces inward.
     """
@@ -365,42 +361,45 @@ def _torus(shapes: Shapes, parts: Any, values: list[Any], loops: list[list[Curve
     if torus.minor > torus.radius and len(values) == 4:
         if not loops:
             raise refuse("a torus that crosses its axis, without edges to tell which part is meant")
-        points = np.concatenate([one.samples(8) for loop in loops for one in loop])
-        apart = [
-            np.linalg.norm(one.evaluate(*one.project(points).T)[0].T - points, axis=1).max()
-            for one in (torus, inner)
-        ]
-        is_inner = apart[1] < apart[0]
+        points = np.concatenate([curve.samples(8) for loop in loops for curve in loop])
+        distance, inner_distance = (
+            np.linalg.norm(part.evaluate(*part.project(points).T)[0].T - points, axis=1).max()
+            for part in (torus, inner)
+        )
+        is_inner = inner_distance < distance
     return inner.reverse_orientation() if is_inner else torus
 
 
-def _offset(shapes: Shapes, _: Any, values: list[Any], loops: list[list[Curve]]) -> Any:
+def _offset(shapes: Shapes, _: Any, values: list[Any], loops: Loops) -> Any:
     """Return the surface at a distance from a plane, a cylinder, a cone, a sphere or a torus."""
     surface = shapes.surface(values[1], loops)
-    if isinstance(surface, Quadric):
-        side = np.sign(np.linalg.det(surface.frame))  # -1.0 if the normal points inward
-        away = side * float(values[2]) * math.hypot(1.0, surface.slope)
-        name = "minor" if surface.minor else "radius"
-        size = getattr(surface, name) + away
-        if size <= 0.0 and not surface.slope:
-            raise refuse("an offset surface that turns its base inside out")
-        if surface.minor and size > surface.radius > 0.0:
-            raise refuse("an offset torus that crosses its axis")
-        return replace(surface, **{name: size})
-    if not isinstance(surface, np.ndarray):
+    if isinstance(surface, np.ndarray):
+        return surface  # The boundary of a plane tells where it is.
+    if not isinstance(surface, Quadric):
         raise SurfaceRefusedError(SURFACE_UNSUPPORTED, base="OFFSET_SURFACE")
-    return surface
+    side = np.sign(np.linalg.det(surface.frame))  # -1.0 if the normal points inward
+    away = side * float(values[2]) * math.hypot(1.0, surface.slope)
+    size = (surface.minor or surface.radius) + away
+    if size <= 0.0 and not surface.slope:
+        raise refuse("an offset surface that turns its base inside out")
+    if surface.minor and size > surface.radius > 0.0:
+        raise refuse("an offset torus that crosses its axis")
+    return replace(surface, minor=size) if surface.minor else replace(surface, radius=size)
 
 
-def _extrusion(shapes: Shapes, _: Any, values: list[Any], loops: list[list[Curve]]) -> Any:
+def _extrusion(shapes: Shapes, _: Any, values: list[Any], loops: Loops) -> Any:
+    """Return the normal of the plane that a line sweeps, or the patch that another curve sweeps,
+    as high as its boundary.
+    """
     along = shapes.along(values[2])
     if shapes.pick(values[1], (*_CURVES, *_BASES))[0] == "LINE":
         return np.cross(shapes.along(shapes.pick(values[1], ("LINE",))[1][2]), along)
     profile = join_pieces(shapes.curve(values[1], None))
     heights = np.concatenate([curve.points for loop in loops for curve in loop]) @ along
-    own = profile.points @ along
-    low, high = heights.min() - own.max(), heights.max() - own.min()
-    margin = (OVERLAP - 1.0) * (high - low)
+    profile_heights = profile.points @ along
+    low = heights.min() - profile_heights.max()
+    high = heights.max() - profile_heights.min()
+    margin = MARGIN * (high - low)
     ends = [
         replace(profile, points=profile.points + shift * along)
         for shift in (low - margin, high + margin)
@@ -408,7 +407,8 @@ def _extrusion(shapes: Shapes, _: Any, values: list[Any], loops: list[list[Curve
     return rule(*ends)
 
 
-def _revolution(shapes: Shapes, _: Any, values: list[Any], loops: list[list[Curve]]) -> Any:
+def _revolution(shapes: Shapes, _: Any, values: list[Any], loops: Loops) -> Any:
+    """Return the normal of a plane, the quadric or the patch that a curve sweeps about an axis."""
     frame = shapes.frame(values[2])
     begin, axis = frame[:3, 3], frame[:3, 2]
     name, line = shapes.pick(values[1], (*_CURVES, *_BASES))
@@ -419,16 +419,17 @@ def _revolution(shapes: Shapes, _: Any, values: list[Any], loops: list[list[Curv
         arms = np.concatenate([curve.points for loop in loops for curve in loop]) - place
         if not abs(along @ axis) > 1e-9:
             # Each half of the line sweeps the plane, facing another way: the loops tell which.
-            return plane_moments([one for loop in loops for one in loop], axis, 0).total * axis
+            return plane_moments([curve for loop in loops for curve in loop], axis, 0).total * axis
         steps = arms @ axis / (along @ axis)
         ends = [place + step * along for step in (steps.min(), steps.max())]
     profile = join_pieces(shapes.curve(values[1], ends))
     spokes = profile.samples(64) - begin
     spokes -= np.outer(spokes @ axis, axis)
     widest = spokes[np.argmax((spokes**2).sum(axis=1))]
-    along = spokes @ widest / (widest @ widest)
-    is_flat = np.abs(spokes - np.outer(along, widest)).max() < 1e-9 * np.linalg.norm(widest)
-    if is_flat and along.min() < -1e-9:
+    # A profile in a plane with the axis has spokes that are multiples of one.
+    multiples = spokes @ widest / (widest @ widest)
+    is_flat = np.abs(spokes - np.outer(multiples, widest)).max() < 1e-9 * np.linalg.norm(widest)
+    if is_flat and multiples.min() < -1e-9:
         raise refuse("a curve that crosses the axis it turns about")
     swept = revolved_quadric(profile, begin, axis) or revolve(profile, begin, axis, 0.0, TURN)
     return swept.reverse_orientation()  # The angle is the first parameter.

@@ -32,9 +32,10 @@ from .findings import (
     SURFACE_DAMAGED,
     SURFACE_POINTS,
 )
-from .iges_sweeps import join_pieces, revolve
+from .sweeps import join_pieces, revolve
 
 MISSING = "a reference to an entity that is not in the file"
+RECURSION = "references to itself, or nested too deeply"
 MAX_ORDER = 6  # largest order of the surfaces that are kept
 MAX_POINTS = 1 << 18  # control points of one patch in Bézier form
 MAX_SURFACES = 10_000  # surfaces placed by a file
@@ -89,7 +90,8 @@ def reason(error: Exception) -> tuple[str, Mapping[str, Any]]:
     """Return a finding's code and values for an error that reading an entity raised."""
     if isinstance(error, SurfaceRefusedError):
         return error.finding.code, error.finding.values
-    if isinstance(error, MeasureError):  # about its control points
+    if isinstance(error, MeasureError):
+        # It is about the control points.
         return SURFACE_POINTS, {"cause": error.finding}
     is_missing = isinstance(error, KeyError) and isinstance(error.args[0], int)
     fault = MISSING if is_missing else "numbers that are missing or not possible"
@@ -100,6 +102,7 @@ def reason(error: Exception) -> tuple[str, Mapping[str, Any]]:
 class Refusals:
     """Surfaces that could not be kept, gathered by reason and kind."""
 
+    # Names of surfaces by the code of a finding, their kind, and the items of its other values.
     names: dict[tuple, list[str]] = field(default_factory=dict)
     points: int = 0  # points of all patches that were kept
 
@@ -107,22 +110,22 @@ class Refusals:
         """Return the patches of a surface; note a refusal, and return no patches then. kind, name:
         for messages.
         """
-        before = self.points
+        points_before = self.points
         try:
             patches = make()
-            # A nested call for other surfaces of this file has counted their points.
-            self.points = max(
-                self.points, before + sum(patch.points.size // 3 for patch in patches)
-            )
-            if self.points > MAX_TOTAL_POINTS:
-                raise FileError(FILE_TOO_LARGE, limit=MAX_TOTAL_POINTS, content="control points")
-            return patches
         except FileError:
             raise
         except (MeasureError, ValueError, OverflowError, LookupError) as error:
             code, values = reason(error)
             self.add(code, kind, name, **values)
-        return []
+            return []
+        # A nested call for other surfaces of this file has counted their points.
+        self.points = max(
+            self.points, points_before + sum(patch.points.size // 3 for patch in patches)
+        )
+        if self.points > MAX_TOTAL_POINTS:
+            raise FileError(FILE_TOO_LARGE, limit=MAX_TOTAL_POINTS, content="control points")
+        return patches
 
     def add(self, code: str, kind: str, name: str, **values: object) -> None:
         """Note that one surface, or another entity, was refused, with the finding's code and
@@ -142,19 +145,16 @@ class Refusals:
         """
         refused = []
         kept = tuple(body for body in bodies if body.patches)
-        for (
-            code,
-            kind,
-            values,
-        ), names in self.names.items():  # one finding for each reason and kind
-            known = dict(values)
-            if "cause" in known:
-                known["cause"] = known["cause"].as_record()
+        # One finding for each reason and kind.
+        for (code, kind, reason_values), names in self.names.items():
+            values = dict(reason_values)
+            if "cause" in values:
+                values["cause"] = values["cause"].as_record()
             refused.append(
-                finding(code, kind=kind, count=len(names), names=names[:MAX_NAMES], **known)
+                finding(code, kind=kind, count=len(names), names=names[:MAX_NAMES], **values)
             )
         if not kept and refused:
-            causes = [reason.as_record() for reason in truncate_findings(refused, MAX_REASONS)]
+            causes = [cause.as_record() for cause in truncate_findings(refused, MAX_REASONS)]
             raise FileError(NO_SURFACE_KEPT, causes=causes)
         if not kept:
             raise FileError(FILE_WITHOUT_OBJECTS, content="surfaces")
@@ -243,11 +243,17 @@ def revolved_solid(
         math.isfinite(bottom + top + half) and max(bottom, top) > 0.0 and (half > 0.0 or is_round)
     ):
         return None
-    ends = [(0.0, -half - bottom * is_round), (bottom, -half), (top, half)]
-    ends.append((0.0, half + top * is_round))
+    # Radius and height at the ends of the three curves of the profile.
+    ends = [
+        (0.0, -half - bottom * is_round),
+        (bottom, -half),
+        (top, half),
+        (0.0, half + top * is_round),
+    ]
     profile = []
     for begin, end, is_arc in zip(ends[:-1], ends[1:], (is_round, False, is_round)):
         if begin != end:
+            # The middle control point of a quarter of a circle is the meet of its tangents.
             outer, inner = max(begin, end), min(begin, end)
             middle = (outer[0], inner[1]) if is_arc else np.mean([begin, end], axis=0)
             points = np.insert([begin, middle, end], 1, 0.0, axis=1)

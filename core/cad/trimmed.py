@@ -89,31 +89,39 @@ def lifted(surface: Patch | Quadric, parameters: Sequence[Curve]) -> list[Curve]
     """
     chart = surface if isinstance(surface, Quadric) else SplineChart(surface)
     if isinstance(chart, SplineChart):
-        ends = np.array([space.domain for space in chart.patch.spaces])
-        places = sample_pieces(parameters)[..., :2].reshape(-1, 2)
-        beyond = np.maximum(ends[:, 0] - places, places - ends[:, 1]).max(axis=0)
-        if (beyond > TRIM_RTOL * np.ptp(ends, axis=1))[np.equal(chart.periods, 0.0)].any():
-            raise SurfaceRefusedError(SURFACE_TRIMMED)
+        _check_domain(chart, parameters)
     nodes = (1.0 - np.cos(np.pi * np.arange(LIFTED_ORDER) / (LIFTED_ORDER - 1.0))) / 2.0
-    space = clamped_space(LIFTED_ORDER)
     between = (nodes[1:] + nodes[:-1]) / 2.0
+    space = clamped_space(LIFTED_ORDER)
     nets, origin = bezier_nets(parameters)
+    # Where each piece begins: the index of its Bézier piece, and the share of this before it.
     begins = np.arange(float(len(nets)))
-    found: dict[float, Array] = {}
+    control_points: dict[float, Array] = {}
     for depth in range(LIFTED_DEPTH + 1):
-        truth, check = (
+        at_nodes, at_between = (
             np.moveaxis(chart.evaluate(*evaluate_nets(nets, at[None], origin)[0][:2])[0], 0, -1)
             for at in (nodes, between)
         )
-        points = np.asarray(np.linalg.solve(space.collocation_matrix(nodes), truth), np.float64)
-        miss = np.abs(space.collocation_matrix(between) @ points - check).max(axis=(1, 2))
-        extent, reach = np.ptp(truth, axis=1).max(axis=1), np.abs(truth).max(initial=0.0)
+        points = np.asarray(np.linalg.solve(space.collocation_matrix(nodes), at_nodes), np.float64)
+        miss = np.abs(space.collocation_matrix(between) @ points - at_between).max(axis=(1, 2))
+        extent = np.ptp(at_nodes, axis=1).max(axis=1)
+        reach = np.abs(at_nodes).max(initial=0.0)
         is_near = miss <= LIFTED_RTOL * extent + ROUNDED * reach
         is_near |= depth == LIFTED_DEPTH
-        found.update(zip(begins[is_near].tolist(), points[is_near]))
+        control_points.update(zip(begins[is_near].tolist(), points[is_near]))
         nets = np.concatenate([half @ nets[~is_near] for half in halves(nets.shape[1])])
         begins = np.concatenate([begins[~is_near], begins[~is_near] + 0.5 ** (depth + 1)])
-    return [Curve(space, found[begin]) for begin in sorted(found)]
+    return [Curve(space, control_points[begin]) for begin in sorted(control_points)]
+
+
+def _check_domain(chart: SplineChart, parameters: Sequence[Curve]) -> None:
+    """Raise SurfaceRefusedError if curves leave the domain of a patch where it does not close."""
+    ends = np.array([space.domain for space in chart.patch.spaces])
+    places = sample_pieces(parameters)[..., :2].reshape(-1, 2)
+    beyond = np.maximum(ends[:, 0] - places, places - ends[:, 1]).max(axis=0)
+    is_open = np.equal(chart.periods, 0.0)
+    if (beyond > TRIM_RTOL * np.ptp(ends, axis=1))[is_open].any():
+        raise SurfaceRefusedError(SURFACE_TRIMMED)
 
 
 def flat_region(
@@ -140,8 +148,9 @@ def _is_sound(face: FlatFace) -> bool:
     """
     tolerance = MISS_RTOL * float(np.ptp(face.points, axis=0).max())
     off_plane = np.abs((face.points - face.center) @ face.normal).max()
+    # Of each loop, the (curves, 2, 3) begin and end of its curves.
     ends = [np.array([curve.evaluate(curve.space.domain) for curve in loop]) for loop in face.loops]
-    gap = max(np.abs(row[:, 0] - np.roll(row[:, 1], 1, axis=0)).max() for row in ends)
+    gap = max(np.abs(loop[:, 0] - np.roll(loop[:, 1], 1, axis=0)).max() for loop in ends)
     area = face.area_moments(0, face.center).total
     if max(off_plane, gap) > tolerance or not area > 0.0:
         return False

@@ -6,7 +6,7 @@ import contextlib
 
 import numpy as np
 import pytest
-from body_moments.core.cad.iges_entities import conic_pieces
+from body_moments.core.cad.sweeps import conic_pieces
 from body_moments.core.cad.trimmed import face_within, flat_region
 from body_moments.core.nurbs import (
     TURN,

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces that a curve sweeps along a circle, a line or to another curve, in their exact rational
-form; cylinders, cones, spheres and tori that a line or an arc sweeps.
+"""Parts of conics, and surfaces that a curve sweeps along a circle, a line or to another curve, in
+their exact rational form; cylinders, cones, spheres and tori that a line or an arc sweeps.
 """
 
 from __future__ import annotations
@@ -13,9 +13,44 @@ import numpy as np
 
 from ..numerics import NDArray, SplineSpace, clamped_space, lengths
 from ..nurbs import TURN, Curve, Patch, Quadric
-from .iges_entities import arc_steps
 
+# radians; a quadratic piece of a circle keeps its weights away from zero
+MAX_ARC = 2.0 * math.pi / 3.0
 SAME_RTOL = 1e-12  # relative to the size: lines and circles by rounding
+
+
+def arc_steps(turn: float) -> int:
+    """Return the number of quadratic pieces of an arc that turns by an angle."""
+    return max(1, math.ceil(turn / MAX_ARC - 1e-9))
+
+
+def conic_pieces(
+    frame: NDArray,
+    sizes: tuple[float, float],
+    ends: tuple[float, float],
+    kind: str = "ELLIPSE",
+) -> list[Curve]:
+    """Return a part of a conic in a frame (4, 4), between two parameters of ISO 10303-42, as
+    quadratic pieces with weights. The middle control point is the meet of a piece's end tangents.
+
+    sizes: both half axes, or both sizes of a hyperbola, or the focal length twice.
+    """
+    steps = arc_steps(ends[1] - ends[0]) if kind == "ELLIPSE" else 1
+    marks = np.linspace(*ends, steps + 1)
+    pieces = []
+    for low, high in zip(marks[:-1], marks[1:]):
+        middle, half = (low + high) / 2.0, (high - low) / 2.0
+        t = np.array([low, middle, high])
+        if kind == "PARABOLA":
+            plane = np.array([[low**2, low * high, high**2], 2.0 * t])
+            weight = 1.0
+        else:
+            cosine, sine = (np.cos, np.sin) if kind == "ELLIPSE" else (np.cosh, np.sinh)
+            weight = float(cosine(half))
+            plane = np.array([cosine(t), sine(t)]) / [1.0, weight, 1.0]
+        points = (plane.T * sizes) @ frame[:3, :2].T + frame[:3, 3]
+        pieces.append(Curve(clamped_space(3), points, np.array([1.0, weight, 1.0])))
+    return pieces
 
 
 def revolve(curve: Curve, begin: NDArray, axis: NDArray, start: float, end: float) -> Patch:
