@@ -45,26 +45,26 @@ from .findings import DENSITY_NON_FINITE, GRID_TRANSFORM_SINGULAR
 from .spline_grid import contract
 from .threshold_cells import TURNS, Cells, Columns, integrate
 
-RULES = (3, 5, 8, 12)  # points along x and y; each rule is compared with the one before
-TOLERANCE = (
-    1e-11  # Relative to the volume: allowed difference of the rules in all uncut cells together.
-)
+RULES = (3, 5, 8, 12)  # Points along x and y; each rule is compared with the one before.
+# Relative to the volume: allowed difference of the rules in all cells together that the surface
+# crosses.
+TOLERANCE = 1e-11
 AREA_TOLERANCE = 1e-9  # Relative to a cell's face: allowed difference in one cell.
-# limit of parts: first per cut cell, plus second; the rest is in the bounds
-MAX_PARTS = 64
+# Cells are cut in eight until there are this many parts for each crossed cell, plus these for all
+# together; the differences that remain are in the bounds.
+MAX_PARTS_PER_CELL = 64
 MIN_PARTS = 1 << 13
-MAX_CUT_CELLS = 1 << 21  # Limit of cells kept for measuring.
-# Work relative to that of the first two rules: of the other rules, and of a cell that is cut in
-# eight. Its limit is the first number for each cell and the second for all together, judged by a
-# sample of cells.
-WORKS = np.array([1.7, 4.0, 5.0])
-WORK = 1.3
-LEAST_WORK = 50_000.0
-SAMPLE = 1 << 11
+MAX_CROSSED_CELLS = 1 << 21  # crossed cells that are collected before they are integrated
+# Measured times of the third rule, of the fourth, and of a cut in eight, in units of the time of
+# the first two rules. All together are limited to MAX_WORK_PER_CELL for each cell, plus MIN_WORK.
+EXTRA_WORK = np.array([1.7, 4.0, 5.0])
+MAX_WORK_PER_CELL = 1.3
+MIN_WORK = 50_000.0
+SAMPLE_CELLS = 1 << 11  # cells by which the work is estimated
 DOUBT = 4.0  # factor of the differences in cells without an axis of monotone values
-CELLS_PER_BATCH = 1 << 10  # cut cells whose points are in memory at a time
+CELLS_PER_BATCH = 1 << 10  # crossed cells whose points are in memory at a time
 CELLS_PER_SLAB = 1 << 21  # cells of the grid at a time
-MEASURES = Measure.VOLUME, Measure.AREA, Measure.MASS  # of the sums, in this order
+MEASURES = Measure.VOLUME, Measure.AREA, Measure.MASS  # the rows of the sums
 VOLUME = 0
 MASS = 2
 
@@ -157,41 +157,47 @@ def threshold_body(
         raise MeasureError(GRID_TRANSFORM_SINGULAR)
     cofactors = np.linalg.det(linear) * np.linalg.inv(linear)  # they map the normals of the surface
     about = (shape - 1) // 2 - margin
-    sums = _Sums(order, with_density, preview, cofactors @ cofactors.T)
+    sums = _Sums(order, threshold, with_density, preview, metric=cofactors @ cofactors.T)
     clipped = False
-    count = 0
-    cut = []
+    crossed_count = 0
+    collected: list[Cells] = []
     for first, values in _slabs(samples, background, value):
         if not np.isfinite(values).all():
             raise MeasureError(DENSITY_NON_FINITE)
+        is_last = first + len(values) == shape[0]
         inside = values >= threshold
-        clipped = clipped or _reaches_edge(inside, first == 0, first + len(values) == shape[0])
+        clipped = clipped or _reaches_edge(inside, first == 0, is_last)
         corners = _corner_counts(inside)
         origin = np.array([first, 0, 0]) - margin - about
         sums.add_whole_cells(values, corners == 8, origin)
-        places = np.nonzero((corners > 0) & (corners < 8))
-        cut.append(Cells.of_grid(values - threshold, places, origin))
-        count += len(places[0])
-        if sum(len(cells.size) for cells in cut) > MAX_CUT_CELLS or first + len(values) == shape[0]:
-            sums.add_cut_cells(Cells.join(cut), threshold)
-            cut = []
-    about = about.astype(np.float64)
+        crossed = Cells.of_grid(values - threshold, (corners > 0) & (corners < 8), origin)
+        collected.append(crossed)
+        crossed_count += len(crossed)
+        if sum(map(len, collected)) > MAX_CROSSED_CELLS or is_last:
+            sums.add_crossed_cells(Cells.join(collected))
+            collected = []
 
     errors = sums.estimates + (60 + 8 * order + np.log2(sums.terms + 1.0)) * U * sums.sizes
-    # The scale of areas is in the sums.
-    scaled_as = Measure.VOLUME, Measure.MASS, Measure.VOLUME
+    # In the grid's coordinates, the sums of areas are already those of the mapped surface, and
+    # masses are those of the unmapped body. So the map leaves the first alone, as it leaves a mass,
+    # and scales the second, as it scales a volume.
+    mapped_as = Measure.VOLUME, Measure.MASS, Measure.VOLUME
     volume, area, mass = (
-        replace(Moments(raw, about, scaled, error).transform(matrix), measure=measure)
-        for measure, raw, scaled, error in zip(MEASURES, sums.totals, scaled_as, errors)
+        replace(
+            Moments(raw, about.astype(np.float64), kind, error).transform(matrix), measure=measure
+        )
+        for measure, kind, raw, error in zip(MEASURES, mapped_as, sums.totals, errors)
     )
-    return ThresholdBody(volume, area, mass if with_density else None, count, bool(clipped))
+    return ThresholdBody(volume, area, mass if with_density else None, crossed_count, clipped)
 
 
 def _slabs(
     samples: NDArray, background: float | None, value: Callable[[NDArray], NDArray] | None
 ) -> Iterator[tuple[int, Array]]:
-    """Yield slabs: the first index, and the planes up to the first of the next slab, padded by the
-    background.
+    """Yield slabs of densities, each with the index of its first plane.
+
+    A slab includes the first plane of the next one. With a background, the grid has one more layer
+    on every side.
     """
     margin = 0 if background is None else 1
     planes = len(samples) + 2 * margin
@@ -206,10 +212,14 @@ def _slabs(
         yield first, slab
 
 
-def _reaches_edge(inside: Mask, first: bool, last: bool) -> bool:
-    sides = (inside[:, 0], inside[:, -1], inside[:, :, 0], inside[:, :, -1])
-    ends = ([inside[0]] if first else []) + ([inside[-1]] if last else [])
-    return any(side.any() for side in (*sides, *ends))
+def _reaches_edge(inside: Mask, is_first: bool, is_last: bool) -> bool:
+    """Return whether the body reaches the edge of the grid in a slab."""
+    sides = [inside[:, 0], inside[:, -1], inside[:, :, 0], inside[:, :, -1]]
+    if is_first:
+        sides.append(inside[0])
+    if is_last:
+        sides.append(inside[-1])
+    return any(bool(side.any()) for side in sides)
 
 
 def _corner_counts(inside: Mask) -> NDArray[np.int8]:
@@ -221,52 +231,60 @@ def _corner_counts(inside: Mask) -> NDArray[np.int8]:
 
 
 def _batches(cells: Cells) -> Iterator[tuple[Cells, tuple, float]]:
-    """Yield batches of cells with the axes of their columns, and a factor of their estimates."""
+    """Yield batches of cells, the row of TURNS for their columns, and a factor of their errors."""
     axes, is_monotone = cells.column_axes()
-    for (axis, turn), doubt in product(enumerate(TURNS), (1.0, DOUBT)):
-        chosen = np.flatnonzero((axes == axis) & (is_monotone == (doubt == 1.0)))
+    for (axis, turn), (monotone, doubt) in product(enumerate(TURNS), ((True, 1.0), (False, DOUBT))):
+        chosen = np.flatnonzero((axes == axis) & (is_monotone == monotone))
         for first in range(0, len(chosen), CELLS_PER_BATCH):
             yield cells[chosen[first : first + CELLS_PER_BATCH]], turn, doubt
 
 
 class _Sums:
-    """The moments so far, about the middle of the grid, (3, K) `totals` of MEASURES; the sizes of
-    their terms, and estimates of their errors.
+    """Sums of moments about the middle of the grid, one row for each of MEASURES.
+
+    totals: (3, K) the moments so far. sizes: (3, K) bounds of the sums of their terms' magnitudes.
+    estimates: (3, K) estimates of the errors of the rules. terms: bounds the length of any sum.
+    metric: (3, 3), gives the area of the mapped surface (`threshold_cells.integrate`).
     """
 
-    def __init__(self, order: int, with_density: bool, preview: bool, metric: NDArray) -> None:
+    def __init__(
+        self, order: int, threshold: float, with_density: bool, preview: bool, metric: NDArray
+    ) -> None:
         self.order = order
+        self.threshold = threshold
         self.with_density = with_density
         self.preview = preview
         self.metric = metric
-        self.face = np.sqrt(np.trace(metric) / 3.0)  # roughly the area of a cell's face
+        self.face_area = np.sqrt(np.trace(metric) / 3.0)  # roughly, of a mapped cell
         self.powers = monomials(order)
         self.totals, self.sizes, self.estimates = np.zeros((3, len(MEASURES), len(self.powers)))
         self.terms = 0
 
     def add_whole_cells(self, values: NDArray, whole: Mask, origin: NDArray) -> None:
-        """Add cells of the grid that lie entirely inside."""
+        """Add cells of a slab that lie entirely inside.
+
+        values: (nx, ny, nz) densities. whole: (nx - 1, ny - 1, nz - 1) True for these cells.
+        origin: (3,) position of the first value.
+        """
         if not whole.any():
             return
         mask = whole.astype(np.float64)
-        tables = [
-            _interval_moments(first + np.arange(n), self.order + 1)
-            for first, n in zip(origin, whole.shape)
-        ]
-        full = [table[: self.order + 1] for table in tables]
-        sizes = [np.abs(table) for table in full]
-        self.totals[VOLUME] += self._contract(mask, full)
+        starts = [first + np.arange(n) for first, n in zip(origin, whole.shape)]
+        tables = [_interval_moments(start, self.order + 1) for start in starts]
+        constant = [table[: self.order + 1] for table in tables]
+        sizes = [np.abs(table) for table in constant]
+        self.totals[VOLUME] += self._contract(mask, constant)
         self.sizes[VOLUME] += self._contract(mask, sizes)
         self.terms += sum(whole.shape)
         if not self.with_density:
             return
-        rising = [
-            table[1:] - (first + np.arange(table.shape[1])) * table[:-1]
-            for first, table in zip(origin, tables)
-        ]
-        for place in np.ndindex(2, 2, 2):
-            x, y, z = (slice(i, i + n) for i, n in zip(place, whole.shape))
-            factors = [up if i else even - up for i, up, even in zip(place, rising, full)]
+        # Each corner adds its density times a function that falls from 1 at this corner to 0 at the
+        # others: along each axis t - start for the far corners, 1 - (t - start) for the near ones.
+        rising = [table[1:] - start * table[:-1] for start, table in zip(starts, tables)]
+        falling = [even - up for even, up in zip(constant, rising)]
+        for corner in np.ndindex(2, 2, 2):
+            x, y, z = (slice(i, i + n) for i, n in zip(corner, whole.shape))
+            factors = [up if i else down for i, up, down in zip(corner, rising, falling)]
             block = mask * values[x, y, z]
             self.totals[MASS] += self._contract(block, factors)
             self.sizes[MASS] += self._contract(np.abs(block), sizes)
@@ -275,138 +293,142 @@ class _Sums:
         """Return (K,) Σ block_ijk X[p,i] Y[q,j] Z[r,k]."""
         return contract(block, factors)[tuple(self.powers.T)]
 
-    def add_cut_cells(self, cells: Cells, threshold: float) -> None:
-        """Add the inside parts of cells that the surface passes through."""
-        if not len(cells.size):
+    def add_crossed_cells(self, cells: Cells) -> None:
+        """Add the inside parts of cells that the surface crosses, and the surface in them."""
+        if not len(cells):
             return
-        allowed = np.array(
-            [
-                TOLERANCE * (self.totals[VOLUME, 0] + len(cells.size) / 2.0) / len(cells.size),
-                AREA_TOLERANCE * self.face,
-            ]
-        )
+        volume_per_cell = (self.totals[VOLUME, 0] + len(cells) / 2.0) / len(cells)
+        allowed = np.array([TOLERANCE * volume_per_cell, AREA_TOLERANCE * self.face_area])
         allowed = allowed * self._tolerance_factor(cells, allowed)
-        budget = MAX_PARTS * len(cells.size) + MIN_PARTS
-        while len(cells.size):
-            cells = Cells.join(
-                [
-                    self._add_batch(part, turn, doubt, threshold, allowed)
-                    for part, turn, doubt in _batches(cells)
-                ]
-            ).cut_in_eight()
-            signs = cells.corners >= 0.0
-            inside = np.asarray(signs.all(axis=(1, 2, 3)))
-            self._add_boxes(cells[inside], threshold)
-            budget -= len(cells.size)
-            cells = cells[~inside & signs.any(axis=(1, 2, 3))]
-            if budget < 0 or (cells.size**3).sum() < allowed[0]:
+        remaining_parts = MAX_PARTS_PER_CELL * len(cells) + MIN_PARTS
+        while len(cells):
+            inexact = [self._add_exact_cells(*batch, allowed) for batch in _batches(cells)]
+            cells = Cells.join(inexact).cut_in_eight()
+            inside = cells.corners >= 0.0
+            is_whole = np.asarray(inside.all(axis=(1, 2, 3)))
+            self._add_boxes(cells[is_whole])
+            remaining_parts -= len(cells)
+            cells = cells[~is_whole & inside.any(axis=(1, 2, 3))]
+            if remaining_parts < 0 or (cells.size**3).sum() < allowed[0]:
                 allowed[:] = np.inf
 
     def _tolerance_factor(self, cells: Cells, allowed: Array) -> float:
-        """Return the least factor of the allowed differences that keeps the work within its limit,
-        judged by a sample of the cells.
+        """Return the least factor of the (2,) allowed differences of volume and area that keeps the
+        work within its limit.
 
         So the largest differences are reduced first, and the others are in the bounds.
         """
-        limit = WORK + LEAST_WORK / len(cells.size)
-        if self.preview or limit >= 1.0 + WORKS.sum():
+        limit = MAX_WORK_PER_CELL + MIN_WORK / len(cells)
+        if self.preview or limit >= 1.0 + EXTRA_WORK.sum():
             return 1.0
         ratios = []
-        for part, turn, doubt in _batches(cells[:: max(len(cells.size) // SAMPLE, 1)]):
-            amounts = [integrate(part, turn, points, self.metric)[1] for points in RULES]
-            estimates = doubt * np.abs(np.diff(amounts, axis=0))
-            ratios.append((estimates / allowed[:, None]).max(axis=1))
-        least = np.minimum.accumulate(np.concatenate(ratios, axis=1))
-        factors = np.geomspace(1.0, max(least.max(), 1.0), 200)
-        works = 1.0 + WORKS @ (least[..., None] > factors).mean(axis=1)
-        return factors[np.argmax(works <= limit)]
+        for batch, turn, doubt in _batches(cells[:: max(len(cells) // SAMPLE_CELLS, 1)]):
+            amounts = [integrate(batch, turn, points, self.metric)[1] for points in RULES]
+            differences = doubt * np.abs(np.diff(amounts, axis=0))
+            ratios.append((differences / allowed[:, None]).max(axis=1))
+        # (rule, cell): a cell needs the next rule, or the cut, as long as all ratios up to this
+        # rule exceed the factor.
+        least_ratio = np.minimum.accumulate(np.concatenate(ratios, axis=1))
+        factors = np.geomspace(1.0, max(least_ratio.max(), 1.0), 200)
+        work = 1.0 + EXTRA_WORK @ (least_ratio[..., None] > factors).mean(axis=1)
+        return factors[np.argmax(work <= limit)]
 
-    def _add_batch(
-        self, cells: Cells, turn: tuple, doubt: float, threshold: float, allowed: Array
-    ) -> Cells:
-        """Add the cells that can be integrated to the tolerance; return the other cells."""
-        before = None
-        for points in RULES:
+    def _add_exact_cells(self, cells: Cells, turn: tuple, doubt: float, allowed: Array) -> Cells:
+        """Add the cells of a batch with rules that differ by no more than the (2,) allowed
+        differences of volume and area; return the other cells.
+        """
+        rules = RULES
+        coarser = None
+        if not self.preview:
+            rules = RULES[1:]
+            _, coarser = integrate(cells, turn, RULES[0], self.metric)
+        for points in rules:
             columns, amounts = integrate(cells, turn, points, self.metric)
-            if before is None and not self.preview:
-                before = amounts
-                continue
-            estimates = doubt * np.abs(amounts - before) if before is not None else 0.0 * amounts
-            good = np.asarray((estimates <= allowed[:, None]).all(axis=0))
+            errors = 0.0 * amounts if coarser is None else doubt * np.abs(amounts - coarser)
+            is_exact = np.asarray((errors <= allowed[:, None]).all(axis=0))
             for part in columns:
-                self._add_columns(part.take(good[part.cell]), cells, turn, threshold)
-            kept = cells[good]
-            self._add_largest(self.estimates, kept, threshold, *estimates[:, good])
-            self._add_largest(self.sizes, kept, threshold, kept.size**3, amounts[1, good])
-            cells = cells[~good]
-            before = amounts[:, ~good]
-            if good.all():
+                self._add_columns(part.take(is_exact[part.cell]), cells, turn)
+            exact = cells[is_exact]
+            self._add_largest(self.estimates, exact, *errors[:, is_exact])
+            self._add_largest(self.sizes, exact, exact.size**3, amounts[1, is_exact])
+            cells = cells[~is_exact]
+            coarser = amounts[:, ~is_exact]
+            if not len(cells):
                 break
         return cells
 
-    def _add_columns(self, columns: Columns, cells: Cells, turn: tuple, threshold: float) -> None:
+    def _add_columns(self, columns: Columns, cells: Cells, turn: tuple) -> None:
+        """Add the inside parts of columns, and the surface at their ends.
+
+        turn: row of TURNS; x, y, z are the axes of the columns.
+        """
         size = cells.size[columns.cell, None]
         x0, y0, z0 = cells.origin[columns.cell][:, turn].T[..., None]
-        place = [x0 + size * columns.x, y0 + size * columns.y]
+        x = x0 + size * columns.x
+        y = y0 + size * columns.y
         floor = columns.weight * size**2
-        xs = power_table(place[0][:, 0], self.order)
-        across = [floor * power for power in power_table(place[1], self.order)]
-        levels, ends = (
-            power_table(z0 + size * of, self.order + 1) for of in (columns.level, columns.end)
-        )
-        upward = 2.0 * columns.end[:, 0] - 1.0
-        rows = {}
+        x_powers = power_table(x[:, 0], self.order)
+        floor_y_powers = [floor * power for power in power_table(y, self.order)]
+        level_powers = power_table(z0 + size * columns.level, self.order + 1)
+        end_powers = power_table(z0 + size * columns.end, self.order + 1)
+        upward = 2.0 * columns.end[:, 0] - 1.0  # 1 if the end is the ceiling, -1 if it is the floor
+        # By (q, r): for each row of columns, ∫ y^q z^r over the volume and over the surface.
+        row_integrals = {}
         for number, (p, q, r) in enumerate(self.powers[:, turn].tolist()):
-            if (q, r) not in rows:
-                inside = np.einsum("ij,ij->i", across[q], ends[r + 1] - levels[r + 1])
-                surface = np.einsum("ij,ij,ij->i", across[q], columns.slope, levels[r])
-                rows[q, r] = upward * inside / (r + 1), surface
-            for total, sums in zip(self.totals, rows[q, r]):
-                total[number] += (xs[p] * sums).sum()
+            if (q, r) not in row_integrals:
+                rises = end_powers[r + 1] - level_powers[r + 1]
+                inside = np.einsum("ij,ij->i", floor_y_powers[q], rises)
+                surface = np.einsum(
+                    "ij,ij,ij->i", floor_y_powers[q], columns.slope, level_powers[r]
+                )
+                row_integrals[q, r] = upward * inside / (r + 1), surface
+            for total, integrals in zip(self.totals, row_integrals[q, r]):
+                total[number] += (x_powers[p] * integrals).sum()
         self.terms += floor.size
         if not self.with_density:
             return
         # The density is linear along a column, so that Gauss's rule is exact for the masses.
         height = columns.end - columns.level
         rise = np.ldexp(columns.growth, columns.exponent)
-        bottom = threshold + np.ldexp(columns.density, columns.exponent)
+        bottom = self.threshold + np.ldexp(columns.density, columns.exponent)
         for node, weight in zip(*gauss_legendre((self.order + 1) // 2 + 1)):
             z = columns.level + node * height
             amounts = floor * size * np.abs(height) * weight * (bottom + rise * z)
-            self._add_points(MASS, amounts, [*place, z0 + size * z], turn)
+            self._add_points(MASS, amounts, [x, y, z0 + size * z], turn)
 
     def _add_points(
         self, measure: int, amounts: NDArray, points: list[NDArray], turn: tuple = TURNS[2]
     ) -> None:
+        """Add amounts of a measure at points, x, y and z, which are the axes `turn` of the grid."""
         xs, ys, zs = (power_table(values, self.order) for values in points)
         for number, (p, q, r) in enumerate(self.powers[:, turn].tolist()):
             term = amounts * xs[p] * ys[q] * zs[r]
             self.totals[measure, number] += term.sum()
             self.sizes[measure, number] += np.abs(term).sum()
 
-    def _add_boxes(self, cells: Cells, threshold: float) -> None:
-        """Add whole cells, which lie entirely inside the body."""
-        if not len(cells.size):
+    def _add_boxes(self, cells: Cells) -> None:
+        """Add parts of cells that lie entirely inside the body."""
+        if not len(cells):
             return
         nodes, weights = gauss_legendre((self.order + 1) // 2 + 1)
-        for place in np.ndindex(*[len(nodes)] * 3):
-            u, v, w = nodes[list(place)]
+        for node_indices in np.ndindex(*[len(nodes)] * 3):
+            u, v, w = nodes[list(node_indices)]
             points = list((cells.origin + cells.size[:, None] * np.array([u, v, w])).T)
-            volumes = weights[list(place)].prod() * cells.size**3
+            volumes = weights[list(node_indices)].prod() * cells.size**3
             self._add_points(VOLUME, volumes, points)
             if self.with_density:
                 above = np.einsum(
                     "nijk,i,j,k->n", cells.corners, (1.0 - u, u), (1.0 - v, v), (1.0 - w, w)
                 )
-                self._add_points(MASS, volumes * (threshold + above), points)
-        self.terms += len(cells.size)
+                self._add_points(MASS, volumes * (self.threshold + above), points)
+        self.terms += len(cells)
 
-    def _add_largest(
-        self, sums: Array, cells: Cells, threshold: float, volumes: NDArray, areas: NDArray
-    ) -> None:
-        """Add the largest moments of volumes, areas and masses in cells to (3, K) sums."""
+    def _add_largest(self, sums: Array, cells: Cells, volumes: NDArray, areas: NDArray) -> None:
+        """Add to (3, K) sums the largest moments that (n,) volumes and areas within n cells may
+        have.
+        """
         reach = power_table((np.abs(cells.origin) + cells.size[:, None]).T, self.order)
-        density = abs(threshold) + np.abs(cells.corners).max(axis=(1, 2, 3))
+        density = abs(self.threshold) + np.abs(cells.corners).max(axis=(1, 2, 3))
         largest = np.stack(
             [reach[p][0] * reach[q][1] * reach[r][2] for p, q, r in self.powers.tolist()]
         )

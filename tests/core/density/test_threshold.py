@@ -359,11 +359,11 @@ def test_surface_area_is_exact_along_a_constant_axis(axis, level):
 @pytest.mark.parametrize("order", [0, 1, 2, 3, 4, 5])
 def test_inner_parts_of_cells_are_integrated_exactly(order):
     """A box with a density that rises along all axes at once."""
-    sums = threshold._Sums(order, True, False, np.eye(3))
+    sums = threshold._Sums(order, 3.0, True, False, np.eye(3))
     i, j, k = np.ogrid[:2, :2, :2]
     corners = (1.0 + i) * (2.0 - j) * (1.0 + 3.0 * k)
     origin, size = np.array([0.25, -0.5, 1.0]), 0.5
-    sums._add_boxes(threshold.Cells(corners[None], origin[None], np.array([size])), 3.0)
+    sums._add_boxes(threshold.Cells(corners[None], origin[None], np.array([size])))
 
     def mean(at, start, slope, power):
         """Integrate (start + slope u) (at + size u)^power over u from 0 to 1."""
