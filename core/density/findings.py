@@ -12,6 +12,7 @@ POLYNOMIAL_BEYOND_NUMBERS = (
 )
 POLYNOMIAL_UNUSABLE = error("polynomial_unusable", "The polynomial {fault:word}.")
 POLYNOMIAL_UNREADABLE = "cannot be read. Write products with *, as in 20*z"
+POLYNOMIAL_OUT_OF_RANGE = "is outside the range of numbers"
 POLYNOMIAL_NOT_ALLOWED = (
     "is not allowed in a polynomial. Use numbers, x, y, z, +, -, *, division by a number, whole "
     "powers with **, and parentheses"

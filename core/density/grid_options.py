@@ -14,12 +14,12 @@ from .findings import POSITIONS_ONLY_AS_DENSITY, VALUES_BY_TABLE, VALUES_SCALED
 class GridOptions(NamedTuple):
     """Options of a grid.
 
-    grid: its name, "" for the likeliest. solid: a level set as the solid it bounds. threshold:
-    smallest value inside the body, None for all of the grid; filled: with the grid's own density,
-    not with one material. value_density: kg/m³ of a value of 1; table: a transfer table instead, ""
-    for none. spline_order: 1 voxels, 2 trilinear, 4 cubic. sample_positions: the positions of
-    uneven samples, as `positions_text` writes them. label: of
-    a label map, 0 for all labels but 0; None to measure otherwise.
+    grid: its name, "" for the likeliest. solid: True to measure a level set as the solid that it
+    bounds. threshold: smallest value inside the body, None for all of the grid. filled: True to
+    fill this body with the grid's own density, not with one material. value_density: kg/m³ of a
+    value of 1. table: a transfer table instead, "" for none. spline_order: 1 voxels, 2 trilinear, 4
+    cubic. sample_positions: the positions of uneven samples, as `positions_text` writes them.
+    label: the label of a label map to measure, 0 for all labels but 0; None for no label map.
     """
 
     grid: str = ""
@@ -37,19 +37,18 @@ class GridOptions(NamedTuple):
         """Return the options of an object's settings. density: overrides the density of a value of
         1, and the table.
         """
-        table = (
-            settings.transfer_table if settings.values_from == "TABLE" and density is None else ""
-        )
+        uses_table = settings.values_from == "TABLE" and density is None
+        above_threshold = settings.grid_as == "THRESHOLD"
         return cls(
-            settings.grid,
-            settings.grid_as == "SOLID",
-            shortest_decimal(settings.threshold) if settings.grid_as == "THRESHOLD" else None,
-            settings.threshold_fill == "GRID",
-            shortest_decimal(settings.value_density if density is None else density),
-            table,
-            settings.spline_order,
-            settings.sample_positions,
-            settings.label if settings.grid_as == "LABEL" else None,
+            grid=settings.grid,
+            solid=settings.grid_as == "SOLID",
+            threshold=shortest_decimal(settings.threshold) if above_threshold else None,
+            filled=settings.threshold_fill == "GRID",
+            value_density=shortest_decimal(settings.value_density if density is None else density),
+            table=settings.transfer_table if uses_table else "",
+            spline_order=settings.spline_order,
+            sample_positions=settings.sample_positions,
+            label=settings.label if settings.grid_as == "LABEL" else None,
         )
 
     @property
@@ -59,16 +58,11 @@ class GridOptions(NamedTuple):
             return self.grid, "label", self.label
         if self.threshold is not None and not self.filled:
             return self.grid, "threshold", self.threshold, self.spline_order
-        values = (
-            (self.grid, "solid") if self.solid else (self.grid, self.table or self.value_density)
-        )
+        key = self.grid, "solid" if self.solid else self.table or self.value_density
         if self.sample_positions:
-            values = (*values, self.sample_positions)
-        return (
-            (*values, self.spline_order)
-            if self.threshold is None
-            else (*values, self.spline_order, self.threshold)
-        )
+            key = (*key, self.sample_positions)
+        key = (*key, self.spline_order)
+        return key if self.threshold is None else (*key, self.threshold)
 
     def needs_even_samples(self, grid: str) -> None:
         """Raise ReadError about the grid of this name if its samples are uneven."""

@@ -29,39 +29,44 @@ def sample_positions(
 ) -> Positions:
     """Return the scan's sample positions by axis, in voxels, None for even ones, or raise
     ReadError.
+
+    grid: its name. low, shape: (3,) index of the first sample in use and number of samples in use.
     """
     if not options.sample_positions:
         return EVEN
-    rows: list[Array | None] = []
-    all_known = _parsed_positions(options.sample_positions)
+    positions = _parsed_positions(options.sample_positions)
+    if positions is None:
+        raise ReadError(POSITIONS_DAMAGED, grid=grid)
     for axis, begin, count in zip(AXES, low, shape):
-        known = None if all_known is None else all_known.get(axis)
-        if all_known is None or known is not None and not 0 <= begin <= begin + count <= len(known):
+        if axis in positions and not 0 <= begin <= begin + count <= len(positions[axis]):
             raise ReadError(POSITIONS_DAMAGED, grid=grid)
-        rows.append(known)
-    x, y, z = rows
+    x, y, z = map(positions.get, AXES)
     return x, y, z
 
 
 def density_function(
     options: GridOptions, background: float | None
 ) -> Callable[[NDArray], NDArray]:
-    """Return a function from values to densities, kg/m³, 0 for the background; it raises ReadError
-    for bad ones.
-    """
-    pairs = parse_table(options.table) if options.table else None
+    """Return a function from values to densities, kg/m³, 0 for the background.
 
-    def weighed(values: NDArray) -> Array:
-        if pairs is not None and not np.isfinite(values).all():
+    It raises ReadError for negative densities, and for values beyond a table.
+    """
+    table = parse_table(options.table) if options.table else None
+
+    def to_densities(values: NDArray) -> Array:
+        if table is None:
+            densities = values * options.value_density
+        elif np.isfinite(values).all():
+            densities = np.interp(values, *table)
+        else:
             raise ReadError(DENSITY_NON_FINITE)
-        densities = values * options.value_density if pairs is None else np.interp(values, *pairs)
         if background is not None:
             densities[values == background] = 0.0
         if densities.min() < 0.0:
             raise ReadError(VALUES_NEGATIVE, density=float(densities.min()))
         return densities
 
-    return weighed
+    return to_densities
 
 
 def empty_background_note(options: GridOptions, background: float | None) -> tuple[Finding, ...]:
@@ -76,45 +81,48 @@ def empty_background_note(options: GridOptions, background: float | None) -> tup
 
 
 def positions_text(positions: Positions) -> str:
-    """Return positions as JSON for an object, in voxels, scaled so that the last sample keeps its
-    place in Blender.
+    """Return uneven positions as JSON for an object, in voxels, scaled so that the last sample
+    keeps its place in Blender; "" if all are even.
     """
-    known = {
+    scaled = {
         axis: (row * ((len(row) - 1) / row[-1])).tolist()
         for axis, row in zip(AXES, positions)
         if row is not None
     }
-    return json.dumps(known, separators=(",", ":")) if known else ""
+    return json.dumps(scaled, separators=(",", ":")) if scaled else ""
 
 
 def _parsed_positions(text: str) -> dict[str, Array] | None:
     """Return the positions by axis, or None if `positions_text` cannot have written the text."""
     try:
-        rows = {axis: np.array(row, np.float64) for axis, row in json.loads(text).items()}
+        positions = {axis: np.array(row, np.float64) for axis, row in json.loads(text).items()}
     except (ValueError, TypeError, AttributeError, RecursionError):
         return None
-    ascending = all(
-        row.ndim == 1 and len(row) > 1 and (np.diff(row) > 0.0).all() for row in rows.values()
-    )
-    return rows if ascending and all(np.isfinite(row).all() for row in rows.values()) else None
+    for row in positions.values():
+        if row.ndim != 1 or len(row) < 2 or not np.isfinite(row).all():
+            return None
+        if not (np.diff(row) > 0.0).all():
+            return None
+    return positions
 
 
 def parse_table(text: str) -> tuple[Array, Array]:
-    """Return (n,) values, ascending, and (n,) densities in kg/m³; MeasureError if the text is no
-    such table.
+    """Return (n,) ascending values and (n,) densities in kg/m³, two or more, or raise MeasureError
+    if the text is no such table.
     """
-    entries = []
-    for pair in re.split(r"[,;\n]", text):
-        words = pair.split()
+    pairs = []
+    for part in re.split(r"[,;\n]", text):
+        words = part.split()
         if not words:
             continue
         try:
             value, density = map(float, words)
         except ValueError:
-            raise MeasureError(TRANSFER_TABLE_SYNTAX, part=pair.strip()) from None
-        entries.append((value, density))
-    table = np.array(entries, np.float64).reshape(-1, 2)
-    rises = (np.diff(table[:, 0]) > 0.0).all()
-    if len(table) < 2 or not (np.isfinite(table).all() and rises and (table[:, 1] >= 0.0).all()):
+            raise MeasureError(TRANSFER_TABLE_SYNTAX, part=part.strip()) from None
+        pairs.append((value, density))
+    values, densities = np.array(pairs, np.float64).reshape(-1, 2).T
+    is_finite = np.isfinite(values).all() and np.isfinite(densities).all()
+    is_ascending = len(values) > 1 and (np.diff(values) > 0.0).all()
+    if not (is_finite and is_ascending and (densities >= 0.0).all()):
         raise MeasureError(TRANSFER_TABLE_NUMBERS)
-    return table[:, 0], table[:, 1]
+    return values, densities

@@ -35,7 +35,7 @@ from ..moments.raw import (
     monomial_index,
     monomials,
 )
-from ..numerics import Array, Integers, Mask, NDArray
+from ..numerics import Array, Integers, Mask, NDArray, sums_by_index
 from ..solid import ClosedParts
 
 TRIANGLES_PER_BLOCK = 4096  # triangles whose table of 20 monomials stays in the cache
@@ -44,75 +44,81 @@ CORNERS_PER_BLOCK = 1 << 16  # triangles whose corners are compared at a time
 
 
 def _block_size(order: int) -> int:
+    """Return the number of triangles whose table to an order stays in the cache."""
     return max(TRIANGLES_PER_BLOCK * 20 // monomial_count(order), MIN_TRIANGLES_PER_BLOCK)
 
 
 def solid_mass_moments(
-    points: NDArray, triangles: NDArray, density: NDArray, like: Moments
+    points: NDArray, triangles: NDArray, density: NDArray, volume: Moments
 ) -> Moments:
-    """Return ∫ ρ x^p y^q z^r dV for triangles (t, 3) with (t,) densities of their parts; like:
-    their volume moments.
+    """Return ∫ ρ x^p y^q z^r dV for triangles (t, 3) with (t,) densities of their parts.
+
+    volume: their volume moments, for the order, the reference point and the input error; the result
+    has measure VOLUME as well.
     """
-    sums, sizes, tau = _accumulate(points, triangles, density, like, solid=True)
-    reach = _reach(points, triangles, like.about)
-    raw = sums * factorial_ratios(monomials(like.order), 3)
+    order = volume.order
+    sums, size, tau = _accumulate(points, triangles, density, volume, solid=True)
+    reach = _reach(points, triangles, volume.about)
+    raw = sums * factorial_ratios(monomials(order), 3)
     error = (
-        (9.0 * U * (reach @ tau) + _relative_rounding(len(triangles), like.order) * sizes)
-        / (2.0 * monomials(like.order).sum(axis=1) + 6.0)
-        * _monomial_bounds(reach, like.order)
+        (9.0 * U * (reach @ tau) + _relative_rounding(len(triangles), order) * size)
+        / (2.0 * monomials(order).sum(axis=1) + 6.0)
+        * _monomial_bounds(reach, order)
     )
     return Moments(
         raw,
-        like.about,
+        volume.about,
         Measure.VOLUME,
         error + 8.0 * U * np.abs(raw),
-        like.input_error * float(density.max(initial=0.0)),
+        volume.input_error * float(density.max(initial=0.0)),
     )
 
 
 def sheet_mass_moments(
-    points: NDArray, triangles: NDArray, density: NDArray, like: Moments, stored: bool = False
+    points: NDArray, triangles: NDArray, density: NDArray, area: Moments, stored: bool = False
 ) -> Moments:
     """Return ∫ ρ x^p y^q z^r dA, with densities (t,) of triangles, or (t, 3) of their corners,
     linear between them.
 
-    No density may be negative. like: the sheet's area moments, for the order, the reference point
+    No density may be negative. area: the sheet's area moments, for the order, the reference point
     and the input error; the result has measure AREA as well. stored: True if the densities were
     float32, which adds to `input_error`.
     """
-    sums, sizes, tau = _accumulate(points, triangles, density, like, solid=False)
-    reach = _reach(points, triangles, like.about)
-    more = density.ndim - 1
-    raw = sums * factorial_ratios(monomials(like.order), 2 + more)
-    bounds = _monomial_bounds(reach, like.order)
-    size = sizes / 2.0 * bounds
-    error = (
-        9.0 * U * tau.sum() / 2.0 * bounds + _relative_rounding(len(triangles), like.order) * size
-    )
-    inputs = like.input_error * float(density.max(initial=0.0)) + (
-        FLOAT32_HALF_ULP * size if stored else 0.0
-    )
-    return Moments(raw, like.about, Measure.AREA, error + 8.0 * U * np.abs(raw), inputs)
+    order = area.order
+    sums, doubled_mass, tau = _accumulate(points, triangles, density, area, solid=False)
+    reach = _reach(points, triangles, area.about)
+    density_degree = density.ndim - 1
+    raw = sums * factorial_ratios(monomials(order), 2 + density_degree)
+    bounds = _monomial_bounds(reach, order)
+    size = doubled_mass / 2.0 * bounds
+    error = 9.0 * U * tau.sum() / 2.0 * bounds + _relative_rounding(len(triangles), order) * size
+    input_error = area.input_error * float(density.max(initial=0.0))
+    if stored:
+        input_error += FLOAT32_HALF_ULP * size
+    return Moments(raw, area.about, Measure.AREA, error + 8.0 * U * np.abs(raw), input_error)
 
 
 def _accumulate(
     points: NDArray, triangles: NDArray, density: NDArray, like: Moments, solid: bool
 ) -> tuple[Array, float, Array]:
-    """Return (K,) Σ ρ h weight, Σ ρ |weight| and (3,) Σ ρ τ; weights are determinants or, for
-    sheets, doubled areas.
+    """Return (K,) Σ ρ h weight, Σ ρ |weight| and (3,) Σ ρ τ.
+
+    The weights of triangles are determinants or, for sheets, doubled areas; τ are the sums of the
+    two magnitudes whose difference is a component of the normal. like: its order and reference
+    point are used.
     """
     order = like.order
-    step = _block_size(like.order)
+    step = _block_size(order)
     series = _complete_homogeneous if density.ndim == 1 else _with_linear_density
     block_sums = [np.zeros(monomial_count(order))]
-    sizes = 0.0
+    size = 0.0
     tau = np.zeros(3)
     columns = [np.ascontiguousarray(column, np.float64) for column in points.T]
     for start in range(0, len(triangles), step):
-        index_of = np.ascontiguousarray(triangles[start : start + step].T, np.intp)
+        corner_indices = np.ascontiguousarray(triangles[start : start + step].T, np.intp)
         block_density = density[start : start + step]
-        place = np.array([column.take(index_of) for column in columns])  # (3 axes, 3 corners, k)
-        (ax, bx, cx), (ay, by, cy), (az, bz, cz) = place
+        corners = np.array([column.take(corner_indices) for column in columns])  # (axis, corner, k)
+        (ax, bx, cx), (ay, by, cy), (az, bz, cz) = corners
         ux = bx - ax
         uy = by - ay
         uz = bz - az
@@ -121,15 +127,16 @@ def _accumulate(
         vz = cz - az
         products = ((uy * vz, uz * vy), (uz * vx, ux * vz), (ux * vy, uy * vx))
         normal = np.array([plus - minus for plus, minus in products])
-        place -= like.about[:, None, None]
+        corners -= like.about[:, None, None]
         mean = block_density if block_density.ndim == 1 else block_density.sum(axis=1) / 3.0
-        weight = (
-            (normal * place[:, 0]).sum(axis=0) if solid else np.sqrt((normal * normal).sum(axis=0))
-        )
-        sizes += float(np.abs(weight) @ mean)
+        if solid:
+            weight = (normal * corners[:, 0]).sum(axis=0)
+        else:
+            weight = np.sqrt((normal * normal).sum(axis=0))
+        size += float(np.abs(weight) @ mean)
         tau += [float((np.abs(plus) + np.abs(minus)) @ mean) for plus, minus in products]
-        block_sums.append(np.add.reduce(series(place, block_density.T, order) * weight, axis=1))
-    return np.add.reduce(np.array(block_sums)), sizes, tau
+        block_sums.append(np.add.reduce(series(corners, block_density.T, order) * weight, axis=1))
+    return np.add.reduce(np.array(block_sums)), size, tau
 
 
 def _complete_homogeneous(corners: NDArray, density: NDArray, order: int) -> Array:
@@ -158,10 +165,11 @@ def _with_linear_density(corners: NDArray, density: NDArray, order: int) -> Arra
 
 def _multiply_by_geometric_series(table: NDArray, vertex: NDArray, order: int) -> None:
     """Multiply the series in `table`, (K, k), by 1 / (1 - v·t) in place; (3, k) vertices."""
-    for at, (p, q, r) in enumerate(monomials(order).tolist()):
+    # The rows ascend in degree, so that each adds rows that are multiplied already.
+    for row, (p, q, r) in enumerate(monomials(order).tolist()):
         for axis, lower in enumerate(((p - 1, q, r), (p, q - 1, r), (p, q, r - 1))):
             if lower[axis] >= 0:
-                table[at] += vertex[axis] * table[monomial_index(*lower)]
+                table[row] += vertex[axis] * table[monomial_index(*lower)]
 
 
 def _reach(points: NDArray, triangles: NDArray, center: NDArray) -> Array:
@@ -198,11 +206,10 @@ def to_mass_moments(moments: Moments, factor: float = 1.0) -> Moments:
 
 @dataclass(frozen=True, eq=False)
 class PartDensities:
-    """Densities of parts, found from the densities of their faces, as arrays with an entry for each
-    part.
+    """Densities of parts by the densities of their faces, as arrays with an entry for each part.
 
-    A cavity takes its volume away from the part that it is cut from, whatever material its own
-    faces have. has_several_materials: the part's faces differ in density.
+    density: of a cavity, that of the part that it is cut from, whatever material its own faces
+    have. has_several_materials: the part is no cavity, and its faces differ in density.
     has_foreign_cavity_material: the part is a cavity with a face of another density than the part
     that it is cut from. first_face: a part's first mesh face, -1 if it has none. range_by_area,
     most_by_area: the range of its faces' densities, and the largest density, times the part's area.
@@ -217,36 +224,43 @@ class PartDensities:
 
 
 def part_densities(
-    parts: ClosedParts, faces: Array, linear: NDArray | None = None
+    parts: ClosedParts, face_density: Array, linear: NDArray | None = None
 ) -> PartDensities:
     """Return one density for each part: the mean of the (f,) face densities by area under the
     linear map.
     """
-    of_mesh = parts.face >= 0
-    part = parts.part[of_mesh]
-    face = parts.face[of_mesh]
-    area = parts.areas(linear)[of_mesh]
+    from_mesh = parts.face >= 0  # all triangles but those of caps
+    part = parts.part[from_mesh]
+    face = parts.face[from_mesh]
+    density = face_density[face]
+    area = parts.areas(linear)[from_mesh]
     first = np.full(parts.number, np.iinfo(np.int64).max)
     least = np.full(parts.number, np.inf)
     most = np.full(parts.number, -np.inf)
     np.minimum.at(first, part, face)
-    np.minimum.at(least, part, faces[face])
-    np.maximum.at(most, part, faces[face])
-    there = first < np.iinfo(np.int64).max
-    least = np.where(there, least, 0.0)
-    most = np.where(there, most, 0.0)
-    total = np.asarray(np.bincount(part, area, minlength=parts.number), np.float64)
-    sums = np.bincount(part, area * faces[face], minlength=parts.number)
-    mean = np.divide(sums, total, out=(least + most) / 2.0, where=total > 0.0)
+    np.minimum.at(least, part, density)
+    np.maximum.at(most, part, density)
+    has_face = np.bincount(part, minlength=parts.number) > 0
+    least = np.where(has_face, least, 0.0)
+    most = np.where(has_face, most, 0.0)
+    total_area = sums_by_index(part, area, parts.number)
+    mean = np.divide(
+        sums_by_index(part, area * density, parts.number),
+        total_area,
+        out=(least + most) / 2.0,
+        where=total_area > 0.0,
+    )
     differs = most > least
-    of_mesh = np.where(differs, np.clip(mean, least, most), least)
-    cavity = parts.host_part != np.arange(parts.number)
-    density = of_mesh[parts.host_part]
+    own_density = np.where(differs, np.clip(mean, least, most), least)
+    host_density = own_density[parts.host_part]
+    is_cavity = parts.host_part != np.arange(parts.number)
     return PartDensities(
-        density,
-        differs & ~cavity,
-        cavity & there & (differs | (of_mesh != density)),
-        np.where(there, first, -1),
-        (most - least) * total,
-        most * total,
+        host_density,
+        has_several_materials=differs & ~is_cavity,
+        has_foreign_cavity_material=is_cavity
+        & has_face
+        & (differs | (own_density != host_density)),
+        first_face=np.where(has_face, first, -1),
+        range_by_area=(most - least) * total_area,
+        most_by_area=most * total_area,
     )

@@ -20,6 +20,7 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
+from typing import TypeAlias
 
 import numpy as np
 
@@ -32,6 +33,7 @@ from .findings import (
     POLYNOMIAL_DEGREE,
     POLYNOMIAL_EMPTY,
     POLYNOMIAL_NOT_ALLOWED,
+    POLYNOMIAL_OUT_OF_RANGE,
     POLYNOMIAL_PART,
     POLYNOMIAL_TOO_LONG,
     POLYNOMIAL_UNREADABLE,
@@ -39,11 +41,15 @@ from .findings import (
 )
 
 MAX_DEGREE = 17  # mass moments to order 3 then need those of the body to order 20
-MAX_LENGTH = 4096  # bits of a number, and characters of a text
+MAX_LENGTH = 4096  # characters of a text
+MAX_BITS = 4096  # bits of a numerator or denominator
 MAX_EXPONENT = 664  # largest power of two by which numbers may be large or small: 1e200
 POINTS_PER_BLOCK = 1 << 15  # points that are evaluated together
 MAX_BOXES = 600  # boxes that are halved for a bound
-Exponents = tuple[int, int, int]
+Exponents: TypeAlias = tuple[int, int, int]
+Terms: TypeAlias = dict[Exponents, Fraction]
+CONSTANT: Exponents = (0, 0, 0)
+ZERO = Fraction(0)
 VARIABLES: dict[str, Exponents] = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 CORNERS = tuple(product((0, -1), repeat=3))
 
@@ -54,15 +60,15 @@ class Polynomial:
     for its values.
     """
 
-    terms: dict[Exponents, Fraction]
+    terms: Terms
 
     @classmethod
-    def from_list(cls, values: list[Fraction]) -> Polynomial:
+    def from_list(cls, coefficients: list[Fraction]) -> Polynomial:
         """Make a polynomial from exact coefficients of 1, x, y, z, x², xy, xz, y², yz, z², and so
         on.
         """
-        rows = monomials(order_from_count(len(values))).tolist()
-        return cls({tuple(row): value for row, value in zip(rows, values) if value})
+        exponents = map(tuple, monomials(order_from_count(len(coefficients))).tolist())
+        return cls(_nonzero(dict(zip(exponents, coefficients))))
 
     @property
     def degree(self) -> int:
@@ -96,16 +102,12 @@ class Polynomial:
     def __call__(self, points: NDArray) -> Array:
         """Return the (n,) values at (n, 3) points."""
         points = np.asarray(points, np.float64)
-        coefficients = self.coefficients()
         result = np.zeros(len(points))
         for start in range(0, len(points), POINTS_PER_BLOCK):
-            part = points[start : start + POINTS_PER_BLOCK].T
-            powers = [power_table(row, self.degree) for row in part]
-            for (p, q, r), value in zip(monomials(self.degree), coefficients):
-                if value:
-                    result[start : start + POINTS_PER_BLOCK] += (
-                        value * powers[0][p] * powers[1][q] * powers[2][r]
-                    )
+            block = slice(start, start + POINTS_PER_BLOCK)
+            x, y, z = (power_table(row, self.degree) for row in points[block].T)
+            for (p, q, r), coefficient in self.float_terms().items():
+                result[block] += coefficient * x[p] * y[q] * z[r]
         return result
 
     def lower_bound(self, low: ArrayLike, high: ArrayLike) -> float:
@@ -114,22 +116,25 @@ class Polynomial:
         """
         low = np.asarray(low, float)
         high = np.asarray(high, float)
-        local = self.translate(low).coefficients()
-        top = monomials(self.degree)
+        coefficients = self.translate(low).coefficients()
+        exponents = monomials(self.degree)
         net = np.zeros((self.degree + 1,) * 3)
-        net[tuple(top.T)] = local * np.multiply.reduce((high - low) ** top, axis=1)
+        net[tuple(exponents.T)] = coefficients * np.multiply.reduce(
+            (high - low) ** exponents, axis=1
+        )
         tolerance = 64.0 * U * (self.degree + 1) * float(np.abs(net).sum())
-        every = range(self.degree + 1)
+        degrees = range(self.degree + 1)
         bernstein = np.array(
-            [[math.comb(i, j) / math.comb(self.degree, j) for j in every] for i in every]
+            [[math.comb(i, j) / math.comb(self.degree, j) for j in degrees] for i in degrees]
         )
         for axis in range(3):  # from coefficients of t^j to Bernstein coefficients on [0, 1]
             net = np.moveaxis(np.tensordot(bernstein, net, (1, axis)), 0, axis)
-        # a heap: the least bound first; the number breaks ties
+        # A heap with the least bound first. The number breaks ties, as nets cannot be compared.
         boxes = [(float(net.min()), 0, net)]
         for number in range(1, 2 * MAX_BOXES, 2):
             least, _, net = boxes[0]
-            # corners of the net are values
+            # The corners of a net are values of the polynomial. If one of them is negative, more
+            # halving cannot lead to a bound that is not.
             if least >= -tolerance or min(net[corner] for corner in CORNERS) < 0.0:
                 break
             heapq.heappop(boxes)
@@ -153,143 +158,135 @@ def parse_polynomial(text: str) -> Polynomial:
     try:
         tree = ast.parse(text, mode="eval").body
     except (SyntaxError, ValueError) as error:
-        start = (
-            max((error.offset or 1) - 1, 0)
-            if isinstance(error, SyntaxError) and error.lineno in (None, 1)
-            else 0
-        )
-        raise MeasureError(
-            POLYNOMIAL_PART, fault=POLYNOMIAL_UNREADABLE, part=text[start:][:20] or text[:20]
-        ) from error
+        start = 0
+        if isinstance(error, SyntaxError) and error.lineno in (None, 1):
+            start = max((error.offset or 1) - 1, 0)
+        part = text[start : start + 20] or text[:20]
+        raise MeasureError(POLYNOMIAL_PART, fault=POLYNOMIAL_UNREADABLE, part=part) from error
     except (RecursionError, MemoryError) as error:
         raise MeasureError(POLYNOMIAL_UNUSABLE, fault=POLYNOMIAL_TOO_LONG) from error
     try:
-        if isinstance(tree, (ast.Tuple, ast.List)):
-            values = [_constant(_terms(item, text), item, text) for item in tree.elts]
-            if order_from_count(len(values)) > MAX_DEGREE:
-                raise MeasureError(
-                    POLYNOMIAL_DEGREE, part=_source_text(tree, text), limit=MAX_DEGREE
-                )
-            return Polynomial.from_list(values)
-        return Polynomial(_terms(tree, text))
+        return _Parser(text).polynomial(tree)
     except RecursionError as error:
         raise MeasureError(POLYNOMIAL_UNUSABLE, fault=POLYNOMIAL_TOO_LONG) from error
 
 
-def _terms(node: ast.expr, text: str) -> dict[Exponents, Fraction]:
-    """Return the terms of a part of an expression."""
-    if isinstance(node, ast.Constant) and type(node.value) in (int, float):
-        if isinstance(node.value, float) and not math.isfinite(node.value):
-            raise MeasureError(
-                POLYNOMIAL_PART,
-                fault="is outside the range of numbers",
-                part=_source_text(node, text),
+@dataclass(frozen=True)
+class _Parser:
+    """The terms of the parts of an expression; refusals quote the text of the part."""
+
+    text: str
+
+    def polynomial(self, tree: ast.expr) -> Polynomial:
+        """Return the polynomial of an expression, or of a list of coefficients."""
+        if not isinstance(tree, (ast.Tuple, ast.List)):
+            return Polynomial(self.terms(tree))
+        coefficients = [self.number(item) for item in tree.elts]
+        if order_from_count(len(coefficients)) > MAX_DEGREE:
+            raise self.degree_error(tree)
+        return Polynomial.from_list(coefficients)
+
+    def terms(self, node: ast.expr) -> Terms:
+        """Return the terms of a part."""
+        if isinstance(node, ast.Constant) and type(node.value) in (int, float):
+            if isinstance(node.value, float) and not math.isfinite(node.value):
+                raise self.error(node, POLYNOMIAL_OUT_OF_RANGE)
+            # The text of a float is the decimal that was typed.
+            number = Fraction(node.value if isinstance(node.value, int) else str(node.value))
+            return self.in_range(_nonzero({CONSTANT: number}), node)
+        if isinstance(node, ast.Name) and node.id in VARIABLES:
+            return {VARIABLES[node.id]: Fraction(1)}
+        if isinstance(node, ast.UnaryOp) and isinstance(node.op, (ast.UAdd, ast.USub)):
+            sign = -1 if isinstance(node.op, ast.USub) else 1
+            return {powers: sign * value for powers, value in self.terms(node.operand).items()}
+        if isinstance(node, ast.BinOp):
+            return self.in_range(self.operation(node), node)
+        raise self.error(node, POLYNOMIAL_NOT_ALLOWED)
+
+    def operation(self, node: ast.BinOp) -> Terms:
+        """Return the terms of a sum, difference, product, quotient or power."""
+        left = self.terms(node.left)
+        if isinstance(node.op, (ast.Add, ast.Sub)):
+            right = self.terms(node.right)
+            sign = 1 if isinstance(node.op, ast.Add) else -1
+            return _nonzero(
+                {
+                    powers: left.get(powers, ZERO) + sign * right.get(powers, ZERO)
+                    for powers in (*left, *right)
+                }
             )
-        # the decimal that was typed
-        number = Fraction(node.value if isinstance(node.value, int) else str(node.value))
-        return _validated(_nonzero({(0, 0, 0): number}), node, text)
-    if isinstance(node, ast.Name) and node.id in VARIABLES:
-        return {VARIABLES[node.id]: Fraction(1)}
-    if isinstance(node, ast.UnaryOp) and isinstance(node.op, (ast.UAdd, ast.USub)):
-        sign = -1 if isinstance(node.op, ast.USub) else 1
-        return {powers: sign * value for powers, value in _terms(node.operand, text).items()}
-    if isinstance(node, ast.BinOp):
-        return _validated(_operation(node, text), node, text)
-    raise MeasureError(POLYNOMIAL_PART, fault=POLYNOMIAL_NOT_ALLOWED, part=_source_text(node, text))
+        if isinstance(node.op, ast.Mult):
+            return self.multiply(left, self.terms(node.right), node)
+        if isinstance(node.op, ast.Div):
+            divisor = self.number(node.right)
+            if not divisor:
+                raise self.error(node, "divides by zero")
+            return {powers: value / divisor for powers, value in left.items()}
+        if isinstance(node.op, ast.Pow):
+            return self.power(left, self.number(node.right), node)
+        raise self.error(node, POLYNOMIAL_NOT_ALLOWED)
+
+    def power(self, base: Terms, exponent: Fraction, node: ast.BinOp) -> Terms:
+        if exponent.denominator != 1 or not 0 <= exponent <= MAX_DEGREE:
+            raise self.degree_error(node)
+        result = {CONSTANT: Fraction(1)}
+        for _ in range(int(exponent)):
+            result = self.in_range(self.multiply(result, base, node), node)
+        return result
+
+    def multiply(self, left: Terms, right: Terms, node: ast.BinOp) -> Terms:
+        if Polynomial(left).degree + Polynomial(right).degree > MAX_DEGREE:
+            raise self.degree_error(node)
+        result: Terms = {}
+        for (a, factor), (b, value) in product(left.items(), right.items()):
+            powers = a[0] + b[0], a[1] + b[1], a[2] + b[2]
+            result[powers] = result.get(powers, ZERO) + factor * value
+        return _nonzero(result)
+
+    def number(self, node: ast.expr) -> Fraction:
+        """Return the value of a part without x, y and z."""
+        terms = self.terms(node)
+        if terms.keys() - {CONSTANT}:
+            raise self.error(node, "must be a number, without x, y and z")
+        return terms.get(CONSTANT, ZERO)
+
+    def in_range(self, terms: Terms, node: ast.expr) -> Terms:
+        """Return the terms of a part, or raise MeasureError if a coefficient is too large, small or
+        long.
+        """
+        for value in terms.values():
+            above = value.numerator.bit_length()
+            below = value.denominator.bit_length()
+            if max(above, below) > MAX_BITS or abs(above - below) > MAX_EXPONENT:
+                raise self.error(node, POLYNOMIAL_OUT_OF_RANGE)
+        return terms
+
+    def error(self, node: ast.expr, fault: str) -> MeasureError:
+        return MeasureError(POLYNOMIAL_PART, fault=fault, part=self.quote(node))
+
+    def degree_error(self, node: ast.expr) -> MeasureError:
+        """Return the refusal of a part whose degree is no whole number, or too large."""
+        return MeasureError(POLYNOMIAL_DEGREE, part=self.quote(node), limit=MAX_DEGREE)
+
+    def quote(self, node: ast.expr) -> str:
+        """Return the text of a part, shortened if it is long."""
+        part = ast.get_source_segment(self.text, node) or self.text
+        return part if len(part) <= 40 else part[:39] + "…"
 
 
-def _operation(node: ast.BinOp, text: str) -> dict[Exponents, Fraction]:
-    left = _terms(node.left, text)
-    right = _terms(node.right, text)
-    if isinstance(node.op, (ast.Add, ast.Sub)):
-        sign = 1 if isinstance(node.op, ast.Add) else -1
-        zero = Fraction(0)
-        return _nonzero(
-            {one: left.get(one, zero) + sign * right.get(one, zero) for one in (*left, *right)}
-        )
-    if isinstance(node.op, ast.Mult):
-        return _multiply(left, right, node, text)
-    if isinstance(node.op, ast.Div):
-        divisor = _constant(right, node.right, text)
-        if not divisor:
-            raise MeasureError(
-                POLYNOMIAL_PART, fault="divides by zero", part=_source_text(node, text)
-            )
-        return {powers: value / divisor for powers, value in left.items()}
-    if isinstance(node.op, ast.Pow):
-        return _power(left, _constant(right, node.right, text), node, text)
-    raise MeasureError(POLYNOMIAL_PART, fault=POLYNOMIAL_NOT_ALLOWED, part=_source_text(node, text))
-
-
-def _power(
-    base: dict[Exponents, Fraction], exponent: Fraction, node: ast.BinOp, text: str
-) -> dict[Exponents, Fraction]:
-    if exponent.denominator != 1 or not 0 <= exponent <= MAX_DEGREE:
-        raise MeasureError(POLYNOMIAL_DEGREE, part=_source_text(node, text), limit=MAX_DEGREE)
-    result = {(0, 0, 0): Fraction(1)}
-    for _ in range(int(exponent)):
-        result = _validated(_multiply(result, base, node, text), node, text)
-    return result
-
-
-def _multiply(
-    left: dict[Exponents, Fraction], right: dict[Exponents, Fraction], node: ast.expr, text: str
-) -> dict[Exponents, Fraction]:
-    degrees = [max((sum(powers) for powers in terms), default=0) for terms in (left, right)]
-    if sum(degrees) > MAX_DEGREE:
-        raise MeasureError(POLYNOMIAL_DEGREE, part=_source_text(node, text), limit=MAX_DEGREE)
-    result: dict[Exponents, Fraction] = {}
-    for (a, factor), (b, value) in product(left.items(), right.items()):
-        powers = a[0] + b[0], a[1] + b[1], a[2] + b[2]
-        result[powers] = result.get(powers, 0) + factor * value
-    return _nonzero(result)
-
-
-def _nonzero(terms: dict[Exponents, Fraction]) -> dict[Exponents, Fraction]:
+def _nonzero(terms: Terms) -> Terms:
     """Return the terms that are not zero."""
     return {powers: value for powers, value in terms.items() if value}
 
 
-def _constant(terms: dict[Exponents, Fraction], node: ast.expr, text: str) -> Fraction:
-    if set(terms) - {(0, 0, 0)}:
-        raise MeasureError(
-            POLYNOMIAL_PART,
-            fault="must be a number, without x, y and z",
-            part=_source_text(node, text),
-        )
-    return terms.get((0, 0, 0), Fraction(0))
-
-
-def _validated(
-    terms: dict[Exponents, Fraction], node: ast.expr, text: str
-) -> dict[Exponents, Fraction]:
-    for value in terms.values():
-        above = value.numerator.bit_length()
-        below = value.denominator.bit_length()
-        if max(above, below) > MAX_LENGTH or abs(above - below) > MAX_EXPONENT:
-            raise MeasureError(
-                POLYNOMIAL_PART,
-                fault="is outside the range of numbers",
-                part=_source_text(node, text),
-            )
-    return terms
-
-
-def _source_text(node: ast.expr, text: str) -> str:
-    part = ast.get_source_segment(text, node) or text
-    return part if len(part) <= 40 else part[:39] + "…"
-
-
-def _translate(
-    terms: dict[Exponents, Fraction], axis: int, by: Fraction
-) -> dict[Exponents, Fraction]:
-    """Return the terms with (t + by)^n for t^n along one axis."""
-    result: dict[Exponents, Fraction] = {}
+def _translate(terms: Terms, axis: int, offset: Fraction) -> Terms:
+    """Return the terms with (t + offset)^n for t^n along one axis."""
+    result: Terms = {}
     for powers, value in terms.items():
         for k in range(powers[axis] + 1):
             p, q, r = (*powers[:axis], k, *powers[axis + 1 :])
-            factor = math.comb(powers[axis], k) * by ** (powers[axis] - k)
-            result[p, q, r] = result.get((p, q, r), Fraction(0)) + value * factor
+            factor = math.comb(powers[axis], k) * offset ** (powers[axis] - k)
+            result[p, q, r] = result.get((p, q, r), ZERO) + value * factor
     return _nonzero(result)
 
 

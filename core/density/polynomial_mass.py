@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from itertools import product
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -24,7 +25,9 @@ from ..moments.exponents import monomial_count, monomials, order_from_count, pro
 from ..numerics import Array, ArrayLike, NDArray, polar_rotation
 from .polynomial import Polynomial
 
-Terms = dict[tuple[int, int, int], float]
+Terms: TypeAlias = dict[tuple[int, int, int], float]
+# Three linear functions in k places: (3, 3, k) linear parts and (3, k) constants.
+Forms: TypeAlias = tuple[NDArray, NDArray]
 NEGLIGIBLE_RTOL = 1e-6  # Relative to the largest density: the effect of float32 coordinates.
 GRID_POINTS = 9  # points along each side of the box that are tried
 GRID_STEPS = np.array(list(product((np.arange(GRID_POINTS) + 0.5) / GRID_POINTS, repeat=3)))
@@ -50,131 +53,142 @@ def polynomial_mass_of_images(
     order = moments.order - density.degree
     if order < 0:
         raise ValueError("moments below density's degree")
-    fields = matrices if fields is None else fields
     linear, offsets = to_trailing_axis(matrices)
-    turn, shift = to_trailing_axis(fields)
+    field_linear, field_offsets = to_trailing_axis(matrices if fields is None else fields)
     point = moments.about[:, None]
-    extent = np.abs(moments.about)[:, None]
-    origins = (linear * point).sum(axis=1) + offsets
+    origins = (linear * point).sum(axis=1) + offsets  # (3, k) images of the reference point
     center: Array = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
-    origins_local = (turn * point).sum(axis=1) + shift
-    origin = origins_local.mean(axis=1)
-    terms = density.translate(origin).float_terms()
+    field_origins = (field_linear * point).sum(axis=1) + field_offsets
+    # The density is expanded about this point, so that its terms do not cancel.
+    field_center = field_origins.mean(axis=1)
+    terms = density.translate(field_center).float_terms()
     raw, error, inputs = np.zeros((3, monomial_count(order)))
     for start in range(0, len(matrices), MAPS_PER_BLOCK):
         part = slice(start, start + MAPS_PER_BLOCK)
-        forms = turn[:, :, part], origins_local[:, part] - origin[:, None]
-        misplacement = (
-            8.0
+        weighted = _weight(
+            moments,
+            order,
+            terms,
+            forms=(field_linear[:, :, part], field_origins[:, part] - field_center[:, None]),
+            misplacement=8.0
             * U
-            * (
-                (np.abs(turn[:, :, part]) * extent).sum(axis=1)
-                + np.abs(shift[:, part])
-                + np.abs(origin)[:, None]
-            )
-        )
-        weighed, weighed_error, weighed_input, largest = _mass_functional(
-            moments, order, terms, forms, misplacement
+            * _offset_sizes(field_linear[:, :, part], point, field_offsets[:, part], field_center),
         )
         maps = linear[:, :, part]
         offset = origins[:, part] - center[:, None]
-        weight, weight_error, anisotropy = measure_scale_factors(moments.measure, maps)
-        weight_error = weight_error + (len(matrices) + 6 * order + 8) * U * weight
-        raw += (transform_by_horner(weighed, order, maps, offset) * weight).sum(axis=1)
-        tolerance = (
-            6.0
-            * U
-            * (
-                (np.abs(maps) * extent).sum(axis=1)
-                + np.abs(offsets[:, part])
-                + np.abs(center)[:, None]
-            )
-        )
+        offset_error = 6.0 * U * _offset_sizes(maps, point, offsets[:, part], center)
+        scale, scale_error, anisotropy = measure_scale_factors(moments.measure, maps)
+        scale_error = scale_error + (len(matrices) + 6 * order + 8) * U * scale
+        raw += (transform_by_horner(weighted.moments, order, maps, offset) * scale).sum(axis=1)
         reach = np.abs(maps), np.abs(offset)
+        widened_reach = reach[0], reach[1] + offset_error
         size = transform_by_horner(
-            np.abs(weighed) + weighed_error, order, reach[0], reach[1] + tolerance
+            np.abs(weighted.moments) + weighted.rounding_error, order, *widened_reach
         )
-        rounding = weight * transform_by_horner(weighed_error, order, *reach) + weight_error * size
+        rounding = (
+            scale * transform_by_horner(weighted.rounding_error, order, *reach) + scale_error * size
+        )
+        # The derivative of x^p y^q z^r along an axis times the error of the offset along it.
         for axis, raised in enumerate(product_indices(order) if order else ()):
-            rounding[raised] += (
-                monomials(order)[raised, axis, None]
-                * tolerance[axis]
-                * weight
-                * size[: len(raised)]
-            )
-        moved = transform_by_horner(weighed_input, order, *reach)
+            powers = monomials(order)[raised, axis, None]
+            rounding[raised] += powers * offset_error[axis] * scale * size[: len(raised)]
         error += rounding.sum(axis=1)
-        inputs += (weight * moved).sum(axis=1)
-        if anisotropy.any():  # areas scale differently from face to face
-            largest = transform_by_horner(largest, order, reach[0], reach[1] + tolerance)
-            inputs += (weight * anisotropy * largest).sum(axis=1)
+        moved = transform_by_horner(weighted.input_error, order, *reach)
+        inputs += (scale * moved).sum(axis=1)
+        if anisotropy.any():  # Areas scale differently from face to face.
+            magnitude = transform_by_horner(weighted.magnitude, order, *widened_reach)
+            inputs += (scale * anisotropy * magnitude).sum(axis=1)
     return Moments(raw, center, Measure.MASS, error, inputs)
 
 
-def _mass_functional(
-    moments: Moments,
-    order: int,
-    terms: Terms,
-    forms: tuple[NDArray, NDArray],
-    misplacement: NDArray,
-) -> tuple[NDArray, NDArray, NDArray, NDArray]:
-    """Return four (K, k) arrays: G, its rounding bound, its bound by `moments.input_error`, bounds
-    of magnitudes.
+def _offset_sizes(linear: NDArray, point: NDArray, offset: NDArray, subtracted: NDArray) -> Array:
+    """Return (3, k) sums of the magnitudes in linear @ point + offset - subtracted, for maps
+    (3, 3, k) and (3, k).
+    """
+    image = (np.abs(linear) * np.abs(point)).sum(axis=1)
+    return image + np.abs(offset) + np.abs(subtracted)[:, None]
 
-    forms: (3, 3, k) and (3, k), the density's coordinates; misplacement: (3, k) the error bounds of
-    their constants.
+
+class _WeightedMoments(NamedTuple):
+    """Moments times a density in k places, and bounds, (K, k) each.
+
+    magnitude: bounds of the integrals of the absolute values.
+    """
+
+    moments: NDArray
+    rounding_error: NDArray
+    input_error: NDArray
+    magnitude: NDArray
+
+
+def _weight(
+    moments: Moments, order: int, terms: Terms, forms: Forms, misplacement: NDArray
+) -> _WeightedMoments:
+    """Return moments times a polynomial density in k places.
+
+    forms: the density's coordinates; misplacement: (3, k) the error bounds of their constants.
     """
     degree = max((sum(powers) for powers in terms), default=0)
     absolute = {powers: abs(value) for powers, value in terms.items()}
-    value = _apply_polynomial(moments.raw, order, terms, forms)
+    weighted = _multiply_by_polynomial(moments.raw, order, terms, forms)
     reach = np.abs(forms[0]), np.abs(forms[1]) + misplacement
     size = np.abs(moments.raw) + moments.rounding_error
-    error = _apply_polynomial(moments.rounding_error, order, absolute, reach)
-    error += U * (6 * degree + len(terms) + 4) * _apply_polynomial(size, order, absolute, reach)
-    for axis in range(3):  # the density's slope along the axis times how far its coordinate is off
+    error = _multiply_by_polynomial(moments.rounding_error, order, absolute, reach)
+    error += (
+        U * (6 * degree + len(terms) + 4) * _multiply_by_polynomial(size, order, absolute, reach)
+    )
+    # Along each axis, the slope of the density times the error of its coordinate.
+    for axis, step in enumerate(np.eye(3, dtype=int)):
         slope = {
-            tuple(np.subtract(powers, np.eye(3, dtype=int)[axis]).tolist()): factor * powers[axis]
+            tuple(np.subtract(powers, step).tolist()): factor * powers[axis]
             for powers, factor in absolute.items()
             if powers[axis]
         }
         if slope:
-            error += misplacement[axis] * _apply_polynomial(size, order, slope, reach)
-    largest = (
+            error += misplacement[axis] * _multiply_by_polynomial(size, order, slope, reach)
+    magnitude = (
         absolute_moments(moments.raw, moments.order) + moments.rounding_error + moments.input_error
     )
-    inputs, largest = (
-        _apply_polynomial(one, order, absolute, reach) for one in (moments.input_error, largest)
+    return _WeightedMoments(
+        weighted,
+        error,
+        _multiply_by_polynomial(moments.input_error, order, absolute, reach),
+        _multiply_by_polynomial(magnitude, order, absolute, reach),
     )
-    return value, error, inputs, largest
 
 
-def _apply_polynomial(
-    values: NDArray, order: int, terms: Terms, forms: tuple[NDArray, NDArray]
-) -> Array:
-    """Return the (K, k) products of a functional, (K',), with Σ c l0^p l1^q l2^r in the k columns
-    of linear forms.
+def _multiply_by_polynomial(values: NDArray, order: int, terms: Terms, forms: Forms) -> Array:
+    """Return (K, k) moments to `order`: (K',) moments times Σ c u^p v^q w^r, with the k linear
+    forms u, v, w.
     """
     linear, offset = forms
     count = monomial_count(order)
     top = order_from_count(len(values))
-    l0, l1, l2 = ((offset[i], *linear[i]) for i in range(3))
-    out = np.zeros((count, offset.shape[1]))
-    by_p = np.broadcast_to(values[:, None], (len(values), offset.shape[1]))
-    for p in range(max((powers[0] for powers in terms), default=-1) + 1):
-        by_q = by_p
-        for q in range(max((powers[1] for powers in terms if powers[0] == p), default=-1) + 1):
-            by_r = by_q
-            last = max((powers[2] for powers in terms if powers[:2] == (p, q)), default=-1)
-            for r in range(last + 1):
+    u, v, w = ((offset[i], *linear[i]) for i in range(3))
+    products = np.zeros((count, offset.shape[1]))
+    with_p = np.broadcast_to(values[:, None], (len(values), offset.shape[1]))
+    for p in range(_largest(terms, ()) + 1):
+        if p:
+            with_p = multiply_by_linear_form(u, with_p, top - p + 1)
+        with_q = with_p
+        for q in range(_largest(terms, (p,)) + 1):
+            if q:
+                with_q = multiply_by_linear_form(v, with_q, top - p - q + 1)
+            with_r = with_q
+            for r in range(_largest(terms, (p, q)) + 1):
+                if r:
+                    with_r = multiply_by_linear_form(w, with_r, top - p - q - r + 1)
                 if (p, q, r) in terms:
-                    out += terms[p, q, r] * by_r[:count]
-                if r < last:
-                    by_r = multiply_by_linear_form(l2, by_r, top - p - q - r)
-            if top > p + q:
-                by_q = multiply_by_linear_form(l1, by_q, top - p - q)
-        if top > p:
-            by_p = multiply_by_linear_form(l0, by_p, top - p)
-    return out
+                    products += terms[p, q, r] * with_r[:count]
+    return products
+
+
+def _largest(terms: Terms, start: tuple[int, ...]) -> int:
+    """Return the largest next exponent among terms whose exponents start so, -1 if there are
+    none.
+    """
+    place = len(start)
+    return max((powers[place] for powers in terms if powers[:place] == start), default=-1)
 
 
 def local_coordinates(matrices: NDArray) -> Array:
@@ -191,41 +205,44 @@ def local_coordinates(matrices: NDArray) -> Array:
 def find_negative_point(
     density: Polynomial, points: NDArray, triangles: NDArray, solid: bool
 ) -> tuple[tuple[float, NDArray] | None, bool]:
-    """Return a negative value and its (3,) point, or None; and True if there may be an undetected
-    negative value.
+    """Search a body for a point at which its density is negative.
+
+    Return the negative value and its (3,) point, or None; and True if the search may have missed a
+    negative value. solid: True to search inside the surface too.
     """
     used = np.unique(triangles)
-    tried = points[used]
-    if density.degree > 1:
-        tried = np.concatenate([tried, points[triangles].mean(axis=1)])
-    values = density(tried)
     low = points[used].min(axis=0)
     high = points[used].max(axis=0)
-    grid = low + GRID_STEPS * (high - low) if solid and density.degree > 1 else tried[:0]
-    inner = density(grid)
+    surface_points = points[used]
+    inner_points = surface_points[:0]
+    if density.degree > 1:
+        surface_points = np.concatenate([surface_points, points[triangles].mean(axis=1)])
+        if solid:
+            inner_points = low + GRID_STEPS * (high - low)
+    surface_values = density(surface_points)
+    inner_values = density(inner_points)
 
-    def inside(i: int) -> bool:
-        return abs(winding_number(points, triangles, grid[i])) > 0.5
+    def first_inside(candidates: NDArray) -> int | None:
+        """Return the first candidate among the inner points that the surface encloses."""
+        for index in candidates[:MAX_LOCATED_POINTS].tolist():
+            if abs(winding_number(points, triangles, inner_points[index])) > 0.5:
+                return index
+        return None
 
-    largest = float(np.abs(values).max())
-    least = int(np.argmin(values))
-    if values[least] < 0.0:  # the density may be close to zero all over the surface
-        most = next(
-            filter(inside, np.argsort(-inner, kind="stable")[:MAX_LOCATED_POINTS].tolist()), None
-        )
-        largest = largest if most is None else max(largest, inner[most])
-    if values[least] < -NEGLIGIBLE_RTOL * largest:
-        return (float(values[least]), tried[least]), False
-    if density.degree <= 1:
+    largest = float(np.abs(surface_values).max())
+    least = int(np.argmin(surface_values))
+    if surface_values[least] < 0.0:
+        # The density may be close to zero all over the surface, so the inside is looked at too.
+        densest = first_inside(np.argsort(-inner_values, kind="stable"))
+        if densest is not None:
+            largest = max(largest, inner_values[densest])
+    allowed = -NEGLIGIBLE_RTOL * largest
+    if surface_values[least] < allowed:
+        return (float(surface_values[least]), surface_points[least]), False
+    if density.degree <= 1 or density.lower_bound(low, high) >= allowed:
         return None, False
-    if density.lower_bound(low, high) >= -NEGLIGIBLE_RTOL * largest:
-        return None, False
-    worst = np.argsort(inner, kind="stable")[:MAX_LOCATED_POINTS]
-    negative_index = next(
-        filter(inside, worst[inner[worst] < -NEGLIGIBLE_RTOL * largest].tolist()), None
-    )
-    return (
-        (None, True)
-        if negative_index is None
-        else ((float(inner[negative_index]), grid[negative_index]), False)
-    )
+    ascending = np.argsort(inner_values, kind="stable")
+    negative = first_inside(ascending[inner_values[ascending] < allowed])
+    if negative is None:
+        return None, True
+    return (float(inner_values[negative]), inner_points[negative]), False

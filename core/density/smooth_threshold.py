@@ -10,7 +10,9 @@ of the spacing. So a third of the difference between two interpolants is added t
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
+from typing import cast
 
 import numpy as np
 
@@ -46,26 +48,32 @@ def smooth_threshold_body(
         margin = (spline_order + 1) // 2
         samples = np.pad(samples, margin, constant_values=background)
         place[:3, 3] = -margin
-    coarse = extrapolated = None
-    parts = 1
+
+    def body_of(values: NDArray, parts: int) -> ThresholdBody:
+        """Return the body of the interpolant of values at `parts` points for each sample."""
+        finer = matrix @ place @ np.diag([1.0 / parts] * 3 + [1.0])
+        return threshold_body(values, threshold, order, finer, with_density=with_density)
+
+    coarse = best = body_of(spline_values(samples, spline_order, 1), 1)
+    parts = 2
     while True:
         values = spline_values(samples, spline_order, parts)
-        finer = matrix @ place @ np.diag([1.0 / parts] * 3 + [1.0])
-        body = threshold_body(values, threshold, order, finer, with_density=with_density)
-        if coarse is not None:
-            last = extrapolated or coarse
-            extrapolated = _combine(body, coarse, 1.0 / 3.0)
-            estimated = _combine(extrapolated, last, None)
-            error = estimated.volume.rounding_error[0]
-            if error <= TOLERANCE * estimated.volume.total or 8 * values.size > MAX_SAMPLES:
-                return estimated
-        coarse = body
+        fine = body_of(values, parts)
+        extrapolated = _change_moments(fine, coarse, _extrapolate)
+        bounded = _change_moments(extrapolated, best, _add_to_bounds)
+        error = bounded.volume.rounding_error[0]
+        if error <= TOLERANCE * bounded.volume.total or 8 * values.size > MAX_SAMPLES:
+            return bounded
+        coarse = fine
+        best = extrapolated
         parts = 2 * parts
 
 
 def spline_values(coefficients: NDArray, order: int, parts: int) -> Array:
-    """Return a uniform spline's values (parts (nx - 1) + 1, …) at its (nx, ny, nz) coefficients and
-    between them.
+    """Return a uniform spline's values at its (nx, ny, nz) coefficients and between them.
+
+    The values, (parts (nx - 1) + 1, …), are at multiples of 1 / parts. Beyond the edge of the grid,
+    its outermost coefficients are repeated.
     """
     values = np.asarray(coefficients, np.float64)
     reach = (order + 1) // 2
@@ -74,12 +82,13 @@ def spline_values(coefficients: NDArray, order: int, parts: int) -> Array:
         count = len(lines)
         padded = np.pad(lines, ((reach, reach), (0, 0), (0, 0)), mode="edge")
         finer = np.zeros((parts * (count - 1) + 1, *lines.shape[1:]))
+        # Points at the same fraction of a step have the same weights for their neighbors.
         for phase in range(parts):
-            between = finer[phase::parts]
+            at_phase = finer[phase::parts]
             for shift in range(-reach, reach + 1):
                 weight = _cardinal(order, phase / parts - shift)
                 if weight:
-                    between += weight * padded[reach + shift :][: len(between)]
+                    at_phase += weight * padded[reach + shift :][: len(at_phase)]
         values = np.moveaxis(finer, 0, axis)
     return values
 
@@ -92,18 +101,30 @@ def _cardinal(order: int, x: float) -> float:
     ) / math.factorial(order - 1)
 
 
-def _combine(body: ThresholdBody, other: ThresholdBody, share: float | None) -> ThresholdBody:
-    """Add to the moments a share of their difference from another body's; if None, add it to their
-    bounds.
+def _extrapolate(moments: Moments, difference: Array) -> Moments:
+    """Return the limit of moments, as half the spacing leaves a quarter of their error."""
+    return replace(moments, raw=moments.raw + 1.0 / 3.0 * difference)
+
+
+def _add_to_bounds(moments: Moments, difference: Array) -> Moments:
+    """Return moments whose bounds include a difference."""
+    return replace(moments, rounding_error=moments.rounding_error + np.abs(difference))
+
+
+def _change_moments(
+    body: ThresholdBody, other: ThresholdBody, change: Callable[[Moments, Array], Moments]
+) -> ThresholdBody:
+    """Return the body with all its moments changed by a function of these moments and (K,) their
+    differences from another body's.
     """
 
-    def combined(fine: Moments, coarse: Moments) -> Moments:
-        difference = fine.raw - coarse.about_point(fine.about).raw
-        if share is None:
-            return replace(fine, rounding_error=fine.rounding_error + np.abs(difference))
-        return replace(fine, raw=fine.raw + share * difference)
+    def changed(moments: Moments, others: Moments) -> Moments:
+        return change(moments, moments.raw - others.about_point(moments.about).raw)
 
-    names = [name for name in ("volume", "area", "mass") if getattr(body, name) is not None]
+    mass = None if body.mass is None else changed(body.mass, cast("Moments", other.mass))
     return replace(
-        body, **{name: combined(getattr(body, name), getattr(other, name)) for name in names}
+        body,
+        volume=changed(body.volume, other.volume),
+        area=changed(body.area, other.area),
+        mass=mass,
     )

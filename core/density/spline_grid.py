@@ -63,15 +63,15 @@ def density_moments(
     moments = _moments_about(coefficients, axes, order, value, about)
     if order < 2 or not moments.total > 0.0:
         return moments
-    shift = moments.raw[1:4] / moments.total
-    variance = moments.raw[[4, 7, 9]] / moments.total - shift * shift
-    if not (shift * shift > MAX_OFFSET_RATIO * np.maximum(variance, 0.0)).any():
+    offset = moments.raw[1:4] / moments.total
+    variance = moments.raw[[4, 7, 9]] / moments.total - offset * offset  # of x, y and z
+    if not (offset * offset > MAX_OFFSET_RATIO * np.maximum(variance, 0.0)).any():
         return moments
-    nearest = [
+    nearest_knot = [
         axis.knots[np.abs(axis.knots - center).argmin()]
-        for axis, center in zip(axes, about + shift)
+        for axis, center in zip(axes, about + offset)
     ]
-    return _moments_about(coefficients, axes, order, value, np.array(nearest))
+    return _moments_about(coefficients, axes, order, value, np.array(nearest_knot))
 
 
 def grid_moments(
@@ -138,8 +138,10 @@ def grid_moments(
     ]
     if [axis.count for axis in axes] != list(shape):
         raise ValueError("positions for other samples")
-    inside = density_moments(samples, axes, order, value)
-    return replace(replace(inside, measure=Measure.VOLUME).transform(matrix), measure=Measure.MASS)
+    moments = density_moments(samples, axes, order, value)
+    # The map stretches the volume under the density, and so the mass.
+    stretched = replace(moments, measure=Measure.VOLUME).transform(matrix)
+    return replace(stretched, measure=Measure.MASS)
 
 
 def _moments_about(
@@ -149,7 +151,7 @@ def _moments_about(
     value: Callable | None,
     about: NDArray,
 ) -> Moments:
-    """Return the moments about a point, with their bounds."""
+    """Return the mass moments about a point, with bounds of rounding as the module describes."""
     axis_order = np.arange(3)
     if not callable(coefficients):  # the first contraction runs along the contiguous axis
         axis_order = np.argsort([-abs(stride) for stride in coefficients.strides], kind="stable")
@@ -157,29 +159,31 @@ def _moments_about(
     tables = [
         full_support_integrals(axes[i].knots - about[i], axes[i].order, order) for i in axis_order
     ]
-    total, size = np.zeros((2, order + 1, order + 1, order + 1))
-    blocks, longest = 0, 0
-    for part, block in _pieces(coefficients):
+    # By the powers of the three axes: sums for the coefficients and for their magnitudes.
+    sums, magnitudes = np.zeros((2, order + 1, order + 1, order + 1))
+    blocks = 0
+    longest = 0
+    for offset, block in _pieces(coefficients):
         with np.errstate(invalid="ignore"):  # Signaling NaN would warn.
             block = np.asarray(block, np.float64)
         if value is not None:
             block = value(block)
         factors = [
             table[:, first : first + length]
-            for table, first, length in zip(tables, part, block.shape)
+            for table, first, length in zip(tables, offset, block.shape)
         ]
         added = contract(block, factors)
-        total += added
-        size += added if block.min() >= 0.0 else contract(np.abs(block), factors)
-        blocks = blocks + 1
+        sums += added
+        magnitudes += added if block.min() >= 0.0 else contract(np.abs(block), factors)
+        blocks += 1
         longest = max(longest, sum(block.shape))
-    if not np.isfinite(total).all():
+    if not np.isfinite(sums).all():
         raise MeasureError(DENSITY_NON_FINITE)
-    p, q, r = monomials(order)[:, axis_order].T
-    bounds = [_absolute_from_even(axes[i], order, about[i]) for i in axis_order]
-    size = np.einsum("ax,by,cz,xyz->abc", *bounds, size)
+    bound_matrices = [_absolute_from_even(axes[i], order, about[i]) for i in axis_order]
+    size = np.einsum("ax,by,cz,xyz->abc", *bound_matrices, magnitudes)
     units = sum(2 * axis.order + 3 * order + 8 for axis in axes) + longest + blocks + 8
-    return Moments(total[p, q, r], about, Measure.MASS, 1.01 * units * U * size[p, q, r])
+    p, q, r = monomials(order)[:, axis_order].T
+    return Moments(sums[p, q, r], about, Measure.MASS, 1.01 * units * U * size[p, q, r])
 
 
 def _pieces(coefficients: NDArray | Blocks) -> Iterator[tuple[tuple[int, int, int], NDArray]]:
@@ -187,9 +191,9 @@ def _pieces(coefficients: NDArray | Blocks) -> Iterator[tuple[tuple[int, int, in
     fewer.
     """
     if callable(coefficients):
-        for (x, y, z), array in coefficients():
+        for (i0, j0, k0), array in coefficients():
             for (i, j, k), piece in _pieces(array):
-                yield (x + i, y + j, z + k), piece
+                yield (i0 + i, j0 + j, k0 + k), piece
         return
     nx, ny, nz = coefficients.shape
     columns = max(1, COEFFICIENTS_PER_BLOCK // nz)
@@ -206,8 +210,8 @@ def contract(block: NDArray, factors: list[NDArray]) -> Array:
 
 
 def _absolute_from_even(axis: SplineAxis, order: int, center: float) -> Array:
-    """Return the (order + 1, order + 1) matrix that turns even moments into bounds of the absolute
-    moments.
+    """Return the (order + 1, order + 1) matrix that turns even moments along an axis, of
+    nonnegative coefficients, into bounds of the absolute moments.
     """
     reach = np.abs(axis.knots[[0, -1]] - center).max()
     width = (axis.knots[axis.order :] - axis.knots[: -axis.order]).max()
@@ -250,9 +254,14 @@ class SplineAxis:
         x = float_array("positions", positions, "n")
         if len(x) < 2 or not np.isfinite(x).all() or not (np.diff(x) > 0.0).all():
             raise ValueError("positions must ascend")
+        # The first and the last step are repeated beyond the samples.
         steps = np.arange(1, (order + 1) // 2 + 1)
-        x = np.concatenate([x[0] - (x[1] - x[0]) * steps[::-1], x, x[-1] + (x[-1] - x[-2]) * steps])
-        return cls(x if order % 2 == 0 else x[:-1] + np.diff(x) / 2.0, order)
+        before = x[0] - (x[1] - x[0]) * steps[::-1]
+        after = x[-1] + (x[-1] - x[-2]) * steps
+        positions = np.concatenate([before, x, after])
+        if order % 2 == 0:
+            return cls(positions, order)
+        return cls(positions[:-1] + np.diff(positions) / 2.0, order)
 
     @property
     def count(self) -> int:

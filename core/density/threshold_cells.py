@@ -37,7 +37,7 @@ class Cells:
         corners = np.empty((len(indices), 2, 2, 2))
         for corner in np.ndindex(2, 2, 2):
             corners[:, *corner] = values[*(indices + corner).T]
-        return cls(corners, indices + first, np.ones(len(indices)))
+        return cls(corners, np.asarray(indices + first, np.float64), np.ones(len(indices)))
 
     @classmethod
     def join(cls, parts: list[Cells]) -> Cells:

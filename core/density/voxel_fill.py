@@ -18,7 +18,7 @@ import math
 
 import numpy as np
 
-from ..moments.raw import Measure, Moments, U, monomials
+from ..moments.raw import Measure, Moments, U, monomial_count, monomials
 from ..numerics import Array, ArrayLike, NDArray, batches, float_array, power_table, triangle_rule
 from ..verdict import NO_FACES, MeasureError
 from .findings import DENSITY_NON_FINITE
@@ -31,7 +31,7 @@ def inside_moments(
     triangles: ArrayLike, densities: ArrayLike, order: int = 3
 ) -> tuple[Moments, float]:
     """Return the mass moments of a closed surface filled with a grid of voxels, and the volume of
-    the body in the grid.
+    the body within the grid, in voxels.
 
     The moments are about the middle of the bounding box within the grid, rounded to a corner of
     voxels. triangles: (n, 3, 3) corners, counter-clockwise from outside, closed together, in the
@@ -50,48 +50,68 @@ def inside_moments(
     about = np.round(
         np.clip((triangles.min(axis=(0, 1)) + triangles.max(axis=(0, 1))) / 2.0, 0, shape)
     )
-    exponents = monomials(order)
-    total, size = np.zeros((2, len(exponents)))
+    total, size = np.zeros((2, monomial_count(order)))
     below = _sums_below(densities, about[2], order)
-    nodes, weights = triangle_rule((order + 3) // 2)  # exact to order + 1
-    volume, terms = 0.0, 0
+    volume = 0.0
+    longest_sum = 0
     spans = np.minimum(np.ptp(triangles, axis=1), shape) + 1.0
-    expected = spans[:, 0] * spans[:, 1] + spans[:, 1] * spans[:, 2] + spans[:, 2] * spans[:, 0]
-    for part in batches(expected, PIECES_PER_BATCH):
-        pieces = _cut_at_voxels(triangles[part], shape)
+    expected_pieces = (spans * np.roll(spans, -1, axis=1)).sum(axis=1)
+    for batch in batches(expected_pieces, PIECES_PER_BATCH):
+        pieces = _cut_at_voxels(triangles[batch], shape)
         centers = pieces.mean(axis=1)
-        inside = ((centers[:, :2] > 0) & (centers[:, :2] < shape[:2])).all(axis=1) & (
+        # No column of the grid ends at the other pieces.
+        in_columns = ((centers[:, :2] > 0) & (centers[:, :2] < shape[:2])).all(axis=1) & (
             centers[:, 2] > 0
         )
-        pieces, centers = pieces[inside], centers[inside]
-        if not len(pieces):
-            continue
-        a, b, c = pieces.transpose(1, 2, 0)
-        double = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-        i, j, k = np.minimum(centers.astype(np.int64), shape - 1).T
-        voxel_density = densities[i, j, k]
-        corner = k - about[2]
-        filled = [sums[i, j, k] for sums in below]
-        for (u, v, w), weight in zip(nodes.T, weights):
-            x, y, z = u * a + v * b + w * c
-            z = np.clip(z, k, k + 1.0)  # above the grid its whole column is filled
-            volume += float((double * weight) @ z)
-            x = x - about[0]
-            y = y - about[1]
-            z = z - about[2]
-            columns = [
-                sums + voxel_density * (z ** (r + 1) - corner ** (r + 1)) / (r + 1)
-                for r, sums in enumerate(filled)
-            ]
-            xs = power_table(x, order)
-            ys = power_table(y, order)
-            for n, (p, q, r) in enumerate(exponents.tolist()):
-                term = double * weight * xs[p] * ys[q] * columns[r]
-                total[n] += term.sum()
-                size[n] += np.abs(term).sum()
-        terms = max(terms, len(pieces))
-    units = 40 + 4 * order + int(shape[2]) + int(math.log2(terms + 1))
+        pieces = pieces[in_columns]
+        voxels = np.minimum(centers[in_columns].astype(np.int64), shape - 1)
+        volume += _add_pieces(pieces, voxels, densities, below, about, total, size)
+        longest_sum = max(longest_sum, len(pieces))
+    units = 40 + 4 * order + int(shape[2]) + int(math.log2(longest_sum + 1))
     return Moments(total, about, Measure.MASS, units * U * size), volume
+
+
+def _add_pieces(
+    pieces: NDArray,
+    voxels: NDArray,
+    densities: NDArray,
+    below: list[Array],
+    about: NDArray,
+    total: NDArray,
+    size: NDArray,
+) -> float:
+    """Add the mass moments of the columns below (m, 3, 3) pieces to (K,) `total`, and their
+    magnitudes to (K,) `size`; return the volume of the columns.
+
+    voxels: (m, 3) indices of the voxels that the pieces are in, for pieces above the grid those of
+    the topmost ones. below: as `_sums_below` returns.
+    """
+    order = len(below) - 1
+    exponents = monomials(order).tolist()
+    nodes, weights = triangle_rule((order + 3) // 2)  # exact to order + 1
+    a, b, c = pieces.transpose(1, 2, 0)
+    doubled_area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])  # seen along z
+    i, j, k = voxels.T
+    voxel_density = densities[i, j, k]
+    floor = k - about[2]
+    full = [sums[i, j, k] for sums in below]
+    volume = 0.0
+    for (u, v, w), weight in zip(nodes.T, weights):
+        x, y, z = u * a + v * b + w * c
+        z = np.clip(z, k, k + 1.0)  # Below pieces above the grid, the whole column is filled.
+        volume += float((doubled_area * weight) @ z)
+        x_powers = power_table(x - about[0], order)
+        y_powers = power_table(y - about[1], order)
+        top = z - about[2]
+        columns = [
+            sums + voxel_density * (top ** (r + 1) - floor ** (r + 1)) / (r + 1)
+            for r, sums in enumerate(full)
+        ]
+        for n, (p, q, r) in enumerate(exponents):
+            term = doubled_area * weight * x_powers[p] * y_powers[q] * columns[r]
+            total[n] += term.sum()
+            size[n] += np.abs(term).sum()
+    return volume
 
 
 def _sums_below(densities: NDArray, center: float, order: int) -> list[Array]:
@@ -110,32 +130,39 @@ def _sums_below(densities: NDArray, center: float, order: int) -> list[Array]:
 
 
 def _cut_at_voxels(triangles: NDArray, shape: NDArray) -> Array:
-    """Return the (m, 3, 3) triangles cut along every plane between voxels, and along the sides of
-    the grid.
+    """Return the (m, 3, 3) pieces of triangles, cut along every plane between voxels and along the
+    sides of the grid.
     """
+    pieces = triangles
     for axis in range(3):
-        done = [triangles[:0]]
-        while len(triangles):
-            low = triangles[:, :, axis].min(axis=1)
-            high = triangles[:, :, axis].max(axis=1)
-            first = np.maximum(np.floor(low) + 1.0, 0.0)  # the planes strictly between
+        uncut = [pieces[:0]]
+        while len(pieces):
+            low = pieces[:, :, axis].min(axis=1)
+            high = pieces[:, :, axis].max(axis=1)
+            # The planes strictly between. Cut at the middle one first, so that rounds are few.
+            first = np.maximum(np.floor(low) + 1.0, 0.0)
             last = np.minimum(np.ceil(high) - 1.0, float(shape[axis]))
-            across = first <= last
-            done.append(triangles[~across])
-            plane = np.floor((first + last) / 2.0)[across]
-            triangles = _split_triangles(triangles[across], axis, plane)
-        triangles = np.concatenate(done)
-    return triangles
+            is_cut = first <= last
+            uncut.append(pieces[~is_cut])
+            plane = np.floor((first + last) / 2.0)[is_cut]
+            pieces = _split_triangles(pieces[is_cut], axis, plane)
+        pieces = np.concatenate(uncut)
+    return pieces
 
 
 def _split_triangles(triangles: NDArray, axis: int, plane: NDArray) -> Array:
-    """Cut each triangle by the plane through it into three; fewer if a corner is on the plane."""
-    side = triangles[:, :, axis] > plane[:, None]
-    alone = np.where(side.sum(axis=1) == 1, side.argmax(axis=1), (~side).argmax(axis=1))
+    """Cut each triangle by the plane through it into three; fewer if a corner is on the plane.
+
+    plane: (n,) coordinates along the axis.
+    """
+    is_above = triangles[:, :, axis] > plane[:, None]
+    # a is the corner that has a side of the plane to itself.
+    alone = np.where(is_above.sum(axis=1) == 1, is_above.argmax(axis=1), (~is_above).argmax(axis=1))
     index = np.arange(len(triangles))
     a, b, c = (triangles[index, (alone + turn) % 3] for turn in range(3))
 
     def crossing(end: NDArray) -> NDArray:
+        """Return the points of the plane on the edges from a."""
         share = (plane - a[:, axis]) / (end[:, axis] - a[:, axis])
         point = a + share[:, None] * (end - a)
         point[:, axis] = plane
@@ -145,5 +172,5 @@ def _split_triangles(triangles: NDArray, axis: int, plane: NDArray) -> Array:
     pieces = np.concatenate(
         [np.stack(corners, axis=1) for corners in ((a, ab, ac), (ab, b, c), (ab, c, ac))]
     )
-    doubled = np.cross(pieces[:, 1] - pieces[:, 0], pieces[:, 2] - pieces[:, 0])
-    return pieces[(doubled != 0.0).any(axis=1)]
+    normals = np.cross(pieces[:, 1] - pieces[:, 0], pieces[:, 2] - pieces[:, 0])
+    return pieces[(normals != 0.0).any(axis=1)]
