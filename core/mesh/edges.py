@@ -22,6 +22,7 @@ from ..numerics import (
     Index,
     Mask,
     NDArray,
+    as_unsigned,
     connected_components,
     first_occurrence,
     sums_by_index,
@@ -35,31 +36,34 @@ def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
     """Return the (2, e) mesh faces beside the used edges if each has two, run in opposite
     directions; else None.
     """
-    corners = surface.corner_vertices
+    starts = surface.corner_vertices
     edges = surface.corner_edges
-    if corners is None or edges is None or not len(corners) == len(edges) > 0:
+    if starts is None or edges is None or not len(starts) == len(edges) > 0:
         return None
     quad_faces, triangle_faces = face_of_each(surface)
     sizes = ring_sizes(triangle_faces, quad_faces)
-    if not sizes.all() or sizes.sum() != len(corners):
+    if not sizes.all() or sizes.sum() != len(starts):
         return None
     # a negative edge becomes a large one
-    count = int(edges.view("u{:d}".format(edges.itemsize)).max()) + 1
-    if count > 2 * len(corners) or count > np.iinfo(edges.dtype).max // 2:
+    edge_count = int(as_unsigned(edges).max()) + 1
+    if edge_count > 2 * len(starts) or edge_count > np.iinfo(edges.dtype).max // 2:
         # Most of them without faces, or too many for their type: a table costs more than a search.
         return None
-    ends = np.cumsum(sizes)
-    following = np.concatenate([corners[1:], corners[:1]])
-    following[ends - 1] = corners[ends - sizes]
-    slots = (corners < following).astype(edges.dtype)
-    slots *= count
+    ring_ends = np.cumsum(sizes)
+    stops = np.concatenate([starts[1:], starts[:1]])
+    stops[ring_ends - 1] = starts[ring_ends - sizes]
+    # Each edge has a slot for a side towards its lower vertex, and one for a side towards its
+    # higher vertex.
+    slots = (starts < stops).astype(edges.dtype)
+    slots *= edge_count
     slots += edges
-    sides = np.full(2 * count, -1, np.int32)
-    sides[slots] = np.repeat(np.arange(len(sizes), dtype=np.int32), sizes)
-    sides = sides.reshape(2, count)
-    if len(corners) != 2 * count:  # edges without faces
-        sides = sides[:, sides.max(axis=0) >= 0]
-    return sides if len(corners) == sides.size and sides.min() >= 0 else None
+    faces = np.full(2 * edge_count, -1, np.int32)
+    faces[slots] = np.repeat(np.arange(len(sizes), dtype=np.int32), sizes)
+    faces = faces.reshape(2, edge_count)
+    if len(starts) != 2 * edge_count:
+        has_face = faces.max(axis=0) >= 0
+        faces = faces[:, has_face]
+    return faces if len(starts) == faces.size and faces.min() >= 0 else None
 
 
 def ring_sizes(
@@ -126,30 +130,32 @@ class Edges:
 
 
 def find_edges(triangles: NDArray[np.integer], quads: int = 0) -> Edges:
-    """Return the edges of (m, 3) triangles; the last 2 * `quads` are halves with diagonals of their
-    own.
+    """Return the edges of (m, 3) triangles.
+
+    quads: number of pairs of triangles at the end, the halves a, b, c and a, c, d of quads; their
+    diagonals are edges of their own, even along other edges.
     """
     start = triangles.ravel()
     stop = triangles.take(NEXT_AXIS, 1).ravel()
     low = np.minimum(start, stop)
     high = np.maximum(start, stop)
     width = int(high.max(initial=0)) + 1
-    bits = (
-        len(low) // width
-    ).bit_length() + 1  # neighbors in the mesh share the table's cached part
+    # Neighbors in the mesh share the table's cached part.
+    bits = (len(low) // width).bit_length() + 1
     slots = np.left_shift(low, bits, dtype=np.intp)
     slots += (high.astype(np.uint32) * HASH_FACTOR) >> np.uint32(32 - bits)
     keys = np.multiply(low, width, dtype=np.int64)
     keys += high
-    diagonals = 3 * (len(triangles) - 2 * quads + 2 * np.arange(quads))
-    keys[diagonals + 2] = keys[diagonals + 3] = width * width + np.arange(quads)
+    first_halves = 3 * (len(triangles) - 2 * quads + 2 * np.arange(quads))
+    # The diagonal: the last side of the first half, and the first side of the second half.
+    keys[first_halves + 2] = keys[first_halves + 3] = width * width + np.arange(quads)
     first = first_occurrence(keys, slots=slots)
-    begins = first == np.arange(len(first))
-    of_side = (np.cumsum(begins) - 1).take(first)
+    is_first = first == np.arange(len(first))
+    of_side = (np.cumsum(is_first) - 1).take(first)
     return Edges(
         of_side=of_side,
         upward=start < stop,
-        first=np.flatnonzero(begins),
+        first=np.flatnonzero(is_first),
         count=np.bincount(of_side),
     )
 
@@ -168,13 +174,13 @@ def uncancelled_sides(
     high = np.maximum(start, stop)
     owner = np.repeat(owner, 3).astype(np.int64)
     first = first_occurrence(low, high, owner)
-    # nothing of sides without length
-    left = np.bincount(first, np.sign(stop - start)).astype(np.intp)
-    first = np.repeat(np.arange(len(left)), np.abs(left))
+    # Upward sides minus downward sides, at the first side of each edge; 0 for sides without length.
+    surplus = np.bincount(first, np.sign(stop - start)).astype(np.intp)
+    first = np.repeat(np.arange(len(surplus)), np.abs(surplus))
     low = low[first]
     high = high[first]
-    forward = left[first] > 0
-    return owner[first], np.where(forward, low, high), np.where(forward, high, low)
+    upward = surplus[first] > 0
+    return owner[first], np.where(upward, low, high), np.where(upward, high, low)
 
 
 def consistent_orientation(
@@ -184,8 +190,10 @@ def consistent_orientation(
     misoriented: Mask,
     weight: Array,
 ) -> tuple[Mask, Mask]:
-    """Return (count,) masks of faces to turn, the smaller area (weight), and of faces that cannot
-    agree.
+    """Return (count,) masks of the faces to turn, and of faces that cannot agree with their part.
+
+    Of each part the faces with the smaller sum of `weight`, (count,), are turned. a, b: (k,)
+    neighboring faces; misoriented: (k,) mask of the pairs that disagree.
     """
     flipped, twisted = np.zeros((2, count), bool)
     if not misoriented.any():
@@ -196,12 +204,12 @@ def consistent_orientation(
         np.concatenate([a, a + count]),
         np.concatenate([b + count * misoriented, b + count * ~misoriented]),
     )
-    plain, reverse = cover[:count], cover[count:]
-    twisted = plain == reverse
-    flipped = plain > reverse
-    part = np.minimum(plain, reverse)
-    moved = np.bincount(part, weight * flipped)
-    flipped ^= (2.0 * moved > np.bincount(part, weight))[part]
+    plain, turned = cover[:count], cover[count:]
+    twisted = plain == turned
+    flipped = plain > turned
+    part = np.minimum(plain, turned)
+    flipped_weight = np.bincount(part, weight * flipped)
+    flipped ^= (2.0 * flipped_weight > np.bincount(part, weight))[part]
     return flipped & ~twisted, twisted
 
 
@@ -216,14 +224,15 @@ def group_components(edges: Edges, part: Index, parts: int, even: Mask) -> tuple
     non_manifold = edges.count > 2
     if not non_manifold.any():
         return part, parts
-    used, uses = np.unique(edges.of_side * parts + part.repeat(3), return_counts=True)
-    odd = (uses % 2 == 1) & ~even[used // parts]
+    edge_and_part, sides = np.unique(edges.of_side * parts + part.repeat(3), return_counts=True)
+    is_odd = (sides % 2 == 1) & ~even[edge_and_part // parts]
     unfinished = np.zeros(parts, bool)
-    unfinished[used[odd] % parts] = True
+    unfinished[edge_and_part[is_odd] % parts] = True
     side = np.flatnonzero(non_manifold[edges.of_side] & unfinished[part].repeat(3))
-    meet = np.empty(len(non_manifold), np.intp)
-    meet[edges.of_side[side]] = part[side // 3]  # any part at the edge
-    component, number = connected_components(parts, part[side // 3], meet[edges.of_side[side]])
+    edge = edges.of_side[side]
+    any_part = np.empty(len(non_manifold), np.intp)
+    any_part[edge] = part[side // 3]  # of several parts at an edge the last one written
+    component, number = connected_components(parts, part[side // 3], any_part[edge])
     return component[part], number
 
 
@@ -236,24 +245,25 @@ def faces_beside_edges(faces: NDArray[np.integer], vertex_count: int) -> NDArray
     columns = np.ascontiguousarray(faces.T)
     vertex_bits = int(vertex_count).bit_length()
     face_bits = len(faces).bit_length()
-    keys = np.empty(columns.shape, np.uint64)  # both ends of each side, and its direction
+    # A side as bits: its lower vertex, its higher vertex, and a last bit for its direction.
+    keys = np.empty(columns.shape, np.uint64)
     for key, start, stop in zip(keys, columns, np.roll(columns, -1, axis=0)):
         np.minimum(start, stop, out=key, casting="unsafe")
         key <<= np.uint64(vertex_bits)
         key |= np.maximum(start, stop).astype(np.uint64)
         key <<= np.uint64(1)
         key |= start < stop
-    if 2 * vertex_bits + 1 + face_bits <= 64:  # with the faces they are sorted in less time
+    if 2 * vertex_bits + 1 + face_bits <= 64:  # sorting keys that end with the face takes less time
         keys <<= np.uint64(face_bits)
         keys |= np.arange(len(faces), dtype=np.uint64)
         keys = keys.ravel()
         keys.sort()
-        beside = keys & np.uint64((1 << face_bits) - 1)
+        face_of_side = keys & np.uint64((1 << face_bits) - 1)
         keys >>= np.uint64(face_bits)
     else:
-        sides = keys.ravel().argsort()
-        keys = keys.ravel()[sides]
-        beside = sides % len(faces)
-    if not (keys[::2] ^ keys[1::2] == 1).all():
+        order = keys.ravel().argsort()
+        keys = keys.ravel()[order]
+        face_of_side = order % len(faces)
+    if not (keys[::2] ^ keys[1::2] == 1).all():  # two sides of an edge differ in the last bit
         return None
-    return beside.astype(np.int32).reshape(-1, 2).T
+    return face_of_side.astype(np.int32).reshape(-1, 2).T

@@ -27,22 +27,23 @@ def triangle_distances(points: ArrayLike, corners: NDArray) -> Array:
     ends = np.ascontiguousarray(corners.transpose(1, 2, 0))
     if point.ndim == 1:
         point = point[:, None]
-    to = [subtract(point, end) for end in ends]
+    from_corners = [subtract(point, end) for end in ends]
     edges = [subtract(ends[(i + 1) % 3], ends[i]) for i in range(3)]
     normal = cross(edges[0], edges[1])
-    size = np.sqrt(dot(normal, normal))
-    real = size > 0.0
-    nearest = np.full(len(corners), np.inf)
-    inside = real
-    for away, edge in zip(to, edges):
-        length = dot(edge, edge)
-        share = np.clip(dot(away, edge) / np.where(length > 0.0, length, 1.0), 0.0, 1.0)
-        left = subtract(away, [share * component for component in edge])
-        nearest = np.minimum(nearest, dot(left, left))
-        inside = inside & (dot(normal, cross(edge, away)) >= 0.0)
-    nearest = np.sqrt(nearest)
-    height = np.abs(dot(normal, to[0])) / np.where(real, size, 1.0)
-    return np.where(inside, np.minimum(height, nearest), nearest)
+    normal_length = np.sqrt(dot(normal, normal))
+    has_area = normal_length > 0.0
+    squared_to_edges = np.full(len(corners), np.inf)
+    is_above = has_area  # the point's foot on the plane is in the triangle
+    for from_corner, edge in zip(from_corners, edges):
+        squared_length = dot(edge, edge)
+        along = dot(from_corner, edge) / np.where(squared_length > 0.0, squared_length, 1.0)
+        share = np.clip(along, 0.0, 1.0)
+        from_edge = subtract(from_corner, [share * component for component in edge])
+        squared_to_edges = np.minimum(squared_to_edges, dot(from_edge, from_edge))
+        is_above = is_above & (dot(normal, cross(edge, from_corner)) >= 0.0)
+    to_edges = np.sqrt(squared_to_edges)
+    height = np.abs(dot(normal, from_corners[0])) / np.where(has_area, normal_length, 1.0)
+    return np.where(is_above, np.minimum(height, to_edges), to_edges)
 
 
 def winding_number(points: Floats, triangles: Integers, point: NDArray) -> float:
@@ -60,11 +61,11 @@ def solid_angles(points: NDArray, triangles: Integers, point: ArrayLike = 0.0) -
     """
     a, b, c = (points[triangles[:, k]] - np.asarray(point) for k in range(3))
     la, lb, lc = (np.sqrt((v * v).sum(axis=1)) for v in (a, b, c))
-    volume = (a * np.cross(b, c)).sum(axis=1)
-    below = (
+    numerator = (a * np.cross(b, c)).sum(axis=1)
+    denominator = (
         la * lb * lc
         + (a * b).sum(axis=1) * lc
         + (b * c).sum(axis=1) * la
         + (c * a).sum(axis=1) * lb
     )
-    return 2.0 * np.arctan2(volume, below)
+    return 2.0 * np.arctan2(numerator, denominator)

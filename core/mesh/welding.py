@@ -16,6 +16,7 @@ from ..numerics import (
     NEXT_AXIS,
     Array,
     Index,
+    Integers,
     Mask,
     NDArray,
     connected_components,
@@ -46,6 +47,8 @@ def may_have_neighbor(
 ) -> Mask:
     """Return an (n,) mask of all points with another point of their owner within `reach`, and of
     some more points.
+
+    reach: one distance, or (n,), the same for all points of an owner.
     """
     x, y, z = points.T.astype(np.float64)
     along = x * DIRECTION[0] + y * DIRECTION[1] + z * DIRECTION[2]
@@ -55,9 +58,9 @@ def may_have_neighbor(
     near = np.flatnonzero(along[1:] - along[:-1] <= REACH_MARGIN * reach)
     if owner is not None:
         near = near[owner[order[near]] == owner[order[near + 1]]]
-    result = np.zeros(len(points), bool)
-    result[order[near]] = result[order[near + 1]] = True
-    return result
+    has_near = np.zeros(len(points), bool)
+    has_near[order[near]] = has_near[order[near + 1]] = True
+    return has_near
 
 
 def first_at_near_position(points: NDArray[np.floating], tolerance: Array) -> Index:
@@ -69,29 +72,27 @@ def first_at_near_position(points: NDArray[np.floating], tolerance: Array) -> In
     cell = 2.0 * tolerance.max()
     if not cell:
         return first_at_equal_position(place)
+    first = np.arange(len(points))
     chosen = np.flatnonzero(may_have_neighbor(place, CELL_DIAGONAL * tolerance.max()))
-    if len(chosen) < len(points):
-        first = np.arange(len(points))
-        if len(chosen):
-            first[chosen] = chosen[_first_of_clusters(place[chosen], tolerance[chosen], cell)]
-        return first
-    return _first_of_clusters(place, tolerance, cell)
+    if len(chosen):
+        first[chosen] = chosen[_first_of_clusters(place[chosen], tolerance[chosen], cell)]
+    return first
 
 
 def _first_of_clusters(place: Array, tolerance: Array, cell: float) -> Index:
     """Return the (n,) points of `first_at_near_position`, on grids of cells of this size."""
+    point = np.arange(len(place))
     left, right = [], []
     for shift in np.ndindex(2, 2, 2):
         first = first_at_equal_position(np.floor(place / cell + 0.5 * np.array(shift)))
         distance = np.linalg.norm(place - place[first], axis=1)
-        near = (distance <= np.minimum(tolerance, tolerance[first])) & (
-            first != np.arange(len(place))
-        )
-        left.append(first[near])
-        right.append(np.flatnonzero(near))
+        is_near = distance <= np.minimum(tolerance, tolerance[first])
+        is_near &= first != point
+        left.append(first[is_near])
+        right.append(point[is_near])
     cluster, number = connected_components(len(place), np.concatenate(left), np.concatenate(right))
     first = np.empty(number, np.intp)
-    first[cluster[::-1]] = np.arange(len(place))[::-1]  # the last write wins: the first point
+    first[cluster[::-1]] = point[::-1]  # the last write wins: the first point
     return first[cluster]
 
 
@@ -104,39 +105,44 @@ def vertex_tolerance(
     """Return the (k,) distances that `vertices` may move: `tolerance`, less if the triangles around
     them are small.
     """
-    requested = np.zeros(len(points), bool)
-    requested[vertices] = True
-    triangles = triangles[requested[triangles].any(axis=1)]
+    is_asked = np.zeros(len(points), bool)
+    is_asked[vertices] = True
+    triangles = triangles[is_asked[triangles].any(axis=1)]
     corners = points[triangles].astype(np.float64)
-    longest = lengths(corners - corners.take(NEXT_AXIS, 1))[..., 0].max(axis=1)
-    size = np.full(len(points), np.inf)
-    np.minimum.at(size, triangles.ravel(), np.repeat(longest, 3))
-    return np.minimum(tolerance, WELD_LIMIT_RTOL * size[vertices])
+    longest_side = lengths(corners - corners.take(NEXT_AXIS, 1))[..., 0].max(axis=1)
+    smallest = np.full(len(points), np.inf)
+    np.minimum.at(smallest, triangles.ravel(), np.repeat(longest_side, 3))
+    return np.minimum(tolerance, WELD_LIMIT_RTOL * smallest[vertices])
 
 
 def same_vertices_groups(triangles: NDArray[np.integer], faces: NDArray[np.integer]) -> Index:
     """Return for m triangles the first mesh faces on the same vertices as their own mesh faces,
     `faces` (m,).
     """
-    width = int(faces.max()) + 1
-    pieces = np.bincount(faces)
-    single = pieces[faces] == 1
-    sums = np.zeros((2, width), np.uint64)
-    for k, salt in enumerate((np.uint64(0), np.uint64(1) << np.uint64(32))):
-        hashes = hash_uint64(triangles[single].astype(np.uint64) + salt)
-        sums[k, faces[single]] = hashes[:, 0] + hashes[:, 1] + hashes[:, 2]
-    if not single.all():
-        vertices = int(triangles.max()) + 1
-        corner = sorted_distinct(
-            np.repeat(faces[~single], 3).astype(np.int64) * vertices + triangles[~single].ravel()
+    face_count = int(faces.max()) + 1
+    triangle_counts = np.bincount(faces)
+    is_triangle = triangle_counts[faces] == 1
+    sums = np.zeros((2, face_count), np.uint64)
+    hashes = _vertex_hashes(triangles[is_triangle])
+    sums[:, faces[is_triangle]] = hashes[..., 0] + hashes[..., 1] + hashes[..., 2]
+    if not is_triangle.all():
+        # The triangles of a polygon share vertices: each counts once.
+        vertex_count = int(triangles.max()) + 1
+        keys = sorted_distinct(
+            np.repeat(faces[~is_triangle], 3).astype(np.int64) * vertex_count
+            + triangles[~is_triangle].ravel()
         )
-        owner = corner // vertices
-        begin = np.flatnonzero(np.concatenate([[True], owner[1:] != owner[:-1]]))
-        for k, salt in enumerate((np.uint64(0), np.uint64(1) << np.uint64(32))):
-            sums[k, owner[begin]] = np.add.reduceat(
-                hash_uint64((corner % vertices).astype(np.uint64) + salt), begin
-            )
-    present = np.flatnonzero(pieces)
-    group = np.empty(width, np.intp)
+        face = keys // vertex_count
+        begin = np.flatnonzero(np.concatenate([[True], face[1:] != face[:-1]]))
+        hashes = _vertex_hashes(keys % vertex_count)
+        sums[:, face[begin]] = np.add.reduceat(hashes, begin, axis=1)
+    present = np.flatnonzero(triangle_counts)
+    group = np.empty(face_count, np.intp)
     group[present] = present[first_occurrence(*sums[:, present])]
     return group[faces]
+
+
+def _vertex_hashes(vertices: Integers) -> NDArray[np.uint64]:
+    """Return (2, …) two independent hashes of vertex numbers below 2^32."""
+    salts = np.array([0, 1 << 32], np.uint64).reshape(2, *[1] * vertices.ndim)
+    return hash_uint64(vertices.astype(np.uint64) + salts)
