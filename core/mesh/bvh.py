@@ -13,11 +13,11 @@ from functools import cached_property
 
 import numpy as np
 
-from ..numerics import Array, Index, Mask, NDArray, segment_ranges, spread_bits
+from ..numerics import Array, Index, Mask, NDArray, cross, dot, segment_ranges, spread_bits
 from .point_triangle import triangle_distances
 
 RAY_SLOPES = (0.08173, 0.05311)  # the ray is (0.08173, 0.05311, 1)
-TRIANGLES_PER_LEAF = 4  # triangles
+TRIANGLES_PER_LEAF = 4
 PAIRS_PER_BATCH = 1 << 17  # pairs looked at together
 MAX_BOX_PAIRS = 10_000_000  # pairs of boxes looked at
 TRIANGLES_PER_BLOCK = 1 << 14  # triangles whose scratch stays in the cache
@@ -60,27 +60,20 @@ def sort_components(
     high = np.full((3, number), -np.inf)
     volume, area = np.zeros((2, number))
     for begin in range(0, len(triangles), TRIANGLES_PER_BLOCK):
-        block_component = component[begin : begin + TRIANGLES_PER_BLOCK]
-        first = np.flatnonzero(
-            np.concatenate([[True], block_component[1:] != block_component[:-1]])
-        )
-        at = block_component[first]
+        owner = component[begin : begin + TRIANGLES_PER_BLOCK]
+        first = np.flatnonzero(np.concatenate([[True], owner[1:] != owner[:-1]]))
+        present = owner[first]  # the components in this block, each once
         index = triangles[begin : begin + TRIANGLES_PER_BLOCK].T.astype(np.intp, order="C")
-        corner = [column.take(index) for column in columns]
-        for k, (a, b, c) in enumerate(corner):
-            low[k, at] = np.minimum(
-                low[k, at], np.minimum.reduceat(np.minimum(np.minimum(a, b), c), first)
-            )
-            high[k, at] = np.maximum(
-                high[k, at], np.maximum.reduceat(np.maximum(np.maximum(a, b), c), first)
-            )
-        b, c = ([x[k] - x[0] for x in corner] for k in (1, 2))
-        normal = [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]]
-        height = sum(n * (x[0] - h[block_component]) for n, x, h in zip(normal, corner, origin))
-        volume[at] += np.add.reduceat(height, first)
-        area[at] += np.add.reduceat(
-            np.sqrt(normal[0] ** 2 + normal[1] ** 2 + normal[2] ** 2), first
-        )
+        corners = [column.take(index) for column in columns]
+        for k, (a, b, c) in enumerate(corners):
+            lowest = np.minimum.reduceat(np.minimum(np.minimum(a, b), c), first)
+            highest = np.maximum.reduceat(np.maximum(np.maximum(a, b), c), first)
+            low[k, present] = np.minimum(low[k, present], lowest)
+            high[k, present] = np.maximum(high[k, present], highest)
+        normal = cross([x[1] - x[0] for x in corners], [x[2] - x[0] for x in corners])
+        from_origin = [x[0] - place[owner] for x, place in zip(corners, origin)]
+        volume[present] += np.add.reduceat(dot(normal, from_origin), first)
+        area[present] += np.add.reduceat(np.sqrt(dot(normal, normal)), first)
     return SortedComponents(triangles, component, start, low.T, high.T, volume / 6.0, area / 2.0)
 
 
@@ -99,9 +92,10 @@ class Bvh:
     Morton order.
 
     vertex_columns: (3, n) the vertices about `origin`; ids: (3, m) the vertices of the sorted
-    triangles; bottom, top: (3, m) their boxes. root: (c,) root node of each component's tree, or
-    -1. A node's first child is `child`, -1 for leaves; the second one follows. A leaf holds
-    triangles `first` to `last`. low, high: (n, 3) boxes of nodes; inverted if a node is empty.
+    triangles; triangle_low, triangle_high: (3, m) their boxes. root: (c,) root node of each
+    component's tree, or -1. A node's first child is `child`, -1 for leaves; the second one follows.
+    A leaf holds the triangles from `begin` up to `end`, which is excluded. low, high: (n, 3) boxes
+    of nodes; inverted if a node is empty.
     """
 
     def __init__(
@@ -123,42 +117,45 @@ class Bvh:
         ids = components.triangles
         component = components.component
         if not selected.all():
-            triangle_rows = np.flatnonzero(selected[component])
-            ids = ids[triangle_rows]
-            component = component[triangle_rows]
+            is_selected = selected[component]
+            ids = ids[is_selected]
+            component = component[is_selected]
         low, high = np.empty((2, 3, len(ids)))
         code = np.zeros(len(ids), np.int64)
         corner = (components.low - self.origin).T
+        # 10 bits for each axis of a component's box
         scale = 1023.0 / np.maximum(
             (components.high - components.low).max(axis=1), 1023.0 * np.finfo(float).tiny
         )
         for begin in range(0, len(ids), TRIANGLES_PER_BLOCK):
-            triangle_rows = slice(begin, begin + TRIANGLES_PER_BLOCK)
-            index = ids[triangle_rows].T.astype(np.intp, order="C")
+            block = slice(begin, begin + TRIANGLES_PER_BLOCK)
+            owner = component[block]
+            index = ids[block].T.astype(np.intp, order="C")
             for k, column in enumerate(self.vertex_columns):
                 a, b, c = column.take(index)
-                np.minimum(np.minimum(a, b), c, out=low[k, triangle_rows])
-                np.maximum(np.maximum(a, b), c, out=high[k, triangle_rows])
-                cell = (
-                    0.5 * (low[k, triangle_rows] + high[k, triangle_rows])
-                    - corner[k, component[triangle_rows]]
-                ) * scale[component[triangle_rows]]
-                code[triangle_rows] |= spread_bits(cell.astype(np.int64)) << k
+                np.minimum(np.minimum(a, b), c, out=low[k, block])
+                np.maximum(np.maximum(a, b), c, out=high[k, block])
+                middle = 0.5 * (low[k, block] + high[k, block])
+                cell = (middle - corner[k, owner]) * scale[owner]
+                code[block] |= spread_bits(cell.astype(np.int64)) << k
         order = radix_argsort(code)
         order = order[radix_argsort(component[order])]
         self.ids = ids[order].T.astype(np.intp, order="C")
-        component = component[order]
-        self.bottom = low[:, order]
-        self.top = high[:, order]
-        return component
+        self.triangle_low = low[:, order]
+        self.triangle_high = high[:, order]
+        return component[order]
 
     def _build_nodes(self, component: Index, selected: Mask) -> None:
-        """Build the nodes over the sorted triangles of these (m,) components."""
+        """Build the nodes over the sorted triangles of these (m,) components.
+
+        A tree of depth d has its 2^d last nodes as leaves. From its root at `offset` on, the
+        children of node i are 2i + 1 and 2i + 2.
+        """
         present = np.flatnonzero(selected)
-        begin = np.searchsorted(component, present)
-        size = np.searchsorted(component, present, side="right") - begin
-        leaves = -(-size // TRIANGLES_PER_LEAF)
-        depth = np.ceil(np.log2(leaves)).astype(np.intp)
+        first_triangle = np.searchsorted(component, present)
+        triangle_count = np.searchsorted(component, present, side="right") - first_triangle
+        leaf_count = -(-triangle_count // TRIANGLES_PER_LEAF)
+        depth = np.ceil(np.log2(leaf_count)).astype(np.intp)
         width = 1 << depth
         offset = np.concatenate([[0], np.cumsum(2 * width - 1)])
         count = int(offset[-1])
@@ -166,19 +163,21 @@ class Bvh:
         self.root[present] = offset[:-1]
         self.low = np.full((count, 3), np.inf)
         self.high = np.full((count, 3), -np.inf)
-        self.first, self.last = np.zeros((2, count), np.intp)
+        self.begin, self.end = np.zeros((2, count), np.intp)
         tree = np.repeat(np.arange(len(present)), 2 * width - 1)
-        self.child = 2 * np.arange(count) - offset[tree] + 1
-        self.child[np.arange(count) - offset[tree] >= width[tree] - 1] = -1
+        node = np.arange(count) - offset[tree]
+        self.child = np.where(node < width[tree] - 1, offset[tree] + 2 * node + 1, -1)
 
-        k = segment_ranges(leaves)
-        tree = np.repeat(np.arange(len(present)), leaves)
+        k = segment_ranges(leaf_count)
+        tree = np.repeat(np.arange(len(present)), leaf_count)
         leaf = offset[tree] + width[tree] - 1 + k
-        self.first[leaf] = begin[tree] + TRIANGLES_PER_LEAF * k
-        self.last[leaf] = np.minimum(self.first[leaf] + TRIANGLES_PER_LEAF, (begin + size)[tree])
-        for k in range(3):
-            self.low[leaf, k] = np.minimum.reduceat(self.bottom[k], self.first[leaf])
-            self.high[leaf, k] = np.maximum.reduceat(self.top[k], self.first[leaf])
+        begin = first_triangle[tree] + TRIANGLES_PER_LEAF * k
+        self.begin[leaf] = begin
+        self.end[leaf] = np.minimum(
+            begin + TRIANGLES_PER_LEAF, (first_triangle + triangle_count)[tree]
+        )
+        self.low[leaf] = np.minimum.reduceat(self.triangle_low, begin, axis=1).T
+        self.high[leaf] = np.maximum.reduceat(self.triangle_high, begin, axis=1).T
         for level in range(int(depth.max()) - 1, -1, -1):
             deep = np.flatnonzero(depth > level)
             node = (offset[deep][:, None] + ((1 << level) - 1 + np.arange(1 << level))).ravel()
@@ -189,6 +188,12 @@ class Bvh:
     def corners(self, triangle: Index) -> Array:
         """Return the (3, 3, k) coordinates, about `origin`, of the corners of sorted triangles."""
         return self.vertex_columns.take(self.ids.take(triangle, axis=1), axis=1)
+
+    def triangles_of_leaves(self, leaf: Index, owner: Index) -> tuple[Index, Index]:
+        """Return the sorted triangles of (k,) leaves, and the (k,) `owner` of each one's leaf."""
+        begin = self.begin.take(leaf)
+        count = self.end.take(leaf) - begin
+        return np.repeat(begin, count) + segment_ranges(count), np.repeat(owner, count)
 
     @cached_property
     def _shadows(self) -> Array:
@@ -212,7 +217,7 @@ class Bvh:
         query = np.ascontiguousarray(query_points.T)
         height = query[2] - tolerance
         (u, v) = _across(query)
-        pieces = batches(np.arange(len(query_points)), self.root[component])
+        pieces = cut(np.arange(len(query_points)), self.root[component])
         work = 0
         while pieces:
             place, node = pieces.pop()
@@ -223,23 +228,22 @@ class Bvh:
                 break
             top, left, right, front, back = self._shadows.take(node, axis=1)
             x, y = u.take(place), v.take(place)
-            hit = (
+            is_hit = (
                 (top >= height.take(place))
                 & (left <= x)
                 & (right >= x)
                 & (front <= y)
                 & (back >= y)
             )
-            place, node = place[hit], node[hit]
+            place, node = place[is_hit], node[is_hit]
             child = self.child.take(node)
-            leaf = child == -1
-            if leaf.any():
-                for at, leaves in batches(
-                    place[leaf], node[leaf], size=PAIRS_PER_BATCH // TRIANGLES_PER_LEAF
+            is_leaf = child == -1
+            if is_leaf.any():
+                for at, leaves in cut(
+                    place[is_leaf], node[is_leaf], size=PAIRS_PER_BATCH // TRIANGLES_PER_LEAF
                 ):
                     self._count_crossings(query, at, leaves, tolerance, winding, sure)
-            place, child = place[~leaf], child[~leaf]
-            pieces += batches(np.concatenate([place, place]), np.concatenate([child, child + 1]))
+            pieces += _both_children(place[~is_leaf], child[~is_leaf])
         return winding, sure
 
     def _count_crossings(
@@ -254,32 +258,29 @@ class Bvh:
         """Add the rays' crossings with triangles of leaves to `winding`; update `sure`. query: (3,
         k) ray starts.
         """
-        first = self.first.take(leaf)
-        size = self.last.take(leaf) - first
-        triangle = np.repeat(first, size) + segment_ranges(size)
-        place = np.repeat(place, size)
+        triangle, place = self.triangles_of_leaves(leaf, place)
         corner = self.corners(triangle)
         corner -= query.take(place, axis=1)[:, None]
         u, v = _across(corner)
         ids = self.ids.take(triangle, axis=1)
-        edge = np.empty(ids.shape)
+        area = np.empty(ids.shape)  # twice the areas between the ray and the edges
         positive = np.empty(ids.shape, bool)
         for k in range(3):
             i, j = (k + 1) % 3, (k + 2) % 3
             # Judged from the edge's lower vertex, so that both its triangles see one number; zero
             # counts as positive.
             back = ids[i] > ids[j]
-            area = np.where(back, u[j] * v[i] - u[i] * v[j], u[i] * v[j] - u[j] * v[i])
-            edge[k] = np.where(back, -area, area)
-            positive[k] = (area >= 0.0) ^ back
+            from_lower = np.where(back, u[j] * v[i] - u[i] * v[j], u[i] * v[j] - u[j] * v[i])
+            area[k] = np.where(back, -from_lower, from_lower)
+            positive[k] = (from_lower >= 0.0) ^ back
         struck = np.flatnonzero((positive[0] == positive[1]) & (positive[1] == positive[2]))
         place = place[struck]
-        edge = edge[:, struck]
+        area = area[:, struck]
         positive = positive[0, struck]
-        heights = corner[2][:, struck]
-        total = edge.sum(axis=0)
+        total = area.sum(axis=0)
         flat = total == 0.0
-        height = np.einsum("kj,kj->j", edge, heights) / np.where(flat, 1.0, total)
+        heights = corner[2][:, struck]
+        height = np.einsum("kj,kj->j", area, heights) / np.where(flat, 1.0, total)
         sure[place[flat | (np.abs(height) <= tolerance)]] = False
         above = height > 0.0
         np.add.at(winding, place[above], np.where(positive[above], 1, -1))
@@ -289,7 +290,7 @@ class Bvh:
         beyond `within`.
         """
         nearest = np.full(len(query_points), np.nextafter(within, np.inf))
-        pieces = batches(np.arange(len(query_points)), self.root[component])
+        pieces = cut(np.arange(len(query_points)), self.root[component])
         while pieces:
             place, node = pieces.pop()
             point = query_points[place]
@@ -302,57 +303,60 @@ class Bvh:
             near = occupied & (least <= nearest[place])
             place, node = place[near], node[near]
             child = self.child[node]
-            leaf = child == -1
-            if leaf.any():
-                size = self.last[node[leaf]] - self.first[node[leaf]]
-                triangle = np.repeat(self.first[node[leaf]], size) + segment_ranges(size)
-                at = np.repeat(place[leaf], size)
+            is_leaf = child == -1
+            if is_leaf.any():
+                triangle, at = self.triangles_of_leaves(node[is_leaf], place[is_leaf])
                 corners = self.corners(triangle).transpose(2, 1, 0)
                 np.minimum.at(nearest, at, triangle_distances(query_points[at], corners))
-            place, child = place[~leaf], child[~leaf]
-            pieces += batches(np.concatenate([place, place]), np.concatenate([child, child + 1]))
+            pieces += _both_children(place[~is_leaf], child[~is_leaf])
         return np.where(nearest <= within, nearest, np.inf)
 
     def first_hits(self, starts: Array, rays: Array, reach: float) -> tuple[Array, Index]:
         """Return the distances from (k, 3) places (about `origin`) along unit rays to the first
         triangle of the first component, and its sorted row; inf and 0 if none is within `reach`.
         """
-        depth = np.full(len(starts), np.inf)
+        nearest = np.full(len(starts), np.inf)
         hit = np.zeros(len(starts), np.intp)
         inverse = 1.0 / np.where(np.abs(rays) > LEAST_SLOPE, rays, LEAST_SLOPE)
         slack = RAY_RTOL * reach
-        pieces = batches(np.arange(len(starts)), np.full(len(starts), self.root[0]))
+        pieces = cut(np.arange(len(starts)), np.full(len(starts), self.root[0]))
         while pieces:
             line, node = pieces.pop()
             low, high = self.low[node], self.high[node]
+            # distances along the ray at which it meets the planes of the box's sides
             ends = (np.stack([low, high]) - starts[line]) * inverse[line]
-            last = np.minimum(ends.max(axis=0).min(axis=1), np.minimum(depth[line], reach))
+            last = np.minimum(ends.max(axis=0).min(axis=1), np.minimum(nearest[line], reach))
             crossed = (ends.min(axis=0).max(axis=1) <= last + slack) & (last >= -slack)
             crossed &= high[:, 0] >= low[:, 0]
             line, node = line[crossed], node[crossed]
             child = self.child[node]
-            leaf = child == -1
-            size = self.last[node[leaf]] - self.first[node[leaf]]
-            triangle = np.repeat(self.first[node[leaf]], size) + segment_ranges(size)
-            at = np.repeat(line[leaf], size)
-            a, b, c = self.corners(triangle).transpose(1, 2, 0)
-            across = np.cross(rays[at], c - a)
-            volume = np.einsum("ri,ri->r", across, b - a)
-            share = 1.0 / np.where(volume != 0.0, volume, np.inf)
-            away = starts[at] - a
-            turned = np.cross(away, b - a)
-            u = np.einsum("ri,ri->r", away, across) * share
-            v = np.einsum("ri,ri->r", rays[at], turned) * share
-            distance = np.einsum("ri,ri->r", c - a, turned) * share
-            is_hit = np.minimum(np.minimum(u, v), 1.0 - u - v) >= -CORNER_ATOL
-            is_hit &= (volume != 0.0) & (distance > slack) & (distance < depth[at])
+            is_leaf = child == -1
+            triangle, at = self.triangles_of_leaves(node[is_leaf], line[is_leaf])
+            distance, is_hit = _hit_triangles(starts[at], rays[at], self.corners(triangle))
+            is_hit &= (distance > slack) & (distance < nearest[at])
             at, triangle, distance = at[is_hit], triangle[is_hit], distance[is_hit]
             order = np.argsort(-distance, kind="stable")  # the last of equal indices wins
-            depth[at[order]] = distance[order]
+            nearest[at[order]] = distance[order]
             hit[at[order]] = triangle[order]
-            line, child = line[~leaf], child[~leaf]
-            pieces += batches(np.concatenate([line, line]), np.concatenate([child, child + 1]))
-        return depth, hit
+            pieces += _both_children(line[~is_leaf], child[~is_leaf])
+        return nearest, hit
+
+
+def _hit_triangles(starts: Array, rays: Array, corners: Array) -> tuple[Array, Mask]:
+    """Return the (k,) distances along rays at which each meets the plane of its triangle, and a
+    mask of those that meet the triangle (Möller and Trumbore 1997). corners: (3, 3, k).
+    """
+    a, b, c = corners.transpose(1, 2, 0)
+    across = np.cross(rays, c - a)
+    volume = np.einsum("ri,ri->r", across, b - a)
+    share = 1.0 / np.where(volume != 0.0, volume, np.inf)
+    away = starts - a
+    turned = np.cross(away, b - a)
+    u = np.einsum("ri,ri->r", away, across) * share
+    v = np.einsum("ri,ri->r", rays, turned) * share
+    distance = np.einsum("ri,ri->r", c - a, turned) * share
+    is_within = np.minimum(np.minimum(u, v), 1.0 - u - v) >= -CORNER_ATOL
+    return distance, is_within & (volume != 0.0)
 
 
 def _across(places: Array) -> tuple[Array, Array]:
@@ -360,9 +364,14 @@ def _across(places: Array) -> tuple[Array, Array]:
     return places[0] - RAY_SLOPES[0] * places[2], places[1] - RAY_SLOPES[1] * places[2]
 
 
-def batches(*arrays: NDArray, size: int = PAIRS_PER_BATCH) -> list[tuple[NDArray, ...]]:
+def cut(*arrays: NDArray, size: int = PAIRS_PER_BATCH) -> list[tuple[NDArray, ...]]:
     """Cut the arrays into parallel pieces of bounded length."""
     return [tuple(array[k : k + size] for array in arrays) for k in range(0, len(arrays[0]), size)]
+
+
+def _both_children(owner: Index, child: Index) -> list[tuple[NDArray, ...]]:
+    """Return pieces of pairs of an owner and a node: both children of each, by the first ones."""
+    return cut(np.concatenate([owner, owner]), np.concatenate([child, child + 1]))
 
 
 def tree_of_all(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> Bvh:

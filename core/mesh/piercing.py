@@ -8,7 +8,7 @@ The search walks down the trees of both shells with all pairs at once, in bounde
 import numpy as np
 
 from ..numerics import Array, Index, Mask, NDArray, segment_ranges
-from .bvh import MAX_BOX_PAIRS, PAIRS_PER_BATCH, TRIANGLES_PER_LEAF, Bvh, batches
+from .bvh import MAX_BOX_PAIRS, PAIRS_PER_BATCH, TRIANGLES_PER_LEAF, Bvh, cut
 
 
 def intersecting_pairs(
@@ -16,9 +16,12 @@ def intersecting_pairs(
 ) -> tuple[Mask, Mask]:
     """Return (k,) masks of pairs in which an edge pierces the other by the tolerance, and of
     undecided pairs.
+
+    first, second: (k,) components. vertex: (n,) numbers; triangles with a common number are not
+    compared.
     """
     intersects, unfinished = np.zeros((2, len(first)), bool)
-    pieces = batches(np.arange(len(first)), tree.root[first], tree.root[second])
+    pieces = cut(np.arange(len(first)), tree.root[first], tree.root[second])
     work = 0
     while pieces:
         pair, a, b = pieces.pop()
@@ -37,20 +40,20 @@ def intersecting_pairs(
         child_a, child_b = tree.child[a], tree.child[b]
         both = (child_a == -1) & (child_b == -1)
         if both.any():
-            for of, left, right in batches(
+            for of, left, right in cut(
                 pair[both], a[both], b[both], size=PAIRS_PER_BATCH // TRIANGLES_PER_LEAF**2
             ):
                 _intersect_leaves(tree, of, left, right, tolerance, intersects, vertex)
             pair, a, b, child_a, child_b = (x[~both] for x in (pair, a, b, child_a, child_b))
         # The larger box is opened; a leaf never is.
-        extent = (tree.high[a] - tree.low[a]).max(axis=1) >= (tree.high[b] - tree.low[b]).max(
-            axis=1
-        )
-        left = (child_b == -1) | (extent & (child_a != -1))
-        pieces += batches(
-            np.concatenate([pair[left], pair[left], pair[~left], pair[~left]]),
-            np.concatenate([child_a[left], child_a[left] + 1, a[~left], a[~left]]),
-            np.concatenate([b[left], b[left], child_b[~left], child_b[~left] + 1]),
+        size_a = (tree.high[a] - tree.low[a]).max(axis=1)
+        size_b = (tree.high[b] - tree.low[b]).max(axis=1)
+        opens_a = (child_b == -1) | ((size_a >= size_b) & (child_a != -1))
+        opens_b = ~opens_a
+        pieces += cut(
+            np.concatenate([pair[opens_a], pair[opens_a], pair[opens_b], pair[opens_b]]),
+            np.concatenate([child_a[opens_a], child_a[opens_a] + 1, a[opens_b], a[opens_b]]),
+            np.concatenate([b[opens_a], b[opens_a], child_b[opens_b], child_b[opens_b] + 1]),
         )
     return intersects, unfinished
 
@@ -67,61 +70,63 @@ def _intersect_leaves(
     """Mark, in `intersects`, the pairs with a triangle in one leaf that is pierced by an edge in
     the other.
     """
-    size_a = tree.last[a] - tree.first[a]
-    size_b = tree.last[b] - tree.first[b]
+    size_a = tree.end[a] - tree.begin[a]
+    size_b = tree.end[b] - tree.begin[b]
     k = segment_ranges(size_a * size_b)
     row = np.repeat(np.arange(len(a)), size_a * size_b)
-    first = tree.first[a][row] + k // size_b[row]
-    second = tree.first[b][row] + k % size_b[row]
+    first = tree.begin[a][row] + k // size_b[row]
+    second = tree.begin[b][row] + k % size_b[row]
     pair = pair[row]
     meet = np.ones(len(pair), bool)
-    for low, high in zip(tree.bottom, tree.top):
+    for low, high in zip(tree.triangle_low, tree.triangle_high):
         meet &= (low[first] <= high[second]) & (low[second] <= high[first])
     first, second, pair = (values[meet] for values in (first, second, pair))
     if vertex is not None:
-        mine = vertex[tree.ids[:, first]]
-        theirs = vertex[tree.ids[:, second]]
-        apart = np.logical_and.reduce([x != y for x in mine for y in theirs])
+        of_first = vertex[tree.ids[:, first]]
+        of_second = vertex[tree.ids[:, second]]
+        apart = np.logical_and.reduce([x != y for x in of_first for y in of_second])
         first, second, pair = (values[apart] for values in (first, second, pair))
-    corner, plane = (tree.corners(triangle).transpose(1, 2, 0) for triangle in (first, second))
-    for _ in range(2):
-        intersects[pair[_edges_cross_triangles(corner, plane, tolerance)]] = True
-        corner, plane = plane, corner
+    corners, partners = (tree.corners(triangle).transpose(1, 2, 0) for triangle in (first, second))
+    intersects[pair[_edges_cross_triangles(corners, partners, tolerance)]] = True
+    intersects[pair[_edges_cross_triangles(partners, corners, tolerance)]] = True
 
 
-def _edges_cross_triangles(corner: Array, plane: Array, tolerance: float) -> Index:
+def _edges_cross_triangles(corners: Array, partners: Array, tolerance: float) -> Index:
     """Return the indices of triangles (3, k, 3) with an edge through their partner by over the
     tolerance.
+
+    The depth of an edge is the least of three lengths: how far inside the partner's sides it goes
+    through its plane, and the heights over this plane at which it passes the sides, or ends, on
+    either side.
     """
-    normal = np.cross(plane[1] - plane[0], plane[2] - plane[0])
+    normal = np.cross(partners[1] - partners[0], partners[2] - partners[0])
     length = np.linalg.norm(normal, axis=1)[:, None]
     normal = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0.0)
-    height = np.einsum("kij,ij->ki", corner - plane[0], normal)
-    at = np.flatnonzero((height.max(axis=0) > tolerance) & (height.min(axis=0) < -tolerance))
-    corner = corner[:, at]
-    plane = plane[:, at]
-    normal = normal[at]
-    height = height[:, at]
-    depth = np.full(len(at), -np.inf)
+    height = np.einsum("kij,ij->ki", corners - partners[0], normal)
+    passing = np.flatnonzero((height.max(axis=0) > tolerance) & (height.min(axis=0) < -tolerance))
+    corners = corners[:, passing]
+    partners = partners[:, passing]
+    normal = normal[passing]
+    height = height[:, passing]
+    depth = np.full(len(passing), -np.inf)
     for i in range(3):
-        p = corner[i]
-        q = corner[i - 1]
         rise = height[i]
         fall = height[i - 1]
         crosses = (np.minimum(rise, fall) < -tolerance) & (np.maximum(rise, fall) > tolerance)
         share = rise / np.where(crosses, rise - fall, 1.0)
-        within = np.where(crosses, np.inf, -np.inf)
-        first = np.zeros(len(at))
-        last = np.ones(len(at))
+        inside = np.where(crosses, np.inf, -np.inf)
+        first = np.zeros(len(passing))
+        last = np.ones(len(passing))
         for k in range(3):
-            edge = plane[k] - plane[k - 1]
-            inward = np.cross(normal, edge) / np.linalg.norm(edge, axis=1)[:, None]
-            begin, end = (np.einsum("ij,ij->i", inward, point - plane[k]) for point in (p, q))
-            within = np.minimum(within, begin + share * (end - begin))
-            leaves = begin / np.where(begin != end, begin - end, 1.0)
-            first = np.where(begin < 0.0, np.maximum(first, leaves), first)
-            last = np.where(end < 0.0, np.minimum(last, leaves), last)
-        # both ends of the part over the partner
-        over = [np.abs(rise + part * (fall - rise)) for part in (first, last)]
-        depth = np.maximum(depth, np.minimum.reduce([within, *over]))
-    return at[depth > tolerance]
+            side = partners[k] - partners[k - 1]
+            inward = np.cross(normal, side) / np.linalg.norm(side, axis=1)[:, None]
+            begin, end = (
+                np.einsum("ij,ij->i", inward, corners[j] - partners[k]) for j in (i, i - 1)
+            )
+            inside = np.minimum(inside, begin + share * (end - begin))
+            passes = begin / np.where(begin != end, begin - end, 1.0)
+            first = np.where(begin < 0.0, np.maximum(first, passes), first)
+            last = np.where(end < 0.0, np.minimum(last, passes), last)
+        at_ends = [np.abs(rise + part * (fall - rise)) for part in (first, last)]
+        depth = np.maximum(depth, np.minimum.reduce([inside, *at_ends]))
+    return passing[depth > tolerance]
