@@ -63,10 +63,17 @@ class LineGrids:
         width = np.maximum(width, 1e-6 * width.max(axis=1, keepdims=True) + np.finfo(float).tiny)
         rows = np.clip(np.rint(np.sqrt(lines * width[:, 0] / width[:, 1])), 1, lines)
         columns = np.maximum(np.rint(lines / rows), 1)
-        most = np.array([rows, np.ceil(columns + COLUMN_SLOPE * rows)]).T + 1.0
-        size = most.max(axis=0).astype(np.intp) + 1
-        origin = np.floor(most / 2.0) + LATTICE_SHIFT
-        return cls(axes, center, width / np.array([rows, columns]).T, origin, *size.tolist())
+        # with those that the shift, and the slope of the columns, add
+        counts = np.array([rows, np.ceil(columns + COLUMN_SLOPE * rows)]).T + 1.0
+        largest_rows, largest_columns = counts.max(axis=0).astype(np.intp).tolist()
+        return cls(
+            axes=axes,
+            center=center,
+            cell=width / np.array([rows, columns]).T,
+            origin=np.floor(counts / 2.0) + LATTICE_SHIFT,
+            rows=largest_rows + 1,
+            columns=largest_columns + 1,
+        )
 
     def places(self, points: NDArray[np.floating], body: NDArray[np.integer] | None) -> Array:
         """Return the (3, n) rows, columns and lengths along the lines of points. body: (n,), None
@@ -129,62 +136,95 @@ def find_crossings(
     """Find the crossings of lines with faces of bodies, unordered. body: (n,) of the points, None
     for a single body.
     """
-    triangles, number = _crossed_triangles(surface, _cells(surface.points, grids, body))
-    corners = triangles.ravel()
-    count = triangles.shape[1]
-    owner = np.zeros(count, np.intp) if body is None else body[triangles[0]].astype(np.intp)
-    places = grids.places(surface.points.take(corners, 0), None if body is None else body[corners])
-    # the lowest row that is not below the corner
-    above = np.ceil(places[0]).astype(np.intp).reshape(3, count)
-    first, last = (
-        np.clip(end, 0, grids.rows) for end in (np.minimum.reduce(above), np.maximum.reduce(above))
-    )
-    bodies = len(grids.cell)
-    faces = np.array([surface.triangle_count])
+    corners, number = _crossed_triangles(surface, _cells(surface.points, grids, body))
+    owner = np.zeros(len(number), np.intp) if body is None else body[corners[0]].astype(np.intp)
+    face_counts = np.array([surface.triangle_count])
     if body is not None:
         halves = np.concatenate([surface.quads[:, 0], surface.quads[:, 0], surface.triangles[:, 0]])
-        faces = np.bincount(body[halves], minlength=bodies)
-    apart = _rows_apart(sums_by_index(owner, last - first, bodies), MAX_PAIRS, faces)
-    step = apart[owner]
-    first = -(-first // step) * step
-    count = np.maximum(-((first - last) // step), 0)
-    pieces = []
-    for part in batches(count, PAIRS_PER_BLOCK):
-        which = part.start + np.repeat(np.arange(len(count[part])), count[part])
-        row = first[which] + segment_ranges(count[part]) * step[which]
-        pieces.append(
-            (which, row, *_cross_row(places, corners, which, above.take(which, 1) > row, row))
-        )
-    if not pieces:
-        none = np.empty(0, np.intp)
-        return Crossings(none, none, none, none, np.empty(0), none, apart)
-    which, row, left, right, sign = (np.concatenate(column, axis=-1) for column in zip(*pieces))
-    owner = owner[which]
+        face_counts = np.bincount(body[halves], minlength=len(grids.cell))
+    flat = corners.ravel()
+    places = grids.places(surface.points.take(flat, 0), None if body is None else body[flat])
+    spans, rows_apart = _cross_rows(places, flat, owner, face_counts, grids)
+    owner = owner[spans.triangle]
+    left, right = spans.left, spans.right
     start, stop = (
         np.clip(np.ceil(end[0]), 0, grids.columns).astype(np.intp) for end in (left, right)
     )
-    count = stop - start
-    apart = apart * _rows_apart(sums_by_index(owner, count, bodies), MAX_CROSSINGS, faces)
-    count[row % apart[owner] > 0] = 0
-    pair = np.repeat(np.arange(len(count)), count)
-    column = start[pair] + segment_ranges(count)
-    share = (column - left[0, pair]) / (right[0, pair] - left[0, pair])
-    along = left[1, pair] + share * (right[1, pair] - left[1, pair])
-    return Crossings(owner[pair], row[pair], column, number[which[pair]], along, sign[pair], apart)
+    counts = stop - start
+    work = sums_by_index(owner, counts, len(grids.cell))
+    rows_apart = rows_apart * _rows_apart(work, MAX_CROSSINGS, face_counts)
+    counts[spans.row % rows_apart[owner] > 0] = 0
+    span = np.repeat(np.arange(len(counts)), counts)
+    column = start[span] + segment_ranges(counts)
+    share = (column - left[0, span]) / (right[0, span] - left[0, span])
+    return Crossings(
+        body=owner[span],
+        row=spans.row[span],
+        column=column,
+        triangle=number[spans.triangle[span]],
+        along=left[1, span] + share * (right[1, span] - left[1, span]),
+        sign=spans.sign[span],
+        rows_apart=rows_apart,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _RowSpans:
+    """The k pieces of rows within triangles, between two of the edges.
+
+    `triangle`, `row`: (k,). `left`, `right`: (2, k) column and length along the lines at both ends.
+    `sign`: (k,) as in `Crossings`.
+    """
+
+    triangle: Index
+    row: Index
+    left: Array
+    right: Array
+    sign: Index
+
+
+def _cross_rows(
+    places: Array, corners: Index, owner: Index, face_counts: Index, grids: LineGrids
+) -> tuple[_RowSpans, Index]:
+    """Return the pieces of the scanned rows in triangles, and the (b,) distances of these rows.
+
+    places, corners: (3, 3t) and (3t,), the first corners of all t triangles first. owner: (t,) the
+    body of each triangle.
+    """
+    lowest_above = np.ceil(places[0]).astype(np.intp).reshape(3, -1)
+    first, stop = (
+        np.clip(row, 0, grids.rows)
+        for row in (np.minimum.reduce(lowest_above), np.maximum.reduce(lowest_above))
+    )
+    work = sums_by_index(owner, stop - first, len(face_counts))
+    rows_apart = _rows_apart(work, MAX_PAIRS, face_counts)
+    step = rows_apart[owner]
+    first = -(-first // step) * step
+    counts = np.maximum(-((first - stop) // step), 0)
+    none = np.empty(0, np.intp)
+    spans = [_RowSpans(none, none, np.empty((2, 0)), np.empty((2, 0)), none)]
+    for part in batches(counts, PAIRS_PER_BLOCK):
+        triangle = part.start + np.repeat(np.arange(len(counts[part])), counts[part])
+        row = first[triangle] + segment_ranges(counts[part]) * step[triangle]
+        is_below = lowest_above.take(triangle, 1) > row
+        spans.append(
+            _RowSpans(triangle, row, *_cross_row(places, corners, triangle, is_below, row))
+        )
+    columns = zip(*[vars(span).values() for span in spans])
+    return _RowSpans(*[np.concatenate(column, axis=-1) for column in columns]), rows_apart
 
 
 def _cells(
     points: NDArray[np.floating], grids: LineGrids, body: NDArray[np.integer] | None
 ) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
     """Return the (n,) lowest rows and the (n,) lowest columns that are not below the points."""
-    # the cache holds more of these
-    short = max(grids.rows, grids.columns) < np.iinfo(np.int16).max // 4
-    cells = np.empty((2, len(points)), np.int16 if short else np.int32)
+    # The cache holds more of the shorter type.
+    is_short = max(grids.rows, grids.columns) < np.iinfo(np.int16).max // 4
+    cells = np.empty((2, len(points)), np.int16 if is_short else np.int32)
     for start in range(0, len(points), POINTS_PER_BLOCK):
         part = slice(start, start + POINTS_PER_BLOCK)
-        cells[:, part] = np.ceil(
-            grids.places(points[part], None if body is None else body[part])[:2]
-        )
+        places = grids.places(points[part], None if body is None else body[part])
+        cells[:, part] = np.ceil(places[:2])
     return cells[0], cells[1]
 
 
@@ -202,27 +242,27 @@ def _crossed_triangles(
     rows and columns.
     """
     triangles = [np.empty((3, 0), np.intp)]
-    number = [np.empty(0, np.intp)]
+    indices = [np.empty(0, np.intp)]
     quads = surface.quads
     for faces in (quads, surface.triangles):
         for start in range(0, len(faces), FACES_PER_BLOCK):
             block = faces[start : start + FACES_PER_BLOCK].T.astype(np.intp, order="C")
-            crossed = np.flatnonzero(_differ(cells[0], block))
-            block = block.take(crossed, 1)
-            both = np.flatnonzero(_differ(cells[1], block))
-            crossed = crossed[both]
-            corners = block.take(both, 1)
+            in_rows = np.flatnonzero(_differ(cells[0], block))
+            block = block.take(in_rows, 1)
+            in_columns = np.flatnonzero(_differ(cells[1], block))
+            face = start + in_rows[in_columns]
+            corners = block.take(in_columns, 1)
             if faces is quads:
                 flipped = flipped_quads(surface.points, corners.T)
                 corners = np.where(flipped, np.roll(corners, -1, axis=0), corners)
                 triangles.append(
                     corners.take([[0, 0], [1, 2], [2, 3]], 0).transpose(0, 2, 1).reshape(3, -1)
                 )
-                number.append((2 * (start + crossed)[:, None] + [0, 1]).ravel())
+                indices.append((2 * face[:, None] + [0, 1]).ravel())
             else:
                 triangles.append(corners)
-                number.append(2 * len(quads) + start + crossed)
-    return np.concatenate(triangles, axis=1), np.concatenate(number)
+                indices.append(2 * len(quads) + face)
+    return np.concatenate(triangles, axis=1), np.concatenate(indices)
 
 
 def _differ(cell: NDArray[np.integer], corners: Index) -> Mask:
@@ -237,26 +277,31 @@ def _differ(cell: NDArray[np.integer], corners: Index) -> Mask:
 def _cross_row(
     places: Array,
     corners: Index,
-    which: Index,
-    higher: Mask,
+    triangle: Index,
+    is_below: Mask,
     row: Index,
 ) -> tuple[Array, Array, Index]:
     """Return the points, (2, k), at which a row enters and leaves triangles, and the sign of the
     crossings.
+
+    is_below: (3, k) mask of the corners with the row below them.
     """
-    first, second, third = higher
-    single = (first ^ second ^ third) & ~(first & second & third)
-    lone = np.where(first == second, 2, first == third)  # the corner on a side of its own
+    first, second, third = is_below
+    # The two edges at the corner that is alone on its side cross the row.
+    lone = np.where(first == second, 2, first == third)
+    is_lone_below = (first ^ second ^ third) & ~(first & second & third)
     total = len(corners) // 3
+    lone_corner = triangle + total * lone
     ends = []
-    at = which + total * lone
     for k in (1, 2):
-        next_one = which + total * ((lone + k) % 3)
-        swap = corners.take(at) > corners.take(next_one)
-        begin = places.take(np.where(swap, next_one, at), 1)
-        end = places.take(np.where(swap, at, next_one), 1)
+        other_corner = triangle + total * ((lone + k) % 3)
+        # Computed from the lower vertex on, so that the neighbor across the edge gets the same.
+        swap = corners.take(lone_corner) > corners.take(other_corner)
+        begin = places.take(np.where(swap, other_corner, lone_corner), 1)
+        end = places.take(np.where(swap, lone_corner, other_corner), 1)
         share = (row - begin[0]) / (end[0] - begin[0])
         ends.append(begin[1:] + share * (end[1:] - begin[1:]))
     forward = ends[0][0] < ends[1][0]
     left = np.where(forward, ends[0], ends[1])
-    return left, np.where(forward, ends[1], ends[0]), np.where(forward == single, -1, 1)
+    right = np.where(forward, ends[1], ends[0])
+    return left, right, np.where(forward == is_lone_below, -1, 1)
