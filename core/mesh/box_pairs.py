@@ -28,20 +28,20 @@ def overlapping_box_pairs(
     """Return about `most` pairs (k,), (k,) of boxes that overlap by over `margin`, and the count of
     untested pairs.
     """
-    order, count = _sweep(low, high, margin)
+    order, counts = _sweep(low, high, margin)
     left = [np.empty(0, np.intp)]
     right = [np.empty(0, np.intp)]
     pair_count = 0
     tested_count = 0
-    for i, j in following_pairs(order, count, PAIRS_PER_BATCH):
+    for i, j in following_pairs(order, counts, PAIRS_PER_BATCH):
         if pair_count >= most or tested_count >= 100 * most:
             break
         tested_count += len(i)
-        both = np.all(np.minimum(high[i], high[j]) - np.maximum(low[i], low[j]) > margin, axis=1)
-        left.append(i[both])
-        right.append(j[both])
-        pair_count += int(both.sum())
-    return np.concatenate(left), np.concatenate(right), int(count.sum()) - tested_count
+        meet = np.all(np.minimum(high[i], high[j]) - np.maximum(low[i], low[j]) > margin, axis=1)
+        left.append(i[meet])
+        right.append(j[meet])
+        pair_count += int(meet.sum())
+    return np.concatenate(left), np.concatenate(right), int(counts.sum()) - tested_count
 
 
 def boxes_overlap(centers: NDArray, extents: NDArray) -> bool:

@@ -14,7 +14,7 @@ classified one by one.
 """
 
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 
 import numpy as np
 
@@ -99,7 +99,7 @@ class PlanarityAccumulator:
         """
         narrow = np.flatnonzero(normals <= self.degenerate_limit)
         limit = normals * (8.0 * self.error + PLANAR_RTOL * np.sqrt(normals))
-        limit[narrow] = np.inf
+        limit[narrow] = np.inf  # they are classified later
         bent = volume[volume > limit]
         self.quads[start] = _PlanarityPartial(
             len(volume), len(bent), float(np.add.reduce(bent)), start + narrow
@@ -115,52 +115,50 @@ class PlanarityAccumulator:
         leave undecided.
         """
         surface = self.surface
-        triangle_faces = self.surface.triangle_faces
-        non_planar_count = 0
-        seen_volume = 0.0
-        total_volume = 0.0
-        degenerate = NO_FACES
-        classify = partial(_classify_rows, surface.points, error=self.error, exponent=self.exponent)
-        if len(surface.quads):
-            merged = _merge_blocks(self.quads, len(surface.quads))
-            volumes, narrow = classify(surface.quads[merged.undecided], QUAD)
-            degenerate = merged.undecided[narrow]
-            if surface.quad_faces is not None:
-                degenerate = surface.quad_faces[degenerate]
-            non_planar_count = merged.non_planar_count + np.count_nonzero(volumes)
-            seen_volume = merged.volume_spread
-            total_volume = _sum_in_order(volumes)
-        if len(surface.triangles):
-            undecided_rows = _merge_blocks(self.triangles, len(surface.triangles)).undecided
-            undecided_rows = undecided_rows[
-                classify(surface.triangles[undecided_rows], TRIANGLE)[1]
-            ]
-            if triangle_faces is not None:
-                pieces = np.bincount(triangle_faces)
-                degenerate_pieces = np.bincount(triangle_faces[undecided_rows])
-                undecided_rows = np.flatnonzero(
-                    (degenerate_pieces == pieces[: len(degenerate_pieces)])
-                    & (degenerate_pieces > 0)
-                )
-                polygon, corners = self._polygon_tetrahedra(pieces)
-                volumes, _ = classify(corners, QUAD)
-                non_planar_count += len(np.unique(polygon[volumes > 0.0]))
-                total_volume += _sum_in_order(volumes)
-            degenerate = np.concatenate([degenerate, undecided_rows])
-        volume_spread = (seen_volume + float(np.ldexp(total_volume, 3 * self.exponent))) / 6.0
-        return Planarity(int(non_planar_count), volume_spread, np.sort(degenerate))
+        quads = _merge_blocks(self.quads, len(surface.quads))
+        volumes, is_degenerate = self._classify(surface.quads[quads.undecided], QUAD)
+        non_planar_count = quads.non_planar_count + np.count_nonzero(volumes)
+        scaled_spread = _sum_in_order(volumes)
+        degenerate_quads = quads.undecided[is_degenerate]
+        if surface.quad_faces is not None:
+            degenerate_quads = surface.quad_faces[degenerate_quads]
 
-    def _polygon_tetrahedra(self, pieces: NDArray[np.integer]) -> tuple[Index, NDArray[np.integer]]:
-        """Return (m,) faces and (m, 4) corners of the polygons' tetrahedra. pieces: the triangles
-        of each mesh face.
+        undecided = _merge_blocks(self.triangles, len(surface.triangles)).undecided
+        _, is_degenerate = self._classify(surface.triangles[undecided], TRIANGLE)
+        degenerate = undecided[is_degenerate]
+        if surface.triangle_faces is not None:
+            # A polygon is degenerate if all its triangles are.
+            pieces = np.bincount(surface.triangle_faces)
+            degenerate_pieces = np.bincount(
+                surface.triangle_faces[degenerate], minlength=len(pieces)
+            )
+            degenerate = np.flatnonzero((degenerate_pieces == pieces) & (pieces > 0))
+            polygon, corners = self._polygon_tetrahedra(np.flatnonzero(pieces > 1))
+            volumes, _ = self._classify(corners, QUAD)
+            non_planar_count += len(np.unique(polygon[volumes > 0.0]))
+            scaled_spread += _sum_in_order(volumes)
+        spread = quads.volume_spread + float(np.ldexp(scaled_spread, 3 * self.exponent))
+        return Planarity(
+            int(non_planar_count),
+            spread / 6.0,
+            np.sort(np.concatenate([degenerate_quads, degenerate])),
+        )
+
+    def _classify(self, corners: NDArray, pairs: tuple) -> tuple[Array, Mask]:
+        """Return the results of `_classify_rows` for faces of the surface."""
+        return _classify_rows(self.surface.points, corners, pairs, self.error, self.exponent)
+
+    def _polygon_tetrahedra(self, polygons: Index) -> tuple[Index, NDArray[np.integer]]:
+        """Return (m,) polygons, counted from 0, and (m, 4) corners of their tetrahedra. polygons:
+        mesh faces of several triangles.
         """
-        quad_faces, triangle_faces = face_of_each(self.surface)
         ring = self.surface.corner_vertices
-        sizes = ring_sizes(triangle_faces, quad_faces)
-        polygon = np.flatnonzero(pieces > 1)
-        if ring is None or sizes.sum() != len(ring):
-            return NO_FACES, np.empty((0, 4), np.intp)
-        return _tetrahedra(ring, (np.cumsum(sizes) - sizes)[polygon], sizes[polygon])
+        if ring is not None and len(polygons):
+            quad_faces, triangle_faces = face_of_each(self.surface)
+            sizes = ring_sizes(triangle_faces, quad_faces)
+            if sizes.sum() == len(ring):
+                return _tetrahedra(ring, segment_starts(sizes)[polygons], sizes[polygons])
+        return NO_FACES, np.empty((0, 4), np.intp)
 
 
 @dataclass(frozen=True, eq=False)
@@ -183,42 +181,41 @@ def stack_planarity(stack: SurfaceStack) -> StackPlanarity:
     error = np.sqrt(np.add.reduce(stack.coordinate_error**2, axis=1))
     face_owner = np.repeat(np.arange(count), stack.face_counts)
 
-    def classify(
-        corners: NDArray, faces: NDArray, pairs: tuple
-    ) -> tuple[NDArray, NDArray, NDArray]:
+    def classify(corners: NDArray, faces: NDArray, pairs: tuple) -> tuple[NDArray, NDArray]:
+        """Return the results of `_classify_rows`. faces: (m,) the mesh face of each row."""
         owner = face_owner[faces]
-        volumes, bare = _classify_rows(stack.points, corners, pairs, error[owner], exponent[owner])
-        return owner, volumes, bare
+        return _classify_rows(stack.points, corners, pairs, error[owner], exponent[owner])
 
     sizes = stack.face_sizes
     non_planar = np.zeros(face_count, bool)
     degenerate = np.zeros(face_count, bool)
-    total = np.zeros(count)
+    scaled_spread = np.zeros(count)
     if len(stack.quads):
-        owner, volumes, bare = classify(stack.quads, stack.quad_faces, QUAD)
+        volumes, is_degenerate = classify(stack.quads, stack.quad_faces, QUAD)
         non_planar[stack.quad_faces] = volumes > 0.0
-        degenerate[stack.quad_faces] = bare
-        total += np.bincount(owner, volumes, count)
+        degenerate[stack.quad_faces] = is_degenerate
+        scaled_spread += np.bincount(face_owner[stack.quad_faces], volumes, count)
+    # the halves of quads are among the triangles
     rows = np.flatnonzero(sizes[stack.triangle_faces] != 4) if len(stack.quads) else slice(None)
     faces = stack.triangle_faces[rows]
     if len(faces):
-        bare = classify(stack.triangles[rows], faces, TRIANGLE)[2]
+        _, is_degenerate = classify(stack.triangles[rows], faces, TRIANGLE)
         pieces = np.bincount(faces, minlength=face_count)
-        narrow = np.bincount(faces[bare], minlength=face_count)
-        degenerate |= (narrow > 0) & (narrow == pieces)
+        degenerate_pieces = np.bincount(faces[is_degenerate], minlength=face_count)
+        degenerate |= (degenerate_pieces > 0) & (degenerate_pieces == pieces)
     polygons = np.flatnonzero(sizes > 4)
     if len(polygons):
         first_corner = segment_starts(stack.corner_counts) - segment_starts(sizes)[stack.first_face]
         begin = (segment_starts(sizes) + first_corner[face_owner])[polygons]
         row, corners = _tetrahedra(stack.corner_vertices, begin, sizes[polygons])
-        owner, volumes, _ = classify(corners, polygons[row], QUAD)
-        non_planar[polygons[row[volumes > 0.0]]] = True
-        total += np.bincount(owner, volumes, count)
-    first_face = stack.first_face
+        faces = polygons[row]
+        volumes, _ = classify(corners, faces, QUAD)
+        non_planar[faces[volumes > 0.0]] = True
+        scaled_spread += np.bincount(face_owner[faces], volumes, count)
     return StackPlanarity(
-        np.add.reduceat(non_planar, first_face, dtype=np.intp),
-        np.ldexp(total, 3 * exponent) / 6.0,
-        np.logical_or.reduceat(degenerate, first_face),
+        np.add.reduceat(non_planar, stack.first_face, dtype=np.intp),
+        np.ldexp(scaled_spread, 3 * exponent) / 6.0,
+        np.logical_or.reduceat(degenerate, stack.first_face),
     )
 
 
@@ -227,9 +224,12 @@ def _classify_rows(
 ) -> tuple[Array, Mask]:
     """Return (m,) 6 times the scaled tetrahedra of faces' corners, 0 if flat, and a mask of faces
     without area.
+
+    The first numbers are empty for triangles. pairs: QUAD or TRIANGLE. error, exponent: one number,
+    or (m,) numbers; faces are scaled by 2^-exponent.
     """
     volumes = [np.empty(0)]
-    bare = [np.empty(0, bool)]
+    degenerate = [np.empty(0, bool)]
     for start in range(0, len(corners), FACES_PER_BLOCK):
         part = slice(start, start + FACES_PER_BLOCK)
         scale = -(exponent[part] if isinstance(exponent, np.ndarray) else exponent)
@@ -240,15 +240,15 @@ def _classify_rows(
         across = cross(first, second)
         vectors = np.array([first, second, across])
         squares = np.add.reduce(vectors * vectors, axis=1)
-        bare.append(squares[2] <= _degenerate_limit(np.maximum(squares[0], squares[1]), off))
+        is_degenerate = squares[2] <= _degenerate_limit(np.maximum(squares[0], squares[1]), off)
+        degenerate.append(is_degenerate)
         if third:
             volume = np.abs(dot(third[0], across))
             normal = np.sqrt(squares[2])
-            volume[(volume <= normal * (8.0 * off + PLANAR_RTOL * np.sqrt(normal))) | bare[-1]] = (
-                0.0
-            )
+            is_flat = volume <= normal * (8.0 * off + PLANAR_RTOL * np.sqrt(normal))
+            volume[is_flat | is_degenerate] = 0.0
             volumes.append(volume)
-    return np.concatenate(volumes), np.concatenate(bare)
+    return np.concatenate(volumes), np.concatenate(degenerate)
 
 
 def _tetrahedra(

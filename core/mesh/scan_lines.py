@@ -76,8 +76,8 @@ class LineGrids:
         )
 
     def places(self, points: NDArray[np.floating], body: NDArray[np.integer] | None) -> Array:
-        """Return the (3, n) rows, columns and lengths along the lines of points. body: (n,), None
-        for a single body.
+        """Return the (3, n) rows, columns and lengths along the lines of points, the first two with
+        fractions. body: (n,), None for a single body.
         """
         if body is None:
             body = np.zeros(1, np.intp)

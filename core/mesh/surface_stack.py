@@ -47,10 +47,10 @@ class TriangleStack:
         """Return the triangles of some of the surfaces, in ascending order."""
         if len(which) == len(self):
             return self
-        of_point, of_triangle = self.owned(which)
+        is_owned_point, is_owned_triangle = self.owned(which)
         return TriangleStack(
-            self.points[of_point],
-            (np.cumsum(of_point) - 1)[self.triangles[of_triangle]],
+            self.points[is_owned_point],
+            (np.cumsum(is_owned_point) - 1)[self.triangles[is_owned_triangle]],
             self.point_counts[which],
             self.triangle_counts[which],
         )
@@ -64,12 +64,12 @@ class TriangleStack:
     @cached_property
     def first_point(self) -> Index:
         """The (n,) indices of the surfaces' first points."""
-        return np.cumsum(self.point_counts) - self.point_counts
+        return segment_starts(self.point_counts)
 
     @cached_property
     def first_triangle(self) -> Index:
         """The (n,) indices of the surfaces' first triangles."""
-        return np.cumsum(self.triangle_counts) - self.triangle_counts
+        return segment_starts(self.triangle_counts)
 
     @cached_property
     def point_owners(self) -> Index:
@@ -111,52 +111,34 @@ class SurfaceStack(TriangleStack):
     quad_faces: Index
     corner_vertices: Index
     corner_edges: Index
-    quad_counts: Index
     corner_counts: Index
     face_counts: Index
     edge_counts: Index
 
     @staticmethod
-    def takes(surfaces: Sequence[Surface], most: int) -> list[bool]:
-        """Return which surfaces can be stacked: `most` triangles, the first one's type of numbers,
-        moderate coordinates, existing vertices, and the mesh's own edges or faces of one size.
+    def takes(surfaces: Sequence[Surface], most: int) -> Mask:
+        """Return an (n,) mask of the surfaces that can be stacked: with at most `most` triangles,
+        the first one's type of numbers, moderate coordinates, existing vertices, and the mesh's own
+        edges or faces of one size.
         """
-        fits = [
-            surface.displacement is None
+        candidates = [
+            i
+            for i, surface in enumerate(surfaces)
+            if surface.displacement is None
             and surface.points.dtype == surfaces[0].points.dtype
             and 0 < surface.triangle_count <= most
             and _has_rings(surface)
-            for surface in surfaces
         ]
-        known = [surface for surface, is_fit in zip(surfaces, fits) if is_fit]
-        if not known:
-            return fits
-        counts = np.array([len(surface.points) for surface in known])
-        is_moderate = np.abs(np.concatenate([surface.points for surface in known])) < (
-            MAX_STACKED_COORDINATE
-        )
-        in_range = np.ones(len(known), bool)
-        in_range[np.repeat(np.arange(len(known)), counts)[~is_moderate.all(axis=1)]] = False
-        for name in ("triangles", "quads", "corner_vertices", "corner_edges"):
-            arrays = [getattr(surface, name) for surface in known]
-            which = [k for k, array in enumerate(arrays) if array is not None and len(array)]
-            if which:
-                flat = [arrays[k].ravel() for k in which]
-                sizes = np.array([len(each) for each in flat])
-                largest = np.maximum.reduceat(
-                    as_unsigned(np.concatenate(flat)), segment_starts(sizes)
-                )
-                in_range[which] &= largest < (
-                    2 * sizes if name == "corner_edges" else counts[which]
-                )
-        by_surface = iter(in_range.tolist())
-        return [is_fit and next(by_surface) for is_fit in fits]
+        fits = np.zeros(len(surfaces), bool)
+        if candidates:
+            fits[candidates] = _are_in_range([surfaces[i] for i in candidates])
+        return fits
 
     @classmethod
     def from_surfaces(cls, surfaces: Sequence[Surface]) -> SurfaceStack:
         """Stack surfaces that it `takes`, at least one."""
         rings = [_rings(surface) for surface in surfaces]
-        point_counts, corner_counts, single, quad_counts = np.array(
+        point_counts, corner_counts, loose_counts, quad_counts = np.array(
             [
                 [len(surface.points), len(ring[0]), len(surface.triangles), len(surface.quads)]
                 for surface, ring in zip(surfaces, rings)
@@ -164,7 +146,7 @@ class SurfaceStack(TriangleStack):
         ).T
         bodies = np.arange(len(surfaces))
         of_triangle, of_quad, of_corner = (
-            bodies.repeat(counts) for counts in (single, quad_counts, corner_counts)
+            bodies.repeat(counts) for counts in (loose_counts, quad_counts, corner_counts)
         )
         points = np.concatenate([surface.points for surface in surfaces])
         triangles = np.concatenate([surface.triangles for surface in surfaces]).astype(np.intp)
@@ -178,42 +160,39 @@ class SurfaceStack(TriangleStack):
         face_counts = np.zeros(len(surfaces), np.intp)
         np.maximum.at(face_counts, of_triangle, triangle_faces + 1)
         np.maximum.at(face_counts, of_quad, quad_faces + 1)
-        if len(surfaces) > 1:  # numbers go on from surface to surface
-            first_point = segment_starts(point_counts)
-            first_face = segment_starts(face_counts)
-            triangles += first_point[of_triangle][:, None]
-            quads += first_point[of_quad][:, None]
-            triangle_faces += first_face[of_triangle]
-            quad_faces += first_face[of_quad]
-            corners += first_point[of_corner]
-            edges += segment_starts(edge_counts)[of_corner]
-        cut, cut_faces = triangles, triangle_faces
+        # numbers go on from surface to surface
+        first_point = segment_starts(point_counts)
+        first_face = segment_starts(face_counts)
+        triangles += first_point[of_triangle][:, None]
+        quads += first_point[of_quad][:, None]
+        triangle_faces += first_face[of_triangle]
+        quad_faces += first_face[of_quad]
+        corners += first_point[of_corner]
+        edges += segment_starts(edge_counts)[of_corner]
         if len(quads):
             order = np.concatenate([of_triangle, of_quad.repeat(2)]).argsort(kind="stable")
-            cut = np.concatenate(
-                [triangles, turned_quads(points, quads).take(HALVES, 1).reshape(-1, 3)]
-            )[order]
-            cut_faces = np.concatenate([triangle_faces, quad_faces.repeat(2)])[order]
+            halves = turned_quads(points, quads).take(HALVES, 1).reshape(-1, 3)
+            triangles = np.concatenate([triangles, halves])[order]
+            triangle_faces = np.concatenate([triangle_faces, quad_faces.repeat(2)])[order]
         return cls(
-            points,
-            cut,
-            point_counts,
-            single + 2 * quad_counts,
-            cut_faces,
-            quads,
-            quad_faces,
-            corners,
-            edges,
-            quad_counts,
-            corner_counts,
-            face_counts,
-            edge_counts,
+            points=points,
+            triangles=triangles,
+            point_counts=point_counts,
+            triangle_counts=loose_counts + 2 * quad_counts,
+            triangle_faces=triangle_faces,
+            quads=quads,
+            quad_faces=quad_faces,
+            corner_vertices=corners,
+            corner_edges=edges,
+            corner_counts=corner_counts,
+            face_counts=face_counts,
+            edge_counts=edge_counts,
         )
 
     @cached_property
     def first_face(self) -> Index:
         """The (n,) indices of the surfaces' first faces."""
-        return np.cumsum(self.face_counts) - self.face_counts
+        return segment_starts(self.face_counts)
 
     @cached_property
     def face_sizes(self) -> Index:
@@ -231,48 +210,53 @@ class SurfaceStack(TriangleStack):
     def connections(self) -> Connections:
         """Find the connections of the faces, by the meshes' own edges."""
         sizes = self.face_sizes
-        corners = self.corner_vertices
+        starts = self.corner_vertices
         edges = self.corner_edges
-        first_face = self.first_face
-        fits = np.add.reduceat(sizes, first_face) == self.corner_counts
-        fits &= np.minimum.reduceat(sizes, first_face) > 0
+        fits = np.add.reduceat(sizes, self.first_face) == self.corner_counts
+        fits &= np.minimum.reduceat(sizes, self.first_face) > 0
         # the rings of the others are not known; their corners must not be taken for rings
         if not fits.all():
             sizes = np.where(np.repeat(fits, self.face_counts), sizes, 0)
             known = np.repeat(fits, self.corner_counts)
-            corners, edges = corners[known], edges[known]
-        sizes_met = sizes[sizes > 0]
-        ends = np.cumsum(sizes_met)
-        following = np.concatenate([corners[1:], corners[:1]])
-        if len(ends):
-            following[ends - 1] = corners[ends - sizes_met]
-        face = np.repeat(np.flatnonzero(sizes), sizes_met)
-        count = int(self.edge_counts.sum())
-        sides = np.full(2 * count, -1)
-        sides[edges + count * (corners < following)] = np.arange(len(corners))
-        above, below = sides.reshape(2, count)
-        has_above, has_below = above >= 0, below >= 0
-        linked = has_above & has_below
-        above, below = above[linked], below[linked]
-        first_edge = np.cumsum(self.edge_counts) - self.edge_counts
+            starts, edges = starts[known], edges[known]
+        face = np.repeat(np.arange(len(sizes)), sizes)
+        ring_sizes_known = sizes[sizes > 0]
+        ring_ends = np.cumsum(ring_sizes_known)
+        stops = np.concatenate([starts[1:], starts[:1]])
+        if len(ring_ends):
+            stops[ring_ends - 1] = starts[ring_ends - ring_sizes_known]
+        # The corner from which each edge is run downward, and upward: -1 for none, and of several
+        # the last one, so that the count of sides is then too small.
+        edge_count = int(self.edge_counts.sum())
+        corner = np.full(2 * edge_count, -1)
+        corner[edges + edge_count * (starts < stops)] = np.arange(len(starts))
+        down, up = corner.reshape(2, edge_count)
+        has_down, has_up = down >= 0, up >= 0
+        linked = has_down & has_up
+        down, up = down[linked], up[linked]
+        first_edge = segment_starts(self.edge_counts)
         pairs = np.add.reduceat(linked, first_edge, dtype=np.intp)
-        single = np.add.reduceat(has_above ^ has_below, first_edge, dtype=np.intp)
+        single = np.add.reduceat(has_down ^ has_up, first_edge, dtype=np.intp)
         oriented = fits & (2 * pairs + single == self.corner_counts)
-        wrong = (corners[above] != following[below]) | (following[above] != corners[below])
+        wrong = (starts[down] != stops[up]) | (stops[down] != starts[up])
         if wrong.any():  # edges that do not fit the vertices
-            oriented[self.point_owners[corners[above[wrong]]]] = False
-        component, _ = connected_components(len(sizes), face[above], face[below])
-        last = np.maximum.reduceat(component, first_face)  # components are numbered by first face
+            oriented[self.point_owners[starts[down[wrong]]]] = False
+        component, _ = connected_components(len(sizes), face[down], face[up])
+        last = np.maximum.reduceat(component, self.first_face)  # numbered by first face
         is_open = oriented & (single > 0)
         sides = np.empty((2, 0), np.intp)
         if is_open.any():
-            alone = np.ones(len(corners), bool)
-            alone[above] = alone[below] = False
-            sides = np.stack([corners[alone], following[alone]])
+            alone = np.ones(len(starts), bool)
+            alone[down] = alone[up] = False
+            sides = np.stack([starts[alone], stops[alone]])
             sides = sides[:, is_open[self.point_owners[sides[0]]]]
-        last[1:] -= last[:-1].copy()
-        last[0] += 1
-        return Connections(oriented & (single == 0), is_open, last, component, sides)
+        return Connections(
+            is_closed=oriented & (single == 0),
+            is_open=is_open,
+            component_counts=np.diff(last, prepend=-1),
+            component=component,
+            open_sides=sides,
+        )
 
 
 def _rings(surface: Surface) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
@@ -294,6 +278,29 @@ def _has_rings(surface: Surface) -> bool:
         return corners is not None and edges is not None and 0 < len(corners) == len(edges)
     is_numbered = surface.triangle_faces is not None or surface.quad_faces is not None
     return not is_numbered and not (len(surface.triangles) and len(surface.quads))
+
+
+def _are_in_range(surfaces: Sequence[Surface]) -> Mask:
+    """Return an (n,) mask of the surfaces with moderate coordinates, existing vertices, and edges
+    with numbers below twice the number of corners.
+    """
+    point_counts = np.array([len(surface.points) for surface in surfaces])
+    owner = np.repeat(np.arange(len(surfaces)), point_counts)
+    is_moderate = np.abs(np.concatenate([surface.points for surface in surfaces])) < (
+        MAX_STACKED_COORDINATE
+    )
+    in_range = np.ones(len(surfaces), bool)
+    in_range[owner[~is_moderate.all(axis=1)]] = False
+    for name in ("triangles", "quads", "corner_vertices", "corner_edges"):
+        arrays = [getattr(surface, name) for surface in surfaces]
+        which = [k for k, array in enumerate(arrays) if array is not None and len(array)]
+        if which:
+            flat = [arrays[k].ravel() for k in which]
+            sizes = np.array([len(each) for each in flat])
+            largest = np.maximum.reduceat(as_unsigned(np.concatenate(flat)), segment_starts(sizes))
+            limit = 2 * sizes if name == "corner_edges" else point_counts[which]
+            in_range[which] &= largest < limit
+    return in_range
 
 
 @dataclass(frozen=True, eq=False)
