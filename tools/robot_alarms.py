@@ -608,13 +608,13 @@ Robots, Audited](robots-audited.md). The command `python3 tests/project.py alarm
 ## Faults
 
 The inertial of a link is its mass, center and inertia. Each kind of fault is put into up to three
-links of each URDF file. We choose links that are right without the fault: the audit gives no error
-or warning about them, and their inertial differs from that of their evenly filled geometry by less
-than 0.5 %. A fault is left out if it changes the inertial by less than 2 %.
+links of each URDF file. Without the fault, these links are right: the audit gives no error or
+warning about them, and their inertial differs by less than 0.5 % from the inertial of the evenly
+filled geometry. A fault is left out if it changes the inertial by less than 2 %.
 
 The faults in the last five rows of the table below concern several links together. Each of these
 faults is put into a URDF file at most once. [Twins](robots.md#twins) are two links that should have
-equal or mirrored inertials. They need not be filled evenly.
+equal or mirrored inertials. The mass of twins may be spread unevenly.
 
 - *Planted* is the number of links with the fault.
 - *Found* is the number of these links about which the audit gives an error or a warning.
@@ -650,8 +650,8 @@ An alarm is an error or a warning of the audit. The published files have {links}
 - MuJoCo reads the MJCF files.
 - NumPy computes with the numbers of the XML files.
 
-An alarm is confirmed if these programs agree with the audit. The checks use no code of the audit
-itself, except for the search for the mesh files.
+An alarm is confirmed if these programs agree with the audit. Only the search for the mesh files
+uses code of the audit itself.
 
 {verdict}
 
