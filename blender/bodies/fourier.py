@@ -86,17 +86,18 @@ def object_transform(
     unit = resolved.unit
     reading = objects.read_object(obj, depsgraph)
     shell = resolved.kind == "shell"
+    is_sheet = shell and not area  # its transform is that of its area, times the thickness
     with bodies.name_subject(obj.name):
         body = mesh_body(
             reading, unit, shell=shell, union=resolved.overlap == "union", threads=resolved.threads
         )
-        if area or shell:
-            if shell and not area and resolved.wall != "thin":
-                raise ReadError(measurement.WALL_UNSUPPORTED, quantity="The Fourier transform")
-            if shell and not area and not resolved.thickness > 0.0:
-                raise ReadError(measurement.ZERO_QUANTITY, quantity="thickness")
+        if is_sheet and resolved.wall != "thin":
+            raise ReadError(measurement.WALL_UNSUPPORTED, quantity="The Fourier transform")
+        if is_sheet and not resolved.thickness > 0.0:
+            raise ReadError(measurement.ZERO_QUANTITY, quantity="thickness")
+        if area or is_sheet:
             parts = [(part.surface, bodies.to_si(part.matrices, unit)) for part in reading.parts]
-            of = moments.Measure.AREA
+            measure = moments.Measure.AREA
             total = body.area.total
         else:
             if resolved.kind == "wire":
@@ -104,17 +105,16 @@ def object_transform(
             if body.method.procedure == Procedure.OPEN:
                 raise ReadError(FOURIER_OF_OPEN_SURFACE)
             parts = [(solid.repaired_surface, matrices) for solid, matrices in body.solids]
-            of = moments.Measure.VOLUME
+            measure = moments.Measure.VOLUME
             total = body.volume.total
         if frame == "object":
             axes = reading.rotation.T
             to_frame = moments.affine_matrices(axes, -axes @ reading.location * unit)
             parts = [(surface, to_frame @ matrices) for surface, matrices in parts]
-        if callable(q):
-            q = q(_extent(parts))
-        transform = BodyTransform(parts, q, of, total, resolved.threads)
+        frequencies = q(_extent(parts)) if callable(q) else q
+        transform = BodyTransform(parts, frequencies, measure, total, resolved.threads)
         varies = not area and density_field(obj.body_moments) is not None
-    factor = resolved.thickness if shell and not area else 1.0
+    factor = resolved.thickness if is_sheet else 1.0
     findings = [*reading.findings, *body.findings]
     if reading.has_patches or (obj.type == "CURVE" and shell and visibility.shows_flat_region(obj)):
         findings.append(finding(DISPLAY_MESH_MEASURED, cause="a Fourier transform needs polygons"))
@@ -142,12 +142,12 @@ def flat_transform(
     region = flat_region(obj, depsgraph, selected=False, exact=False, unit=unit)
     findings = (*region.findings, *area_findings(region, region.moments(1).total))
     plane = region.plane
-    at = flat.foot(plane, np.zeros(3) if frame == "world" else region.location)
-    origin = plane.origin + plane.axes @ at
-    if callable(q):
-        q = q(float(np.ptp(region.used, axis=0).max()))
+    # in the plane's axes, from its origin
+    foot = flat.foot(plane, np.zeros(3) if frame == "world" else region.location)
+    origin = plane.origin + plane.axes @ foot
+    frequencies = q(float(np.ptp(region.used, axis=0).max())) if callable(q) else q
     transform = RegionTransform(
-        region.points - at[:2], region.edges, q, region.rounded, region.stored
+        region.points - foot[:2], region.edges, frequencies, region.rounded, region.stored
     )
     return ObjectTransform(
         obj.name, transform, findings, arrays={"axes": plane.axes[:, :2].T, "origin": origin}

@@ -9,7 +9,6 @@ from contextlib import ExitStack
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core import measurement, moments, scans
 from ...core.bodies import (
@@ -30,6 +29,7 @@ from ...core.bodies import (
     to_si,
 )
 from ...core.density import Blocks, GridOptions, sample_positions, sum_labels
+from ...core.numerics import Array, NDArray
 from ...core.verdict import Method, ReadError, Source, finding
 from ..read import tracking, volume
 from ..read.findings import GRID_UNSUPPORTED, IS_LEVEL_SET
@@ -63,12 +63,11 @@ def body(reading: volume.VolumeReading, request: Request) -> measurement.Body:
     """Return the body of one grid, or raise MeasureError if there is none."""
     obj = request.obj
     density = request.given.density
-    made = _grid_body(
-        reading, GridOptions.from_settings(obj.body_moments, density), request.settings
-    )
+    options = GridOptions.from_settings(obj.body_moments, density)
+    result = _grid_body(reading, options, request.settings)
     key = grid_key(obj, density) if obj.type == "VOLUME" else density_key(obj, (), request.scene)
-    source = None if made.mass is None else finding(DENSITY_FROM_GRID, grid=reading.grid)
-    return replace(made, density_from=source, density_key=key)
+    source = None if result.mass is None else finding(DENSITY_FROM_GRID, grid=reading.grid)
+    return replace(result, density_from=source, density_key=key)
 
 
 def _grid_body(
@@ -91,43 +90,49 @@ def _grid_body(
     if reading.level_set:
         raise ReadError(GRID_UNSUPPORTED, fault=IS_LEVEL_SET, grid=reading.grid)
     positions = sample_positions(options, reading.grid, reading.low, reading.shape)
-    first = moments.affine_matrices(
-        np.eye(3), [low if row is None else 0.0 for low, row in zip(reading.low, positions)]
-    )
-    shape = [count if row is None else len(row) for count, row in zip(reading.shape, positions)]
-    matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ first
-    density = finding(
-        GRID_DENSITY, samples=list(reading.shape), cause=options.meaning().as_record()
-    )
-    axes = [axis for axis, row in zip(scans.AXES, positions) if row is not None]
-    findings = (density, finding(SAMPLES_POSITIONED, axes=axes)) if axes else (density,)
+    # An axis with positions begins at their zero, any other one at the first sample.
+    low = [first if row is None else 0.0 for first, row in zip(reading.low, positions)]
+    matrix = _matrix_to_world(reading, unit) @ moments.affine_matrices(np.eye(3), low)
     samples = Samples(
         _whole_axes(reading, positions),
-        shape,
+        [count if row is None else len(row) for count, row in zip(reading.shape, positions)],
         matrix,
         options,
         reading.background,
         positions=positions,
     )
-    return density_body(samples, findings, order=order)
+    meaning = options.meaning().as_record()
+    findings = [finding(GRID_DENSITY, samples=list(reading.shape), cause=meaning)]
+    axes = [axis for axis, row in zip(scans.AXES, positions) if row is not None]
+    if axes:
+        findings.append(finding(SAMPLES_POSITIONED, axes=axes))
+    return density_body(samples, tuple(findings), order=order)
+
+
+def _matrix_to_world(reading: volume.VolumeReading, unit: float) -> Array:
+    """Return the (4, 4) map from a grid's indices to the world, m."""
+    return to_si(reading.matrix[None], unit)[0] @ reading.to_object
 
 
 def _label(reading: volume.VolumeReading, label: int, unit: float) -> measurement.Body:
     """Return the body of the voxels of a label, or for 0 of all labels but 0."""
     sums = sum_labels(reading.blocks)
-    chosen = [row for own, row in sums.items() if own and label in (0, own)]
+    chosen = [total for value, total in sums.items() if value and label in (0, value)]
     if not chosen:
-        values = {"labels": [label], "others": sorted(sums.keys() - {0}), "remedy": "Label"}
-        raise ReadError(scans.LABEL_ABSENT, file=reading.grid, **values)
-    matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object
-    return label_body(
-        np.sum(chosen, axis=0), matrix @ moments.affine_matrices(np.eye(3), reading.low)
-    )
+        raise ReadError(
+            scans.LABEL_ABSENT,
+            file=reading.grid,
+            labels=[label],
+            others=sorted(sums.keys() - {0}),
+            remedy="Label",
+        )
+    to_first = moments.affine_matrices(np.eye(3), reading.low)
+    return label_body(np.sum(chosen, axis=0), _matrix_to_world(reading, unit) @ to_first)
 
 
 def _whole_axes(reading: volume.VolumeReading, positions: scans.Positions) -> Blocks:
-    """Return the blocks of a grid, from the start of an axis if it has positions (outer samples
-    need neighbors).
+    """Return the blocks of a grid, with places counted from the start of each axis that has
+    positions (outer samples need neighbors), and from the first sample of others.
     """
     offset = [0 if row is None else int(low) for low, row in zip(reading.low, positions)]
 
@@ -149,11 +154,11 @@ def _solid(reading: volume.VolumeReading, unit: float, threads: int) -> MeshBody
     surface = reading.polygons()
     if not len(surface.quads):
         raise ReadError(GRID_EMPTY, grid=reading.grid)
-    shown = replace(reading, parts=[Part(surface, reading.matrix[None])], findings=[])
-    bounded = mesh_body(shown, unit, shell=False, union=False, threads=threads)
+    polygons = replace(reading, parts=[Part(surface, reading.matrix[None])], findings=[])
+    result = mesh_body(polygons, unit, shell=False, union=False, threads=threads)
     measured = finding(LEVEL_SET_MEASURED, grid=reading.grid, polygons=len(surface.quads))
-    method = Method(bounded.method.procedure, Source.GRID)
-    return replace(bounded, method=method, findings=(measured, *bounded.findings))
+    method = Method(result.method.procedure, Source.GRID)
+    return replace(result, method=method, findings=(measured, *result.findings))
 
 
 def threshold_grid(reading: volume.VolumeReading, unit: float) -> ThresholdGrid:
@@ -169,9 +174,5 @@ def threshold_grid(reading: volume.VolumeReading, unit: float) -> ThresholdGrid:
         if block.dtype.itemsize > 4:
             values = values.astype(np.float64, copy=False)
         values[i : i + block.shape[0], j : j + block.shape[1], k : k + block.shape[2]] = block
-    matrix = (
-        to_si(reading.matrix[None], unit)[0]
-        @ reading.to_object
-        @ moments.affine_matrices(np.eye(3), reading.low)
-    )
+    matrix = _matrix_to_world(reading, unit) @ moments.affine_matrices(np.eye(3), reading.low)
     return ThresholdGrid(reading.grid, values, matrix, float(reading.background))

@@ -39,9 +39,9 @@ def measure_body(
             measurement, body = point_measurement(point, request)
             return stack.Measured(measurement, reading=point, body=body)
         kinds = (kind for kind in KINDS if request.settings.kind in kind.MEASURED_AS)
-        found = ((kind, kind.read(request)) for kind in kinds)
+        readings = ((kind, kind.read(request)) for kind in kinds)  # read one after the other
         # The last kind raises MeasureError in place of returning None.
-        kind, reading = next((kind, reading) for kind, reading in found if reading is not None)
+        kind, reading = next((kind, reading) for kind, reading in readings if reading is not None)
         body = with_given(kind.body(reading, request), reading, request)
         measurement = measurement_of(reading, body, request)
         return stack.Measured(measurement, reading=reading, body=body)

@@ -67,11 +67,11 @@ def measured_in_turn(
     in batches.
     """
     waiting: dict[bpy.types.Object, Outcome] = {}
-    slices = measure_many(objects, depsgraph, options)
+    batches = measure_many(objects, depsgraph, options)
 
     def measured(obj: bpy.types.Object) -> Measured:
         while obj not in waiting:
-            waiting.update(next(slices))
+            waiting.update(next(batches))
         outcome = waiting.pop(obj)
         if isinstance(outcome, Exception):
             raise outcome
@@ -114,29 +114,19 @@ class _Collector:
         shape = self._by_mesh[mesh]
         if shape is None:
             return None
-        matrix = obj.evaluated_get(self.depsgraph).matrix_world
-        location, turn, _scale = matrix.decompose()
-        placed = world_matrices(obj)[0] if has_places(obj) else np.array(matrix, np.float64)
-        return Member(
-            obj,
-            shape,
-            settings,
-            placed,
-            tuple(placed[:3, 3].tolist()) if has_places(obj) else location.to_tuple(),
-            (turn.w, turn.x, turn.y, turn.z),
-        )
+        blender_matrix = obj.evaluated_get(self.depsgraph).matrix_world
+        location, rotation, _scale = blender_matrix.decompose()
+        if has_places(obj):
+            matrix = world_matrices(obj)[0]
+            location = matrix[:3, 3].tolist()
+        else:
+            matrix = np.array(blender_matrix, np.float64)
+        return Member(obj, shape, settings, matrix, tuple(location), tuple(rotation))
 
     def _settings_of(self, obj: bpy.types.Object) -> Settings | None:
         """Return the settings of a solid of one density or mass, or None for other objects."""
         options = self.options
-        properties = obj.body_moments
-        if options.order is not None:
-            return None
-        if options.density is None and (
-            properties.use_center or properties.use_inertia
-            if properties.mass_from == "MASS"
-            else options.mass is None and properties.density_from != "VALUE"
-        ):
+        if options.order is not None or not _is_uniform(obj.body_moments, options):
             return None
         settings = object_settings(obj, self.scene, options, self.unit)
         if settings.kind != "solid" or settings.overlap != "signed":
@@ -187,3 +177,12 @@ class _Collector:
             internal_error.finding_of(error)
             rows = []
         return {row.member.obj: row for row in rows}
+
+
+def _is_uniform(properties: bpy.types.PropertyGroup, options: MeasureOptions) -> bool:
+    """Return whether a body has one density, or a mass whose center and inertia are not given."""
+    if options.density is not None:
+        return True
+    if properties.mass_from == "MASS":
+        return not (properties.use_center or properties.use_inertia)
+    return options.mass is not None or properties.density_from == "VALUE"

@@ -30,12 +30,8 @@ from .union import unite
 
 MEASURED_AS = frozenset({"solid", "shell", "printed"})
 
-# findings about the bodies before their union
-REPAIRS = {
-    HOLES_CAPPED,
-    verdict.FLIPPED_FACES,
-    INVERTED_COMPONENTS,
-}
+# findings about the bodies before their union that also apply to the union
+REPAIRS = {HOLES_CAPPED, verdict.FLIPPED_FACES, INVERTED_COMPONENTS}
 HULL_RTOL = 1e-6  # relative to the extent: points that are outside by less are left out
 NOISE = 4.0  # half ulps of float32 coordinates: allowed unevenness of flat faces
 MAX_CORNERS = 10000  # per hull: finely divided round bodies have more
@@ -47,25 +43,18 @@ def read(request: Request) -> bodies.Reading | None:
     """
     reading = request.surfaces
     density = request.density
-    obj = request.obj
-    if reading.has_patches:
-        if density is None and request.settings.kind != "printed":
-            return None
-        cause = (
-            "walls and infill need polygons"
-            if density is None
-            else "a varying density needs polygons"
-        )
+    kind = request.settings.kind
+    if density is not None:
+        cause = "a varying density needs polygons"
+    elif kind == "printed":
+        cause = "walls and infill need polygons"
+    elif reading.has_patches:
+        return None
+    else:
+        return reading
+    is_flat_sheet = density is not None and kind == "shell" and request.obj.type == "CURVE"
+    if reading.has_patches or (is_flat_sheet and visibility.shows_flat_region(request.obj)):
         reading.findings.append(verdict.finding(DISPLAY_MESH_MEASURED, cause=cause))
-    elif (
-        density is not None
-        and request.settings.kind == "shell"
-        and obj.type == "CURVE"
-        and visibility.shows_flat_region(obj)
-    ):
-        reading.findings.append(
-            verdict.finding(DISPLAY_MESH_MEASURED, cause="a varying density needs polygons")
-        )
     return reading
 
 
@@ -73,7 +62,7 @@ def body(reading: bodies.Reading, request: Request) -> measurement.Body:
     """Return the body that polygons bound, weighed and with walls as set, or raise MeasureError."""
     settings = request.settings
     shell = settings.kind == "shell"
-    made = mesh_body(
+    result = mesh_body(
         reading,
         settings.unit,
         shell=shell,
@@ -81,12 +70,13 @@ def body(reading: bodies.Reading, request: Request) -> measurement.Body:
         threads=settings.threads,
     )
     if request.density is not None:
-        made = weigh(reading, made, request)
+        result = weigh(reading, result, request)
     if shell and settings.wall != "thin":
-        return bodies.find_walls(reading, made, settings.wall).body(settings.thickness)
-    if settings.kind != "printed":
-        return made
-    return bodies.print_body(made, settings, bodies.to_si([reading.matrix], settings.unit)[0])
+        return bodies.find_walls(reading, result, settings.wall).body(settings.thickness)
+    if settings.kind == "printed":
+        matrix = bodies.to_si([reading.matrix], settings.unit)[0]
+        return bodies.print_body(result, settings, matrix)
+    return result
 
 
 def mesh_body(
@@ -97,19 +87,17 @@ def mesh_body(
     """
     if shell:
         return bodies.sum_of_instances(reading, unit, True, threads)
-    flat = reading.singular_instance_count
-    if flat == reading.instance_count:
+    if reading.all_singular:
         raise verdict.ReadError(ZERO_SCALE)
-    made = (
+    result = (
         _boolean_union(reading, unit, threads)
         if union
         else bodies.sum_of_instances(reading, unit, False, threads)
     )
-    return (
-        replace(made, findings=(bodies.singular_instances_message(reading), *made.findings))
-        if flat
-        else made
-    )
+    if not reading.singular_instance_count:
+        return result
+    flattened = bodies.singular_instances_message(reading)
+    return replace(result, findings=(flattened, *result.findings))
 
 
 def _boolean_union(reading: bodies.Reading, unit: float, threads: int) -> bodies.MeshBody:
@@ -124,8 +112,7 @@ def _boolean_union(reading: bodies.Reading, unit: float, threads: int) -> bodies
     if solid is None or solid.method == verdict.Procedure.OPEN:
         raise verdict.ReadError(UNION_FAILED)
     findings = [verdict.finding(UNION_BY_BOOLEAN)]
-    procedure = before.method.procedure
-    if procedure == verdict.Procedure.OPEN:
+    if before.method.procedure == verdict.Procedure.OPEN:
         findings.append(verdict.finding(OPEN_COMPONENTS_UNITED))
     findings += [result for result in before.findings if result.code in REPAIRS]
     findings += bodies.of_drawn(solid.findings, reading.parts, bodies.drawn_names(reading))
@@ -149,16 +136,16 @@ def object_hull(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
         raise verdict.EditRefusedError(SCALE_ZERO_AXIS)
     to_local = np.linalg.inv(reading.matrix)
     points = []
-    noise = 0.0
+    coordinate_error = 0.0
     for part in reading.parts:
         corners = part.surface.used_points().astype(np.float64)
         if len(part.matrices) > 1:
             corners = convex_hull(corners, HULL_RTOL, MAX_CORNERS).points
         for matrix in to_local @ part.matrices:
             points.append(corners @ matrix[:3, :3].T + matrix[:3, 3])
-            noise = max(
-                noise, float((np.abs(matrix[:3, :3]) @ part.surface.coordinate_error).max())
-            )
+            error = np.abs(matrix[:3, :3]) @ part.surface.coordinate_error
+            coordinate_error = max(coordinate_error, float(error.max()))
     joined = np.concatenate(points)
     extent = float(np.ptp(joined, axis=0).max())
-    return convex_hull(joined, max(HULL_RTOL, NOISE * noise / (extent or np.inf)), MAX_CORNERS)
+    rtol = max(HULL_RTOL, NOISE * coordinate_error / (extent or np.inf))
+    return convex_hull(joined, rtol, MAX_CORNERS)

@@ -12,12 +12,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from typing import ClassVar, cast
+from typing import ClassVar, NamedTuple, cast
 
 import numpy as np
 
 from ...core import bodies, mesh, nurbs, solid, verdict
-from ...core.measurement import WALL_UNSUPPORTED, Body
+from ...core.measurement import WALL_UNSUPPORTED, Body, Settings
 from ...core.moments import (
     Measure,
     Moments,
@@ -45,12 +45,22 @@ HEIGHTS = {
 }
 
 
+class PlacedPatches(NamedTuple):
+    """A part that is patches, its integrals in its own coordinates, and (k, 4, 4) maps from these
+    to its places in the world, m.
+    """
+
+    part: bodies.Part
+    integrals: nurbs.PatchIntegrals
+    matrices: Array
+
+
 @dataclass(frozen=True, eq=False)
 class PatchBody(Body):
     """A body bounded by patches, and by polygons if some parts have no patches.
 
     `reading`: the whole object; `surfaces` yields its display mesh. `pieces`: the parts that are
-    patches, each with the (k, 4, 4) maps to its places. `polygons`: the other parts.
+    patches. `polygons`: the other parts.
     """
 
     any_order: ClassVar[bool] = True
@@ -58,21 +68,21 @@ class PatchBody(Body):
 
     reading: bodies.Reading = field(kw_only=True)
     unit: float = field(kw_only=True)
-    pieces: tuple[tuple[bodies.Part, nurbs.PatchIntegrals, Array], ...] = ()
+    pieces: tuple[PlacedPatches, ...] = ()
     polygons: bodies.MeshBody | None = None
     threads: int = field(kw_only=True)
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
         """Return the moments of the volume and of the area (None without `area`) to an order."""
         volumes, areas = [], []
-        for _, measure, matrices in self.pieces:
-            own = nurbs.volume_moments(measure.patches, order, measure.volume.about)[0]
-            volumes.append(sum_of_images(bodies.extend_input_error(own, measure.volume), matrices))
-        for part, measure, matrices in self.pieces if area else ():
-            of_part = nurbs.area_moments(_patches(part), order, measure.area.about)[0]
-            areas.extend(
-                _image_areas(part, bodies.extend_input_error(of_part, measure.area), matrices)
-            )
+        for part, integrals, matrices in self.pieces:
+            volume = nurbs.volume_moments(integrals.patches, order, integrals.volume.about)[0]
+            volume = bodies.extend_input_error(volume, integrals.volume)
+            volumes.append(sum_of_images(volume, matrices))
+            if area:
+                faces = nurbs.area_moments(_patches(part), order, integrals.area.about)[0]
+                faces = bodies.extend_input_error(faces, integrals.area)
+                areas.extend(_image_areas(part, faces, matrices))
         if self.polygons is not None:
             volume, faces = self.polygons.moments(order, area)
             volumes.append(volume)
@@ -135,79 +145,61 @@ def body(reading: bodies.Reading, request: Request) -> Body:
     settings = request.settings
     unit, threads = settings.unit, settings.threads
     if settings.kind == "shell":
-        return _sheet_body(reading, unit, settings.wall, settings.thickness, threads)
+        return _sheet_body(reading, settings)
     if reading.all_singular:
         raise verdict.ReadError(ZERO_SCALE)
-    patch_parts, meshes = _split_parts(reading)
-    measures = [
-        nurbs.measure_patches(_patches(part), area_order=3, stored=_stored(part))
-        for part in patch_parts
-    ]
-    if settings.overlap == "union" and (
-        reading.instance_count > 1 or measures[0].health.components > 1
-    ):
+    pieces, meshes = _split_parts(reading, unit)
+    needs_union = reading.instance_count > 1 or pieces[0].integrals.health.components > 1
+    if settings.overlap == "union" and needs_union:
         united = mesh_body(reading, unit, shell=False, union=True, threads=threads)
-        return replace(
-            united,
-            findings=(
-                verdict.finding(DISPLAY_MESH_MEASURED, cause="a union needs polygons"),
-                *united.findings,
-            ),
-        )
-    rest = (
-        mesh_body(meshes, unit, shell=False, union=False, threads=threads) if meshes.parts else None
-    )
-    pieces = [
-        (part, measure, bodies.to_si(part.matrices, unit))
-        for part, measure in zip(patch_parts, measures)
-    ]
-    volumes = [sum_of_images(measure.volume, matrices) for _, measure, matrices in pieces]
-    areas = [
-        sum_moments(list(_image_areas(part, measure.area, matrices)))
-        for part, measure, matrices in pieces
-    ]
-    healths = [
-        (measure.health, len(part.matrices), faces.total)
-        for (part, measure, _), faces in zip(pieces, areas)
-    ]
-    procedures = [verdict.Procedure(measure.method) for measure in measures]
-    if rest:
-        volumes.append(rest.volume)
-        areas.append(rest.area)
-        healths.append((rest.health, 1, rest.area.total))
-        procedures.append(rest.method.procedure)
-    display = None
+        note = verdict.finding(DISPLAY_MESH_MEASURED, cause="a union needs polygons")
+        return replace(united, findings=(note, *united.findings))
+    volumes = []
+    areas = []
+    healths = []
+    procedures = []
+    for part, integrals, matrices in pieces:
+        area = sum_moments(list(_image_areas(part, integrals.area, matrices)))
+        volumes.append(sum_of_images(integrals.volume, matrices))
+        areas.append(area)
+        healths.append((integrals.health, len(matrices), area.total))
+        procedures.append(verdict.Procedure(integrals.method))
+    polygons = None
+    if meshes.parts:
+        polygons = mesh_body(meshes, unit, shell=False, union=False, threads=threads)
+        volumes.append(polygons.volume)
+        areas.append(polygons.area)
+        healths.append((polygons.health, 1, polygons.area.total))
+        procedures.append(polygons.method.procedure)
+    display_volume = None
     if settings.compare:
         # A display mesh that cannot be measured compares with nothing.
         with suppress(verdict.MeasureError):
-            display = mesh_body(
-                reading, unit, shell=False, union=False, threads=threads
-            ).volume.total
+            display_mesh = mesh_body(reading, unit, shell=False, union=False, threads=threads)
+            display_volume = display_mesh.volume.total
     return PatchBody(
         sum_moments(volumes),
         sum_moments(areas),
         bodies.merge_health(healths),
         verdict.Method(verdict.least_trusted(procedures), _source(reading)),
-        tuple(bodies.each_once(_solid_findings(reading, pieces, rest))),
-        display_volume=display,
+        tuple(bodies.each_once(_solid_findings(reading, pieces, polygons))),
+        display_volume=display_volume,
         estimated=True,
         reading=reading,
         unit=unit,
         pieces=tuple(pieces),
-        polygons=rest,
+        polygons=polygons,
         threads=threads,
     )
 
 
 def _solid_findings(
-    reading: bodies.Reading,
-    pieces: list[tuple[bodies.Part, nurbs.PatchIntegrals, NDArray]],
-    rest: bodies.MeshBody | None,
+    reading: bodies.Reading, pieces: list[PlacedPatches], polygons: bodies.MeshBody | None
 ) -> list[verdict.Finding]:
-    by_part = [(part.source_object_name, measure.findings) for part, measure, _ in pieces]
+    by_part = [(piece.part.source_object_name, piece.integrals.findings) for piece in pieces]
     findings = bodies.findings_by_part(by_part, reading.name)
-    if rest:
-        findings += rest.findings
+    if polygons:
+        findings += polygons.findings
     if reading.singular_instance_count:
         findings.append(bodies.singular_instances_message(reading))
     if bodies.instances_overlap(reading):
@@ -215,12 +207,20 @@ def _solid_findings(
     return findings
 
 
-def _split_parts(reading: bodies.Reading) -> tuple[list[bodies.Part], bodies.Reading]:
-    """Return the parts that are patches, and a reading of the others."""
-    return (
-        [part for part in reading.parts if part.splines is not None],
-        replace(reading, parts=[part for part in reading.parts if part.splines is None]),
-    )
+def _split_parts(
+    reading: bodies.Reading, unit: float
+) -> tuple[list[PlacedPatches], bodies.Reading]:
+    """Return the parts that are patches, measured, and a reading of the others."""
+    pieces = [
+        PlacedPatches(
+            part,
+            nurbs.measure_patches(_patches(part), area_order=3, stored=_stored(part)),
+            bodies.to_si(part.matrices, unit),
+        )
+        for part in reading.parts
+        if part.splines is not None
+    ]
+    return pieces, replace(reading, parts=[part for part in reading.parts if part.splines is None])
 
 
 def _source(reading: bodies.Reading) -> verdict.Source:
@@ -234,85 +234,104 @@ def _source(reading: bodies.Reading) -> verdict.Source:
 
 def _image_areas(part: bodies.Part, area: Moments, matrices: NDArray) -> Iterator[Moments]:
     """Yield the area moments of each place of a part."""
-    even = are_similarities(matrices[:, :3, :3])
-    if even.any():
-        yield sum_of_images(area, matrices[even])
-    stored = _stored(part) * float(np.linalg.norm(matrices[:, :3, :3], 2, axis=(1, 2)).max())
-    for patches, translations_of_image in _distinct_images(_patches(part), matrices[~even]):
+    is_even = are_similarities(matrices[:, :3, :3])
+    if is_even.any():
+        yield sum_of_images(area, matrices[is_even])
+    stored = _stored(part) * _largest_stretch(matrices)
+    for patches, translations in _distinct_images(_patches(part), matrices[~is_even]):
         yield sum_of_images(
-            nurbs.stored_area_moments(patches, area.order, stored=stored), translations_of_image
+            nurbs.stored_area_moments(patches, area.order, stored=stored), translations
         )
 
 
-def _sheet_body(
-    reading: bodies.Reading, unit: float, wall: str, thickness: float, threads: int
-) -> Body:
+def _largest_stretch(matrices: NDArray) -> float:
+    """Return the largest factor by which (k, 4, 4) maps lengthen a vector."""
+    return float(np.linalg.norm(matrices[:, :3, :3], 2, axis=(1, 2)).max())
+
+
+def _sheet_body(reading: bodies.Reading, settings: Settings) -> Body:
     """Return the body of thin sheets, or of walls inside, outside or on both sides of the
     surfaces.
     """
-    patch_parts, meshes = _split_parts(reading)
-    if meshes.parts and wall != "thin":
+    has_meshes = not all(part.splines for part in reading.parts)
+    if has_meshes and settings.wall != "thin":
         raise verdict.ReadError(WALL_UNSUPPORTED, quantity="A mixture of NURBS surfaces and meshes")
-    sheets = []
-    areas = []
+    pieces, meshes = _split_parts(reading, settings.unit)
     healths = []
-    by_part = []
-    for part in patch_parts:
-        matrices = bodies.to_si(part.matrices, unit)
-        measure = nurbs.measure_patches(_patches(part), area_order=3, stored=_stored(part))
-        grown_by = np.cbrt(np.linalg.det(matrices[:, :3, :3])) ** 2
-        healths.append((measure.health, len(matrices), measure.area.total * float(grown_by.sum())))
-        if wall == "thin":
-            areas += _image_areas(part, measure.area, matrices)
-            continue
-        outward = [
-            patch.reverse_orientation() if sign < 0.0 else patch
-            for patch, sign in zip(_patches(part), measure.signs)
-        ]
-        sharpest = nurbs.sharpest_crease(_patches(part), measure.topology)
-        if sharpest > MIN_CREASE_ANGLE:
-            by_part.append(
-                (
-                    part.source_object_name,
-                    [verdict.finding(WALL_CREASES, angle=float(np.degrees(sharpest)))],
-                )
-            )
-        inner, outer = (thickness * height for height in HEIGHTS[wall])
-        for patches, translations_of_image in _distinct_images(outward, matrices):
-            grown = unit * float(np.linalg.norm(part.matrices[:, :3, :3], 2, axis=(1, 2)).max())
-            sheet, area, fine = nurbs.measure_sheet(
-                patches, inner, outer, stored=_stored(part) * grown
-            )
-            sheets.append(sum_of_images(sheet, translations_of_image))
-            areas.append(sum_of_images(area, translations_of_image))
-            if not fine:
-                by_part.append(
-                    (
-                        part.source_object_name,
-                        [verdict.finding(nurbs.ERROR_ESTIMATE_LARGE, quantity="wall's volume")],
-                    )
-                )
-    findings = bodies.findings_by_part(by_part, reading.name)
+    for _part, integrals, matrices in pieces:
+        growth = np.cbrt(np.linalg.det(matrices[:, :3, :3])) ** 2  # of the area, if scaled evenly
+        area = integrals.area.total * float(growth.sum())
+        healths.append((integrals.health, len(matrices), area))
+    if settings.wall != "thin":
+        return _wall_body(reading, pieces, bodies.merge_health(healths), settings)
+    areas = []
+    for part, integrals, matrices in pieces:
+        areas += _image_areas(part, integrals.area, matrices)
     polygons = None
-    if meshes.parts:
-        polygons = mesh_body(meshes, unit, shell=True, union=False, threads=threads)
+    if has_meshes:
+        polygons = mesh_body(
+            meshes, settings.unit, shell=True, union=False, threads=settings.threads
+        )
         areas.append(polygons.area)
         healths.append((polygons.health, 1, polygons.area.total))
-        findings += polygons.findings
     area = sum_moments(areas)
-    nothing = Moments(np.zeros_like(area.raw), area.about, Measure.VOLUME)
-    common = (
-        nothing,
+    return PatchSheetBody(
+        _zero_volume(area),
         area,
         bodies.merge_health(healths),
         verdict.Method(verdict.Procedure.SHELL, _source(reading)),
-        tuple(bodies.each_once(findings)),
+        tuple(bodies.each_once(polygons.findings if polygons else ())),
+        estimated=True,
+        unit=settings.unit,
+        parts=tuple(piece.part for piece in pieces),
+        polygons=polygons,
     )
-    if wall != "thin":
-        return Body(*common, wall=sum_moments(sheets), estimated=True)
-    return PatchSheetBody(
-        *common, estimated=True, unit=unit, parts=tuple(patch_parts), polygons=polygons
+
+
+def _wall_body(
+    reading: bodies.Reading,
+    pieces: list[PlacedPatches],
+    health: verdict.MeshHealth,
+    settings: Settings,
+) -> Body:
+    """Return the body of walls of the set thickness along the patches."""
+    walls = []
+    areas = []
+    by_part = []
+    inner, outer = (settings.thickness * height for height in HEIGHTS[settings.wall])
+    for part, integrals, matrices in pieces:
+        source = part.source_object_name
+        crease_angle = nurbs.sharpest_crease(_patches(part), integrals.topology)
+        if crease_angle > MIN_CREASE_ANGLE:
+            creases = verdict.finding(WALL_CREASES, angle=float(np.degrees(crease_angle)))
+            by_part.append((source, [creases]))
+        outward = [
+            patch.reverse_orientation() if sign < 0.0 else patch
+            for patch, sign in zip(_patches(part), integrals.signs)
+        ]
+        stored = _stored(part) * (settings.unit * _largest_stretch(part.matrices))
+        for patches, translations in _distinct_images(outward, matrices):
+            wall, area, has_converged = nurbs.measure_sheet(patches, inner, outer, stored=stored)
+            walls.append(sum_of_images(wall, translations))
+            areas.append(sum_of_images(area, translations))
+            if not has_converged:
+                inexact = verdict.finding(nurbs.ERROR_ESTIMATE_LARGE, quantity="wall's volume")
+                by_part.append((source, [inexact]))
+    area = sum_moments(areas)
+    return Body(
+        _zero_volume(area),
+        area,
+        health,
+        verdict.Method(verdict.Procedure.SHELL, _source(reading)),
+        tuple(bodies.each_once(bodies.findings_by_part(by_part, reading.name))),
+        wall=sum_moments(walls),
+        estimated=True,
     )
+
+
+def _zero_volume(area: Moments) -> Moments:
+    """Return zero moments of a volume, to the order and about the point of an area."""
+    return Moments(np.zeros_like(area.raw), area.about, Measure.VOLUME)
 
 
 def _distinct_images(

@@ -75,19 +75,21 @@ def _overlapping_pairs(
     first, second, _ = mesh.overlapping_box_pairs(low, high, margin, MAX_PAIRS)
     meet = _boxes_meet(corners[first], corners[second])
     surfaces: dict[str, mesh.Surface] = {}
-    left = MAX_TRIANGLES
+    remaining_triangles = MAX_TRIANGLES
     for i in np.unique([first[meet], second[meet]]).tolist():
-        surface = read_surface(solids[i], left)
+        surface = read_surface(solids[i], remaining_triangles)
         if surface is not None:
-            left -= len(surface.triangles)
+            remaining_triangles -= len(surface.triangles)
             surfaces[solids[i].name] = surface
     if len(surfaces) < 2:
         return []
     names = [*surfaces]
     joined = mesh.join_surfaces([*surfaces.values()])
-    sizes = [len(surface.triangles) for surface in surfaces.values()]
-    component = np.repeat(np.arange(len(sizes)), sizes)
-    components = mesh.sort_components(joined.points, joined.triangles, component, len(sizes))
+    counts = [len(surface.triangles) for surface in surfaces.values()]
+    component_of_triangle = np.repeat(np.arange(len(counts)), counts)
+    components = mesh.sort_components(
+        joined.points, joined.triangles, component_of_triangle, len(counts)
+    )
     extent = np.linalg.norm(components.high - components.low, axis=1)
     is_solid = (
         np.abs(components.volume) > verdict.CLOSED_SHEET_VOLUME_RTOL * extent * components.area
@@ -101,13 +103,19 @@ def _boxes_meet(first: Array, second: Array) -> Mask:
     """Return a (k,) mask of the pairs of turned boxes, (k, 8, 3) corners each, that no plane along
     two of their edges separates.
     """
-    one, other = (box[:, [1, 3, 4]] - box[:, :1] for box in (first, second))
-    across = cross_rows(one[:, :, None], other[:, None]).reshape(-1, 9, 3)
-    faces = [cross_rows(edges, np.roll(edges, 1, axis=1)) for edges in (one, other)]
-    axes = np.concatenate([across, *faces], axis=1).transpose(0, 2, 1)
-    one, other = first @ axes, second @ axes
-    apart = np.maximum(one.min(axis=1) - other.max(axis=1), other.min(axis=1) - one.max(axis=1))
-    return ~(apart > 0.0).any(axis=1)
+    # the edges from the first corner, in the order of Blender's `bound_box`
+    first_edges = first[:, [1, 3, 4]] - first[:, :1]
+    second_edges = second[:, [1, 3, 4]] - second[:, :1]
+    across = cross_rows(first_edges[:, :, None], second_edges[:, None]).reshape(-1, 9, 3)
+    faces = [cross_rows(edges, np.roll(edges, 1, axis=1)) for edges in (first_edges, second_edges)]
+    normals = np.concatenate([across, *faces], axis=1).transpose(0, 2, 1)
+    along_first = first @ normals  # (k, 8 corners, 15 normals)
+    along_second = second @ normals
+    gap = np.maximum(
+        along_first.min(axis=1) - along_second.max(axis=1),
+        along_second.min(axis=1) - along_first.max(axis=1),
+    )
+    return ~(gap > 0.0).any(axis=1)
 
 
 def _closed_surface(
@@ -127,9 +135,10 @@ def _closed_surface(
     count = sum(part.surface.triangle_count * len(part.matrices) for part in reading.parts)
     if not 0 < count <= limit:
         return None
-    for part in [] if measured is not None and measured.is_faultless else reading.parts:
-        boundary = mesh.BoundarySum()
-        boundary.add(part.surface)
-        if not boundary.is_zero:
-            return None
+    if measured is None or not measured.is_faultless:
+        for part in reading.parts:
+            boundary = mesh.BoundarySum()
+            boundary.add(part.surface)
+            if not boundary.is_zero:
+                return None
     return reading.join()

@@ -57,7 +57,8 @@ class Measured:
 
     `stack`: the measurements of several objects, of which this is row `index`, or of one that was
     measured alone. `members`, `shapes`: the objects of a stack, one of them this `member`, and the
-    solids that they show.
+    solids that they show. An object that was measured alone has no member, but a `reading` and a
+    `body` from the start.
     """
 
     stack: Any  # entries of a stack are lists and arrays
@@ -65,10 +66,10 @@ class Measured:
     members: list[Member]
     shapes: SolidStack
 
-    def __init__(self, stack: Measurement, index: int | None = None, **known: Any):
+    def __init__(self, stack: Measurement, index: int | None = None, **attributes: Any):
         self.stack = stack
         self.index = index
-        self.__dict__.update(known)
+        self.__dict__.update(attributes)  # also in place of cached properties
 
     @property
     def findings(self) -> tuple[Finding, ...]:
@@ -128,29 +129,30 @@ class Measured:
         )
 
 
-def measure_members(members: list[Member], solids: SolidStack) -> list[Measured]:
+def measure_members(members: list[Member], shapes: SolidStack) -> list[Measured]:
     """Return the measurements of the members with certain volume and mass, as one stack; all
-    members have the same unit. solids: those of all shapes.
+    members have the same unit. shapes: the solids that members show.
     """
 
     def measure_some(usable: Mask) -> list[Measured]:
-        """Measure the usable members; the others are refused by themselves."""
-        return measure_members([members[i] for i in np.flatnonzero(usable)], solids)
+        """Measure the usable members; each of the others will be refused alone."""
+        return measure_members([members[i] for i in np.flatnonzero(usable)], shapes)
 
     if not members:
         return []
     unit = members[0].settings.unit
-    own = solids.volume
-    which = np.array([member.shape for member in members])
+    shape_volume = shapes.volume
+    shape = np.array([member.shape for member in members])
     matrices = np.array([member.matrix for member in members], np.float64)
     usable = np.isfinite(matrices).all(axis=(1, 2))
-    usable &= own.raw[which, 0] > own.rounding_error[which, 0]
+    usable &= shape_volume.raw[shape, 0] > shape_volume.rounding_error[shape, 0]
     usable[usable] = ~moments.are_singular(matrices[usable, :3, :3])
     if not usable.all():
         return measure_some(usable)
     matrices[:, :3] *= unit
-    volume = moments.image(own.at(which), matrices)
-    area = _areas(solids, which, matrices)
+    volume = moments.image(shape_volume.at(shape), matrices)
+    area = _areas(shapes, shape, matrices)
+    # None becomes NaN: a member has a density or a mass.
     density, mass = np.array(
         [(member.settings.density, member.settings.mass) for member in members], np.float64
     ).T
@@ -160,17 +162,17 @@ def measure_members(members: list[Member], solids: SolidStack) -> list[Measured]
     certain = inertia.has_certain_total(volume) & (density > 0.0) & (density < np.inf)
     if not certain.all():
         return measure_some(certain)
-    fixed = third_moment_frames(volume)
-    if not fixed.is_body.all():
-        return measure_some(fixed.is_body)
+    frames = third_moment_frames(volume)
+    if not frames.is_body.all():
+        return measure_some(frames.is_body)
     rotation = rotation_matrix([member.quaternion for member in members])
-    properties = inertia.MassProperties.of_stack(volume, density, rotation, fixed)
+    properties = inertia.MassProperties.of_stack(volume, density, rotation, frames)
     geometry = np.ascontiguousarray(np.concatenate([volume.raw, area.raw], axis=1))
     stack = build_measurement(
         name=[member.obj.name for member in members],
         type=[member.obj.type for member in members],
         kind="solid",
-        method=[METHODS[solids[member.shape].method] for member in members],
+        method=[METHODS[shapes[member.shape].method] for member in members],
         density=density,
         volume=volume,
         area=area,
@@ -178,7 +180,7 @@ def measure_members(members: list[Member], solids: SolidStack) -> list[Measured]
         mass_moments=(volume, density),
         health=None,
         findings=[
-            _findings(member.obj, solids[member.shape].findings + bounds)
+            _findings(member.obj, shapes[member.shape].findings + bounds)
             for member, bounds in zip(members, find_large_bounds(volume, area, properties))
         ],
         rotation=rotation,
@@ -192,31 +194,31 @@ def measure_members(members: list[Member], solids: SolidStack) -> list[Measured]
         ],
     )
     return [
-        Measured(stack, i, member=member, members=members, shapes=solids)
+        Measured(stack, i, member=member, members=members, shapes=shapes)
         for i, member in enumerate(members)
     ]
 
 
-def _findings(obj: bpy.types.Object, found: tuple[Finding, ...]) -> tuple[Finding, ...]:
+def _findings(obj: bpy.types.Object, findings: tuple[Finding, ...]) -> tuple[Finding, ...]:
     """Return the findings about an object, with its accepted ones marked."""
-    return with_acceptance(found, accepted_codes(obj)) if found else ()
+    return with_acceptance(findings, accepted_codes(obj)) if findings else ()
 
 
-def _areas(solids: SolidStack, which: Index, matrices: NDArray) -> moments.Moments:
-    """Return the areas of surfaces mapped by matrices; surfaces are measured again if a matrix is
-    no similarity.
+def _areas(shapes: SolidStack, shape: Index, matrices: NDArray) -> moments.Moments:
+    """Return the areas of the surface shape[i] mapped by matrices[i]; a surface is measured again
+    if its matrix is no similarity.
     """
-    area = solids.area.at(which)
-    even = moments.are_similarities(matrices[:, :3, :3])
-    if even.all():
+    area = shapes.area.at(shape)
+    is_even = moments.are_similarities(matrices[:, :3, :3])
+    if is_even.all():
         return moments.image(area, matrices)
-    regular = matrices.copy()
-    regular[~even, :3, :3] = np.eye(3)
-    placed = moments.image(area, regular)
-    for i in np.flatnonzero(~even).tolist():
-        found = polyhedron.area_of_images(
-            solids[int(which[i])].given_surface, matrices[i : i + 1, :3, :3]
+    even_matrices = matrices.copy()
+    even_matrices[~is_even, :3, :3] = np.eye(3)
+    images = moments.image(area, even_matrices)
+    for i in np.flatnonzero(~is_even).tolist():
+        image = polyhedron.area_of_images(
+            shapes[int(shape[i])].given_surface, matrices[i : i + 1, :3, :3]
         )
         for name in ("raw", "rounding_error", "input_error", "about"):
-            getattr(placed, name)[i] = getattr(found, name)
-    return placed
+            getattr(images, name)[i] = getattr(image, name)
+    return images

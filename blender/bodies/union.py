@@ -26,27 +26,27 @@ TOUCHING_RTOL = 1e-6  # of the size: boxes nearer than this meet
 VOLUME_RTOL = 1e-5  # of the union, beyond its bounds
 MARKER = np.array([(0.0, 0.0, 0.0), (0.1, 0.0, 0.0), (0.0, 0.1, 0.0), (0.0, 0.0, 0.1)]) + 1.2
 MARKER_FACES = np.array([(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])
-Part = tuple[Array, Integers]  # points and triangles
+PointsAndTriangles = tuple[Array, Integers]
 
 
 def unite(body: bodies.MeshBody) -> Surface:
     """Return the surface around the union of a body's shells, each in all its places."""
     surfaces = []
-    shells = []
-    count = 0
+    shells = []  # (t,) numbers of the shells of each surface's triangles
+    shell_count = 0
     for solid, matrices in body.solids:
         parts = solid.oriented.closed_parts()
         error = solid.repaired_surface.coordinate_error
         surface = Surface(parts.points, parts.triangles, displacement=error)
         for matrix in matrices:
             surfaces.append(surface.transform(matrix[:3, :3], matrix[:3, 3]))
-            shells.append(parts.host_part[parts.part] + count)
-            count += parts.number
-    states = {solid.health.self_intersection for solid, _ in body.solids}
-    codes = {found.code for solid, _ in body.solids for found in solid.findings}
+            shells.append(parts.host_part[parts.part] + shell_count)
+            shell_count += parts.number
+    self_intersections = {solid.health.self_intersection for solid, _ in body.solids}
+    codes = {finding.code for solid, _ in body.solids for finding in solid.findings}
     is_simple = (
         body.method.procedure != verdict.Procedure.OPEN
-        and states <= {verdict.Intersection.EXCLUDED, verdict.Intersection.NOT_FOUND}
+        and self_intersections <= {verdict.Intersection.EXCLUDED, verdict.Intersection.NOT_FOUND}
         and not codes & {CAVITIES_BREAK_THROUGH, NON_MANIFOLD_COMPONENTS}
     )
     joined = join_surfaces(surfaces)
@@ -57,6 +57,7 @@ def _unite_simple(surface: Surface, shell: Index) -> Surface:
     """Return the surface around the union of shells that do not go through themselves. shell: (t,)
     number of the shell of each triangle.
     """
+    # Sorted by shell, so that each shell is a segment of the triangles; shells are numbered anew.
     order = np.argsort(shell, kind="stable")
     triangles = surface.triangles[order]
     starts = np.flatnonzero(np.diff(shell[order], prepend=-1))
@@ -105,17 +106,17 @@ def _by_manifold(layers: Sequence[Surface]) -> Surface | None:
     joined = join_surfaces(layers)
     middle, scale = _unit_cube(joined)
     operands = [((layer.points - middle) / scale, layer.triangles) for layer in layers]
-    found = _evaluate((MARKER, MARKER_FACES), operands, "MANIFOLD")
-    triangles = found.all_triangles()[0]
-    is_body = (found.points < MARKER.min() - 0.1).all(axis=1)[triangles].all(axis=1)
-    if not is_body.any():
+    result = _evaluate((MARKER, MARKER_FACES), operands, "MANIFOLD")
+    triangles = result.all_triangles()[0]
+    is_of_body = (result.points < MARKER.min() - 0.1).all(axis=1)[triangles].all(axis=1)
+    if not is_of_body.any():
         return None
-    united = _with_triangles(found, triangles[is_body])
+    united = _with_triangles(result, triangles[is_of_body])
     united = united.transform(scale * np.eye(3), middle)
     volume = polyhedron.volume_and_center(united)[0]
-    known = [polyhedron.volume_and_center(layer)[0] for layer in layers]
-    slack = VOLUME_RTOL * sum(known)
-    if not max(known) - slack <= volume <= sum(known) + slack:
+    volumes = [polyhedron.volume_and_center(layer)[0] for layer in layers]
+    slack = VOLUME_RTOL * sum(volumes)
+    if not max(volumes) - slack <= volume <= sum(volumes) + slack:
         return None
     # The solver moves points by twice the rounding of the coordinates, which is done twice.
     return replace(united, displacement=4.0 * united.coordinate_error + joined.coordinate_error)
@@ -150,30 +151,33 @@ def subtract(body: Surface, cutters: Sequence[Surface]) -> Surface | None:
         ((surface.points - middle) / scale, surface.all_triangles()[0])
         for surface in (body, *cutters)
     )
-    left = _evaluate(first, operands, "EXACT", "DIFFERENCE")
-    if not left.triangle_count:
-        return left
-    left = left.transform(scale * np.eye(3), middle)
-    left = replace(left, displacement=2.0 * left.coordinate_error + body.coordinate_error)
-    solid = measure_solid(left)
+    rest = _evaluate(first, operands, "EXACT", "DIFFERENCE")
+    if not rest.triangle_count:
+        return rest
+    rest = rest.transform(scale * np.eye(3), middle)
+    rest = replace(rest, displacement=2.0 * rest.coordinate_error + body.coordinate_error)
+    solid = measure_solid(rest)
     before = polyhedron.volume_and_center(body)[0]
     least = before - sum(polyhedron.volume_and_center(cutter)[0] for cutter in cutters)
     slack = VOLUME_RTOL * before
     is_right = least - slack <= solid.volume.total <= before + slack
-    return left if is_right and solid.method == verdict.Procedure.EXACT else None
+    return rest if is_right and solid.method == verdict.Procedure.EXACT else None
 
 
 def _evaluate(
-    body: Part, operands: Sequence[Part], solver: str, operation: str = "UNION"
+    body: PointsAndTriangles,
+    operands: Sequence[PointsAndTriangles],
+    solver: str,
+    operation: str = "UNION",
 ) -> Surface:
     """Return the surface of Blender's Boolean of a body with itself or with operands."""
-    made = []
+    created = []
     try:
-        made.append(scene := bpy.data.scenes.new(""))
-        made.append(collection := bpy.data.collections.new(""))
+        created.append(scene := bpy.data.scenes.new(""))
+        created.append(collection := bpy.data.collections.new(""))
         scene.collection.children.link(collection)
         for index, (points, triangles) in enumerate((body, *operands)):
-            made.append(mesh := bpy.data.meshes.new(""))
+            created.append(mesh := bpy.data.meshes.new(""))
             mesh.vertices.add(len(points))
             mesh.attributes["position"].data.foreach_set(
                 "vector", points.astype(np.float32).ravel()
@@ -183,7 +187,7 @@ def _evaluate(
             mesh.polygons.foreach_set("loop_start", np.arange(0, triangles.size, 3, dtype=np.int32))
             mesh.loops.foreach_set("vertex_index", triangles.astype(np.int32).ravel())
             mesh.update(calc_edges=True)
-            made.append(obj := bpy.data.objects.new("", mesh))
+            created.append(obj := bpy.data.objects.new("", mesh))
             (collection if index else scene.collection).objects.link(obj)
         obj = scene.collection.objects[0]
         boolean = obj.modifiers.new("", "BOOLEAN")
@@ -199,4 +203,4 @@ def _evaluate(
         evaluated.to_mesh_clear()
         return united
     finally:
-        bpy.data.batch_remove(made)
+        bpy.data.batch_remove(created)

@@ -53,7 +53,7 @@ def body(reading: bodies.Reading, request: Request) -> measurement.Body:
     # an estimate for smooth curves: a length changes with its ends, and as much again by its
     # turning
     reach = max(float(np.abs(curve.points - length.about).max()) for curve in curves)
-    moved = stored * (2.0 * len(curves) + 8.0 * length.total / reach) * reach**DEGREE
+    input_error = stored * (2.0 * len(curves) + 8.0 * length.total / reach) * reach**DEGREE
     return WireBody(
         *polyhedron.nothing(KNOWN_ORDER, length.about),
         verdict.MeshHealth(
@@ -61,7 +61,7 @@ def body(reading: bodies.Reading, request: Request) -> measurement.Body:
         ),
         verdict.Method(verdict.Procedure.WIRE),
         (),
-        length=replace(length, input_error=moved),
+        length=replace(length, input_error=input_error),
         estimated=True,
     )
 

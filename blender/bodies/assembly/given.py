@@ -32,6 +32,8 @@ from ..findings import CENTER_OUTSIDE, GIVEN, GIVEN_CENTER, GIVEN_INERTIA_IMPOSS
 from ..request import Request
 
 COUNT = monomial_count(moments.KNOWN_ORDER)
+FIRST_MOMENTS = slice(1, 4)  # in the order of `monomials`
+HIGHER_MOMENTS = slice(4, None)  # of second and third order
 GIVEN_RTOL = 1e-6  # slack for values typed with few digits, relative to the trace or the box
 
 
@@ -43,41 +45,42 @@ def given_moments(
     """
     if not mass > 0.0:
         raise verdict.ReadError(ZERO_QUANTITY, quantity="mass")
-    raw, rounding, inputs = np.zeros((3, COUNT))
-    raw[0], center = mass, location
+    raw, rounding_error, input_error = np.zeros((3, COUNT))
+    center = location
     if geometry is not None:
         factor = mass / geometry.total
         central = geometry.truncate(moments.KNOWN_ORDER).about_center()
         raw = central.raw * factor
-        rounding = central.rounding_error * factor
-        inputs = central.input_error * factor
+        rounding_error = central.rounding_error * factor
+        input_error = central.input_error * factor
         center = central.about
-        raw[0] = mass
-        rounding[0] = U * mass
-        inputs[0] = 0.0
+        rounding_error[0] = U * mass
+        input_error[0] = 0.0
+    raw[0] = mass
     findings = []
     if given.center is not None:
         center = location + rotation @ given.center
-        raw[1:4] = 0.0
-        rounding[1:4] = 0.0
-        inputs[1:4] = 0.0
+        for array in (raw, rounding_error, input_error):
+            array[FIRST_MOMENTS] = 0.0
         findings.append(verdict.finding(GIVEN, quantity="center of mass"))
     if given.inertia is not None:
-        raw[4:] = 0.0
-        rounding[4:] = 0.0
-        inputs[4:] = 0.0
+        for array in (raw, rounding_error, input_error):
+            array[HIGHER_MOMENTS] = 0.0
         second = rotation @ _second_moments(np.array(given.inertia)) @ rotation.T
         raw[SECOND_MOMENT_INDEX] = (second + second.T) / 2.0
-        rounding[4:10] = 16.0 * U * np.trace(given.inertia)
+        rounding_error[SECOND_MOMENT_INDEX] = 16.0 * U * np.trace(given.inertia)
         findings.append(verdict.finding(GIVEN, quantity=INERTIA))
-    return Moments(raw, np.asarray(center, np.float64), Measure.MASS, rounding, inputs), findings
+    center = np.asarray(center, np.float64)
+    return Moments(raw, center, Measure.MASS, rounding_error, input_error), findings
 
 
 def _second_moments(inertia: NDArray) -> Array:
     """Return the (3, 3) second moments of a body with this inertia tensor; ReadError if no body can
     have it.
     """
-    values, axes = np.linalg.eigh(np.trace(inertia) / 2.0 * np.eye(3) - inertia)
+    # I = tr(S) 1 - S, and tr(I) = 2 tr(S); no second moment of a body is negative.
+    second = np.trace(inertia) / 2.0 * np.eye(3) - inertia
+    values, axes = np.linalg.eigh(second)
     if values[0] < -GIVEN_RTOL * np.trace(inertia) or not np.isfinite(values).all():
         raise verdict.ReadError(
             GIVEN_INERTIA_IMPOSSIBLE, moments=np.sort(np.linalg.eigvalsh(inertia)).tolist()
@@ -110,11 +113,12 @@ def _is_outside(point: NDArray, reading: bodies.Reading, unit: float) -> bool:
     """Return whether a point is outside every box around a part of the reading; False if there are
     no parts.
     """
-    for part in getattr(reading, "parts", ()):
+    parts = getattr(reading, "parts", ())  # a grid has none
+    for part in parts:
         center, half = moments.placed_boxes(part.surface.box, bodies.to_si(part.matrices, unit))
         if (np.abs(point - center) <= half * (1.0 + GIVEN_RTOL)).all(axis=1).any():
             return False
-    return bool(getattr(reading, "parts", ()))
+    return bool(parts)
 
 
 def read_point(request: Request) -> bodies.Reading | None:
@@ -132,15 +136,15 @@ def point_measurement(reading: bodies.Reading, request: Request) -> tuple[Measur
     settings = request.settings
     given = GivenPart.from_settings(properties, settings.unit)
     location = reading.location * settings.unit
-    # a point has no density
-    own = shortest_decimal(properties.mass) if settings.mass is None else settings.mass
-    mass, findings = given_moments(own, given, reading.rotation, location, None)
+    # A point has no density, and therefore always its own mass or that of the options.
+    mass = shortest_decimal(properties.mass) if settings.mass is None else settings.mass
+    mass_moments, findings = given_moments(mass, given, reading.rotation, location, None)
     varying = GivenPart.from_settings(properties, 1.0).key
     settings = replace(
-        settings, kind=properties.kind.lower(), density=None, mass=own, varying=varying
+        settings, kind=properties.kind.lower(), density=None, mass=mass, varying=varying
     )
     measurement = measure_total(
-        mass,
+        mass_moments,
         name=reading.name,
         type=reading.type,
         kind="point",
@@ -148,12 +152,18 @@ def point_measurement(reading: bodies.Reading, request: Request) -> tuple[Measur
         findings=(*reading.findings, *findings),
         rotation=reading.rotation,
         location=location,
-        fingerprint=fingerprint(mass.raw.tobytes(), matrix_hash(request.obj), settings.digest),
+        fingerprint=fingerprint(
+            mass_moments.raw.tobytes(), matrix_hash(request.obj), settings.digest
+        ),
         density_from=DENSITY_FROM_MASS,
     )
     volume = measurement.volume_moments
-    area = measurement.area_moments
     assert volume is not None
     return measurement, Body(
-        volume, area, measurement.health, measurement.method, tuple(findings), mass=mass
+        volume,
+        measurement.area_moments,
+        measurement.health,
+        measurement.method,
+        tuple(findings),
+        mass=mass_moments,
     )

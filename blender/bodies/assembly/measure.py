@@ -164,12 +164,12 @@ def member_body(member: Member, results: Results, unit: float) -> MemberBody:
     """Return the moments of a member; `unit` is in meters per Blender unit."""
     parts = tuple(member_body(part, results, unit) for part in member.members)
     if member.kind in (MemberKind.OBJECT, MemberKind.POINT):
-        own = (
+        alone = (
             MemberBody(member)
             if member.left_out is not None
             else _object_body(member, results[member.data])
         )
-        return _sum(own, (own, *parts), parts)
+        return _sum(alone, (alone, *parts), parts)
     whole = _sum(MemberBody(member), parts, parts)
     if member.kind == MemberKind.INSTANCE:
         return _instance_body(whole, results, unit)
@@ -184,18 +184,20 @@ def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -
         raise ReadError(ASSEMBLY_WITHOUT_MEMBERS, subject=data.name)
     rotation = np.eye(3)
     location = np.zeros(3)
-    place = ""
+    place_hash = ""
     if isinstance(data, bpy.types.Object):
-        at = locate(data, depsgraph)
-        rotation = at.rotation
-        location = at.location * unit
-        place = matrix_hash(data)
+        frame = locate(data, depsgraph)
+        rotation = frame.rotation
+        location = frame.location * unit
+        place_hash = matrix_hash(data)
     measured = [
         (part.member.data, part.measurement)
         for part in whole.walk()
         if part.measurement is not None
     ]
     fingerprints = {obj: measurement.fingerprint for obj, measurement in measured}
+    key = members_key(whole.member, fingerprints)
+    healths = [(measurement.health, 1, measurement.area) for _, measurement in measured]
     given = settings_of(data).mass_from == "MASS"
     return measure_total(
         mass,
@@ -206,16 +208,10 @@ def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -
         area=whole.area,
         rotation=rotation,
         location=location,
-        fingerprint=fingerprint(
-            members_key(whole.member, fingerprints).encode(), place, structure_hash(whole.member)
-        ),
+        fingerprint=fingerprint(key.encode(), place_hash, structure_hash(whole.member)),
         findings=(*findings_of(whole, depsgraph.scene), *_shared_space(whole, depsgraph)),
         density_from=DENSITY_FROM_MASS if given else finding(DENSITY_FROM, source="members"),
-        health=merge_health(
-            (measurement.health, 1, measurement.area) for _, measurement in measured
-        )
-        if measured
-        else None,
+        health=merge_health(healths) if healths else None,
     )
 
 
@@ -223,18 +219,20 @@ def _shared_space(whole: MemberBody, depsgraph: Depsgraph) -> Iterator[Finding]:
     """Yield the findings about copies and overlaps, of the members in the scene and of those in
     each instance, which stand elsewhere.
     """
-    placed: list[Object] = []
+    objects_in_scene: list[Object] = []
     waiting = [whole]
     while waiting:
         body = waiting.pop()
-        if body.measurement is not None or body.member.kind == MemberKind.INSTANCE:
-            placed.append(body.member.data)
-        if body.member.kind == MemberKind.INSTANCE and body is not whole:
+        is_instance = body.member.kind == MemberKind.INSTANCE
+        if body.measurement is not None or is_instance:
+            objects_in_scene.append(body.member.data)
+        if is_instance:
             inside = [part for part in body.walk() if part.measurement is not None]
             yield from copies_caveats([part.member.data for part in inside])
         else:
             waiting += body.parts
-    yield from overlaps.shared_space_caveats(sorted(placed, key=lambda obj: obj.name), depsgraph)
+    objects_in_scene.sort(key=lambda obj: obj.name)
+    yield from overlaps.shared_space_caveats(objects_in_scene, depsgraph)
 
 
 def findings_of(whole: MemberBody, scene: bpy.types.Scene) -> Iterator[Finding]:
@@ -242,35 +240,35 @@ def findings_of(whole: MemberBody, scene: bpy.types.Scene) -> Iterator[Finding]:
     their names.
     """
     yield from whole.findings
-    members = list(whole.walk())
-    refused = [part.member.name for part in members if part.refusal is not None]
-    named: dict[str, list[str]] = {MEMBERS_NOT_MEASURED: refused}
-    for part in members:
-        if part.member.left_out is not None:
-            named.setdefault(_LEFT_OUT.get(part.member.left_out.code, MEMBERS_EXCLUDED), []).append(
-                part.member.name
+    bodies = list(whole.walk())
+    names: dict[str, list[str]] = {
+        MEMBERS_NOT_MEASURED: [body.member.name for body in bodies if body.refusal is not None]
+    }
+    for body in bodies:
+        reason = body.member.left_out
+        if reason is not None:
+            names.setdefault(_LEFT_OUT.get(reason.code, MEMBERS_EXCLUDED), []).append(
+                body.member.name
             )
-    objects = [(part.member, part.measurement) for part in members if part.measurement is not None]
-    named[MEMBERS_HIDDEN] = [
+    measured = [(body.member, body.measurement) for body in bodies if body.measurement is not None]
+    names[MEMBERS_HIDDEN] = [
         member.name
-        for member, measured in objects
-        if any(each.code == HIDDEN_OBJECT_MEASURED for each in measured.findings)
+        for member, measurement in measured
+        if any(each.code == HIDDEN_OBJECT_MEASURED for each in measurement.findings)
     ]
-    named[MEMBERS_DENSITY_UNSET] = [
+    names[MEMBERS_DENSITY_UNSET] = [
         member.name
-        for member, measured in objects
-        if unset_density(member.data, measured, scene) is not None
+        for member, measurement in measured
+        if unset_density(member.data, measurement, scene) is not None
     ]
-    yield from (
-        finding(code, count=len(names), names=names) for code, names in named.items() if names
-    )
-    yield from open_body_caveats((member.name, measured.method) for member, measured in objects)
-    for part in members[1:]:
-        yield from (
-            each.of_sources([part.member.name])
-            for each in part.findings
-            if each.code == ASSEMBLY_MASS_GIVEN
-        )
+    for code, members in names.items():
+        if members:
+            yield finding(code, count=len(members), names=members)
+    yield from open_body_caveats((member.name, result.method) for member, result in measured)
+    for body in bodies[1:]:
+        for each in body.findings:
+            if each.code == ASSEMBLY_MASS_GIVEN:
+                yield each.of_sources([body.member.name])
 
 
 _LEFT_OUT: dict[str, str] = {
@@ -327,10 +325,11 @@ def _with_given_mass(whole: MemberBody, unit: float) -> MemberBody:
         return whole
     given = GivenPart.from_settings(settings, unit)
     mass = shortest_decimal(settings.mass)
-    rotation, location = np.eye(3), np.zeros(3)
+    rotation = np.eye(3)
+    location = np.zeros(3)
     if isinstance(data, bpy.types.Object):
-        place, turn, _scale = data.matrix_world.decompose()
-        rotation = rotation_matrix(turn)
+        place, quaternion, _scale = data.matrix_world.decompose()
+        rotation = rotation_matrix(quaternion)
         location = np.array(place[:], np.float64) * unit
     try:
         moments, findings = given_moments(mass, given, rotation, location, whole.mass)
@@ -359,24 +358,25 @@ def _instance_body(whole: MemberBody, results: Results, unit: float) -> MemberBo
     assert member.matrix is not None
     matrix = to_si([member.matrix], unit)[0]
     matrix[:3, :3] /= unit  # the members are in SI units already
-    scale = abs(np.linalg.det(matrix[:3, :3]))
+    volume_factor = abs(np.linalg.det(matrix[:3, :3]))
     nothing = replace(whole, masses={}, volume=NOTHING, area=NOTHING)
-    if not scale > 0.0:
+    if not volume_factor > 0.0:
         return replace(nothing, refusal=finding(SCALE_ZERO_AXIS))
     sheared = _is_sheared(member)
     if sheared and not {0, 3}.issuperset(whole.masses):
         return replace(nothing, refusal=finding(INSTANCE_STRETCHES_SHEETS))
     masses = {
-        power: moments.transform(matrix) * (scale ** (power / 3.0) if power else 1.0)
+        power: moments.transform(matrix) * (volume_factor ** (power / 3.0) if power else 1.0)
         for power, moments in whole.masses.items()
     }
-    area = _scale_extent(whole.area, scale ** (2.0 / 3.0))
+    area = _scale_extent(whole.area, volume_factor ** (2.0 / 3.0))
     if sheared:
-        shown = results[member.data]
-        if isinstance(shown, Finding):
-            return replace(nothing, refusal=shown)
-        area = extent_of(shown.measurement, "area")
-    return replace(whole, masses=masses, volume=_scale_extent(whole.volume, scale), area=area)
+        result = results[member.data]  # the instance as one object
+        if isinstance(result, Finding):
+            return replace(nothing, refusal=result)
+        area = extent_of(result.measurement, "area")
+    volume = _scale_extent(whole.volume, volume_factor)
+    return replace(whole, masses=masses, volume=volume, area=area)
 
 
 def _scale_extent(extent: Extent, factor: float) -> Extent:

@@ -54,18 +54,17 @@ from ..findings import (
 )
 from ..request import Request
 
-MAX_CHECKED_INSTANCES = (
-    50  # different places of a surface in which the sign of the density is checked
-)
+# different places of a surface in which the sign of the density is checked
+MAX_CHECKED_INSTANCES = 50
 MAX_OUTSIDE_SHARE = 1e-9  # relative to the volume: a smaller share outside the grid is rounding
 
 
 @dataclass(frozen=True, eq=False)
 class _Piece:
-    """A surface with (k, 4, 4) `matrices` to the world, and `fields` to the coordinates of the
-    density, in meters.
+    """A surface with (k, 4, 4) maps from its coordinates, in meters.
 
-    about: the point that an open surface is closed to.
+    matrices: to its places in the world. fields: from the same coordinates to those of the density
+    at each place. about: the point that an open surface is closed to.
     """
 
     surface: mesh.Surface
@@ -124,13 +123,14 @@ def _solid_pieces(
     if is_united and reading.instance_count > 1 and not in_world:
         raise ReadError(UNION_LACKS, data="object coordinates")
     for solid, matrices in body.solids:
-        fields = matrices
-        if not in_world:  # a union is in the world
+        if in_world:
+            fields = matrices
+        elif is_united:  # the union is in the world: its density follows the axes of the one place
             place = bodies.to_si(reading.parts[0].matrices, unit)
+            axes = polar_rotation(place)[0].transpose(0, 2, 1)
+            fields = affine_matrices(axes, -(axes @ place[:, :3, 3, None])[..., 0]) @ matrices
+        else:
             fields = local_coordinates(matrices)
-            if is_united:  # world coordinates, in meters, along the axes of the place
-                axes = polar_rotation(place)[0].transpose(0, 2, 1)
-                fields = affine_matrices(axes, -(axes @ place[:, :3, 3, None])[..., 0]) @ matrices
         yield _Piece(solid.repaired_surface, matrices, fields, solid.volume.about)
 
 
@@ -140,10 +140,10 @@ def _sheet_pieces(reading: bodies.Reading, in_world: bool, unit: float) -> Itera
         matrices = bodies.to_si(part.matrices, unit)
         fields = local_coordinates(matrices)
         axes = polar_rotation(matrices)[0]
-        for surface, image_matrices, which in bodies.group_by_similarity(part.surface, matrices):
-            to_local = fields[which]
+        for surface, image_matrices, places in bodies.group_by_similarity(part.surface, matrices):
+            to_local = fields[places]
             if surface is not part.surface:  # mapped already: only the turn is left
-                to_local = affine_matrices(axes[which].transpose(0, 2, 1))
+                to_local = affine_matrices(axes[places].transpose(0, 2, 1))
             yield _Piece(surface, image_matrices, image_matrices if in_world else to_local)
 
 
@@ -155,35 +155,44 @@ def _negative_density_note(
     """
     polynomial = density.polynomial
     assert polynomial is not None
-    corners = np.array(list(product((0.0, 1.0), repeat=3)))
-    boxes = []
-    for piece in pieces:
-        low, high = piece.surface.box
-        box = low + corners * (high - low)
-        boxes.append(
-            np.einsum("kij,nj->kni", piece.fields[:, :3, :3], box) + piece.fields[:, None, :3, 3]
-        )
-    boxes = np.concatenate(boxes)
-    if polynomial.lower_bound(boxes.min(axis=(0, 1)), boxes.max(axis=(0, 1))) >= 0.0:
+    low, high = _box_of_fields(pieces)
+    if polynomial.lower_bound(low, high) >= 0.0:
         return []
     is_doubtful = False
     for piece in pieces:
         triangles = piece.surface.all_triangles()[0]
         points = piece.surface.points.astype(np.float64)
-        fields = piece.fields[np.unique(np.float32(piece.fields), axis=0, return_index=True)[1]]
-        is_doubtful |= len(fields) > MAX_CHECKED_INSTANCES
-        for field in fields[:MAX_CHECKED_INSTANCES]:
+        # places that differ by more than the rounding of Blender's matrices, in a fixed order
+        distinct = np.unique(np.float32(piece.fields), axis=0, return_index=True)[1]
+        is_doubtful |= len(distinct) > MAX_CHECKED_INSTANCES
+        for field in piece.fields[distinct[:MAX_CHECKED_INSTANCES]]:
             worst, is_undecided = find_negative_point(
                 polynomial, points @ field[:3, :3].T + field[:3, 3], triangles, not shell
             )
             if worst is not None:
-                value, place = worst
-                point = [float(x) for x in place]
+                value, point = worst
                 raise ReadError(
-                    DENSITY_NEGATIVE, density=float(value), point=point, frame=density.frame
+                    DENSITY_NEGATIVE,
+                    density=float(value),
+                    point=[float(x) for x in point],
+                    frame=density.frame,
                 )
             is_doubtful |= is_undecided
     return [finding(DENSITY_POSSIBLY_NEGATIVE)] if is_doubtful else []
+
+
+def _box_of_fields(pieces: list[_Piece]) -> tuple[Array, Array]:
+    """Return the (3,) least and largest coordinates of the density at corners of pieces' boxes."""
+    unit_corners = np.array(list(product((0.0, 1.0), repeat=3)))
+    corners = []
+    for piece in pieces:
+        low, high = piece.surface.box
+        box = low + unit_corners * (high - low)
+        corners.append(
+            np.einsum("kij,nj->kni", piece.fields[:, :3, :3], box) + piece.fields[:, None, :3, 3]
+        )
+    joined = np.concatenate(corners)
+    return joined.min(axis=(0, 1)), joined.max(axis=(0, 1))
 
 
 def filled_by_volume(body: bodies.MeshBody, request: Request, order: int) -> bodies.MeshBody:
@@ -225,55 +234,53 @@ def voxel_filled_body(
         raise ReadError(OPEN_SURFACE_OF_GRID, subject=name)
     if reading.level_set:
         raise ReadError(GRID_UNSUPPORTED, fault=IS_LEVEL_SET, subject=name, **names)
-    # from corners of voxels, not from their centers
+    # Grid coordinates count voxels from the corner of the first one, not from its center.
     corner = affine_matrices(np.eye(3), reading.low - 0.5)
-    matrix = bodies.to_si(reading.matrix[None], unit)[0] @ reading.to_object @ corner
-    if min(reading.shape) < 1 or not abs(np.linalg.det(matrix[:3, :3])) > 0.0:
+    to_world = bodies.to_si(reading.matrix[None], unit)[0] @ reading.to_object @ corner
+    voxel_volume = abs(np.linalg.det(to_world[:3, :3]))
+    if min(reading.shape) < 1 or not voxel_volume > 0.0:
         raise ReadError(bodies.GRID_EMPTY, subject=name, **names)
-    inverse = np.linalg.inv(matrix)
+    to_grid = np.linalg.inv(to_world)
     triangles = np.concatenate(
-        [_corners(solid, inverse @ place) for solid, matrices in body.solids for place in matrices]
+        [_corners(solid, to_grid @ place) for solid, matrices in body.solids for place in matrices]
     )
+    # the voxels around the solid, at least one along each axis
     low = np.clip(np.floor(triangles.min(axis=(0, 1))), 0, np.array(reading.shape) - 1).astype(
         np.int64
     )
     high = np.clip(np.ceil(triangles.max(axis=(0, 1))), low + 1, reading.shape).astype(np.int64)
     if np.prod((high - low).astype(float)) > MAX_VOXELS:
         raise ReadError(bodies.GRID_TOO_LARGE, subject=name, **names, samples=(high - low).tolist())
-    moments, volume = inside_moments(
+    grid_moments, voxels_inside = inside_moments(
         triangles - low, _box_densities(reading, options, low, high), order
     )
-    volume *= abs(np.linalg.det(matrix[:3, :3]))
-    matrix = matrix @ affine_matrices(np.eye(3), low)
-    mass = replace(replace(moments, measure=Measure.VOLUME).transform(matrix), measure=Measure.MASS)
+    from_low = to_world @ affine_matrices(np.eye(3), low)
+    volume_moments = replace(grid_moments, measure=Measure.VOLUME).transform(from_low)
+    mass = replace(volume_moments, measure=Measure.MASS)
     mass = replace(mass, input_error=_input_error(body, mass))
     if not np.abs(mass.raw).max() < bodies.MAX_MASS_MOMENT:
         raise ReadError(bodies.MASS_OVERFLOW)
     if not mass.total > mass.rounding_error[0]:
         raise ReadError(DENSITY_GRID_ELSEWHERE, subject=name, **names)
     meaning = options._replace(spline_order=1).meaning()
+    density = finding(bodies.GRID_DENSITY, samples=list(reading.shape), cause=meaning.as_record())
     findings = [
-        finding(
-            bodies.GRID_DENSITY, samples=list(reading.shape), cause=meaning.as_record()
-        ).of_sources([reading.name]),
+        *body.findings,
+        density.of_sources([reading.name]),
         *empty_background_note(options, reading.background),
     ]
-    outside = float(1.0 - volume / body.volume.total)
+    outside = float(1.0 - voxels_inside * voxel_volume / body.volume.total)
     if outside > MAX_OUTSIDE_SHARE:
         findings.append(finding(OUTSIDE_GRID, slight=outside < NEGLIGIBLE, share=outside))
+    findings += [
+        bodies.attribute_to_source(result, reading.name, name) for result in reading.findings
+    ]
     return replace(
         body,
         mass=mass,
         method=Method(body.method.procedure, Source.GRID),
         estimated=True,
-        findings=(
-            *body.findings,
-            *findings,
-            *(
-                bodies.attribute_to_source(result, reading.name, name)
-                for result in reading.findings
-            ),
-        ),
+        findings=tuple(findings),
     )
 
 
@@ -289,15 +296,14 @@ def _box_densities(
     """Return the densities, kg/m³, of the voxels from index `low` up to, but without, `high`."""
     to_densities = density_function(options, reading.background)
     densities = np.zeros(high - low)
-    for start, block in reading.blocks():
-        start = np.array(start)
-        begin = np.maximum(start, low)
-        end = np.minimum(start + block.shape, high)
-        if (begin < end).all():
-            in_block = tuple(slice(a, b) for a, b in zip(begin - start, end - start))
-            densities[tuple(slice(a, b) for a, b in zip(begin - low, end - low))] = to_densities(
-                block[in_block].astype(np.float64)
-            )
+    for block_start, block in reading.blocks():
+        block_low = np.array(block_start)
+        first = np.maximum(block_low, low)
+        end = np.minimum(block_low + block.shape, high)
+        if (first < end).all():
+            in_block = tuple(map(slice, first - block_low, end - block_low))
+            in_box = tuple(map(slice, first - low, end - low))
+            densities[in_box] = to_densities(block[in_block].astype(np.float64))
     return densities
 
 

@@ -68,25 +68,22 @@ def weigh(reading: bodies.Reading, body: bodies.MeshBody, request: Request) -> b
     """
     # It raises MeasureError before anything is weighed.
     measurement.find_extent(body, request.settings)
-    order = request.settings.order
+    order = request.settings.order or 0
+    needs_higher = order > KNOWN_ORDER
     if _field(request).kind == "volume":
         if request.settings.kind == "shell":
             raise ReadError(bodies.GRID_AS_SHELL)
         filled = filled_by_volume(body, request, KNOWN_ORDER)
-        higher = (
-            filled_by_volume(body, request, order).mass
-            if order is not None and order > KNOWN_ORDER
-            else None
-        )
         return replace(
-            filled, higher_mass=higher, density_key=density_key(request.obj, (), request.scene)
+            filled,
+            higher_mass=filled_by_volume(body, request, order).mass if needs_higher else None,
+            density_key=density_key(request.obj, (), request.scene),
         )
     weighed = _weigh(reading, body, request, KNOWN_ORDER)
-    if order is not None and order > KNOWN_ORDER:
-        body = replace(body, higher_mass=_weigh(reading, body, request, order).mass)
     return replace(
         body,
         mass=weighed.mass,
+        higher_mass=_weigh(reading, body, request, order).mass if needs_higher else None,
         density_from=weighed.source,
         density_key=density_key(request.obj, weighed.materials, request.scene),
         materials=weighed.materials,
@@ -158,9 +155,9 @@ def _by_material(
             parts.extend(_sheet_moments(reading, i, values, request, order))
     else:
         for i, (solid, matrices) in enumerate(body.solids):
-            values = face_densities.values[i]
-            faces, slots = face_densities.slots[i]
-            names = [*(material.name if material else "" for material in slots), ""]
+            face_slots, slots = face_densities.slots[i]
+            slot_names = [*(material.name if material else "" for material in slots), ""]
+            face_names = np.array(slot_names, object)[face_slots]  # slot -1 takes the last name
             volume = solid.volume
             if order > volume.order:
                 volume = polyhedron.polyhedron_moments(
@@ -171,7 +168,7 @@ def _by_material(
                     allow_open=True,
                 )[0]
             weighed, findings = _solid_moments(
-                solid, volume, matrices, values, np.array(names, object)[faces]
+                solid, volume, matrices, face_densities.values[i], face_names
             )
             parts += weighed
             by_part.append((reading.parts[i].source_object_name, findings))
@@ -189,37 +186,37 @@ def _by_material(
 
 
 class _FaceDensities:
-    """The densities of all faces of a reading; `values` has (f,) densities of the mesh faces for
-    each part.
+    """The densities of all faces of a reading.
+
+    `values`: (f,) densities of the mesh faces of each part. `slots`: for each part the (f,) slots
+    of its faces, -1 without a material, and the materials in the slots. `materials`: of all faces,
+    sorted by name. `faces`, `faces_without_density`: counts over all places of the parts.
     """
 
     def __init__(self, reading: bodies.Reading, default_density: float):
         self.default_density = default_density
         self.values: list[NDArray] = []
         self.slots: list[tuple[NDArray, tuple]] = []
-        met: dict[Any, None] = {}
         self.faces_without_density = self.faces = 0
+        used: dict[Any, None] = {}
         for part in reading.parts:
             slots = part.attributes.materials
-            faces = part.attributes.face_slots
-            known = [material_density(material) for material in slots]
+            face_slots = part.attributes.face_slots
             # slot -1, no material, takes the last entry
-            table = np.array(
-                [
-                    *(default_density if density is None else density for density in known),
-                    default_density,
-                ],
-                float,
+            densities = [*(material_density(material) for material in slots), None]
+            lacks_density = np.array([density is None for density in densities])
+            density_of_slot = np.array(
+                [default_density if density is None else density for density in densities], float
             )
-            lacks = np.array([*(density is None for density in known), True])
-            self.values.append(table[faces])
-            self.slots.append((faces, slots))
-            self.faces_without_density += int(lacks[faces].sum()) * len(part.matrices)
-            self.faces += len(faces) * len(part.matrices)
-            met |= dict.fromkeys(
-                slots[i] for i in np.unique(faces).tolist() if i >= 0 and slots[i] is not None
-            )
-        self.materials = sorted(met, key=lambda material: material.name_full)
+            self.values.append(density_of_slot[face_slots])
+            self.slots.append((face_slots, slots))
+            instance_count = len(part.matrices)
+            self.faces_without_density += int(lacks_density[face_slots].sum()) * instance_count
+            self.faces += len(face_slots) * instance_count
+            for i in np.unique(face_slots).tolist():
+                if i >= 0 and slots[i] is not None:
+                    used[slots[i]] = None
+        self.materials = sorted(used, key=lambda material: material.name_full)
         if self.faces_without_density and not default_density > 0.0:
             raise ReadError(
                 MATERIAL_WITHOUT_DENSITY, count=self.faces_without_density, total=self.faces
@@ -246,10 +243,11 @@ class _FaceDensities:
 
     def source(self) -> Finding:
         """Return a note that names at most MAX_NAMED materials with their densities."""
-        known = [(material.name, material_density(material)) for material in self.materials]
-        known = [(name, value) for name, value in known if value is not None]
+        densities = [(material.name, material_density(material)) for material in self.materials]
         parts = [
-            finding(DENSITY_OF_MATERIAL, material=name, density=value) for name, value in known
+            finding(DENSITY_OF_MATERIAL, material=name, density=density)
+            for name, density in densities
+            if density is not None
         ]
         parts = truncate_findings(parts, MAX_NAMED)
         if self.faces_without_density:
@@ -266,20 +264,17 @@ def _solid_moments(
     components = solid.parts()
     moments, findings = [], []
     has_foreign_material = is_slight = False
-    mixed = bool(part_densities(components, values).has_several_materials.any())
-    # a mean density by area needs the areas after the map
-    for matrix_group in (
-        [matrices[rows] for rows, _ in similarity_groups(matrices)] if mixed else [matrices]
-    ):
-        part_density = part_densities(components, values, matrix_group[0, :3, :3])
+    matrix_groups = [matrices]
+    if part_densities(components, values).has_several_materials.any():
+        # The mean density by area needs the areas after the map.
+        matrix_groups = [matrices[places] for places, _ in similarity_groups(matrices)]
+    for group in matrix_groups:
+        part_density = part_densities(components, values, group[0, :3, :3])
         density = part_density.density[components.part]
         mass = solid_mass_moments(components.points, components.triangles, density, volume)
-        moments.append(sum_of_images(mass, matrix_group))
-        negligible = (
-            NEGLIGIBLE
-            * float(mass.total)
-            / float(np.linalg.norm(np.ptp(components.points, axis=0)))
-        )
+        moments.append(sum_of_images(mass, group))
+        diagonal = float(np.linalg.norm(np.ptp(components.points, axis=0)))
+        negligible = NEGLIGIBLE * float(mass.total) / diagonal  # density times area
         findings += _mixed_parts_notes(components, part_density, names, negligible)
         foreign = part_density.has_foreign_cavity_material
         has_foreign_material = bool(foreign.any())
@@ -293,18 +288,23 @@ def _mixed_parts_notes(
     parts: ClosedParts, part_density: PartDensities, names: NDArray, negligible: float
 ) -> list[Finding]:
     """Return a finding about components of several materials, with the first face of each."""
-    which = np.flatnonzero(part_density.has_several_materials)
-    if not len(which):
+    mixed = np.flatnonzero(part_density.has_several_materials)
+    if not len(mixed):
         return []
-    first = np.sort(part_density.first_face[which])
-    slight = bool(part_density.range_by_area[which].sum() < negligible)
-    faces = np.unique(parts.face[np.isin(parts.part, which) & (parts.face >= 0)])
-    values = {
-        "count": len(which),
-        "total": parts.number,
-        "materials": sorted(set(names[faces].tolist())),
-    }
-    return [finding(MIXED_MATERIALS, first, slight=slight, **values)]
+    first_faces = np.sort(part_density.first_face[mixed])
+    is_slight = bool(part_density.range_by_area[mixed].sum() < negligible)
+    is_of_mixed = np.isin(parts.part, mixed) & (parts.face >= 0)  # caps have no face
+    materials = set(names[parts.face[is_of_mixed]].tolist())
+    return [
+        finding(
+            MIXED_MATERIALS,
+            first_faces,
+            slight=is_slight,
+            count=len(mixed),
+            total=parts.number,
+            materials=sorted(materials),
+        )
+    ]
 
 
 def _vertex_density(reading: bodies.Reading, i: int, name: str) -> Array:
@@ -316,8 +316,8 @@ def _vertex_density(reading: bodies.Reading, i: int, name: str) -> Array:
     used = np.unique(part.surface.all_triangles()[0])
     wrong = ~((values[used] >= 0.0) & (values[used] < np.inf))
     if wrong.any():
-        found = finding(ATTRIBUTE_VALUES, used[wrong], attribute=name, count=int(wrong.sum()))
-        raise ReadError(bodies.attribute_to_source(found, part.source_object_name, reading.name))
+        result = finding(ATTRIBUTE_VALUES, used[wrong], attribute=name, count=int(wrong.sum()))
+        raise ReadError(bodies.attribute_to_source(result, part.source_object_name, reading.name))
     return values
 
 

@@ -34,7 +34,7 @@ from ....core.shape import (
 )
 from ...read.fingerprint import matrix_hash, settings_hash
 from ..shape.object_shape import Shape, surface_shape_of
-from ..shape.surface_distance import EXACT_DISTANCE, SURFACE_SAMPLES, SurfaceDistance, thinned
+from ..shape.surface_distance import EXACT_DISTANCE, SurfaceDistance, farthest_rows, thinned
 from .region import NO_BODY, FlatRegion, clearer_refusal, flat_region
 
 # curves and text are read with this resolution, because shapes must not depend on the drawn one
@@ -95,12 +95,12 @@ class FlatShape:
         """Return the shape's signature, with Zernike descriptors to an order."""
         # Scaled to about unit size, because high powers of a length soon exceed the range of
         # numbers.
-        scale = 2.0 ** np.frexp(self.radius)[1]
+        scale = 2.0 ** np.frexp(self.radius)[1]  # a power of two rounds nothing
         moments = self.moments.truncate(min(order, MAX_ORDER_BY_MOMENTS))
         degree = monomials(moments.order).sum(axis=1)
         scaled = Moments(moments.raw / scale ** (degree + 2.0), np.zeros(3), moments.measure)
-        found = flat_signature(scaled, self.radius / scale)
-        return replace(found, size=found.size * scale)
+        unit_signature = flat_signature(scaled, self.radius / scale)
+        return replace(unit_signature, size=unit_signature.size * scale)
 
     def pieces(self) -> Iterator[mesh.Surface]:
         """Yield a wall along the outline, one `size` high on both sides, as far from points as the
@@ -113,12 +113,12 @@ class FlatShape:
             np.insert(ends.reshape(-1, 2), 2, side * height, axis=1) for side in (-1.0, 1.0)
         )
         points = np.concatenate([low, high]) @ self.axes.T + self.center
-        a = 2 * np.arange(count)
-        b = 2 * np.arange(count) + 1
-        above = 2 * count
-        triangles = np.concatenate(
-            [np.stack([a, b, b + above], axis=1), np.stack([a, b + above, a + above], axis=1)]
-        )
+        start = 2 * np.arange(count)
+        end = start + 1
+        above = 2 * count  # from the index of a low point to that of the high one
+        lower = np.stack([start, end, end + above], axis=1)
+        upper = np.stack([start, end + above, start + above], axis=1)
+        triangles = np.concatenate([lower, upper])
         yield mesh.Surface.from_triangles(points, triangles)
 
     def match(self, target: FlatShape, residual: Residual) -> RigidMatch:
@@ -127,24 +127,31 @@ class FlatShape:
         """
         ratio = target.size / self.size  # turns are found between different sizes, too
         radius = max(target.radius, ratio * self.radius)
-        turned = self.zernike(radius / ratio), target.zernike(radius)
-        return match_flat(*turned, (self.axes, target.axes), residual, target.size)
+        return match_flat(
+            self.zernike(radius / ratio),
+            target.zernike(radius),
+            (self.axes, target.axes),
+            residual,
+            target.size,
+        )
 
     def find_symmetries(self, tolerance: float) -> tuple[Symmetry, Symmetry]:
         """Return the symmetry of the outline and that of the moments; `tolerance` is relative to
         the size.
         """
         zernike = self.zernike(self.radius)
-        near = tolerance * self.size
+        max_distance = tolerance * self.size
         skin = OutlineDistance(self)
 
         def distance(points: NDArray) -> Array:
-            return skin.distance(points @ self.axes.T + self.center, within=near)
+            return skin.distance(points @ self.axes.T + self.center, within=max_distance)
 
-        outline = holds_by_outline((skin.points - self.center) @ self.axes, distance, near)
-        moments = holds_by_moments(zernike, POSE_ORDER, max(inertia.NOISE_LEVEL, tolerance))
+        flat_points = (skin.points - self.center) @ self.axes
+        holds_for_outline = holds_by_outline(flat_points, distance, max_distance)
+        noise = max(inertia.NOISE_LEVEL, tolerance)
+        holds_for_moments = holds_by_moments(zernike, POSE_ORDER, noise)
         find = partial(flat_symmetry, zernike, POSE_ORDER, self.corners, self.axes)
-        return find(outline), find(moments)
+        return find(holds_for_outline), find(holds_for_moments)
 
 
 class OutlineDistance(SurfaceDistance):
@@ -154,9 +161,9 @@ class OutlineDistance(SurfaceDistance):
         super().__init__(shape)
         ends = shape.region.points[shape.region.edges] - shape.moments.about[:2]
         middles = ends.mean(axis=1)
-        far = np.argsort((shape.corners**2).sum(axis=1), kind="stable")[-SURFACE_SAMPLES // 10 :]
-        flat = np.concatenate([shape.corners[far], thinned(shape.corners), thinned(middles)])
-        self.points = np.insert(flat, 2, 0.0, axis=1) @ shape.axes.T + shape.center
+        farthest = shape.corners[farthest_rows(shape.corners)]
+        samples = np.concatenate([farthest, thinned(shape.corners), thinned(middles)])
+        self.points = np.insert(samples, 2, 0.0, axis=1) @ shape.axes.T + shape.center
 
 
 def distance_from(shape: Shape | FlatShape) -> SurfaceDistance:
@@ -173,11 +180,11 @@ def flat_shape_of(
     region = flat_region(
         obj, depsgraph, selected=False, resolution=OUTLINE_RESOLUTION, exact=False, unit=unit
     )
-    mark = fingerprint(
+    region_fingerprint = fingerprint(
         region.points.tobytes(), matrix_hash(obj), settings_hash(obj, depsgraph.scene)
     )
     with bodies.name_subject(obj.name):
-        shape = FlatShape(region, region.moments(MAX_ORDER_BY_MOMENTS), mark)
+        shape = FlatShape(region, region.moments(MAX_ORDER_BY_MOMENTS), region_fingerprint)
     if np.finfo(np.float64).eps * np.abs(shape.center).max() > EXACT_DISTANCE * shape.size:
         raise verdict.ReadError(
             bodies.SHAPE_UNAVAILABLE, cause=bodies.FAR_FROM_ORIGIN, subject=obj.name

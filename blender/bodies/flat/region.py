@@ -17,7 +17,7 @@ from typing import ClassVar
 import bpy
 import numpy as np
 
-from ....core import bodies, inertia, measurement, nurbs, solid, verdict
+from ....core import bodies, flat, inertia, measurement, nurbs, solid, verdict
 from ....core.flat import (
     SECTION_NOT_FLAT,
     Plane,
@@ -29,7 +29,6 @@ from ....core.flat import (
     plane_positions,
     project,
     projection_rounding,
-    region,
     region_moments,
 )
 from ....core.moments import Measure, Moments, affine_matrices, monomial_count, monomials
@@ -132,23 +131,30 @@ def flat_region(
     reading = read_section(obj, depsgraph, selected=selected, resolution=resolution)
     unit = unit or meters_per_unit(depsgraph.scene)
     with bodies.name_subject(obj.name):
-        found = _region_of(reading, obj.type, unit)
-        outlines = _curves(obj, depsgraph, reading, found.plane, unit) if exact else None
+        polygons = _region_of(reading, obj.type, unit)
+        outlines = _curves(obj, depsgraph, reading, polygons.plane, unit) if exact else None
     if outlines is None:
-        return found
+        return polygons
     curves, stored = outlines
-    drawn = {bodies.DRAWN_AS_POLYGONS, RENDER_DIFFERS}
-    kept = [one for one in found.findings if one.code not in drawn]
-    return replace(found, curves=curves, stored=max(stored, found.stored), findings=tuple(kept))
+    findings = [
+        finding
+        for finding in polygons.findings
+        if finding.code not in (bodies.DRAWN_AS_POLYGONS, RENDER_DIFFERS)
+    ]
+    return replace(
+        polygons, curves=curves, stored=max(stored, polygons.stored), findings=tuple(findings)
+    )
 
 
 def section_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> MeasuredSection:
     """Return an object's section (SI, world axes), a description of the measured part, and the
     findings.
     """
-    found = flat_region(obj, depsgraph, exact=False)
-    section = measure_section(found.plane, found.spatial, found.edges, found.stored, found.shared)
-    return section, found.description, (*found.findings, *area_findings(found, section.area))
+    region = flat_region(obj, depsgraph, exact=False)
+    section = measure_section(
+        region.plane, region.spatial, region.edges, region.stored, region.shared
+    )
+    return section, region.description, (*region.findings, *area_findings(region, section.area))
 
 
 def clearer_refusal(
@@ -161,21 +167,22 @@ def clearer_refusal(
     return not_flat if is_nearly_flat else no_body
 
 
-def _region_of(reading: SectionReading, kind: str, unit: float) -> FlatRegion:
+def _region_of(reading: SectionReading, object_type: str, unit: float) -> FlatRegion:
+    """Return the region that polygons or outlines bound; `unit` is in meters per Blender unit."""
     points = reading.points * unit
     error = reading.error * unit
     findings = list(reading.findings)
     plane = fit_plane(
         points, reading.triangles, reading.rotation, reading.location * unit, error, reading.facing
     )
-    flat = project(plane, points)
+    flat_points = project(plane, points)
     if reading.loops is not None:
-        edges = orient_loops(flat, reading.loops)
+        edges = orient_loops(flat_points, reading.loops)
     else:
-        edges, flipped = region(plane, points, reading.triangles, reading.faces, error)
+        edges, flipped = flat.region(plane, points, reading.triangles, reading.faces, error)
         if flipped:
             findings.append(verdict.finding(SECTION_FACES_REVERSED, count=flipped))
-    defects = find_defects(flat, edges, error)
+    defects = find_defects(flat_points, edges, error)
     are_crossed = defects.crossings or defects.overlapping
     if defects.negative or (reading.loops is not None and are_crossed):
         raise verdict.ReadError(OUTLINES_CROSS)
@@ -188,36 +195,36 @@ def _region_of(reading: SectionReading, kind: str, unit: float) -> FlatRegion:
             )
         )
     return FlatRegion(
-        reading.name,
-        kind,
-        reading.description,
-        plane,
-        points.astype(np.float64, copy=False),
-        flat,
-        edges,
-        error,
-        defects.shared_length,
-        None if reading.drawn_area is None else reading.drawn_area * unit**2,
-        reading.rotation,
-        reading.location * unit,
-        (),
-        tuple(findings),
+        name=reading.name,
+        type=object_type,
+        description=reading.description,
+        plane=plane,
+        spatial=points.astype(np.float64, copy=False),
+        points=flat_points,
+        edges=edges,
+        stored=error,
+        shared=defects.shared_length,
+        drawn_area=None if reading.drawn_area is None else reading.drawn_area * unit**2,
+        rotation=reading.rotation,
+        location=reading.location * unit,
+        curves=(),
+        findings=tuple(findings),
     )
 
 
-def area_findings(found: FlatRegion, area: float) -> list[verdict.Finding]:
+def area_findings(region: FlatRegion, area: float) -> list[verdict.Finding]:
     """Return findings that need a region's area: points off the plane, and faces that Blender fills
     wrongly.
     """
     findings = []
-    off = found.plane.out_of_plane
-    if off > 4.0 * found.stored:
+    off = region.plane.out_of_plane
+    if off > 4.0 * region.stored:
         share = float(off / np.sqrt(area))
         findings.append(
             verdict.finding(SECTION_PROJECTED, slight=share < verdict.NEGLIGIBLE, share=share)
         )
-    if found.drawn_area is not None and abs(found.drawn_area - area) > FILL_AREA_RTOL * area:
-        findings.append(verdict.finding(SECTION_FILL_WRONG, share=float(found.drawn_area / area)))
+    if region.drawn_area is not None and abs(region.drawn_area - area) > FILL_AREA_RTOL * area:
+        findings.append(verdict.finding(SECTION_FILL_WRONG, share=float(region.drawn_area / area)))
     return findings
 
 
@@ -249,25 +256,29 @@ def _curves(
 def _curve_moments(
     curves: tuple[nurbs.Curve, ...], order: int, rounded: float, stored: float
 ) -> Moments:
+    """Return the area moments about the centroid of the region within curves in the plane z = 0;
+    `rounded` and `stored` are the largest effects of rounding and of float32 on a point.
+    """
     about = nurbs.plane_moments(curves, NORMAL, 1).center * [1.0, 1.0, 0.0]
     moments = nurbs.plane_moments(curves, NORMAL, order, about)
     lengths = [np.hypot(*np.diff(curve.points[:, :2], axis=0).T).sum() for curve in curves]
     corners = np.concatenate([curve.points[:, :2] for curve in curves])
     reach = np.append(np.abs(corners - about[:2]).max(axis=0) + 2.0 * (rounded + stored), 1.0)
-    positions = plane_positions(order)
-    size = (reach ** monomials(order))[positions].prod(axis=1)
-    raw, rounding, moved = np.zeros((3, len(moments.raw)))
+    positions = plane_positions(order)  # of the moments that a flat region has
+    largest_monomial = (reach ** monomials(order))[positions].prod(axis=1)
+
+    def swept(displacement: float) -> Array:
+        """Return the effect of moving all points so far along both axes: the curves sweep over no
+        more than their control polygons are long.
+        """
+        way = displacement * np.sqrt(2.0)
+        return way * (sum(lengths) + 2.0 * way * len(corners)) * largest_monomial
+
+    raw, rounding_error, input_error = np.zeros((3, len(moments.raw)))
     raw[positions] = moments.raw[positions]
-    for bounds, step, known in (
-        (rounding, rounded, moments.rounding_error),
-        (moved, stored, np.zeros_like(raw)),
-    ):
-        way = step * np.sqrt(2.0)
-        # the curves sweep over no more than their control polygons are long
-        bounds[positions] = (
-            known[positions] + way * (sum(lengths) + 2.0 * way * len(corners)) * size
-        )
-    return Moments(raw, about, Measure.AREA, rounding, moved)
+    rounding_error[positions] = moments.rounding_error[positions] + swept(rounded)
+    input_error[positions] = swept(stored)
+    return Moments(raw, about, Measure.AREA, rounding_error, input_error)
 
 
 @dataclass

@@ -11,7 +11,7 @@ import numpy as np
 from mathutils.bvhtree import BVHTree
 
 from ....core.mesh import join_surfaces, triangle_distances
-from ....core.numerics import Array, NDArray
+from ....core.numerics import Array, Index, NDArray
 from ....core.shape import RigidMatch
 
 if TYPE_CHECKING:
@@ -33,18 +33,16 @@ class SurfaceDistance:
     """
 
     def __init__(self, shape: Shape | FlatShape):
-        whole = join_surfaces(list(shape.pieces()))
+        surface = join_surfaces(list(shape.pieces()))
         self._center = shape.center
         self._scale = shape.size
-        self._triangles = triangles = whole.all_triangles()[0]
-        self._corners = (whole.points - self._center) / self._scale
-        used = whole.used_points()
-        middles = whole.points[thinned(triangles)].mean(axis=1)
-        far = np.argsort(((used - self._center) ** 2).sum(axis=1), kind="stable")[
-            -SURFACE_SAMPLES // 10 :
-        ]
-        points = np.concatenate([used[far], thinned(used), middles])
-        self.points = points.astype(np.float64, copy=False)
+        self._triangles = triangles = surface.all_triangles()[0]
+        self._corners = (surface.points - self._center) / self._scale
+        used = surface.used_points()
+        middles = surface.points[thinned(triangles)].mean(axis=1)
+        farthest = farthest_rows(used - self._center)
+        samples = np.concatenate([used[farthest], thinned(used), middles])
+        self.points = samples.astype(np.float64, copy=False)
         self._tree = BVHTree.FromPolygons(
             _as_tuples(self._corners), _as_tuples(triangles), all_triangles=True
         )
@@ -54,11 +52,11 @@ class SurfaceDistance:
         limit `within`.
         """
         scaled = (points - self._center) / self._scale
-        nearest = self._tree.find_nearest
         queries = scaled.tolist()
         reach = np.inf if within is None else 1.01 * max(NEAR_DISTANCE, within / self._scale)
-        # None becomes NaN
-        distances = np.array([nearest(row, reach)[3] for row in queries], np.float64)
+        # The distance is None, which becomes NaN, if nothing is within reach.
+        nearest = [self._tree.find_nearest(query, reach)[3] for query in queries]
+        distances = np.array(nearest, np.float64)
         distances[np.isnan(distances)] = np.inf
         doubtful = np.flatnonzero(
             (distances > EXACT_DISTANCE)
@@ -66,22 +64,28 @@ class SurfaceDistance:
             & (distances * self._scale > (within or 0.0))
         )
         for start in range(0, len(doubtful), POINTS_PER_BATCH):
-            some = doubtful[start : start + POINTS_PER_BATCH]
-            around = [
+            batch = doubtful[start : start + POINTS_PER_BATCH]
+            near_triangles = [
                 [hit[2] for hit in self._tree.find_nearest_range(queries[i], NEAR_DISTANCE)]
-                for i in some.tolist()
+                for i in batch.tolist()
             ]
-            which = np.repeat(some, [len(hits) for hits in around])
-            near_triangles = self._triangles[np.fromiter(chain.from_iterable(around), np.intp)]
-            np.minimum.at(
-                distances, which, triangle_distances(scaled[which], self._corners[near_triangles])
-            )
+            # pairs of a point and a triangle near it
+            point = np.repeat(batch, [len(hits) for hits in near_triangles])
+            triangle = np.fromiter(chain.from_iterable(near_triangles), np.intp)
+            corners = self._corners[self._triangles[triangle]]
+            np.minimum.at(distances, point, triangle_distances(scaled[point], corners))
         return distances * self._scale
 
 
 def thinned(rows: NDArray) -> NDArray:
     """Return evenly chosen rows of an array, no more than half of SURFACE_SAMPLES."""
     return rows[np.linspace(0, len(rows) - 1, min(len(rows), SURFACE_SAMPLES // 2)).astype(int)]
+
+
+def farthest_rows(offsets: NDArray) -> Index:
+    """Return the indices of the SURFACE_SAMPLES / 10 longest of (n, d) vectors."""
+    squares = (offsets**2).sum(axis=1)
+    return np.argsort(squares, kind="stable")[-SURFACE_SAMPLES // 10 :]
 
 
 def _as_tuples(array: NDArray) -> list[tuple]:
@@ -102,15 +106,16 @@ def register_surfaces(
     It minimizes the distances of their surfaces.
     """
 
-    def residual(way: NDArray, max_points: int | None) -> Array:
+    def residual(rotation: NDArray, max_points: int | None) -> Array:
+        """Return the distances that a rotation or reflection leaves, in the target's size."""
         source_points, target_points = (
-            each_skin.points[:: max(1, len(each_skin.points) // max_points) if max_points else 1]
-            for each_skin in (source_skin, target_skin)
+            skin.points[:: max(1, len(skin.points) // max_points) if max_points else 1]
+            for skin in (source_skin, target_skin)
         )
-        there = target_skin.distance(
-            scale * (source_points - source.center) @ way.T + target.center
+        placed_source = scale * (source_points - source.center) @ rotation.T + target.center
+        placed_target = (target_points - target.center) @ rotation / scale + source.center
+        return np.concatenate(
+            [target_skin.distance(placed_source), scale * source_skin.distance(placed_target)]
         )
-        back = source_skin.distance((target_points - target.center) @ way / scale + source.center)
-        return np.concatenate([there, scale * back])
 
     return source.match(target, residual)
