@@ -1,48 +1,31 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Copies among meshes: equal points, faces and layers of data, however the elements are numbered;
-and their linking.
+"""Copies among meshes: equal points, faces and layers of data, however the elements are
+numbered. `linking` lets them share a mesh.
 
 A mesh is compared with the first mesh of each kind so far. The first similarity counts that lays
 one onto the other and under which the layers agree, too. So UVs and materials of symmetric shapes
 stay in place.
-
-If M lays the shared mesh onto an object's own one, its matrix W becomes W · M. `reframe` makes that
-change and keeps it only if neither the object nor anything that refers to it looks different. It
-compares the present frame, without shading: an object that would look different at another time, or
-in a render, is left out before.
 """
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import chain, islice
-from typing import NamedTuple
 
-import bpy
 import numpy as np
-from bpy.types import ID, Context, Mesh, Node, NodesModifier, NodeTree, Object, bpy_prop_collection
+from bpy.types import Mesh, Object, bpy_prop_collection
 
 from ...core.mesh import Correspondence, Elements, correspondences
-from ...core.moments import affine_matrices
 from ...core.numerics import Array, NDArray
-from ...core.verdict import LINKED_OBJECT, EditRefusedError, Finding, MeasureError, finding
-from . import reframe
-from .dependents import SAME_SHAPE_RTOL
-from .findings import (
-    CHANNEL_LOCKED,
-    COPY_DIFFERS,
-    FOLLOWS_MOVED,
-    MODIFIERS_CHANGE_SHAPE,
-    OWN_AXES_USED,
-    TRANSFORM_CONSTRAINED,
-)
-from .transforms import FLOAT32, driven_channels, world
+from ...core.verdict import Finding, finding
+from .findings import COPY_DIFFERS
+from .transforms import FLOAT32
 
 MAX_TURNS = 48  # similarities of one pair whose layers are compared
 NORMAL_TOLERANCE = 1e-3
+Layer = tuple[str, str, NDArray]  # type, domain and (n, k) values of an attribute
 # Attributes that are compared otherwise, or are the interface's state.
 UNSEEN = (
     "position",
@@ -55,34 +38,7 @@ UNSEEN = (
     ".es.",
     ".pn.",
 )
-# names of attributes' values, by their type in RNA
-DTYPES = {
-    "FLOAT": np.float32,
-    "INT": np.int32,
-    "BOOLEAN": bool,
-}
-PLACES = (
-    bpy.types.Collection,
-    bpy.types.Scene,
-    bpy.types.WindowManager,
-    bpy.types.Screen,
-    bpy.types.WorkSpace,
-)
-CHANNELS = ("location", "rotation", "scale", "delta")  # beginnings of animated data paths
-# Nodes that show a mesh's own axes: outputs, by the node's type, or values of a setting.
-OWN_AXES_OUTPUTS = {"TEX_COORD": {"Object", "Generated", "Normal"}, "OBJECT_INFO": {"Location"}}
-OWN_AXES_VALUES = {"OBJECT", "BLENDER_OBJECT", "RADIAL"}
-# if nothing is linked
-GENERATED = {
-    "NOISE",
-    "VORONOI",
-    "WAVE",
-    "MAGIC",
-    "CHECKER",
-    "BRICK",
-    "GRADIENT",
-    "GABOR",
-}
+DTYPES = {"FLOAT": np.float32, "INT": np.int32, "BOOLEAN": bool}  # by type in RNA
 
 
 class MeshData:
@@ -145,26 +101,25 @@ class MeshData:
 
     @cached_property
     def labels(self) -> Array:
-        """The (n,) numbers of the vertices, by the layers that have to agree."""
-        found = np.zeros(len(self.mesh.vertices))
+        """(n,) labels of the vertices: corresponding vertices have equal ones if all layers agree
+        that may not differ. They limit the similarities that are compared.
+        """
+        labels = np.zeros(len(self.mesh.vertices))
         elements = self.elements
-        sizes = np.diff(elements.starts)
         for name, (data_type, domain, values) in self.layers.items():
             if _aspect(name, data_type, domain) in self.may_differ or values.dtype == object:
                 continue
-            number = (
-                values
-                @ np.cos(np.arange(values.shape[1]))
-                / max(np.abs(values).max(initial=0), 1.0)
-            )
+            mixture = np.cos(np.arange(values.shape[1]))  # so that no two components are alike
+            label = values @ mixture / max(np.abs(values).max(initial=0), 1.0)
             if domain == "POINT":
-                found += number
+                labels += label
             elif domain == "EDGE":
-                found += np.bincount(elements.edges.ravel(), number.repeat(2), len(found))
+                labels += np.bincount(elements.edges.ravel(), label.repeat(2), len(labels))
             elif domain in ("FACE", "CORNER"):
-                number = number if domain == "CORNER" else number.repeat(sizes)
-                found += np.bincount(elements.corners, number, len(found))
-        return found
+                if domain == "FACE":
+                    label = label.repeat(np.diff(elements.starts))
+                labels += np.bincount(elements.corners, label, len(labels))
+        return labels
 
 
 def _read(items: bpy_prop_collection, name: str | int = 1) -> NDArray:
@@ -185,7 +140,7 @@ def _differing_aspects(
     first: MeshData,
     second: MeshData,
     groups: list[list[str]],
-    found: Correspondence,
+    correspondence: Correspondence,
     tolerance: float,
 ) -> set[str]:
     """Return the aspects in which two equal surfaces do not agree. groups: names of their vertex
@@ -194,44 +149,54 @@ def _differing_aspects(
     differing = {name for name, trait in first.traits.items() if trait != second.traits[name]}
     if first.is_animated or second.is_animated:
         differing.add("ANIMATION")
-    maps = {
-        "POINT": found.vertices,
-        "EDGE": found.edges,
-        "FACE": found.faces,
-        "CORNER": found.corners,
-    }
     for name in first.layers.keys() | second.layers.keys():
-        one = first.layers.get(name)
-        other = second.layers.get(name)
-        if one is None or other is None:
-            data_type, domain, values = one or other or ("", "", maps["POINT"])
-            is_alike = not values.any()  # a layer that is missing has zeros
-        else:
-            data_type, domain, values = one
-            is_alike = one[:2] == other[:2] and domain in maps
-            if is_alike and values.dtype == np.float32:
-                others = other[2][maps[domain]]
-                off = np.abs(values - others).max(initial=0.0)
-                is_alike = off <= 16.0 * FLOAT32 * np.abs(others).max(initial=1.0)
-            elif is_alike:
-                is_alike = np.array_equal(values, other[2][maps[domain]])
-        if not is_alike:
+        layer = first.layers.get(name)
+        other_layer = second.layers.get(name)
+        if not _is_same_layer(layer, other_layer, correspondence):
+            data_type, domain, _ = layer or second.layers[name]
             differing.add(_aspect(name, data_type, domain))
+    linear = correspondence.linear
     if first.normals is not None and second.normals is not None:
-        turned = first.normals @ (found.linear / np.cbrt(abs(np.linalg.det(found.linear)))).T
-        if np.abs(turned - second.normals[found.corners]).max(initial=0.0) > NORMAL_TOLERANCE:
+        turned = first.normals @ (linear / np.cbrt(abs(np.linalg.det(linear)))).T
+        off = np.abs(turned - second.normals[correspondence.corners])
+        if off.max(initial=0.0) > NORMAL_TOLERANCE:
             differing.add("ATTRIBUTES")
-    if (
-        groups[0] != groups[1]
-        or groups[0]
-        and first.weights != [second.weights[i] for i in found.vertices]
-    ):
+    has_same_weights = groups[0] == groups[1] and (
+        not groups[0] or first.weights == [second.weights[i] for i in correspondence.vertices]
+    )
+    if not has_same_weights:
         differing.add("GROUPS")
-    for points, others in zip(first.keys, second.keys):
-        off = points @ found.linear.T + found.offset - others[found.vertices]
-        if np.abs(off).max(initial=0.0) > tolerance * second.elements.radius:
+    for points, other_points in zip(first.keys, second.keys):
+        placed = points @ linear.T + correspondence.offset
+        off = np.abs(placed - other_points[correspondence.vertices])
+        if off.max(initial=0.0) > tolerance * second.elements.radius:
             differing.add("SHAPE_KEYS")
     return differing
+
+
+def _is_same_layer(
+    layer: Layer | None, other: Layer | None, correspondence: Correspondence
+) -> bool:
+    """Return whether two layers have equal values on corresponding elements; a missing layer has
+    zeros.
+    """
+    if layer is None or other is None:
+        present = layer or other
+        return present is None or not present[2].any()
+    data_type, domain, values = layer
+    indices_by_domain = {
+        "POINT": correspondence.vertices,
+        "EDGE": correspondence.edges,
+        "FACE": correspondence.faces,
+        "CORNER": correspondence.corners,
+    }
+    if other[:2] != (data_type, domain) or domain not in indices_by_domain:
+        return False
+    other_values = other[2][indices_by_domain[domain]]
+    if values.dtype != np.float32:
+        return np.array_equal(values, other_values)
+    off = np.abs(values - other_values).max(initial=0.0)
+    return bool(off <= 16.0 * FLOAT32 * np.abs(other_values).max(initial=1.0))
 
 
 def _aspect(name: str, data_type: str, domain: str) -> str:
@@ -275,255 +240,56 @@ def find_copies(
     kinds: list[Copies] = []
     by_counts: dict[tuple, list[Copies]] = {}
     done = 0
-    for mesh, own in sorted(users.items(), key=lambda item: (-len(item[1]), item[0].name_full)):
+    # Meshes with the most users come first, so that these users need not change.
+    by_user_count = sorted(users.items(), key=lambda item: (-len(item[1]), item[0].name_full))
+    for mesh, mesh_users in by_user_count:
         counts = len(mesh.vertices), len(mesh.edges), len(mesh.loops), len(mesh.polygons)
         same_counts = by_counts.setdefault(counts, [])
-        new = Copies(MeshData(mesh, may_differ), own)
-        for kind in same_counts:
-            groups = [
-                [group.name for group in each.objects[0].vertex_groups] for each in (kind, new)
-            ]
-            labels = kind.data.labels, new.data.labels
-            pair = kind.data.elements, new.data.elements
-            # If the layers do not agree, the turn counts with the fewest differences.
-            found_turns = chain(
-                correspondences(*pair, tolerance, labels), correspondences(*pair, tolerance)
-            )
-            best: tuple[set[str], Correspondence] | None = None
-            for found in islice(found_turns, MAX_TURNS):
-                differing = (
-                    _differing_aspects(kind.data, new.data, groups, found, tolerance) - may_differ
-                )
-                if best is None or len(differing) < len(best[0]):
-                    best = differing, found
-                if not differing:
-                    break
-            if best is not None and not best[0]:
-                kind.members += [(obj, new.data, best[1]) for obj in own]
-                break
-            if best is not None:
-                aspects = sorted(name.lower().replace("_", " ") for name in best[0])
-                new.reason = finding(COPY_DIFFERS, object=kind.data.mesh.name, aspects=aspects)
-        else:
+        new = Copies(MeshData(mesh, may_differ), mesh_users)
+        if not _join_kind(new, same_counts, tolerance, may_differ):
             kinds.append(new)
             same_counts.append(new)
-        done += len(own)
+        done += len(mesh_users)
         progress(done)
     return kinds
 
 
-class Linked(NamedTuple):
-    """The linked objects, reasons for those left out, the farthest move of a vertex, and the bytes
-    saved.
+def _join_kind(
+    new: Copies, kinds: Sequence[Copies], tolerance: float, may_differ: set[str]
+) -> bool:
+    """Make the objects of a mesh members of the first kind whose mesh they can share; return
+    whether there is one. Otherwise note the reason if a surface is equal.
     """
-
-    objects: list[Object]
-    left_out: list[tuple[Object, Finding]]
-    farthest: float
-    saved: int
-
-
-def link_copies(
-    context: Context,
-    kinds: Sequence[Copies],
-    tolerance: float,
-    keep_materials: bool,
-    progress: Callable[[float], None] = lambda done: None,
-) -> Linked:
-    """Let the members of each kind share its mesh; no vertex moves by more than the tolerance,
-    relative to the size.
-    """
-    left_out = [
-        (obj, kind.reason)
-        for kind in kinds
-        if kind.reason and not kind.members
-        for obj in kind.objects
-    ]
-    plans: list[reframe.Plan] = []
-    members: dict[Object, tuple] = {}  # own and shared mesh, places of the vertices, materials
-    followers = _followers(
-        {
-            target
-            for kind in kinds
-            for obj, _, found in kind.members
-            for target in ((obj.data,) if _is_mere_exchange(found) else (obj, obj.data))
-        }
-    )
     for kind in kinds:
-        for obj, data, found in kind.members:
-            try:
-                _check(obj, found, followers.get(obj) or followers.get(obj.data))
-            except MeasureError as error:
-                left_out.append((obj, error.finding))
-                continue
-            matrix = world(obj)
-            change = affine_matrices(found.linear, found.offset)
-            points = data.elements.points[found.vertices] @ matrix[:3, :3].T + matrix[:3, 3]
-            members[obj] = data, kind.data, points, [slot.material for slot in obj.material_slots]
-            if not _is_mere_exchange(found):
-                radius = float(np.linalg.norm(points - points.mean(axis=0), axis=1).max())
-                plans.append(
-                    reframe.Plan(
-                        obj,
-                        matrix @ change,
-                        radius * tolerance / SAME_SHAPE_RTOL,
-                        move_only=False,
-                        mesh=kind.data.mesh,
-                        order=None if found.is_ordered else found.vertices,
-                    )
-                )
-    refused = dict(reframe.reframe(context, plans, progress)[1])
-    farthest = 0.0
-    linked = [obj for obj in members if obj not in refused]
-    for obj in linked:
-        _, shared, points, materials = members[obj]
-        obj.data = shared.mesh
-        for slot, material in zip(obj.material_slots, materials):
-            if keep_materials and slot.material != material:
-                slot.link = "OBJECT"
-                slot.material = material
-        matrix = world(obj)
-        off = shared.elements.points @ matrix[:3, :3].T + matrix[:3, 3] - points
-        farthest = max(farthest, float(np.linalg.norm(off, axis=1).max()))
-    unused = {data for data, *_ in members.values() if data.mesh.users == 0}
-    bpy.data.batch_remove([data.mesh for data in unused])
-    context.view_layer.update()
-    return Linked(
-        linked, left_out + [*refused.items()], farthest, sum(data.bytes for data in unused)
-    )
+        best = _best_correspondence(kind, new, tolerance, may_differ)
+        if best is None:
+            continue
+        differing, correspondence = best
+        if not differing:
+            kind.members += [(obj, new.data, correspondence) for obj in new.objects]
+            return True
+        aspects = sorted(name.lower().replace("_", " ") for name in differing)
+        new.reason = finding(COPY_DIFFERS, object=kind.data.mesh.name, aspects=aspects)
+    return False
 
 
-def _is_mere_exchange(found: Correspondence) -> bool:
-    """Return whether neither the transform nor the number of any element changes."""
-    return found.is_still and found.is_ordered
-
-
-def _followers(objects: set[ID]) -> dict[ID, ID]:
-    """Return, by object or mesh, data that may show its transform or values at another time, as by
-    a driver or a constraint.
+def _best_correspondence(
+    kind: Copies, new: Copies, tolerance: float, may_differ: set[str]
+) -> tuple[set[str], Correspondence] | None:
+    """Return the similarity of two surfaces with the fewest differing aspects, after these; None
+    if the surfaces differ.
     """
-    found: dict[ID, ID] = {}
-    for obj, users in (bpy.data.user_map(subset=objects) if objects else {}).items():
-        for user in users - {getattr(obj, "shape_keys", None)}:
-            if not isinstance(user, (Object, *PLACES)) or obj in _pointed_at(user):
-                found[obj] = user
-    for user in _animated_data():
-        for obj in _read_by_drivers(user) & objects:
-            found.setdefault(obj, user)
-    return found
-
-
-def _animated_data() -> Iterator[ID]:
-    """Yield the data of the file that have drivers, node trees inside others included."""
-    for prop in bpy.data.bl_rna.properties:
-        if prop.type == "COLLECTION":
-            for data in getattr(bpy.data, prop.identifier):
-                for user in (data, getattr(data, "node_tree", None)):
-                    if getattr(user, "animation_data", None) is not None:
-                        yield user
-
-
-def _read_by_drivers(user: ID) -> set[ID]:
-    """Return the data that the drivers' variables name, or pass on the way along their paths."""
-    found: set[ID] = set()
-    variables = [each for curve in user.animation_data.drivers for each in curve.driver.variables]
-    for target in [target for variable in variables for target in variable.targets]:
-        path = target.data_path
-        starts = [target.id] if target.id is not None else [*bpy.data.scenes]
-        found.update(starts)
-        for start in starts:
-            for end in (end for end, letter in enumerate(path) if letter == "."):
-                with suppress(ValueError):  # of a point inside a name
-                    passed = start.path_resolve(path[:end])
-                    found |= {passed} if isinstance(passed, ID) else set()
-    return found
-
-
-def _pointed_at(user: ID) -> set[ID]:
-    """Return the data that an object's constraints, modifiers, effects and bones point at."""
-    pointed: set[ID] = set()
-    if isinstance(user, Object):
-        bones = user.pose.bones if user.pose is not None else ()
-        pointed |= {bone.custom_shape for bone in bones}
-        constraints = [*user.constraints, *(each for bone in bones for each in bone.constraints)]
-        for each in (*constraints, *user.modifiers, *user.shader_effects):
-            pointed |= {
-                getattr(each, prop.identifier)
-                for prop in each.bl_rna.properties
-                if prop.type == "POINTER"
-            }
-            pointed |= {target.target for target in getattr(each, "targets", ())}
-            values = each.values() if isinstance(each, NodesModifier) else ()
-            pointed |= {value for value in values if isinstance(value, ID)}
-    return pointed
-
-
-def _check(obj: Object, found: Correspondence, follower: ID | None) -> None:
-    """Raise MeasureError if any part of the object depends on its axes or numbering, perhaps at
-    another time.
-    """
-    if (
-        not (obj.is_editable and obj.data.is_editable)
-        or obj.override_library
-        or obj.data.override_library
-    ):
-        raise EditRefusedError(LINKED_OBJECT)
-    if follower is not None:
-        raise EditRefusedError(FOLLOWS_MOVED, follower=follower.name, target=obj.name)
-    if _is_mere_exchange(found):
-        return
-    reframe.check(obj)
-    own = [
-        each.name for each in obj.modifiers if each.type not in reframe.FRAME_INDEPENDENT_MODIFIERS
-    ]
-    if own:
-        raise EditRefusedError(MODIFIERS_CHANGE_SHAPE, modifiers=own)
-    if any(not constraint.mute for constraint in obj.constraints):
-        raise EditRefusedError(TRANSFORM_CONSTRAINED, channel="location")
-    for channel in CHANNELS:
-        if any(path.startswith(channel) for path in driven_channels(obj)):
-            raise EditRefusedError(CHANNEL_LOCKED, channel=channel)
-    if (
-        obj.rigid_body
-        or obj.rigid_body_constraint
-        or obj.field is not None
-        and obj.field.type != "NONE"
-    ):
-        raise EditRefusedError(OWN_AXES_USED, cause="Physics")
-    for material in [slot.material for slot in obj.material_slots if not found.is_still]:
-        if (
-            material is not None
-            and material.node_tree is not None
-            and _uses_own_axes(material.node_tree, set())
-        ):
-            raise EditRefusedError(OWN_AXES_USED, cause=material.name)
-
-
-def _uses_own_axes(tree: NodeTree, seen: set[NodeTree]) -> bool:
-    """Return whether a material's nodes show the object's own origin or axes."""
-    seen.add(tree)
-    return any(_shows_own_axes(node) for node in tree.nodes) or any(
-        _uses_own_axes(node.node_tree, seen)
-        for node in tree.nodes
-        if node.type == "GROUP" and node.node_tree is not None and node.node_tree not in seen
-    )
-
-
-def _shows_own_axes(node: Node) -> bool:
-    """Return whether a shader node draws by the object's own axes: by a linked output, by generated
-    coordinates, or by a choice.
-    """
-    outputs = OWN_AXES_OUTPUTS.get(node.type, ())
-    vector = node.inputs.get("Vector")
-    if getattr(node, "object", None) is None and any(
-        out.is_linked and out.name in outputs for out in node.outputs
-    ):
-        return True
-    if node.type.removeprefix("TEX_") in GENERATED and vector is not None and not vector.is_linked:
-        return True
-    choices = [
-        each.identifier
-        for each in node.bl_rna.properties
-        if each.type == "ENUM" and not each.is_enum_flag
-    ]
-    return any(getattr(node, name) in OWN_AXES_VALUES for name in choices)
+    groups = [[group.name for group in each.objects[0].vertex_groups] for each in (kind, new)]
+    labels = kind.data.labels, new.data.labels
+    pair = kind.data.elements, new.data.elements
+    # First those under which the labels agree, too.
+    candidates = chain(correspondences(*pair, tolerance, labels), correspondences(*pair, tolerance))
+    best: tuple[set[str], Correspondence] | None = None
+    for candidate in islice(candidates, MAX_TURNS):
+        differing = _differing_aspects(kind.data, new.data, groups, candidate, tolerance)
+        differing -= may_differ
+        if best is None or len(differing) < len(best[0]):
+            best = differing, candidate
+        if not differing:
+            break
+    return best

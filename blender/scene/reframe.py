@@ -132,37 +132,37 @@ def reframe(
     users, touched = (referring(objects), dependents(objects)) if plans else ({}, {})
     refused: dict[Object, Finding] = {}
     # objects that share a mesh are changed in one way, so that they go on sharing it
-    others = {
+    needs_trial = {
         plan.obj.data
         for plan in plans
         if plan.mesh is not None or not shows_own_mesh(plan.obj, users)
     }
-    own = [plan for plan in plans if plan.obj.data not in others]
-    carried_out = set(reframe_own_meshes(context, own))
+    without_trial = [plan for plan in plans if plan.obj.data not in needs_trial]
+    carried_out = set(reframe_own_meshes(context, without_trial))
     done = len(carried_out)
     progress(done)
 
-    def attempt(group: list[Plan], again: list[list[Plan]] | None = None) -> SceneChange:
+    def attempt(group: list[Plan], failed: list[list[Plan]] | None = None) -> SceneChange:
+        """Change a group; if it fails, add it to `failed`, or without this list to the refused."""
         nonlocal done
         try:
             yield from _reframe_group(group, users)
         except Exception as error:
-            if again is not None:
-                again.append(group)
+            if failed is not None:
+                failed.append(group)
                 return
-            refused.update(
-                dict.fromkeys((plan.obj for plan in group), internal_error.finding_of(error))
-            )
+            reason = internal_error.finding_of(error)
+            refused.update({plan.obj: reason for plan in group})
         done += len(group)
         progress(done)
 
-    for beside in independent_rounds(
+    for groups in independent_rounds(
         (group, {plan.obj.data for plan in group}.union(*(touched[plan.obj] for plan in group)))
         for group in _groups(plan for plan in plans if plan.obj not in carried_out)
     ):
-        again: list[list[Plan]] = []
-        run_change(context, run_together(attempt(group, again) for group in beside))
-        for group in again:
+        failed: list[list[Plan]] = []
+        run_change(context, run_together(attempt(group, failed) for group in groups))
+        for group in failed:
             run_change(context, attempt(group))
     return [plan for plan in plans if plan.obj not in refused], list(refused.items())
 
@@ -172,85 +172,93 @@ def _groups(plans: Iterable[Plan]) -> list[list[Plan]]:
     and its parent.
     """
     groups: list[list[Plan]] = []
-    sharing: dict[ID, list[tuple[Matrix4, list[Plan]]]] = {}
+    by_data: dict[ID, list[tuple[Matrix4, list[Plan]]]] = {}  # changes of the data, with groups
     for plan in plans:
         change = solve(plan.target, world(plan.obj))
         reach = np.abs(np.array(plan.obj.bound_box)).max()
+        tolerance = SAME_SHAPE_RTOL * plan.size
         above = set(ancestors(plan.obj))
-        data_groups = sharing.setdefault(plan.obj.data, [])
-        for group_change, members in data_groups:
-            if (
-                not above & {member.obj for member in members}
-                and largest_move(change - group_change, reach) <= SAME_SHAPE_RTOL * plan.size
-            ):
-                members.append(plan)
-                break
-        else:
-            data_groups.append((change, [plan]))
-            groups.append(data_groups[-1][1])
+        data_groups = by_data.setdefault(plan.obj.data, [])
+        fitting = (
+            group
+            for group_change, group in data_groups
+            if not above & {member.obj for member in group}
+            and largest_move(change - group_change, reach) <= tolerance
+        )
+        group = next(fitting, None)
+        if group is None:
+            group = []
+            groups.append(group)
+            data_groups.append((change, group))
+        group.append(plan)
     return groups
 
 
 def _reframe_group(group: list[Plan], users: dict[Object, set[Object]]) -> SceneChange:
     """Move the frames of objects with common data while their shapes stay. Each `yield` waits for
     Blender to evaluate the scene, and gives the new depsgraph. An error puts all back.
+
+    The objects show a changed copy of the data, or the mesh that the plans name, until it is known
+    whether they look as before.
     """
     depsgraph = yield
     objects = [plan.obj for plan in group]
     data = group[0].obj.data
+    shared_mesh = group[0].mesh
     before = {plan.obj: _in_order(shape(plan.obj, depsgraph), plan.order) for plan in group}
-    around = DependentsGuard(objects, users, depsgraph)
-    was = {obj: world(obj) for obj in objects}
+    guard = DependentsGuard(objects, users, depsgraph)
+    first_matrix = world(objects[0])
     channels = [TransformChannels(obj) for obj in objects]
     trial = None
     change = np.eye(4)
-    succeeded = False
     try:
         yield from run_together(set_world_matrix(plan) for plan in group)
-        shown = group[0].mesh
-        if shown is None:
-            change = data_change(was[group[0].obj], world(group[0].obj), group[0].move_only)
-            shown = trial = data.copy()
+        if shared_mesh is None:
+            change = data_change(first_matrix, world(objects[0]), group[0].move_only)
+            trial = data.copy()
             transform_data(trial, change)
         for obj in objects:
-            obj.data = shown
-        around.compensate()
+            obj.data = shared_mesh or trial
+        guard.compensate()
         depsgraph = yield
         for plan in group:
             if not same_shape(before[plan.obj], shape(plan.obj, depsgraph), plan.size):
                 raise EditRefusedError(_reason_of_change(plan.obj, FRAME_INDEPENDENT_MODIFIERS))
-        around.verify(depsgraph, min(plan.size for plan in group))
-        if around.findings and group[0].mesh is not None:
-            follower = around.findings[0].values["object"]
+        guard.verify(depsgraph, min(plan.size for plan in group))
+        if guard.findings and shared_mesh is not None:
+            follower = guard.findings[0].values["object"]
             raise EditRefusedError(FOLLOWS_MOVED, follower=follower, target=objects[0].name)
-        group[0].findings += around.findings
-        succeeded = True
-    finally:
-        if not succeeded:
-            for obj in objects:
-                obj.data = data
-            for saved in channels:
-                saved.restore()
-            around.restore()
-        if trial is not None and (not succeeded or data.users - data.use_fake_user == 0):
-            if succeeded:  # nobody else uses the data: the change is made on the data itself
-                for obj in objects:
-                    obj.data = data
-                transform_data(data, change)
+    except BaseException:  # GeneratorExit, too, if a change beside this one fails
+        for obj in objects:
+            obj.data = data
+        for saved in channels:
+            saved.restore()
+        guard.restore()
+        if trial is not None:
             bpy.data.batch_remove([trial])
-        elif trial is not None:
-            for plan in group:
-                plan.findings.append(finding(DATA_COPIED))
+        raise
+    group[0].findings += guard.findings
+    if trial is None:
+        return
+    if data.users - data.use_fake_user:
+        for plan in group:
+            plan.findings.append(finding(DATA_COPIED))
+        return
+    # Nobody else uses the data: the change is made on the data itself.
+    for obj in objects:
+        obj.data = data
+    transform_data(data, change)
+    bpy.data.batch_remove([trial])
 
 
-def _in_order(own: Shape | None, order: Index | None) -> Shape | None:
-    """Return a shape with its first points in another order; others have points that no order of
-    vertices tells.
+def _in_order(before: Shape | None, order: Index | None) -> Shape | None:
+    """Return a shape with the points of its first surface in another order; without surfaces, so
+    that it equals no other, if modifiers give this surface other points.
     """
-    if own is None or order is None:
-        return own
-    (first, rest), *more = own
-    return [(first[order], rest), *more] if len(first) == len(order) else []
+    if before is None or order is None:
+        return before
+    (first, rest), *others = before
+    return [(first[order], rest), *others] if len(first) == len(order) else []
 
 
 def check_movable(obj: Object) -> None:
@@ -281,11 +289,8 @@ def move(context: Context, plan: Plan) -> None:
     before = shape(obj, context.evaluated_depsgraph_get())
     try:
         run_change(context, set_world_matrix(plan))
-        if not same_shape(
-            transform_shape(before, was, world(obj)),
-            shape(obj, context.evaluated_depsgraph_get()),
-            plan.size,
-        ):
+        expected = transform_shape(before, was, world(obj))
+        if not same_shape(expected, shape(obj, context.evaluated_depsgraph_get()), plan.size):
             raise EditRefusedError(_reason_of_change(obj, set()))
     except BaseException:
         saved.restore()
@@ -310,11 +315,11 @@ def set_world_matrix(plan: Plan) -> SceneChange:
         if not plan.move_only:
             set_rotation_and_scale(obj, local[:3, :3])
         yield
-        off = plan.target[:3, 3] - world(obj)[:3, 3]
-        if np.abs(off).max() <= FLOAT32 * np.abs(plan.target[:3, 3]).max():
+        missing = plan.target[:3, 3] - world(obj)[:3, 3]
+        if np.abs(missing).max() <= FLOAT32 * np.abs(plan.target[:3, 3]).max():
             break
         target = target.copy()
-        target[:3, 3] += off
+        target[:3, 3] += missing
     now = world(obj)
     if np.abs(now[:3, 3] - plan.target[:3, 3]).max() > location_tolerance(obj, plan.size):
         raise EditRefusedError(TRANSFORM_CONSTRAINED, channel="location")
@@ -347,9 +352,8 @@ def transform_data(data: ID, change: Matrix4) -> None:
             _transform_mesh(data, change)
     elif isinstance(data, bpy.types.TextCurve):
         offset = change[:3, 3]
-        if np.abs(change[:3, :3] - np.eye(3)).max() > 1e-6 or abs(offset[2]) > 1e-6 * max(
-            np.abs(offset).max(), data.size
-        ):
+        is_turned = np.abs(change[:3, :3] - np.eye(3)).max() > 1e-6
+        if is_turned or abs(offset[2]) > 1e-6 * max(np.abs(offset).max(), data.size):
             raise EditRefusedError(REFRAME_IMPOSSIBLE, cause=WITHOUT_TRANSFORM)
         data.offset_x += offset[0]
         data.offset_y += offset[1]
@@ -361,14 +365,11 @@ def transform_data(data: ID, change: Matrix4) -> None:
 
 def _transform_mesh(mesh: bpy.types.Mesh, change: Matrix4) -> None:
     keys = [block.data for block in mesh.shape_keys.key_blocks] if mesh.shape_keys else []
-    moved = [
-        read_array(key, "co", (len(key), 3), np.float32).astype(np.float64) @ change[:3, :3].T
-        + change[:3, 3]
-        for key in keys
-    ]
+    key_points = [read_array(key, "co", (len(key), 3), np.float32) for key in keys]
     transform_meshes([mesh], change[None])
-    for key, points in zip(keys, moved):
-        key.foreach_set("co", np.ascontiguousarray(points, np.float32).ravel())
+    for key, points in zip(keys, key_points):
+        moved = points.astype(np.float64) @ change[:3, :3].T + change[:3, 3]
+        key.foreach_set("co", np.ascontiguousarray(moved, np.float32).ravel())
 
 
 def _reason_of_change(obj: Object, harmless: set[str]) -> Finding:

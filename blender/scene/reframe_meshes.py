@@ -125,6 +125,7 @@ def reframe_own_meshes(context: Context, plans: Sequence[Plan]) -> list[Object]:
 
 
 def _reframe_or_put_back(context: Context, plans: Sequence[Plan], move_only: bool) -> list[Object]:
+    """Carry out plans and return the finished objects; after an error none, with all put back."""
     before = [(TransformChannels(plan.obj), plan.obj.data) for plan in plans]
     try:
         return _reframe_alike(context, plans, [channels for channels, _ in before], move_only)
@@ -145,61 +146,61 @@ def _reframe_or_put_back(context: Context, plans: Sequence[Plan], move_only: boo
 def _reframe_alike(
     context: Context, plans: Sequence[Plan], channels: Sequence[TransformChannels], move_only: bool
 ) -> list[Object]:
+    """Carry out the plans that can be met, restore the channels of the other objects, and return
+    the finished objects.
+    """
     objects = [plan.obj for plan in plans]
     targets = np.array([plan.target for plan in plans])
     was = _worlds(objects)
-    fits = np.ones(len(plans), bool)
+    is_met = np.ones(len(plans), bool)
     for obj, location in zip(objects, targets[:, :3, 3].tolist()):
         obj.location = location
     if not move_only:
-        fits = _set_rotations_and_scales(objects, targets[:, :3, :3])
+        is_met = _set_rotations_and_scales(objects, targets[:, :3, :3])
     context.view_layer.update()
     now = _worlds(objects)
     change = data_change(was, now, move_only)
     size = np.array([plan.size for plan in plans])
     off = np.abs(now - targets)
-    fits &= off[:, :3, 3].max(axis=1) <= rounding_of_locations(
-        size, np.abs(now[:, :3, 3]).max(axis=1)
-    )
-    fits &= off[:, :3, :3].max(axis=(1, 2)) <= MAX_SHEAR * np.abs(targets[:, :3, :3]).max(
-        axis=(1, 2)
-    )
-    # Rounding may move points far from their origin by this much.
+    location_reach = np.abs(now[:, :3, 3]).max(axis=1)
+    is_met &= off[:, :3, 3].max(axis=1) <= rounding_of_locations(size, location_reach)
+    largest_entry = np.abs(targets[:, :3, :3]).max(axis=(1, 2))
+    is_met &= off[:, :3, :3].max(axis=(1, 2)) <= MAX_SHEAR * largest_entry
+    # Points far from their new origin are rounded by more than a small body bears.
     boxes = (
         np.array([obj.bound_box for obj in objects]) @ change[:, :3, :3].swapaxes(1, 2)
         + change[:, None, :3, 3]
     )
-    largest = np.abs(now[:, :3, :3]).sum(axis=2).max(axis=1)
-    fits &= FLOAT32 * np.abs(boxes).max(axis=(1, 2)) * largest <= SAME_SHAPE_RTOL * size
-    for i in np.flatnonzero(~fits).tolist():
+    reach = np.abs(boxes).max(axis=(1, 2))
+    stretch = np.abs(now[:, :3, :3]).sum(axis=2).max(axis=1)
+    is_met &= FLOAT32 * reach * stretch <= SAME_SHAPE_RTOL * size
+    for i in np.flatnonzero(~is_met).tolist():
         channels[i].restore()
-    chosen = np.flatnonzero(fits)
-    # without the rounding of places far from the origin
+    met = np.flatnonzero(is_met)
+    # Changes are compared without the rounding of places far from the origin.
     wanted = data_change(was, targets, move_only)
-    owners = _give_meshes(
-        [plans[i] for i in chosen.tolist()], wanted[chosen], np.abs(boxes[chosen]).max(axis=(1, 2))
-    )
-    transform_meshes([objects[chosen[i]].data for i in owners], change[chosen[owners]])
+    owners = met[_give_meshes([plans[i] for i in met.tolist()], wanted[met], reach[met])]
+    transform_meshes([objects[i].data for i in owners.tolist()], change[owners])
     context.view_layer.update()
-    return [objects[i] for i in chosen.tolist()]
+    return [objects[i] for i in met.tolist()]
 
 
 def _give_meshes(plans: Sequence[Plan], changes: NDArray, reach: NDArray) -> list[int]:
     """Copy meshes that are shared but to be changed differently; return the index of the first plan
-    of each mesh.
+    of each mesh. changes, reach: of each plan's data, and how far its points are from the origin.
     """
     sharing: dict[Mesh, list[int]] = {}
     for i, plan in enumerate(plans):
         sharing.setdefault(plan.obj.data, []).append(i)
     owners: list[int] = []
     for mesh, members in sharing.items():
-        is_all = mesh.users - mesh.use_fake_user == len(members)
+        has_other_users = mesh.users - mesh.use_fake_user != len(members)
         groups = _group_changes(
             changes[members], reach[members], [SAME_SHAPE_RTOL * plans[i].size for i in members]
         )
         for number, group in enumerate(groups):
             owners.append(members[group[0]])
-            if number or not is_all:
+            if number or has_other_users:
                 copy = mesh.copy()
                 for plan in [plans[members[i]] for i in group]:
                     plan.obj.data = copy
@@ -212,13 +213,14 @@ def _group_changes(changes: NDArray, reach: NDArray, within: Sequence[float]) ->
     place, to `within`.
     """
     groups = []
-    left = np.arange(len(changes))
-    while len(left):
-        first = left[0]
-        is_near = largest_move(changes[left] - changes[first], float(reach[first])) <= within[first]
-        is_near[0] = True
-        groups.append(left[is_near].tolist())
-        left = left[~is_near]
+    remaining = np.arange(len(changes))
+    while len(remaining):
+        first = remaining[0]
+        moves = largest_move(changes[remaining] - changes[first], float(reach[first]))
+        is_near = moves <= within[first]
+        is_near[0] = True  # NaN, too, is a group, so that the loop ends
+        groups.append(remaining[is_near].tolist())
+        remaining = remaining[~is_near]
     return groups
 
 
@@ -230,37 +232,37 @@ def _set_rotations_and_scales(objects: Sequence[Object], linear: NDArray) -> Mas
     """Set objects' rotations and scales to (n, 3, 3) matrices; return a mask of matrices that have
     no shear.
     """
-    turns, scales, fits = rotation_and_scale(
-        linear, np.array([obj.scale for obj in objects], np.float64)
-    )
+    previous_scales = np.array([obj.scale for obj in objects], np.float64)
+    rotations, scales, is_unsheared = rotation_and_scale(linear, previous_scales)
     rows_by_mode: dict[str, list[int]] = {}
     for row, obj in enumerate(objects):
         rows_by_mode.setdefault(obj.rotation_mode, []).append(row)
     near = np.array([obj.rotation_euler for obj in objects], np.float64)
     angles = near.copy()
     for mode, rows in rows_by_mode.items():
-        angles[rows] = euler_angles(turns[rows], mode, near[rows])
-    for obj, own, scale in zip(objects, angles.tolist(), scales.tolist()):
-        obj.rotation_euler, obj.scale = own, scale
-    return fits
+        angles[rows] = euler_angles(rotations[rows], mode, near[rows])
+    for obj, euler, scale in zip(objects, angles.tolist(), scales.tolist()):
+        obj.rotation_euler = euler
+        obj.scale = scale
+    return is_unsheared
 
 
 def transform_meshes(meshes: Sequence[Mesh], changes: NDArray) -> None:
     """Map the points of each mesh, p → change · p, in float64."""
-    flips = np.linalg.det(changes[:, :3, :3]) < 0.0
+    is_mirrored = np.linalg.det(changes[:, :3, :3]) < 0.0
     counts = [len(mesh.vertices) for mesh in meshes]
     ends = np.cumsum([0, *counts]).tolist()
     points = np.empty((ends[-1], 3), np.float32)
     for mesh, start, end in zip(meshes, ends, ends[1:]):
         mesh.attributes["position"].data.foreach_get("vector", points[start:end].reshape(-1))
-    owner = np.repeat(np.arange(len(meshes)), counts)
-    moved = changes[owner, :3, 3]
+    mesh_of_point = np.repeat(np.arange(len(meshes)), counts)
+    moved = changes[mesh_of_point, :3, 3]
     for axis in range(3):
-        moved += changes[owner, :3, axis] * points[:, axis, None].astype(np.float64)
+        moved += changes[mesh_of_point, :3, axis] * points[:, axis, None].astype(np.float64)
     moved_points = moved.astype(np.float32)
     with ExitStack() as put_back:
         for mesh, start, end, change, is_flipped in zip(
-            meshes, ends, ends[1:], changes, flips.tolist()
+            meshes, ends, ends[1:], changes, is_mirrored.tolist()
         ):
             put_back.callback(mesh.update)
             put_back.callback(_set_points, mesh, points[start:end])

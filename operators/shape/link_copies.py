@@ -121,7 +121,7 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
                 read.tracking.tracking_paused(),
                 write.reports.progress(sum(len(kind.members) for kind in kinds)) as step,
             ):
-                linked = scene.copies.link_copies(
+                linked = scene.linking.link_copies(
                     context, kinds, self.tolerance, keeps_materials, step
                 )
             session.remeasure(context, linked.objects)
