@@ -99,16 +99,17 @@ def correspondences(
         return
     same = np.arange(count)
     for mirrored in (False, True):
-        if found := _prove(first, second, same, same, mirrored, tolerance):
-            yield found
+        if correspondence := _prove(first, second, same, same, mirrored, tolerance):
+            yield correspondence
     targets = second.unit_points
-    others = _first_near(targets, targets, loose)
+    second_places = _first_near(targets, targets, loose)
     for turn in _candidate_turns(first.unit_points, targets, scores, loose):
-        places = _first_near(first.unit_points @ turn.T, targets, loose)
-        if found := _prove(
-            first, second, places, others, bool(np.linalg.det(turn) < 0.0), tolerance
+        first_places = _first_near(first.unit_points @ turn.T, targets, loose)
+        mirrored = bool(np.linalg.det(turn) < 0.0)
+        if correspondence := _prove(
+            first, second, first_places, second_places, mirrored, tolerance
         ):
-            yield found
+            yield correspondence
 
 
 def _first_near(points: NDArray, targets: NDArray, tolerance: float) -> Index:
@@ -121,13 +122,13 @@ def _first_near(points: NDArray, targets: NDArray, tolerance: float) -> Index:
     order = np.argsort(along, kind="stable")
     low = np.searchsorted(along[order], places - reach)
     high = np.searchsorted(along[order], places + reach, side="right")
-    found = np.full(len(points), len(targets))
+    first = np.full(len(points), len(targets))
     for k in range((high - low).max()):
         rows = np.flatnonzero(low + k < high)
-        near = order[low[rows] + k]
-        is_near = np.abs(points[rows] - targets[near]).max(axis=1) <= tolerance
-        found[rows[is_near]] = np.minimum(found[rows[is_near]], near[is_near])
-    return found
+        target = order[low[rows] + k]
+        is_near = np.abs(points[rows] - targets[target]).max(axis=1) <= tolerance
+        first[rows[is_near]] = np.minimum(first[rows[is_near]], target[is_near])
+    return first
 
 
 def _candidate_turns(
@@ -141,21 +142,21 @@ def _candidate_turns(
     if pair is None:
         return
     a, b = points[list(pair)]
-    alike = [np.abs(scores[1] - scores[0][anchor]) <= near for anchor in pair]
     frame = _frames(a[None], b[None])[0]
+    like_a, like_b = (np.abs(scores[1] - scores[0][anchor]) <= near for anchor in pair)
     turns = [np.empty((0, 3, 3))]
-    for image in targets[alike[0]]:
-        others = targets[alike[1] & (np.abs(targets @ image - a @ b) <= near)]
-        frames = _frames(np.broadcast_to(image, others.shape), others)
+    for image in targets[like_a]:
+        other_images = targets[like_b & (np.abs(targets @ image - a @ b) <= near)]
+        frames = _frames(np.broadcast_to(image, other_images.shape), other_images)
         turns += [(frames * (1.0, 1.0, hand)) @ frame.T for hand in (1.0, -1.0)]
     maps = np.concatenate(turns)
     for probe in np.argsort(scores[0])[:: -(-len(targets) // PROBES)]:
         ends = targets[np.abs(scores[1] - scores[0][probe]) <= near]
-        hits = [
-            len(ends) and np.abs(ends - image).max(axis=1).min() <= near
+        is_met = [
+            np.abs(ends - image).max(axis=1).min(initial=np.inf) <= near
             for image in maps @ points[probe]
         ]
-        maps = maps[np.array(hits, bool)]
+        maps = maps[np.array(is_met, bool)]
     order = np.lexsort((-np.trace(maps, axis1=1, axis2=2), np.linalg.det(maps) < 0.0))
     yield from maps[order[:MAX_CANDIDATES]]
 
@@ -164,21 +165,20 @@ def _anchors(points: NDArray, scores: NDArray, near: float) -> tuple[int, int] |
     """Return two vertices, not in line with the middle, that as few others as possible resemble."""
 
     def count_alike(scores: NDArray) -> Index:
+        """Return (n,) the numbers of vertices with a score near to each one's."""
         ordered = np.sort(scores)
-        return np.searchsorted(ordered, scores + near, side="right") - np.searchsorted(
-            ordered, scores - near
-        )
+        stops = np.searchsorted(ordered, scores + near, side="right")
+        return stops - np.searchsorted(ordered, scores - near)
 
-    a = int(
-        np.where(
-            np.linalg.norm(points, axis=1) >= 0.3, count_alike(scores), len(points) + 1
-        ).argmin()
-    )
-    across = np.linalg.norm(np.cross(points, points[a]), axis=1)
-    if across.max() <= near:
+    too_many = len(points) + 1
+    distance = np.linalg.norm(points, axis=1)
+    first = int(np.where(distance >= 0.3, count_alike(scores), too_many).argmin())
+    from_line = np.linalg.norm(np.cross(points, points[first]), axis=1)
+    if from_line.max() <= near:
         return None
-    count = count_alike(scores + 1.32 * (points @ points[a]))
-    return a, int(np.where(across >= min(0.1, across.max()), count, len(points) + 1).argmin())
+    counts = count_alike(scores + 1.32 * (points @ points[first]))
+    is_apart = from_line >= min(0.1, from_line.max())
+    return first, int(np.where(is_apart, counts, too_many).argmin())
 
 
 def _frames(first: NDArray, second: NDArray) -> Array:
@@ -194,53 +194,61 @@ def _frames(first: NDArray, second: NDArray) -> Array:
 def _prove(
     first: Elements,
     second: Elements,
-    places: Index,
-    others: Index,
+    first_places: Index,
+    second_places: Index,
     mirrored: bool,
     tolerance: float,
 ) -> Correspondence | None:
     """Return the correspondence of two meshes; None if points, edges or faces do not meet.
 
-    places, others: (n,) numbers of the vertices' places, equal if vertices meet.
+    first_places, second_places: (n,) numbers of the vertices' places, equal if vertices meet.
     """
-    meeting = _match_faces(first, second, places, others, mirrored)
-    if meeting is None:
+    matched_faces = _match_faces(first, second, first_places, second_places, mirrored)
+    if matched_faces is None:
         return None
-    faces, corners = meeting
+    faces, corners = matched_faces
     vertices = np.full(len(first.points), -1)
     vertices[first.corners] = second.corners[corners]
     if not np.array_equal(vertices[first.corners], second.corners[corners]):
         return None
-    loose = np.flatnonzero(vertices < 0)
+    # Vertices without faces are matched by their places.
+    left = np.flatnonzero(vertices < 0)
     is_free = np.ones(len(vertices), bool)
     is_free[vertices[vertices >= 0]] = False
     free = np.flatnonzero(is_free)
-    if len(loose) != len(free):
+    if len(left) != len(free):
         return None
-    vertices[loose[np.argsort(places[loose], kind="stable")]] = free[
-        np.argsort(others[free], kind="stable")
-    ]
+    order = np.argsort(first_places[left], kind="stable")
+    free_order = np.argsort(second_places[free], kind="stable")
+    vertices[left[order]] = free[free_order]
     edges = _match_rows(np.sort(vertices[first.edges], axis=1), np.sort(second.edges, axis=1))
     if edges is None:
         return None
-    points = first.points
-    met = second.points[vertices]
     limit = tolerance * second.radius
-    linear, offset = _similarity(points, met, mirrored)
-    error = np.linalg.norm(points @ linear.T + offset - met, axis=1).max()
+    similarity = _simplest_similarity(first.points, second.points[vertices], mirrored, limit)
+    if similarity is None:
+        return None
+    correspondence = Correspondence(*similarity, vertices, edges, faces, corners)
+    return correspondence if _triangulates_alike(first, second, correspondence, limit) else None
+
+
+def _simplest_similarity(
+    points: NDArray, images: NDArray, mirrored: bool, limit: float
+) -> tuple[NDArray, NDArray] | None:
+    """Return the map and offset that bring (n, 3) points to their images: of maps that are equally
+    good up to rounding, the one that changes least. None if a point misses by over `limit`.
+    """
+    linear, offset = _similarity(points, images, mirrored)
+    error = np.linalg.norm(points @ linear.T + offset - images, axis=1).max()
     if error > limit:
         return None
-    # Take, among maps that are equally good up to rounding, the one that changes least.
-    rounding = 4.0 * np.finfo(np.float32).eps * max(np.abs(points).max(), np.abs(met).max())
-    for simple in [] if mirrored else [np.zeros(3), met.mean(axis=0) - first.middle]:
-        if np.linalg.norm(points + simple - met, axis=1).max() <= min(
-            2.0 * error + rounding, limit
-        ):
-            linear = np.eye(3)
-            offset = simple
-            break
-    found = Correspondence(linear, offset, vertices, edges, faces, corners)
-    return found if _triangulates_alike(first, second, found, limit) else None
+    rounding = 4.0 * np.finfo(np.float32).eps * max(np.abs(points).max(), np.abs(images).max())
+    allowed = min(2.0 * error + rounding, limit)
+    shifts = [] if mirrored else [np.zeros(3), images.mean(axis=0) - points.mean(axis=0)]
+    for shift in shifts:
+        if np.linalg.norm(points + shift - images, axis=1).max() <= allowed:
+            return np.eye(3), shift
+    return linear, offset
 
 
 def _similarity(source: NDArray, target: NDArray, mirrored: bool) -> tuple[NDArray, NDArray]:
@@ -257,7 +265,7 @@ def _similarity(source: NDArray, target: NDArray, mirrored: bool) -> tuple[NDArr
 
 
 def _match_faces(
-    first: Elements, second: Elements, places: Index, others: Index, mirrored: bool
+    first: Elements, second: Elements, first_places: Index, second_places: Index, mirrored: bool
 ) -> tuple[Index, Index] | None:
     """Return the second mesh's face and corner for each of the first's; of a mirror image, corners
     run backward.
@@ -265,25 +273,26 @@ def _match_faces(
     faces = np.empty(len(first.sizes), np.intp)
     corners = np.empty(len(first.corners), np.intp)
     for size in np.unique(first.sizes):
-        here, there = (np.flatnonzero(mesh.sizes == size) for mesh in (first, second))
+        first_faces, second_faces = (np.flatnonzero(mesh.sizes == size) for mesh in (first, second))
         steps = np.arange(size)
-        own = first.starts[here][:, None] + (-steps % size if mirrored else steps)
-        keys, own = _from_least(places[first.corners[own]], own)
-        met = second.starts[there][:, None] + steps
-        other_keys, met = _from_least(others[second.corners[met]], met)
+        turned = -steps % size if mirrored else steps
+        keys, own = _from_least(first_places, first, first_faces, turned)
+        other_keys, others = _from_least(second_places, second, second_faces, steps)
         order = _match_rows(keys, other_keys)
         if order is None:
             return None
-        faces[here] = there[order]
-        corners[own] = met[order]
+        faces[first_faces] = second_faces[order]
+        corners[own] = others[order]
     return faces, corners
 
 
-def _from_least(keys: Index, corners: Index) -> tuple[Index, Index]:
-    """Return the (k, s) keys and corners of faces, each row turned so that it begins with its least
-    key.
+def _from_least(places: Index, mesh: Elements, faces: Index, steps: Index) -> tuple[Index, Index]:
+    """Return the (k, s) places and corners of k faces of s corners, each row turned so that it
+    begins with its least place. steps: the order in which the corners are taken.
     """
-    turned = (keys.argmin(axis=1)[:, None] + np.arange(keys.shape[1])) % keys.shape[1]
+    corners = mesh.starts[faces][:, None] + steps
+    keys = places[mesh.corners[corners]]
+    turned = (keys.argmin(axis=1)[:, None] + np.arange(len(steps))) % len(steps)
     return np.take_along_axis(keys, turned, axis=1), np.take_along_axis(corners, turned, axis=1)
 
 
@@ -293,19 +302,19 @@ def _match_rows(rows: Index, others: Index) -> Index | None:
     other_order = np.lexsort(others.T[::-1])
     if not np.array_equal(rows[order], others[other_order]):
         return None
-    found = np.empty(len(rows), np.intp)
-    found[order] = other_order
-    return found
+    matches = np.empty(len(rows), np.intp)
+    matches[order] = other_order
+    return matches
 
 
 def _triangulates_alike(
-    first: Elements, second: Elements, found: Correspondence, limit: float
+    first: Elements, second: Elements, correspondence: Correspondence, limit: float
 ) -> bool:
     """Return whether faces that begin at another corner, and so may have other triangles, are
     flat.
     """
-    begins = second.starts[found.faces]
-    turned = (first.sizes > 3) & (found.corners[first.starts[:-1]] != begins)
+    begins = second.starts[correspondence.faces]
+    turned = (first.sizes > 3) & (correspondence.corners[first.starts[:-1]] != begins)
     for size in np.unique(first.sizes[turned]):
         rows = np.flatnonzero(turned & (first.sizes == size))
         places = second.points[second.corners[begins[rows][:, None] + np.arange(size)]]
