@@ -44,24 +44,17 @@ def sum_of_images(moments: Moments, matrices: ArrayLike) -> Moments:
         # The images of the reference point are rounded, and the body moves with them.
         stretch = np.abs(maps).sum(axis=1).max(axis=0)
         reach = np.abs(offset).max(axis=0)
-        tolerance = (
-            6
-            * U
-            * (
-                np.abs(offsets[:, part]).max(axis=0)
-                + np.abs(center).max()
-                + stretch * np.abs(point).max()
-            )
-        )
+        size = np.abs(offsets[:, part]).max(axis=0) + np.abs(center).max()
+        tolerance = 6 * U * (size + stretch * np.abs(point).max())
         weight_error = weight_error + (len(matrices) + 6 * order + 8) * U * weight
         raw += np.add.reduce(
             transform_by_horner(moments.raw[:, None], order, maps, offset) * weight, axis=1
         )
-        bounds = _image_error_bounds(
+        rounding, mapped_input = _image_error_bounds(
             moments, stretch, reach, tolerance, weight, weight_error, uneven
         )
-        error += bounds[0]
-        extra += bounds[1]
+        error += rounding
+        extra += mapped_input
     return Moments(raw, center, moments.measure, error, extra)
 
 
@@ -94,24 +87,26 @@ def _image_error_bounds(
     inputs = np.maximum.reduceat(moments.input_error, starts)
     size = np.maximum.reduceat(np.abs(moments.raw), starts) + error
 
-    def carried(factor: NDArray, reach: NDArray, *largest: NDArray) -> list[NDArray]:
-        powers = [[factor]]
+    def product_sums(factor: NDArray, reach: NDArray, *largest: NDArray) -> list[NDArray]:
+        """Return by degree n the sums of those moments over all maps, times (k,) factors, for each
+        of the largest moments (by degree).
+        """
+        powers = [[factor]]  # by n and j: factor stretch^j reach^(n-j)
         for _ in range(order):
             powers.append([power * reach for power in powers[-1]] + [powers[-1][-1] * stretch])
-        sums = [
+        counts = [
             [math.comb(n, j) * power.sum() for j, power in enumerate(row)]
             for n, row in enumerate(powers)
         ]
-        return [np.array([np.dot(row, top[: len(row)]) for row in sums]) for top in largest]
+        return [np.array([np.dot(row, top[: len(row)]) for row in counts]) for top in largest]
 
-    rounding, mapped_input = carried(weight, reach, error, inputs)
-    rounding += carried(weight_error, reach, size)[0]
-    rounding[1:] += (
-        np.arange(1, order + 1) * carried(weight * tolerance, reach + tolerance, size)[0][:-1]
-    )
+    rounding, mapped_input = product_sums(weight, reach, error, inputs)
+    rounding += product_sums(weight_error, reach, size)[0]
+    shifted = product_sums(weight * tolerance, reach + tolerance, size)[0]
+    rounding[1:] += np.arange(1, order + 1) * shifted[:-1]
     if uneven.any():
         absolute = (
             np.maximum.reduceat(absolute_moments(moments.raw, order), starts) + error + inputs
         )
-        rounding += carried(weight * uneven, reach, absolute)[0]
+        rounding += product_sums(weight * uneven, reach, absolute)[0]
     return rounding[degree], mapped_input[degree]

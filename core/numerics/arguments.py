@@ -96,27 +96,34 @@ def check_filled(name: str, values: Sized) -> None:
 def _array(
     name: str, values: ArrayLike, shape: tuple[Length, ...], kinds: str, content: str
 ) -> NDArray[Any]:
+    """Return a parameter as an array of one of the dtype's `kinds`, or raise its `shape_error`."""
     try:
         array = np.asarray(values)
     except (TypeError, ValueError):  # rows of different lengths
-        array = None
-    if array is not None and (array.dtype.kind in kinds or not array.size):
-        last = shape[1:] if shape[:1] == (...,) else shape
-        given = array.shape[max(array.ndim - len(last), 0) :] if last is not shape else array.shape
-        lengths = [length if isinstance(length, int) else own for length, own in zip(last, given)]
-        if len(given) == len(last) and lengths == [*given]:
-            return array
-    raise shape_error(name, values if array is None else array, shape, content)
+        raise shape_error(name, values, shape, content) from None
+    if (array.dtype.kind in kinds or not array.size) and _has_shape(array.shape, shape):
+        return array
+    raise shape_error(name, array, shape, content)
+
+
+def _has_shape(lengths: tuple[int, ...], shape: tuple[Length, ...]) -> bool:
+    """Return whether an array with axes of these lengths has a shape."""
+    if shape[:1] == (...,):
+        shape = shape[1:]
+        lengths = lengths[max(len(lengths) - len(shape), 0) :]
+    return len(lengths) == len(shape) and all(
+        not isinstance(expected, int) or expected == length
+        for expected, length in zip(shape, lengths)
+    )
 
 
 def shape_error(name: str, values: object, shape: tuple[Length, ...], content: str) -> ValueError:
     """Return the error for a parameter of another shape or content."""
-    expected = ", ".join(["..." if length is ... else str(length) for length in shape]) + "," * (
-        len(shape) == 1
-    )
-    found = (
+    expected = ", ".join(["..." if length is ... else str(length) for length in shape])
+    comma = "," if len(shape) == 1 else ""
+    given = (
         "{} {}".format(values.shape, values.dtype)
         if isinstance(values, np.ndarray)
         else type(values).__name__
     )
-    return ValueError("{} must be ({}) {}, not {}".format(name, expected, content, found))
+    return ValueError("{} must be ({}{}) {}, not {}".format(name, expected, comma, content, given))

@@ -111,32 +111,35 @@ def following_pairs(order: Index, counts: Index, size: int) -> Iterator[tuple[In
 
 def first_occurrence(*columns: NDArray, slots: Integers | None = None) -> Index:
     """Return (n,) indices of the first row with the bits of each row. slots: (n,) hash slots of the
-    first round.
+    first round, the same for equal rows.
+
+    In each round, a table of slots keeps the first of the rows in each slot. Rows that equal it are
+    done; the others collided, and go on with another hash.
     """
-    bits_of = [column.view(np.uint64) for column in columns]
+    bits = [column.view(np.uint64) for column in columns]
     salt = 0
     first = rest = np.arange(len(columns[0]), dtype=np.min_scalar_type(-len(columns[0])))
     while len(rest):
         size = 1 << (2 * len(rest)).bit_length() if slots is None else int(slots.max()) + 1
         if slots is None:
             key = np.zeros(len(rest), np.uint64) + np.uint64(salt)
-            for column in bits_of:
+            for column in bits:
                 key = hash_uint64(key + column)
             slots = (key & np.uint64(size - 1)).view(np.intp)
-        winner = np.empty(size, rest.dtype)
-        # numpy keeps the last of equal slots
-        winner[slots[::-1]] = np.arange(len(rest) - 1, -1, -1, dtype=rest.dtype)
-        winner = winner.take(slots).astype(np.intp)
-        lost = np.zeros(len(rest), bool)
-        for column in bits_of:
-            lost |= column != column.take(winner)
+        table = np.empty(size, rest.dtype)
+        # numpy keeps the last of equal slots, so the rows are written backward
+        table[slots[::-1]] = np.arange(len(rest) - 1, -1, -1, dtype=rest.dtype)
+        kept = table.take(slots).astype(np.intp)
+        differs = np.zeros(len(rest), bool)
+        for column in bits:
+            differs |= column != column.take(kept)
         if len(rest) == len(first):
-            first = winner
+            first = kept
         else:
-            first[rest] = rest[winner]
-        lost = np.flatnonzero(lost)
-        rest = rest[lost]
-        bits_of = [column[lost] for column in bits_of]
+            first[rest] = rest[kept]
+        collided = np.flatnonzero(differs)
+        rest = rest[collided]
+        bits = [column[collided] for column in bits]
         slots = None
         salt = salt + 1
     return first.astype(np.intp, copy=False)
@@ -173,10 +176,10 @@ def distinct_arrays(arrays: NDArray, within: float) -> Array:
     """Return the (n, ...) vectors or matrices that differ from all earlier ones by at least
     `within` in some entry.
     """
-    same = (
-        np.abs(arrays[:, None] - arrays[None]).max(axis=tuple(range(2, arrays.ndim + 1))) < within
-    )
-    return arrays[np.argmax(same, axis=1) == np.arange(len(arrays))]
+    differences = np.abs(arrays[:, None] - arrays)
+    is_same = differences.max(axis=tuple(range(2, differences.ndim))) < within
+    first_same = is_same.argmax(axis=1)
+    return arrays[first_same == np.arange(len(arrays))]
 
 
 def inertia_of_second(second: NDArray) -> Array:

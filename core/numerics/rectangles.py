@@ -29,7 +29,7 @@ def rectangle_pairs(first: Rectangles, second: Rectangles) -> Iterator[tuple[Ind
         cell = cell * 2.0
     size = np.floor(extent / cell).astype(np.intp) + 1
 
-    def cells(corners: Rectangles) -> tuple[Index, Index]:
+    def touched_cells(corners: Rectangles) -> tuple[Index, Index]:
         """Return the cells that rectangles touch, and the rectangle of each."""
         start, stop = (
             np.clip(np.floor((ends - origin) / cell), -1, size).astype(np.intp) for ends in corners
@@ -41,18 +41,18 @@ def rectangle_pairs(first: Rectangles, second: Rectangles) -> Iterator[tuple[Ind
         row, column = np.divmod(segment_ranges(number), counts[owner, 1])
         return (start[owner, 0] + row) * size[1] + start[owner, 1] + column, owner
 
-    cell_of, owner = cells(second)
-    order = np.argsort(cell_of, kind="stable")
-    cell_of, owner = cell_of[order], owner[order]
-    wanted, asking = cells(first)
-    begin = np.searchsorted(cell_of, wanted, "left")
-    counts = np.searchsorted(cell_of, wanted, "right") - begin
+    second_cells, second_owner = touched_cells(second)
+    order = np.argsort(second_cells, kind="stable")
+    second_cells, second_owner = second_cells[order], second_owner[order]
+    first_cells, first_owner = touched_cells(first)
+    begin = np.searchsorted(second_cells, first_cells, "left")
+    counts = np.searchsorted(second_cells, first_cells, "right") - begin
     for part in batches(counts, PAIRS_PER_BLOCK):
-        i = np.repeat(asking[part], counts[part])
-        j = owner[np.repeat(begin[part], counts[part]) + segment_ranges(counts[part])]
+        i = np.repeat(first_owner[part], counts[part])
+        j = second_owner[np.repeat(begin[part], counts[part]) + segment_ranges(counts[part])]
         corner = np.maximum(first[0][i], low[j])
         # A pair is taken in the cell of the lowest corner that both rectangles share.
         place = np.clip(np.floor((corner - origin) / cell), 0, size - 1).astype(np.intp)
-        taken = place @ (size[1], 1) == np.repeat(wanted[part], counts[part])
+        taken = place @ (size[1], 1) == np.repeat(first_cells[part], counts[part])
         taken &= (corner < np.minimum(first[1][i], high[j])).all(axis=1)
         yield i[taken], j[taken], len(taken)

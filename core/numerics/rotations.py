@@ -107,18 +107,20 @@ MAX_AXIS_COSINE = 1e-5  # float32 rotations never have axes with a larger cosine
 
 
 def polar_rotation(matrices: NDArray) -> tuple[Array, Mask]:
-    """Return (k, 3, 3) polar axes (Higham 1986) of (k, 4, 4) maps, left-handed if mirrored, and
-    (k,) who shears.
+    """Return the (k, 3, 3) orthogonal factors of (k, 4, 4) maps (Higham 1986), left-handed for
+    mirroring maps, and a (k,) mask of the maps that shear.
     """
     linear = np.asarray(matrices, np.float64)[:, :3, :3]
     length = np.sqrt(np.add.reduce(linear * linear, axis=1, keepdims=True))
     columns = np.divide(linear, length, out=np.zeros_like(linear), where=length > 0.0)
-    skew = (np.abs(columns.transpose(0, 2, 1) @ columns) * OFF_DIAGONAL).max(axis=(1, 2))
-    rows = np.flatnonzero(~(skew == 0.0) | (length == 0.0).any(axis=(1, 2)))
-    if len(rows):  # the others have right angles already
-        u, _, v = np.linalg.svd(columns[rows])
-        columns[rows] = u @ v
-    return columns, skew > MAX_AXIS_COSINE
+    cosines = (np.abs(columns.transpose(0, 2, 1) @ columns) * OFF_DIAGONAL).max(axis=(1, 2))
+    # Columns at right angles are the factor; NaN is not.
+    is_orthogonal = (cosines == 0.0) & (length > 0.0).all(axis=(1, 2))
+    rest = np.flatnonzero(~is_orthogonal)
+    if len(rest):
+        u, _, v = np.linalg.svd(columns[rest])
+        columns[rest] = u @ v
+    return columns, cosines > MAX_AXIS_COSINE
 
 
 def along_x(axis: NDArray) -> Array:
