@@ -13,11 +13,7 @@ from functools import partial
 import numpy as np
 
 from .. import mesh, moments, verdict
-from ..numerics import (
-    Index,
-    connected_components,
-    indices_in_range,
-)
+from ..numerics import Index, Integers, Mask, NDArray, connected_components, indices_in_range
 from ..polyhedron import polyhedron_moments, third_order
 from . import findings, repaired_mesh
 
@@ -61,25 +57,18 @@ def check_surface(surface: mesh.Surface) -> CheckedSurface:
     total = len(surface.points)
     if not all([indices_in_range(corners, total) for corners in faces]):
         raise verdict.MeasureError(findings.INVALID_FACES)
-    used = np.zeros(total, bool)
-    for column in (0, 2, 1, 3):  # opposite corners first: they reach most vertices
-        for corners in faces:
-            if column < corners.shape[1]:
-                used[corners[:, column].astype(np.intp)] = True
-        if used.all():
-            break
     vertices = None
-    if not used.all():
-        vertices = np.flatnonzero(used)
-        number = np.cumsum(used) - 1
+    is_used = _used_vertices(faces, total)
+    if not is_used.all():
+        vertices = np.flatnonzero(is_used)
+        number = np.cumsum(is_used) - 1
+        ring = surface.corner_vertices
         surface = replace(
             surface,
-            points=surface.points[used],
+            points=surface.points[is_used],
             triangles=number[surface.triangles],
             quads=number[surface.quads],
-            corner_vertices=None
-            if surface.corner_vertices is None
-            else number[surface.corner_vertices],
+            corner_vertices=None if ring is None else number[ring],
         )
     low, high = surface.box
     with np.errstate(invalid="ignore", over="ignore"):
@@ -98,6 +87,18 @@ def check_surface(surface: mesh.Surface) -> CheckedSurface:
     return CheckedSurface(
         surface, vertices, size, error, tolerance=verdict.welding_tolerance(size, error)
     )
+
+
+def _used_vertices(faces: list[Integers], total: int) -> Mask:
+    """Return a (total,) mask of the vertices that are corners of triangles or quads."""
+    is_used = np.zeros(total, bool)
+    for column in (0, 2, 1, 3):  # opposite corners first: they reach most vertices
+        for corners in faces:
+            if column < corners.shape[1]:
+                is_used[corners[:, column].astype(np.intp)] = True
+        if is_used.all():
+            break
+    return is_used
 
 
 def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> GivenIntegrals:
@@ -129,10 +130,10 @@ def prove_closed(surface: mesh.Surface) -> repaired_mesh.RepairedMesh | None:
     """Return the mesh if its own edges prove it closed and oriented, without triangles if one
     component; else None.
     """
-    found = _components_of_closed(surface)
-    if found is None:
+    sides = _closed_side_faces(surface)
+    if sides is None:
         return None
-    component, component_count = found
+    component, component_count = connected_components(int(sides.max()) + 1, *sides)
     triangles = surface.triangles[:0]
     face = component[:0]
     if component_count > 1:
@@ -141,26 +142,22 @@ def prove_closed(surface: mesh.Surface) -> repaired_mesh.RepairedMesh | None:
         surface.points,
         triangles,
         face,
-        np.zeros(len(face), bool),
-        component[face],
-        component_count,
-        np.zeros(component_count, bool),
-        np.zeros((component_count, 3)),
+        flipped=np.zeros(len(face), bool),
+        component=component[face],
+        number=component_count,
+        open=np.zeros(component_count, bool),
+        caps=np.zeros((component_count, 3)),
         report=verdict.MeshHealth(closed=True, components=component_count),
     )
 
 
-def _components_of_closed(surface: mesh.Surface) -> tuple[Index, int] | None:
-    """Return the component of each mesh face and their number; None if not proven closed and
-    oriented.
-    """
+def _closed_side_faces(surface: mesh.Surface) -> NDArray[np.int32] | None:
+    """Return the (2, e) mesh faces beside each edge; None if not proven closed and oriented."""
     if surface.corner_edges is not None:
-        sides = mesh.closed_side_faces(surface)
-        return None if sides is None else connected_components(int(sides.max()) + 1, *sides)
+        return mesh.closed_side_faces(surface)
     if surface.triangle_faces is not None or surface.quad_faces is not None:
         return None
     if len(surface.triangles) and len(surface.quads):
         return None
     faces = surface.triangles if len(surface.triangles) else surface.quads
-    sides = mesh.faces_beside_edges(faces, len(surface.points))
-    return None if sides is None else connected_components(len(faces), *sides)
+    return mesh.faces_beside_edges(faces, len(surface.points))

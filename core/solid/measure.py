@@ -35,7 +35,7 @@ from .hole_caps import (
     report_closedness,
     turn_faces,
 )
-from .orientation import OrientedSolid, orient_components
+from .orientation import orient_components
 from .repaired_mesh import UNKNOWN, RepairedMesh, copy_with
 from .self_intersection import find_self_intersection
 from .solid_method import SolidIntegrals, judge
@@ -211,32 +211,24 @@ def _measure_repaired(
 ) -> SolidIntegrals:
     """Measure the body of a repaired mesh.
 
-    Faces that are left out of a solid count in none of its numbers.
+    Faces that are left out of a solid count in none of its numbers. A shell is not searched for
+    self-intersections; its copies of faces are reported.
     """
     if len(mesh.left_out) and not shell:
         checked = replace(checked, surface=without_faces(checked.surface, mesh.left_out))
         given = integrate_and_prove(checked, shell, threads)
-    return _judge(checked, given, orient_components(checked, given, mesh, threads), shell)
-
-
-def _judge(
-    checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid, shell: bool
-) -> SolidIntegrals:
-    """Return the judged body.
-
-    A shell is not searched for self-intersections; its copies of faces are reported.
-    """
+    oriented = orient_components(checked, given, mesh, threads)
     if not shell:
         return judge(checked, given, oriented, find_self_intersection(checked, oriented))
     solid = judge(checked, given, oriented, None)
-    found = solid.health.defective_elements
-    copies = np.union1d(found.duplicate_faces, copied_faces(checked.surface))
-    if len(copies) == len(found.duplicate_faces):
-        return solid
-    defects = replace(found, duplicate_faces=copies)
-    return replace(
-        solid, health=replace(solid.health, duplicate_faces=len(copies), defective_elements=defects)
+    defects = solid.health.defective_elements
+    copies = np.union1d(defects.duplicate_faces, copied_faces(checked.surface))
+    health = replace(
+        solid.health,
+        duplicate_faces=len(copies),
+        defective_elements=replace(defects, duplicate_faces=copies),
     )
+    return replace(solid, health=health)
 
 
 def repair_surface(surface: Surface, tolerance: float, weld_near: bool = True) -> RepairedMesh:

@@ -63,29 +63,28 @@ def find_self_intersection(checked: CheckedSurface, oriented: OrientedSolid) -> 
     volume = oriented.volume
     if not oriented.is_solid or mesh.open.any():
         return SelfIntersection(Intersection.NOT_CHECKED)
-    component = None
+    part = None
     if mesh.number > 1:
         parts = oriented.closed_parts()
         surface = Surface(*keep_used(parts.points, parts.triangles))
-        component = parts.part
+        part = parts.part
     else:
         center = volume.about + volume.raw[1:4] / volume.total
         if is_star(surface, center) or is_star(surface, volume.about):
             return SelfIntersection(Intersection.EXCLUDED)
     low, high = surface.box
-    grids = LineGrids.over_boxes(
-        low[None], high[None], line_counts(np.array([surface.triangle_count]))
-    )
-    excess = measure_excess(
-        find_crossings(surface, grids), grids, np.array([checked.tolerance]), component
-    )
+    lines = line_counts(np.array([surface.triangle_count]))
+    grids = LineGrids.over_boxes(low[None], high[None], lines)
+    crossings = find_crossings(surface, grids)
+    excess = measure_excess(crossings, grids, np.array([checked.tolerance]), part)
     if excess.unsure[0] > MAX_UNSURE_LINES:
         return SelfIntersection(Intersection.NOT_CHECKED)
-    if not excess.volume[0] > 0.0:
+    excess_volume = float(excess.volume[0])
+    if not excess_volume > 0.0:
         return SelfIntersection(Intersection.NOT_FOUND)
     spread = float(volume.about_center().raw[SECOND_MOMENT_INDEX.diagonal()].sum())
-    effect = max(float(excess.volume[0]) / volume.total, float(excess.second_moment[0]) / spread)
-    return SelfIntersection(Intersection.FOUND, float(excess.volume[0]), effect)
+    effect = max(excess_volume / volume.total, float(excess.second_moment[0]) / spread)
+    return SelfIntersection(Intersection.FOUND, excess_volume, effect)
 
 
 def is_star(surface: Surface, center: Array) -> bool:
@@ -151,50 +150,51 @@ def measure_excess(
     tolerance: Array,
     part: Integers | None = None,
 ) -> Excess:
-    """Measure along lines the volume that a closed part counts more than once, or as negative."""
+    """Measure along lines the volume that a closed part counts more than once, or as negative.
+
+    tolerance: (b,) lengths along a line that count as none. part: (t,) the closed part of each
+    triangle, of one body only; by default a part is a body.
+    """
     bodies = len(grids.cell)
     if not len(crossings.row):
         return Excess(np.zeros(bodies), np.zeros(bodies), np.ones(bodies))
     of_part = crossings.body if part is None else part[crossings.triangle].astype(np.intp)
+    parts = int(of_part.max()) + 1
     line = crossings.row * grids.columns + crossings.column
-    group = line * (int(of_part.max()) + 1) + of_part  # a part is of one body
-    order = np.lexsort((crossings.along, group))
-    group = group[order]
-    of_part = of_part[order]
+    chord = line * parts + of_part  # the crossings of one line with one part
+    order = np.lexsort((crossings.along, chord))
+    chord = chord[order]
     body = crossings.body[order]
-    begins = np.flatnonzero(np.concatenate([[True], group[1:] != group[:-1]]))
-    last = np.concatenate([begins[1:], [len(group)]]) - 1
-    which = np.repeat(np.arange(len(begins)), last + 1 - begins)
-    depth = np.cumsum(crossings.sign[order])
-    depth -= (depth[begins] - crossings.sign[order][begins])[which]
-    complete = depth[last] == 0
-    lines = np.bincount(body[begins], minlength=bodies)
-    unsure = np.where(
-        lines > 0,
-        np.bincount(body[begins], ~complete, minlength=bodies) / np.maximum(lines, 1),
-        1.0,
-    )
-
-    is_inner = complete[which]
-    is_inner[last] = False
-    inner = np.flatnonzero(is_inner)
+    sign = crossings.sign[order]
     along = crossings.along[order]
-    body = body[inner]
-    depth = depth[inner]
-    length = along[inner + 1] - along[inner]
-    outward = np.sign(sums_by_index(of_part[inner], depth * length, int(of_part.max()) + 1))
-    depth = depth * outward[of_part[inner]]
-    times = np.maximum(depth - 1.0, 0.0) + np.maximum(-depth, 0.0)
-    wrong = np.flatnonzero((times > 0.0) & (length > tolerance[body]))
-    inner, body = inner[wrong], body[wrong]
-    volume = (
-        times[wrong]
-        * length[wrong]
-        * (np.multiply.reduce(grids.cell, axis=1) * crossings.rows_apart)[body]
-    )
-    middle = along[inner] + length[wrong] / 2.0
+    first = np.flatnonzero(np.concatenate([[True], chord[1:] != chord[:-1]]))
+    last = np.concatenate([first[1:], [len(chord)]]) - 1
+    chord = np.repeat(np.arange(len(first)), last + 1 - first)
+    # How often the part counts the piece of the line after each crossing.
+    depth = np.cumsum(sign)
+    depth -= (depth[first] - sign[first])[chord]
+    is_complete = depth[last] == 0
+    chords = np.bincount(body[first], minlength=bodies)
+    incomplete = np.bincount(body[first], ~is_complete, minlength=bodies)
+    unsure = np.where(chords > 0, incomplete / np.maximum(chords, 1), 1.0)
+
+    has_piece = is_complete[chord]
+    has_piece[last] = False
+    piece = np.flatnonzero(has_piece)
+    length = along[piece + 1] - along[piece]
+    depth = depth[piece]
+    of_part = of_part[order][piece]
+    outward = np.sign(sums_by_index(of_part, depth * length, parts))
+    depth = depth * outward[of_part]
+    surplus = np.maximum(depth - 1.0, 0.0) + np.maximum(-depth, 0.0)
+    wrong = np.flatnonzero((surplus > 0.0) & (length > tolerance[body[piece]]))
+    piece, length, surplus = piece[wrong], length[wrong], surplus[wrong]
+    body = body[piece]
+    area_per_line = np.multiply.reduce(grids.cell, axis=1) * crossings.rows_apart
+    volume = surplus * length * area_per_line[body]
+    middle = along[piece] + length / 2.0
     distance = grids.squared_distances(
-        body, crossings.row[order][inner], crossings.column[order][inner], middle
+        body, crossings.row[order][piece], crossings.column[order][piece], middle
     )
     return Excess(
         sums_by_index(body, volume, bodies), sums_by_index(body, volume * distance, bodies), unsure

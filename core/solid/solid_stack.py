@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from functools import cached_property
 
 import numpy as np
 
@@ -72,9 +72,6 @@ class SmallSolids:
     caps: StackCaps
 
 
-COMPUTED = "method", "health", "findings", "oriented"
-
-
 class SmallSolid(SolidIntegrals):
     """Body `i` of a stack, with results that are computed when they are asked for."""
 
@@ -86,48 +83,57 @@ class SmallSolid(SolidIntegrals):
         area = stack.area.at(i)
         self.__dict__.update(stack=stack, i=i, given_surface=surface, volume=volume, area=area)
 
-    def __getattr__(self, name: str) -> Any:
-        if name not in COMPUTED:
-            raise AttributeError(name)
-        value = self.__dict__[name] = getattr(self, "_" + name)()
-        return value
-
-    def _method(self) -> Procedure:
+    @cached_property
+    def method(self) -> Procedure:  # type: ignore[override]
         return Procedure.CAPPED if self.stack.caps.is_capped[self.i] else Procedure.EXACT
 
-    def _health(self) -> MeshHealth:
-        flat = self.stack.planarity
+    @cached_property
+    def health(self) -> MeshHealth:  # type: ignore[override]
+        planarity = self.stack.planarity
         edges = self.stack.caps.edges_of(self.i)
         return MeshHealth(
             closed=not len(edges),
             boundary_edges=len(edges),
             components=int(self.stack.component_counts[self.i]),
-            non_planar_faces=int(flat.non_planar_counts[self.i]),
-            volume_spread=float(flat.volume_spread[self.i]),
+            non_planar_faces=int(planarity.non_planar_counts[self.i]),
+            volume_spread=float(planarity.volume_spread[self.i]),
             cap_area_share=self._cap_share,
             self_intersection=Intersection(self.stack.intersection[self.i]),
             defective_elements=DefectiveElements(boundary_edges=edges),
         )
 
-    def _findings(self) -> tuple[Finding, ...]:
-        flat = self.stack.planarity
+    @cached_property
+    def findings(self) -> tuple[Finding, ...]:  # type: ignore[override]
+        planarity = self.stack.planarity
+        findings = planarity_findings(
+            int(planarity.non_planar_counts[self.i]),
+            float(planarity.volume_spread[self.i]),
+            self.volume.total,
+        )
         caps = self.stack.caps
-        found = []
         if caps.is_capped[self.i]:
             size = float(self.stack.size[self.i])
             edges = caps.edges_of(self.i)
-            found.append(
-                cap_finding(edges, caps.counts[self.i], self._cap_share, size, self.volume.total)
-            )
-        count, spread = flat.non_planar_counts[self.i], flat.volume_spread[self.i]
-        return *found, *planarity_findings(int(count), float(spread), self.volume.total)
+            counts = caps.counts[self.i]
+            findings.insert(0, cap_finding(edges, counts, self._cap_share, size, self.volume.total))
+        return tuple(findings)
 
-    def _oriented(self) -> OrientedSolid:
+    @cached_property
+    def oriented(self) -> OrientedSolid:  # type: ignore[override]
         mesh = self.stack.caps.mesh(self.i, self.given_surface, self.health)
         is_closed = self.health.closed
-        yes = np.ones(mesh.number, bool)
-        surface = self.given_surface if is_closed else Surface(mesh.points, mesh.triangles)
-        return OrientedSolid(mesh, is_closed, surface, self.volume, True, yes, ~yes, ~yes, None)
+        all_components = np.ones(mesh.number, bool)
+        return OrientedSolid(
+            mesh,
+            is_proven=is_closed,
+            surface=self.given_surface if is_closed else Surface(mesh.points, mesh.triangles),
+            volume=self.volume,
+            is_solid=True,
+            solid=all_components,
+            turned=~all_components,
+            reversed=~all_components,
+            comparison=None,
+        )
 
     @property
     def _cap_share(self) -> float:
@@ -162,48 +168,28 @@ def measure_small(surfaces: Sequence[Surface]) -> SmallSolids:
     usable &= links.component_counts <= MAX_COMPONENTS
     error = np.sqrt(np.add.reduce(stack.coordinate_error**2, axis=1))
     tolerance = np.maximum(WELDING_RTOL * size, 4.0 * error)
-    none = np.zeros(len(stack), np.intp)
-    part = links.component[stack.triangle_faces]
-    caps = StackCaps(
-        none > 0, stack, part, none, np.zeros((len(none), 3)), np.empty((0, 2), np.intp), none
-    )
-    if links.is_open.any() and (made := cap_stack(stack, links, usable, tolerance)) is not None:
-        caps = made
-        volume = made.add_to(volume)
-    capped = caps.is_capped
+    caps = cap_stack(stack, links, usable, tolerance)
+    if caps.is_capped.any():
+        volume = caps.add_to(volume)
     triangles = caps.triangles
-    part = caps.part
-    is_measured = usable & (links.is_closed | capped)
-    least = np.maximum(
-        zero_volume(size, area.raw[:, 0], capped, error), volume.rounding_error[:, 0]
-    )
-    is_measured &= volume.raw[:, 0] > least
-    is_star = links.component_counts == 1
-    if (is_measured & is_star).any():
-        centers = (
-            volume.about
-            + volume.raw[:, 1:4] / np.where(is_measured, volume.raw[:, 0], 1.0)[:, None]
-        )
-        is_proven = _are_stars(triangles, centers)
-        if not is_proven[is_measured & ~capped].all():
-            is_proven |= ~capped & _are_stars(triangles, volume.about)
-        is_star &= is_proven
+    is_measured = usable & (links.is_closed | caps.is_capped)
+    flat = zero_volume(size, area.raw[:, 0], caps.is_capped, error)
+    is_measured &= volume.raw[:, 0] > np.maximum(flat, volume.rounding_error[:, 0])
     # A star is a body, and does not go through itself.
+    is_star = _find_stars(caps, volume, is_measured & (links.component_counts == 1))
     rows = np.flatnonzero(is_measured & ~is_star)
     if len(rows):
         is_measured[rows] = are_physical(volume.at(rows), low[rows], high[rows], size[rows])
     several = np.flatnonzero(is_measured & (links.component_counts > 1))
     if len(several):
-        is_measured[several] = _stand_apart(
-            triangles, part, several, links.component_counts, tolerance, capped, error
-        )
+        is_measured[several] = _stand_apart(caps, several, links.component_counts, tolerance, error)
     intersection = np.full(len(stack), Intersection.NOT_CHECKED, object)
     intersection[is_measured] = Intersection.EXCLUDED
     rows = np.flatnonzero(is_measured & ~is_star)
     if len(rows):
-        chosen = triangles.owned(rows)[1]
+        _, is_searched = triangles.owned(rows)
         intersection[rows] = _search_self_intersections(
-            triangles.some(rows), tolerance[rows], _renumbered(part[chosen])
+            triangles.some(rows), tolerance[rows], _renumbered(caps.part[is_searched])
         )
         is_measured[rows] = intersection[rows] == Intersection.NOT_FOUND
     return SmallSolids(
@@ -218,39 +204,52 @@ def measure_small(surfaces: Sequence[Surface]) -> SmallSolids:
     )
 
 
+def _find_stars(caps: StackCaps, volume: Moments, candidates: Mask) -> Mask:
+    """Return an (n,) mask of the `candidates`, (n,), that certainly are stars about their center of
+    mass or the point of `volume`.
+    """
+    if not candidates.any():
+        return candidates
+    total = np.where(candidates, volume.raw[:, 0], 1.0)
+    is_star = _are_stars(caps.triangles, volume.about + volume.raw[:, 1:4] / total[:, None])
+    if not is_star[candidates & ~caps.is_capped].all():
+        is_star |= ~caps.is_capped & _are_stars(caps.triangles, volume.about)
+    return candidates & is_star
+
+
 def _renumbered(labels: Index) -> Index:
     """Return labels from 0 on, without gaps, in the same order."""
     return np.unique(labels, return_inverse=True)[1].ravel()
 
 
 def _stand_apart(
-    stack: TriangleStack,
-    part: Index,
-    rows: Index,
-    counts: Index,
-    tolerance: Array,
-    capped: Mask,
-    error: Array,
+    caps: StackCaps, rows: Index, counts: Index, tolerance: Array, error: Array
 ) -> Mask:
     """Return a (k,) mask of the bodies `rows` whose parts face outward, surely have a volume, and
     stand apart.
+
+    counts, tolerance, error: (n,) of all bodies: the number of parts, the distance of touch, and
+    the largest shift of points by storing.
     """
-    chosen = stack.owned(rows)[1]
-    part = _renumbered(part[chosen])
+    stack = caps.triangles
+    _, is_chosen = stack.owned(rows)
     # The body of each part; parts are numbered body by body.
     body = np.repeat(np.arange(len(rows)), counts[rows])
-    parts = sort_components(stack.points, stack.triangles[chosen], part, len(body))
     of_all = rows[body]
+    parts = sort_components(
+        stack.points, stack.triangles[is_chosen], _renumbered(caps.part[is_chosen]), len(body)
+    )
     low = parts.low
     high = parts.high
-    size = np.sqrt(np.add.reduce((parts.high - parts.low) ** 2, axis=1))
+    size = np.sqrt(np.add.reduce((high - low) ** 2, axis=1))
     is_bad = parts.volume <= CLEAR_VOLUME * zero_volume(
-        size, parts.area, capped[of_all], error[of_all]
+        size, parts.area, caps.is_capped[of_all], error[of_all]
     )
-    apart = 2.0 * tolerance[of_all]
+    least_gap = 2.0 * tolerance[of_all]
+    # All pairs of parts of a body: each with the next, with the one after that, and so on.
     for step in range(1, int(counts[rows].max())):
         gap = np.maximum(low[step:] - high[:-step], low[:-step] - high[step:]).max(axis=1)
-        is_bad[:-step] |= (body[step:] == body[:-step]) & ~(gap > apart[:-step])
+        is_bad[:-step] |= (body[step:] == body[:-step]) & ~(gap > least_gap[:-step])
     return np.bincount(body, is_bad) == 0
 
 
@@ -366,44 +365,50 @@ def cap_stack(
     links: Connections,
     usable: Mask,
     tolerance: Array,
-) -> StackCaps | None:
-    """Cap `usable` surfaces that need nothing but caps; None if there are none. tolerance: (n,)
-    distances of touch.
-    """
-    can = usable & links.is_open
+) -> StackCaps:
+    """Cap `usable` surfaces that need nothing but caps. tolerance: (n,) distances of touch."""
+    part = links.component[stack.triangle_faces]
+    none = np.zeros(len(stack), np.intp)
+    uncapped = StackCaps(
+        none > 0, stack, part, none, np.zeros((len(stack), 3)), np.empty((0, 2), np.intp), none
+    )
+    fits = usable & links.is_open
+    if not fits.any():
+        return uncapped
     start, stop = links.open_sides
     owner = stack.point_owners
     total = len(stack.points)
+    # At each boundary vertex one side arrives and one leaves.
     leaving = np.bincount(start, minlength=total)
     arriving = np.bincount(stop, minlength=total)
-    can &= np.logical_and.reduceat((leaving <= 1) & (leaving == arriving), stack.first_point)
-    for chosen, reach in ((start, tolerance), (np.flatnonzero(can[owner]), np.zeros(len(can)))):
-        of = owner[chosen]
-        can[of[may_have_neighbor(stack.points[chosen], reach[of], of)]] = False
-    if not can.any():
-        return None
-    onto = np.full(total, -1)
-    onto[start] = stop
+    fits &= np.logical_and.reduceat((leaving <= 1) & (leaving == arriving), stack.first_point)
+    # No boundary vertices touch, and no vertices are at the same place.
+    for vertices, reach in ((start, tolerance), (np.flatnonzero(fits[owner]), np.zeros(len(fits)))):
+        body = owner[vertices]
+        fits[body[may_have_neighbor(stack.points[vertices], reach[body], body)]] = False
+    if not fits.any():
+        return uncapped
+    next_vertex = np.full(total, -1)
+    next_vertex[start] = stop
     begins, ends = side_ends(stack.triangles, np.arange(stack.triangles.size))
-    is_side = onto[begins] == ends
-    side_counts = np.add.reduceat(is_side, 3 * stack.first_triangle, dtype=np.intp)
-    sides = np.repeat(can, 3 * stack.triangle_counts)
-    key = np.sort(begins[sides] * total + ends[sides])
-    can[owner[key[1:][key[1:] == key[:-1]] // total]] = False  # diagonals may run along edges
-    can &= side_counts + stack.triangle_counts <= MAX_SMALL_TRIANGLES
-    can &= np.logical_and.reduceat(has_distinct_vertices(stack.triangles), stack.first_triangle)
-    side = np.flatnonzero(is_side)
-    while can.any():
-        side = side[can[owner[begins[side]]]]
+    is_boundary = next_vertex[begins] == ends
+    boundary_counts = np.add.reduceat(is_boundary, 3 * stack.first_triangle, dtype=np.intp)
+    # No two sides run the same way: diagonals may run along edges.
+    is_candidate = np.repeat(fits, 3 * stack.triangle_counts)
+    key = np.sort(begins[is_candidate] * total + ends[is_candidate])
+    fits[owner[key[1:][key[1:] == key[:-1]] // total]] = False
+    fits &= boundary_counts + stack.triangle_counts <= MAX_SMALL_TRIANGLES
+    fits &= np.logical_and.reduceat(has_distinct_vertices(stack.triangles), stack.first_triangle)
+    side = np.flatnonzero(is_boundary)
+    while fits.any():
+        side = side[fits[owner[begins[side]]]]
         start, stop = begins[side], ends[side]
-        found = OwnedLoops.of_sides(stack.points, start, stop, owner[start])
-        bad = ~found.loops.complete | ~found.loops.has_area(tolerance[found.owner])
+        holes = OwnedLoops.of_sides(stack.points, start, stop, owner[start])
+        bad = ~holes.loops.complete | ~holes.loops.has_area(tolerance[holes.owner])
         if not bad.any():
-            return _capped(
-                stack, links.component[stack.triangle_faces], can, tolerance, side, found
-            )
-        can[found.owner[bad]] = False
-    return None
+            return _capped(stack, part, fits, tolerance, side, holes)
+        fits[holes.owner[bad]] = False
+    return uncapped
 
 
 def _capped(
@@ -412,35 +417,33 @@ def _capped(
     is_capped: Mask,
     tolerance: Array,
     side: Index,
-    found: OwnedLoops,
+    holes: OwnedLoops,
 ) -> StackCaps:
-    """Add the caps of loops to their surfaces. part: (t,) components of triangles; side: (r,) sides
-    of the loops.
+    """Add the caps of holes to their surfaces. part: (t,) components of triangles; side: (r,) sides
+    of the holes.
     """
     count = len(stack)
-    owner = stack.point_owners
-    (apexes, caps, kept) = found.cones()
-    body = owner[found.start]
+    apexes, caps, kept = holes.cones()
+    body = stack.point_owners[holes.start]
     cap_counts = np.bincount(body[kept], minlength=count)
-    point_order = np.concatenate([owner, found.owner]).argsort(kind="stable")
-    bodies = np.concatenate([np.repeat(np.arange(count), stack.triangle_counts), body[kept]])
-    order = bodies.argsort(kind="stable")
+    # Each surface's new points and triangles come after its own.
+    point_order = np.concatenate([stack.point_owners, holes.owner]).argsort(kind="stable")
+    triangle_bodies = np.repeat(np.arange(count), stack.triangle_counts)
+    order = np.concatenate([triangle_bodies, body[kept]]).argsort(kind="stable")
     triangles = TriangleStack(
         np.concatenate([stack.points, apexes])[point_order],
         point_order.argsort()[np.concatenate([stack.triangles, caps])[order]],
-        stack.point_counts + np.bincount(found.owner, minlength=count),
+        stack.point_counts + np.bincount(holes.owner, minlength=count),
         stack.triangle_counts + cap_counts,
     )
-    edges = (
-        np.sort(np.stack([found.start, found.stop], axis=1), axis=1)
-        - stack.first_point[body][:, None]
-    )
+    ends = np.sort(np.stack([holes.start, holes.stop], axis=1), axis=1)
+    edges = ends - stack.first_point[body][:, None]
     return StackCaps(
         is_capped,
         triangles,
         np.concatenate([part, part[side[kept] // 3]])[order],
         cap_counts,
-        found.count_caps(tolerance, is_capped),
+        holes.count_caps(tolerance, is_capped),
         edges[np.lexsort((edges[:, 1], edges[:, 0], body))],
         np.bincount(body, minlength=count),
     )
