@@ -63,9 +63,12 @@ def join_sides(
 ) -> tuple[Index, Index, Mask]:
     """Return (k,) and (k,) sides joined in pairs at equal vertices, sharpest turns first, and True
     for head to tail.
+
+    begin, end: (r, 3) points of the sides; start, stop: (r,) their vertices. directed: True to join
+    sides head to tail only.
     """
     count = len(start)
-    vertex = np.concatenate([start, stop])
+    vertex = np.concatenate([start, stop])  # of 2r ends: first all starts
     direction = end - begin
     length = lengths(direction)
     direction = np.divide(direction, length, out=np.zeros_like(direction), where=length > 0.0)
@@ -79,9 +82,9 @@ def join_sides(
     simple = first[degree == 2]
     left = [order[simple]]
     right = [order[simple + 1]]
-    branching = first[degree > 2], degree[degree > 2]
-    if len(branching[0]):
-        first_end, second_end = _candidate_pairs(order, *branching)
+    is_branching = degree > 2
+    if is_branching.any():
+        first_end, second_end = _candidate_pairs(order, first[is_branching], degree[is_branching])
         if directed:
             fits = (first_end < count) != (second_end < count)
             first_end = first_end[fits]
@@ -91,23 +94,23 @@ def join_sides(
         first_end, second_end = _greedy_matching(first_end[best], second_end[best], 2 * count)
         left.append(first_end)
         right.append(second_end)
-    left = np.concatenate(left)
-    right = np.concatenate(right)
-    follows = (left < count) != (right < count)
-    return left % count, right % count, follows
+    left_end = np.concatenate(left)
+    right_end = np.concatenate(right)
+    follows = (left_end < count) != (right_end < count)
+    return left_end % count, right_end % count, follows
 
 
 def _candidate_pairs(order: NDArray, first: NDArray, degree: NDArray) -> tuple[NDArray, NDArray]:
     """Return pairs of ends that meet at a vertex: all, or only neighbors in `order` if there are
     too many.
+
+    The ends at a vertex are `degree` entries of `order`, from `first` on.
     """
     pairs = degree * (degree - 1) // 2
     if pairs.sum() > MAX_END_PAIRS:
-        within = np.concatenate([np.ones(len(order) - 1, bool), [False]])
-        within[first - 1] = False
-        member = np.repeat(first, degree) + segment_ranges(degree)
-        member = member[within[member]]
-        return order[member], order[member + 1]
+        neighbors = degree - 1
+        place = np.repeat(first, neighbors) + segment_ranges(neighbors)
+        return order[place], order[place + 1]
     row = np.repeat(np.arange(len(degree)), pairs)
     k = segment_ranges(pairs)
     # The k-th pair (i, j), i < j, of the strict upper triangle read by columns.
@@ -123,11 +126,12 @@ def _greedy_matching(first_end: NDArray, second_end: NDArray, ends: int) -> tupl
     left, right = [first_end[:0]], [second_end[:0]]
     while len(first_end):
         rank = np.arange(len(first_end))
-        best = np.full(ends, len(first_end))
-        best[first_end[::-1]] = rank[::-1]
-        second = np.full(ends, len(first_end))
-        second[second_end[::-1]] = rank[::-1]
-        best = np.minimum(best, second)
+        # The last write to an end wins, so the best candidate is written last.
+        best_as_first = np.full(ends, len(rank))
+        best_as_first[first_end[::-1]] = rank[::-1]
+        best_as_second = np.full(ends, len(rank))
+        best_as_second[second_end[::-1]] = rank[::-1]
+        best = np.minimum(best_as_first, best_as_second)
         taken = (best[first_end] == rank) & (best[second_end] == rank)
         left.append(first_end[taken])
         right.append(second_end[taken])
@@ -197,7 +201,11 @@ class OwnedLoops:
         return cls(points, start, stop, loops, loops.of_each(owner))
 
     def cones(self) -> tuple[Floats, Integers, Index]:
-        """Return the loops' centroids, and the caps: (k, 3) triangles to them from (k,) sides."""
+        """Return the loops' (l, 3) centroids; (k, 3) triangles, the caps; and the (k,) sides that
+        they stand on.
+
+        Vertices after those of `points` are the centroids. A loop of three sides is its own cap.
+        """
         loops = self.loops
         centroids = len(self.points) + np.arange(len(self.owner))
         apex = np.where(np.bincount(loops.of_side) == 3, loops.of_each(self.start), centroids)
@@ -230,9 +238,10 @@ def find_loops(begin: Array, end: Array, links: tuple[NDArray, NDArray, NDArray]
     """Group boundary sides with (r, 3) ends into loops by their `links`, from `join_sides`, and
     measure the loops.
     """
-    of_side, number = connected_components(len(begin), links[0], links[1])
-    joined = np.bincount(np.concatenate(links[:2]), minlength=len(begin))
-    complete = np.bincount(of_side, joined != 2) == 0
+    left, right, _ = links
+    of_side, number = connected_components(len(begin), left, right)
+    joints = np.bincount(np.concatenate([left, right]), minlength=len(begin))
+    complete = np.bincount(of_side, joints != 2) == 0
     origin = np.empty((number, 3))
     # about the loop's first vertex: a coordinate that all share stays exact
     origin[of_side[::-1]] = begin[::-1]
@@ -244,13 +253,20 @@ def find_loops(begin: Array, end: Array, links: tuple[NDArray, NDArray, NDArray]
     center = np.array([np.bincount(of_side, middle[:, k]) / divisor for k in range(3)]).T
     a -= center[of_side]
     b -= center[of_side]
-    wedge = cross_rows(a, b) / 2.0
-    vector = np.array([np.bincount(of_side, wedge[:, k]) for k in range(3)]).T
-    flat = lengths(vector)[:, 0]
-    cone = np.asarray(np.bincount(of_side, lengths(wedge)[:, 0]), np.float64)
+    cone = cross_rows(a, b) / 2.0  # area vectors of the cone's triangles
+    area = np.array([np.bincount(of_side, cone[:, k]) for k in range(3)]).T
+    planar_area = lengths(area)[:, 0]
     with np.errstate(divide="ignore", invalid="ignore"):
-        normal = vector / flat[:, None]
+        normal = area / planar_area[:, None]
         height = np.zeros(number)
         np.maximum.at(height, of_side, np.abs(np.einsum("ij,ij->i", normal[of_side], a)))
     height[~np.isfinite(height)] = np.inf
-    return BoundaryLoops(of_side, complete, perimeter, center + origin, cone, flat, height)
+    return BoundaryLoops(
+        of_side,
+        complete,
+        perimeter,
+        centroid=center + origin,
+        cone_area=np.asarray(np.bincount(of_side, lengths(cone)[:, 0]), np.float64),
+        planar_area=planar_area,
+        out_of_plane=height,
+    )

@@ -53,16 +53,17 @@ def find_t_junctions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     end = mesh.points[stop].astype(np.float64)
     links = boundary_loops.join_sides(begin, end, start, stop, directed=False)
     loops = boundary_loops.find_loops(begin, end, links)
-    closed = loops.complete & ~loops.has_area(tolerance)
-    within = closed[loops.of_side]
-    linked = within[links[0]]
+    is_gap = loops.complete & ~loops.has_area(tolerance)
+    at_gap = is_gap[loops.of_side]
+    left, right, follows = links
+    in_gap = at_gap[left]
     gaps = ZeroAreaLoops(
-        side[within],
-        (np.cumsum(closed) - 1)[loops.of_side][within],
-        int(np.count_nonzero(closed)),
-        side[links[0][linked]],
-        side[links[1][linked]],
-        ~links[2][linked],
+        sides=side[at_gap],
+        loop=(np.cumsum(is_gap) - 1)[loops.of_side][at_gap],
+        number=int(np.count_nonzero(is_gap)),
+        first=side[left[in_gap]],
+        second=side[right[in_gap]],
+        misoriented=~follows[in_gap],
     )
     return mesh.with_state(gaps=gaps)
 
@@ -79,39 +80,33 @@ def orient_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     a = np.concatenate([first, gaps.first]) // 3
     b = np.concatenate([second, gaps.second]) // 3
     disagree = np.concatenate([misoriented, gaps.misoriented])
-    area = (
-        np.linalg.norm(normals(mesh.points, mesh.triangles), axis=1)
-        if disagree.any()
-        else np.zeros(count)
-    )
+    area = np.zeros(count)
+    if disagree.any():
+        area = np.linalg.norm(normals(mesh.points, mesh.triangles), axis=1)
     flipped, twisted = consistent_orientation(count, a, b, disagree, area)
     component, number = group_components(
         edges, *connected_components(count, a, b), _edges_along(mesh)
     )
     is_open = np.zeros(number, bool)
     is_open[component[twisted]] = True
-    report = copy_with(mesh.report, components=number)
+    findings = _without_walls(mesh, np.concatenate(walls))
+    mesh = mesh.with_report(components=number)
     if misoriented.any():
-        sides = boundary_loops.distinct_vertex_pairs(
-            mesh.state.given, np.concatenate([first[misoriented], second[misoriented]])
-        )
-        elements = copy_with(report.defective_elements, inconsistent_edges=sides)
-        report = copy_with(
-            report,
+        sides = np.concatenate([first[misoriented], second[misoriented]])
+        inconsistent = boundary_loops.distinct_vertex_pairs(mesh.state.given, sides)
+        mesh = mesh.with_report(
             inconsistent_edges=int(np.count_nonzero(misoriented)),
-            defective_elements=elements,
+            elements={"inconsistent_edges": inconsistent},
         )
-    return replace(
+    return copy_with(
         mesh,
-        findings=_without_walls(mesh, np.concatenate(walls)),
+        findings=findings,
         flipped=flipped,
         component=component,
         number=number,
         open=is_open,
         caps=np.zeros((number, 3)),
-        report=report,
-        state=copy_with(mesh.state, one_sided=is_open),
-    )
+    ).with_state(one_sided=is_open)
 
 
 def _without_walls(mesh: RepairedMesh, sides: Integers) -> tuple[Finding, ...]:
@@ -121,9 +116,9 @@ def _without_walls(mesh: RepairedMesh, sides: Integers) -> tuple[Finding, ...]:
     walls = np.unique(mesh.face[sides // 3])
     findings = []
     for item in mesh.findings:
-        if item.code.startswith(DUPLICATE_FACES_COUNTED):
-            left = np.setdiff1d(np.asarray(item.elements), walls)
-            item = replace(item, values={**item.values, "count": len(left)}, elements=left)
+        if item.code == DUPLICATE_FACES_COUNTED:
+            copies = np.setdiff1d(np.asarray(item.elements), walls)
+            item = replace(item, values={**item.values, "count": len(copies)}, elements=copies)
         if item.values.get("count") != 0:
             findings.append(item)
     return tuple(findings)
@@ -139,14 +134,12 @@ def find_unclosable_components(mesh: RepairedMesh, tolerance: float) -> Repaired
         key = mesh.component.repeat(3) * len(mesh.points) + mesh.triangles.ravel()
         edges = find_edges(np.unique(key, return_inverse=True)[1].reshape(-1, 3))
     signed_count = edges.signed_use_count(mesh.flipped)
+    is_unbalanced = (signed_count != 0) & (edges.count > 1)
     unclosable = np.zeros(mesh.number, bool)
-    unclosable[mesh.component[edges.first[(signed_count != 0) & (edges.count > 1)] // 3]] = True
+    unclosable[mesh.component[edges.first[is_unbalanced] // 3]] = True
     folded = _find_folded_loops(mesh, edges, signed_count, unclosable & ~mesh.open, tolerance)
-    return replace(
-        mesh,
-        open=mesh.open | (unclosable & ~folded.components),
-        state=copy_with(mesh.state, component_edges=edges, folded=folded),
-    )
+    is_open = mesh.open | (unclosable & ~folded.components)
+    return copy_with(mesh, open=is_open).with_state(component_edges=edges, folded=folded)
 
 
 def close_gaps(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
@@ -154,38 +147,47 @@ def close_gaps(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     edges = mesh.state.edges
     gaps = mesh.state.gaps
     folded = mesh.state.folded
+    is_folded = np.zeros(edges.of_side.shape, bool)
+    is_folded[folded.sides] = True
+    mesh = _report_boundary(mesh, is_folded)
+
+    boundary = mesh.state.component_edges.boundary_sides()
+    boundary = boundary[~mesh.open[mesh.component[boundary // 3]] & ~is_folded[boundary]]
+    loop = np.full(len(is_folded), -1)
+    loop[gaps.sides] = gaps.loop
+    loop = loop[boundary]
+    is_gap = loop >= 0
+    start, stop = mesh.oriented_ends(boundary[is_gap])
+    apex = np.empty(gaps.number, np.intp)
+    apex[loop[is_gap][::-1]] = start[::-1]  # the last write wins: the loop's first side
+    caps = np.concatenate([np.stack([stop, start, apex[loop[is_gap]]], axis=1), folded.caps])
+    owner = np.concatenate([boundary[is_gap] // 3, folded.sides // 3])
+    if len(caps):
+        useful = boundary_loops.has_distinct_vertices(caps)
+        mesh = mesh.with_caps(caps[useful], owner[useful])
+    return mesh.with_state(uncapped_sides=boundary[~is_gap])
+
+
+def _report_boundary(mesh: RepairedMesh, is_folded: Mask) -> RepairedMesh:
+    """Report the gaps without area, and the other boundary edges. is_folded: (3t,) mask of the
+    sides of folded loops.
+    """
+    edges = mesh.state.edges
+    gaps = mesh.state.gaps
     given = mesh.state.given
-    closed_already = np.zeros(edges.of_side.shape, bool)
-    closed_already[folded.sides] = True
-    number = folded.number + len(np.unique(gaps.loop[~closed_already[gaps.sides]]))
+    open_gaps = np.unique(gaps.loop[~is_folded[gaps.sides]])
+    number = mesh.state.folded.number + len(open_gaps)
     if number:
-        sides = np.concatenate([gaps.sides, np.flatnonzero(closed_already)])
+        sides = np.concatenate([gaps.sides, np.flatnonzero(is_folded)])
         mesh = mesh.with_findings(
             finding(T_JUNCTIONS, boundary_loops.distinct_vertex_pairs(given, sides), count=number)
         )
     boundary = edges.first[(edges.count == 1) & ~_edges_along(mesh)]
-    boundary = boundary[~closed_already[boundary]]
-    if len(boundary):
-        mesh = mesh.with_report(
-            boundary_edges=len(boundary),
-            elements={"boundary_edges": boundary_loops.distinct_vertex_pairs(given, boundary)},
-        )
-
-    boundary = mesh.state.component_edges.boundary_sides()
-    boundary = boundary[~mesh.open[mesh.component[boundary // 3]] & ~closed_already[boundary]]
-    loop = np.full(len(closed_already), -1)
-    loop[gaps.sides] = gaps.loop
-    loop = loop[boundary]
-    filled = loop >= 0
-    start, stop = mesh.oriented_ends(boundary[filled])
-    apex = np.empty(gaps.number, np.intp)
-    apex[loop[filled][::-1]] = start[::-1]
-    caps = np.concatenate([np.stack([stop, start, apex[loop[filled]]], axis=1), folded.caps])
-    owner = np.concatenate([boundary[filled] // 3, folded.sides // 3])
-    if len(caps):
-        useful = boundary_loops.has_distinct_vertices(caps)
-        mesh = mesh.with_caps(caps[useful], owner[useful])
-    return mesh.with_state(uncapped_sides=boundary[~filled])
+    boundary = boundary[~is_folded[boundary]]
+    if not len(boundary):
+        return mesh
+    pairs = boundary_loops.distinct_vertex_pairs(given, boundary)
+    return mesh.with_report(boundary_edges=len(boundary), elements={"boundary_edges": pairs})
 
 
 def cap_holes(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
@@ -194,18 +196,18 @@ def cap_holes(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     if not len(side):
         return mesh
     component = mesh.component[side // 3]
-    found = boundary_loops.OwnedLoops.of_sides(mesh.points, *mesh.oriented_ends(side), component)
+    holes = boundary_loops.OwnedLoops.of_sides(mesh.points, *mesh.oriented_ends(side), component)
     is_open = mesh.open.copy()
-    is_open[found.owner[~found.loops.complete]] = True
-    apexes, caps, under = found.cones()
+    is_open[holes.owner[~holes.loops.complete]] = True
+    apexes, caps, kept = holes.cones()
     return copy_with(
         mesh,
         points=np.concatenate([mesh.points, apexes]),
         open=is_open,
-        caps=found.count_caps(np.full(mesh.number, tolerance), ~is_open),
+        caps=holes.count_caps(np.full(mesh.number, tolerance), ~is_open),
         capped_edges=boundary_loops.vertex_pairs(mesh.state.given, side),
         capped_component=component,
-    ).with_caps(caps, side[under] // 3)
+    ).with_caps(caps, side[kept] // 3)
 
 
 def turn_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
@@ -220,22 +222,21 @@ def turn_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
 def report_closedness(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     """Report the components that cannot be closed, with the reasons."""
     elements = mesh.report.defective_elements
-    findings = []
-    count = int(np.count_nonzero(mesh.state.one_sided))
-    if count:
-        findings.append(
-            finding(
-                ONE_SIDED_COMPONENTS, elements.inconsistent_edges, count=count, total=mesh.number
-            )
-        )
-    count = int(np.count_nonzero(mesh.open)) - count
-    if count:
-        edges = np.concatenate([elements.non_manifold_edges, elements.boundary_edges])
-        findings.append(finding(NON_MANIFOLD_COMPONENTS, edges, count=count, total=mesh.number))
     closed = not (mesh.open.any() or mesh.caps.any())
-    return copy_with(
-        mesh, findings=(*mesh.findings, *findings), report=copy_with(mesh.report, closed=closed)
-    )
+    one_sided_count = int(np.count_nonzero(mesh.state.one_sided))
+    open_count = int(np.count_nonzero(mesh.open)) - one_sided_count
+    total = mesh.number
+    if one_sided_count:
+        edges = elements.inconsistent_edges
+        mesh = mesh.with_findings(
+            finding(ONE_SIDED_COMPONENTS, edges, count=one_sided_count, total=total)
+        )
+    if open_count:
+        edges = np.concatenate([elements.non_manifold_edges, elements.boundary_edges])
+        mesh = mesh.with_findings(
+            finding(NON_MANIFOLD_COMPONENTS, edges, count=open_count, total=total)
+        )
+    return mesh.with_report(closed=closed)
 
 
 def _edges_along(mesh: RepairedMesh) -> Mask:
@@ -255,6 +256,8 @@ def _find_folded_loops(
 ) -> FoldedLoops:
     """Find components (of `unclosable`) whose remaining loops have no area, such as outlines that
     turn back.
+
+    signed_count: (e,) upward minus downward sides of each edge.
     """
     edge = np.flatnonzero((signed_count != 0) & unclosable[mesh.component[edges.first // 3]])
     edge = np.repeat(edge, np.abs(signed_count[edge]).astype(np.intp))
@@ -266,8 +269,9 @@ def _find_folded_loops(
     start, stop = np.where(reversed_side, stop, start), np.where(reversed_side, start, stop)
     component = mesh.component[side // 3]
     loops = boundary_loops.OwnedLoops.of_sides(mesh.points, start, stop, component).loops
+    is_hole = ~loops.complete | loops.has_area(tolerance)
     closes = unclosable.copy()
-    closes[component[(~loops.complete | loops.has_area(tolerance))[loops.of_side]]] = False
+    closes[component[is_hole[loops.of_side]]] = False
     caps = np.stack([stop, start, loops.of_each(start)[loops.of_side]], axis=1)
     taken = closes[component]
     return FoldedLoops(closes, side[taken], caps[taken], len(np.unique(loops.of_side[taken])))
@@ -294,11 +298,11 @@ def wall_links(
     if not layer.any():
         return NO_LINKS
     sides = np.flatnonzero((edges.count == 4)[edges.of_side])
-    # Sort by edge: single faces, then the first layer, then the other.
+    # (e, 4) sides of each edge: single faces, then the first layer, then the other.
     sides = sides[np.lexsort((layer[sides // 3], edges.of_side[sides]))].reshape(-1, 4)
-    rank = layer[sides // 3]
-    within = sides[(rank == [1, 1, 2, 2]).all(axis=1)]
-    border = sides[(rank == [0, 0, 1, 2]).all(axis=1)]
+    layers_at_edge = layer[sides // 3]
+    within = sides[(layers_at_edge == [1, 1, 2, 2]).all(axis=1)]
+    border = sides[(layers_at_edge == [0, 0, 1, 2]).all(axis=1)]
     border = border[wall[border[:, 2] // 3] == wall[border[:, 3] // 3]]
     if not len(border):
         return NO_LINKS
@@ -308,6 +312,17 @@ def wall_links(
         np.concatenate([pairs[0] // 3, layers[:, 0] // 3]),
         np.concatenate([pairs[1] // 3, layers[:, 1] // 3]),
     )
+    border = _bodies_beside_layers(edges, border, part)
+    links = np.concatenate([layers, border[:, [0, 2]], border[:, [1, 3]]])
+    return (links[:, 0], links[:, 1]) if len(border) else (layers[:0, 0], layers[:0, 1])
+
+
+def _bodies_beside_layers(edges: Edges, border: Index, part: Index) -> Index:
+    """Return the (b, 4) sides at the borders of walls whose layers are decided: the first body and
+    the other, the first body's layer and the other's.
+
+    border: (k, 4) sides of both bodies and both layers, in any order. part: (t,) connected parts.
+    """
     # A column keeps its body and its layer along the whole border.
     for columns in np.array([[0, 1], [2, 3]]):
         swap = np.diff(part[border[:, columns] // 3])[:, 0] < 0
@@ -316,22 +331,18 @@ def wall_links(
     wall = np.unique(part[border[:, 2:] // 3], axis=0, return_inverse=True)[1].ravel()
     lower = part[border[:, 0] // 3]
     upper = part[border[:, 1] // 3]
-    first = np.empty(int(wall.max()) + 1, np.intp)
-    first[wall] = np.arange(len(wall))
-    one_pair = (lower == lower[first[wall]]) & (upper == upper[first[wall]]) & (lower != upper)
-    decided = sums_by_index(wall, ~one_pair)[wall] == 0.0
-    border, wall = border[decided], wall[decided]
+    any_row = np.empty(int(wall.max()) + 1, np.intp)
+    any_row[wall] = np.arange(len(wall))
+    row = any_row[wall]
+    is_one_pair = (lower == lower[row]) & (upper == upper[row]) & (lower != upper)
+    is_decided = sums_by_index(wall, ~is_one_pair)[wall] == 0.0
+    border, wall = border[is_decided], wall[is_decided]
     up = edges.upward[border]
-    agree = (up[:, :2, None] != up[:, None, 2:]).astype(float)  # Compare each body with each layer.
-    straight = agree[:, 0, 0] + agree[:, 1, 1] - agree[:, 0, 1] - agree[:, 1, 0]
-    swapped = sums_by_index(wall, straight)[wall] < 0.0
-    border[swapped] = border[swapped][:, [0, 1, 3, 2]]
-    links = (
-        np.concatenate([layers, border[:, [0, 2]], border[:, [1, 3]]])
-        if len(border)
-        else layers[:0]
-    )
-    return links[:, 0], links[:, 1]
+    agrees = (up[:, :2, None] != up[:, None, 2:]).astype(float)  # each body with each layer
+    straight = agrees[:, 0, 0] + agrees[:, 1, 1] - agrees[:, 0, 1] - agrees[:, 1, 0]
+    swap = sums_by_index(wall, straight)[wall] < 0.0
+    border[swap] = border[swap][:, [0, 1, 3, 2]]
+    return border
 
 
 def _layer_links(edges: Edges, within: Index, wall: Index) -> Index:
@@ -341,13 +352,14 @@ def _layer_links(edges: Edges, within: Index, wall: Index) -> Index:
     agrees. within: (e, 4) sides on edges between two faces of a wall, by layers; wall: (t,) as of
     `_layers`.
     """
-    crossed = wall[within[:, 1] // 3] != wall[within[:, 3] // 3]
     # Corners of one face, then the other, twice.
+    crossed = wall[within[:, 1] // 3] != wall[within[:, 3] // 3]
     within = np.where(crossed[:, None], within[:, [0, 1, 3, 2]], within)
     up = edges.upward[within]
-    straight = (up[:, 0] != up[:, 1]).astype(int) + (up[:, 2] != up[:, 3])
-    across = (up[:, 0] != up[:, 3]).astype(int) + (up[:, 2] != up[:, 1])
-    within = np.where((across > straight)[:, None], within[:, [0, 3, 2, 1]], within)
+    straight_agrees = (up[:, 0] != up[:, 1]).astype(int) + (up[:, 2] != up[:, 3])
+    across_agrees = (up[:, 0] != up[:, 3]).astype(int) + (up[:, 2] != up[:, 1])
+    is_across = across_agrees > straight_agrees
+    within = np.where(is_across[:, None], within[:, [0, 3, 2, 1]], within)
     return np.concatenate([within[:, :2], within[:, 2:]])
 
 
@@ -370,21 +382,20 @@ def _layers(
     number = int(piece.max()) + 1
     total = np.stack([np.bincount(piece, vector[:, k], number) for k in range(3)], axis=1)
     area = np.bincount(piece, np.linalg.norm(vector, axis=1), number)
-    flat = np.linalg.norm(total, axis=1) >= (1.0 - FLAT_RTOL) * area
+    is_flat = np.linalg.norm(total, axis=1) >= (1.0 - FLAT_RTOL) * area
+    has_no_layer = np.bincount(piece, layer > 0, number) == 0
+    # Pieces with the same edges of three faces or more have the same sum of hashes.
     crowded = np.flatnonzero((edges.count > 2)[edges.of_side])
     border = np.zeros(number, np.uint64)
     np.add.at(border, piece[crowded // 3], hash_uint64(edges.of_side[crowded].astype(np.uint64)))
-    candidate = np.flatnonzero(flat & (np.bincount(piece, layer > 0, number) == 0) & (border != 0))
-    _, kind, times = np.unique(border[candidate], return_inverse=True, return_counts=True)
-    candidate = candidate[times[kind] == 2]
-    kind = kind[times[kind] == 2]
-    order = np.argsort(kind).reshape(-1, 2)
-    first = candidate[order[:, 0]]
-    other = candidate[order[:, 1]]
+    candidates = np.flatnonzero(is_flat & has_no_layer & (border != 0))
+    _, kind, counts = np.unique(border[candidates], return_inverse=True, return_counts=True)
+    is_pair = counts[kind] == 2
+    candidates, kind = candidates[is_pair], kind[is_pair]
+    first, other = candidates[np.argsort(kind).reshape(-1, 2)].T
     piece_layer = np.zeros(number, np.intp)
     partner = np.arange(number)
     piece_layer[first], piece_layer[other], partner[other] = 1, 2, first
     by_piece = piece_layer[piece] > 0
-    return np.where(by_piece, piece_layer[piece], layer), np.where(
-        by_piece, int(face.max()) + 1 + partner[piece], group
-    )
+    piece_wall = int(face.max()) + 1 + partner[piece]
+    return np.where(by_piece, piece_layer[piece], layer), np.where(by_piece, piece_wall, group)

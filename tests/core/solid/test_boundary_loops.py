@@ -4,6 +4,7 @@
 
 import numpy as np
 import pytest
+from body_moments.core.solid import boundary_loops
 from body_moments.core.solid.boundary_loops import find_loops, join_sides
 from hypothesis import given
 
@@ -122,3 +123,13 @@ def test_rim_without_area_has_no_plane_and_a_curved_cap(scale):
         loops = [polygon(scale * rim) for rim in (square, bow)]
     assert (loops[0].out_of_plane[0] == 0.0) == (scale > 1e-90)
     assert loops[1].out_of_plane[0] == np.inf
+
+
+def test_too_many_ends_are_joined_at_equal_vertices_only(monkeypatch):
+    monkeypatch.setattr(boundary_loops, "MAX_END_PAIRS", 0)
+    sides = np.array([(0, 1), (1, 2), (2, 0), (0, 3), (3, 4), (4, 0)])  # two loops meet at 0
+    points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [-1, 0, 0], [-1, -1, 0]], float)
+    start, stop = sides.T
+    left, right, _ = join_sides(points[start], points[stop], start, stop, directed=True)
+    assert len(left) > 0
+    assert all(set(sides[a]) & set(sides[b]) for a, b in zip(left, right))
