@@ -61,13 +61,13 @@ class BalanceGroup:
             depsgraph = context.evaluated_depsgraph_get()
             root = read.assembly.members_of(_collection(collection), depsgraph)
             objects: Iterable[Object] = counted(root)
-            given = [
+            has_given_masses = [
                 read.assembly.settings_of(member.data).mass_from == "MASS"
                 for member in root.walk()
                 if member.kind in SUMS
             ]
             # it need not weigh as much as its objects
-            self._assembly = root.data if any(given) else None
+            self._assembly = root.data if any(has_given_masses) else None
         else:
             objects = context.view_layer.objects.selected
             if context.mode == "POSE":
@@ -77,8 +77,14 @@ class BalanceGroup:
         for obj in objects:
             members.add(obj)
             if obj.type == "ARMATURE":
-                members |= {one for one in layer if read.rig.is_skin_of(one, obj)}
-                members |= {one for one in layer if one.parent == obj and one.parent_type == "BONE"}
+                members |= {
+                    layer_object for layer_object in layer if read.rig.is_skin_of(layer_object, obj)
+                }
+                members |= {
+                    layer_object
+                    for layer_object in layer
+                    if layer_object.parent == obj and layer_object.parent_type == "BONE"
+                }
         followed = [obj for obj in members & layer if read.visibility.measurable(obj)]
         if not followed:
             raise EditRefusedError(findings.BALANCE_GROUP_EMPTY, place="the selection")
@@ -93,10 +99,10 @@ class BalanceGroup:
         motion = Motion(len(frames))
         self._frames = frames
         try:
-            for done, frame in enumerate(frames, 1):
+            for finished, frame in enumerate(frames, 1):
                 scene.frame_set(floor(frame), subframe=frame % 1.0)
                 self._add_frame(motion, self._context.evaluated_depsgraph_get())
-                yield done
+                yield finished
         except (MeasureError, write.reports.Refused):
             raise
         except Exception as error:

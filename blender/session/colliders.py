@@ -46,16 +46,16 @@ def plan_colliders(
     obj: Object,
     measured: Measured,
     unit: float,
-    wanted: colliders.Wanted,
+    fit_request: colliders.Wanted,
     is_share: bool,
     correct: str,
-    known: dict[str, Plan],
+    known_plans: dict[str, Plan],
 ) -> Generator[float, None, Plan]:
     """Plan the colliders of an object, in steps that yield the completed share; MeasureError if it
     cannot have any.
 
-    is_share: the tolerances are parts of the size. correct: "NONE", "MASSES" or "VERTICES". known:
-    plans of this run by their keys, to which this one is added.
+    is_share: the tolerances are parts of the size. correct: "NONE", "MASSES" or "VERTICES".
+    known_plans: those of this run by their keys, to which this one is added.
     """
     changes.require_storable_data(obj)
     measurement = measured.measurement
@@ -65,40 +65,44 @@ def plan_colliders(
         raise verdict.ReadError(read.findings.SCALE_ZERO_AXIS)
     body = measurement.in_object_frame()
     key = _mesh_key(obj, measured)
-    if key in known:
-        return replace(known[key], obj=obj, fingerprint=measurement.fingerprint)
+    if key in known_plans:
+        return replace(known_plans[key], obj=obj, fingerprint=measurement.fingerprint)
     if is_share:
         size = float(np.ptp(surface.points, axis=0).max())
-        wanted = replace(wanted, outward=size * wanted.outward, inward=size * wanted.inward)
+        fit_request = replace(
+            fit_request, outward=size * fit_request.outward, inward=size * fit_request.inward
+        )
     hull = colliders.hull_of(surface)
-    shapes = yield from colliders.make_colliders(surface, body, wanted, hull)
+    shapes = yield from colliders.make_colliders(surface, body, fit_request, hull)
     shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
     masses = colliders.uniform_masses(measurement.density, shapes)
     if correct == "VERTICES":
-        tolerances = wanted.outward, wanted.inward
+        tolerances = fit_request.outward, fit_request.inward
         shapes = yield from colliders.correct_vertices(body, shapes, surface, *tolerances)
         shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
         masses = colliders.uniform_masses(measurement.density, shapes)
     if correct == "MASSES":
         masses = colliders.correct_masses(body, shapes)
-    elif correct == "VERTICES" or wanted.shape.startswith("equal_"):
+    elif correct == "VERTICES" or fit_request.shape.startswith("equal_"):
         masses = [mass * body.mass / sum(masses) for mass in masses]
     shapes = [replace(shape, mass=float(mass)) for shape, mass in zip(shapes, masses)]
     record: dict[str, Any] = {
-        "shape": wanted.shape,
+        "shape": fit_request.shape,
         "correct": correct.lower(),
         "count": len(shapes),
     }
-    if wanted.shape in LIMITED:
-        record["tolerance"] = [wanted.outward, wanted.inward]
-        record["limits"] = [wanted.pieces, wanted.vertices]
+    if fit_request.shape in LIMITED:
+        record["tolerance"] = [fit_request.outward, fit_request.inward]
+        record["limits"] = [fit_request.pieces, fit_request.vertices]
     record |= zip(
         ("outward", "inward", "distance_bound"), colliders.distances(surface, shapes, hull)
     )
     record |= colliders.effect(body, shapes, measurement.volume).as_record()
     record["body"] = _describe_body(body)
-    known[key] = Plan(obj, tuple(shapes), stretch, plain(record), measurement.fingerprint, key)
-    return known[key]
+    known_plans[key] = Plan(
+        obj, tuple(shapes), stretch, plain(record), measurement.fingerprint, key
+    )
+    return known_plans[key]
 
 
 def _mesh_key(obj: Object, measured: Measured) -> str:
@@ -113,7 +117,10 @@ def _mesh_key(obj: Object, measured: Measured) -> str:
         places = matrices[:, :3, 3] @ to_frame.rotation.T + to_frame.position
         scale = np.abs(linear).max()
         places = places / (scale * np.abs(solid.given_surface.points).max())
-        steps = [np.round(one / SAME) + 0.0 for one in (linear / scale, places, np.log(scale))]
+        steps = [
+            np.round(coordinates / SAME) + 0.0
+            for coordinates in (linear / scale, places, np.log(scale))
+        ]
         parts += [solid.given_surface.points, solid.given_surface.all_triangles()[0], *steps]
     if not parts:
         return str(obj.session_uid)
@@ -138,13 +145,13 @@ def store_colliders(context: Context, plans: Sequence[Plan], engine: str) -> lis
     unit = meters_per_unit(context.scene)
     earlier = scene.colliders_by_body(context.scene.objects)
     meshes: dict[str, list] = {}
-    made = []
+    new_colliders = []
     for plan in plans:
         if plan.key not in meshes:
             meshes[plan.key] = [
                 scene.collider_mesh(shape, plan.stretch, unit) for shape in plan.shapes
             ]
-        made += scene.place_colliders(
+        new_colliders += scene.place_colliders(
             *(
                 context,
                 plan.obj,
@@ -165,14 +172,14 @@ def store_colliders(context: Context, plans: Sequence[Plan], engine: str) -> lis
             "scale": scale_products(plan.obj),
             "engine": engine,
         }
-        known = {
-            key: one
-            for key, one in plan.record.items()
-            if None not in (one if isinstance(one, list) else [one])
+        effects = {
+            key: value
+            for key, value in plan.record.items()
+            if None not in (value if isinstance(value, list) else [value])
         }
-        plan.obj[COLLIDERS] = known | marks
+        plan.obj[COLLIDERS] = effects | marks
     staleness.mark_stored(context, [plan.obj for plan in plans], Kind.COLLIDERS)
-    return made
+    return new_colliders
 
 
 @contextmanager
@@ -180,14 +187,14 @@ def colliders_kept_current(context: Context, objects: Iterable[Object]) -> Itera
     """Keep the stored effects of colliders valid while nothing but frames of their bodies changes,
     and results are stored anew.
     """
-    kept = {
+    matrices = {
         obj: bodies.float64_matrix(obj.matrix_world)
         for obj in objects
         if COLLIDERS in obj and staleness.stale_reason(obj, context.scene, Kind.COLLIDERS) is None
     }
     yield
     context.view_layer.update()
-    for obj, before in kept.items():
+    for obj, before in matrices.items():
         group = obj[COLLIDERS]
         places = np.array([bodies.float64_matrix(obj.matrix_world), before])
         now, then = numerics.polar_rotation(places)[0]
@@ -196,7 +203,7 @@ def colliders_kept_current(context: Context, objects: Iterable[Object]) -> Itera
         group["digest"] = colliders_digest(obj)
         group["scale"] = scale_products(obj)
         staleness.note_edits(obj)
-    staleness.mark_stored(context, kept, Kind.COLLIDERS)
+    staleness.mark_stored(context, matrices, Kind.COLLIDERS)
 
 
 def remove_colliders(context: Context, objects: Iterable[Object]) -> int:
@@ -207,13 +214,13 @@ def remove_colliders(context: Context, objects: Iterable[Object]) -> int:
     """
     by_body = scene.colliders_by_body(context.scene.objects)
     orphans = [obj for obj in objects if COLLIDER in obj and obj.parent is None]
-    chosen = [obj for obj in objects if obj in by_body or COLLIDERS in obj]
+    owners = [obj for obj in objects if obj in by_body or COLLIDERS in obj]
     scene.remove_colliders(
-        [*orphans, *(collider for obj in chosen for collider in by_body.get(obj, ()))]
+        [*orphans, *(collider for obj in owners for collider in by_body.get(obj, ()))]
     )
-    for obj in chosen:
+    for obj in owners:
         obj.pop(COLLIDERS, None)
-    return len(chosen) + len(orphans)
+    return len(owners) + len(orphans)
 
 
 def collider_record(
@@ -235,8 +242,8 @@ def collider_record(
     is_same = is_same or _is_same_body(stored.get("body", ()), measurement.in_object_frame())
     if reason is None and not is_same:
         reason = Stale.GEOMETRY
-    shown = stored.keys() - {"fingerprint", "digest", "scale", "body", "limits"}
-    return {key: stored[key] for key in stored if key in shown} | {
+    reported_keys = stored.keys() - {"fingerprint", "digest", "scale", "body", "limits"}
+    return {key: stored[key] for key in stored if key in reported_keys} | {
         "out_of_date": reason and str(reason)
     }
 

@@ -77,21 +77,23 @@ def describe(
             "frame must be one of {}, not {!r}".format(", ".join(map(repr, FRAMES)), frame)
         )
     _check(options)
-    chosen = _chosen(objects)
+    subjects = _chosen(objects)
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    found = [
+    outcomes = [
         pair
         for batch in bodies.measure_object.measure_many(
-            chosen, depsgraph, settings.options.MeasureOptions(**options)
+            subjects, depsgraph, settings.options.MeasureOptions(**options)
         )
         for pair in batch
     ]
     if store:
-        measured = [(obj, one) for obj, one in found if not isinstance(one, Exception)]
+        measured = [
+            (obj, outcome) for obj, outcome in outcomes if not isinstance(outcome, Exception)
+        ]
         refused = results.store_measured(bpy.context, measured)
-        found = [(obj, refused.get(obj, one)) for obj, one in found]
+        outcomes = [(obj, refused.get(obj, outcome)) for obj, outcome in outcomes]
     is_overridden = "density" in options or "mass" in options
-    return [_description(obj, one, frame, store, is_overridden) for obj, one in found]
+    return [_description(obj, outcome, frame, store, is_overridden) for obj, outcome in outcomes]
 
 
 def _check(options: dict[str, Any]) -> None:
@@ -119,20 +121,20 @@ def _chosen(objects: Object | str | Iterable[Object | str] | None) -> list[Objec
         return list(bpy.context.view_layer.objects.selected)  # also without a window
     several: Iterable[Any] = [objects] if isinstance(objects, (Object, str)) else objects
     scene_objects = bpy.context.view_layer.objects
-    chosen = {}
-    for one in several:
-        name = one if isinstance(one, str) else one.name
+    by_object = {}
+    for object_or_name in several:
+        name = object_or_name if isinstance(object_or_name, str) else object_or_name.name
         if name not in scene_objects:
             raise ValueError("no object of this view layer is called {!r}".format(name))
-        chosen[scene_objects[name] if isinstance(one, str) else one] = (
+        by_object[scene_objects[name] if isinstance(object_or_name, str) else object_or_name] = (
             None  # a linked object may have the same name
         )
-    return list(chosen)
+    return list(by_object)
 
 
 def _description(
     obj: Object,
-    found: bodies.stack.Measured | Exception,
+    outcome: bodies.stack.Measured | Exception,
     frame: str,
     is_stored: bool,
     is_overridden: bool,
@@ -140,39 +142,45 @@ def _description(
     """Return the dictionary of one object. is_overridden: whether an option replaces its density or
     mass.
     """
-    if isinstance(found, Exception):
+    if isinstance(outcome, Exception):
         entry: dict[str, Any] = {
             "name": obj.name,
             "verdict": "not measured",
             "numbers": None,
             "error_bound": None,
         }
-        entry |= record.described([internal_error.finding_of(found)])
+        entry |= record.described([internal_error.finding_of(outcome)])
     else:
         measurement = (
-            found.measurement
+            outcome.measurement
             if is_overridden
-            else density.noted(obj, found.measurement, bpy.context.scene)
+            else density.noted(obj, outcome.measurement, bpy.context.scene)
         )
         entry = record.record(replace(measurement, name=obj.name), frame)
         entry["numbers"] = {name: entry[name] for name in NUMBERS}
     findings = [
         (
-            one
+            record_finding
             | {
-                "elements": one.get("elements", [])[:MAX_ELEMENTS],
+                "elements": record_finding.get("elements", [])[:MAX_ELEMENTS],
                 "remedies": [
-                    _call(remedy) for remedy in write.remedies.remedies_of(one["code"], obj.type)
+                    _call(remedy)
+                    for remedy in write.remedies.remedies_of(record_finding["code"], obj.type)
                 ],
             }
         )
-        for one in entry["findings"]
+        for record_finding in entry["findings"]
     ]
-    calls = [call for one in findings if one["severity"] != "note" for call in one["remedies"]]
+    calls = [
+        call
+        for record_finding in findings
+        if record_finding["severity"] != "note"
+        for call in record_finding["remedies"]
+    ]
     if not is_stored and entry["numbers"] is not None:
         calls.append("describe({!r}, store=True)".format(obj.name))
-    kept = ("name", "verdict", "method", "kind", "numbers", "error_bound")
-    return {name: entry[name] for name in kept if name in entry} | {
+    entry_names = ("name", "verdict", "method", "kind", "numbers", "error_bound")
+    return {name: entry[name] for name in entry_names if name in entry} | {
         "units": UNITS,
         "frame": frame,
         "findings": findings,

@@ -66,7 +66,7 @@ class Displayed(NamedTuple):
     @property
     def is_assumed(self) -> bool:
         """True if nobody has set the density."""
-        return any(found.code == DENSITY_DEFAULTED for found in self.findings)
+        return any(finding.code == DENSITY_DEFAULTED for finding in self.findings)
 
     def in_frame(self, frame: str) -> PlainBody:
         """Return the numbers in the frame of a setting, "OBJECT" or "WORLD"."""
@@ -112,7 +112,7 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
             return total
     current = memory.followed.get(obj)
     if current is not None and (measurement := current.measurement) is not None:
-        own = live.mapping.map_properties(obj, current, measurement, scene)
+        numbers = live.mapping.map_properties(obj, current, measurement, scene)
         method = measurement.method
         findings = stored.density.noted(obj, measurement, scene).findings
         lag = live.mapping.lag(obj)
@@ -120,23 +120,23 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
         is_behind = reason is not None or lag == following.Lag.BEHIND
         verdict = Verdict.OUT_OF_DATE if is_behind else find_verdict(method, findings)
         unit = scale.meters_per_unit(scene)
-        world = own.in_world(obj.matrix_world, unit)
-        return Displayed(own, world, unit, method, findings, verdict, reason, current, lag)
-    own = write.properties.stored(obj) if "body_mass" in obj else None
-    return None if own is None else _stored(obj, scene, own, obj.matrix_world, obj)
+        world = numbers.in_world(obj.matrix_world, unit)
+        return Displayed(numbers, world, unit, method, findings, verdict, reason, current, lag)
+    numbers = write.properties.stored(obj) if "body_mass" in obj else None
+    return None if numbers is None else _stored(obj, scene, numbers, obj.matrix_world, obj)
 
 
 def _stored(
-    obj: Object, scene: Scene, own: PlainBody, matrix: Matrix, measured: Object | PoseBone
+    obj: Object, scene: Scene, numbers: PlainBody, matrix: Matrix, measured: Object | PoseBone
 ) -> Displayed:
     """Return stored numbers, in the frame of a matrix, of an object or of its bone."""
     unit = scale.meters_per_unit(scene)
-    world = own.in_world(matrix, unit)
+    world = numbers.in_world(matrix, unit)
     method = write.properties.method(measured)
     findings = write.properties.findings(obj)
     reason = staleness.stale_reason(obj, scene)
     verdict = find_verdict(method, findings) if reason is None else Verdict.OUT_OF_DATE
-    return Displayed(own, world, unit, method, findings, verdict, reason)
+    return Displayed(numbers, world, unit, method, findings, verdict, reason)
 
 
 def drawn(obj: Object, scene: Scene) -> Displayed | None:
@@ -160,14 +160,14 @@ def all_drawn(objects: Iterable[Object], scene: Scene) -> list[Displayed | None]
     if key != memory.state.drawn_in:
         memory.drawn.clear()
         memory.state.drawn_in = key
-    found = []
+    bodies = []
     for obj in objects:
         uid = obj.session_uid
-        known = memory.drawn.get(uid)
-        found.append(
-            known if known is not None and uid not in memory.moved else _draw(obj, scene, known)
+        cached = memory.drawn.get(uid)
+        bodies.append(
+            cached if cached is not None and uid not in memory.moved else _draw(obj, scene, cached)
         )
-    return found
+    return bodies
 
 
 def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | None:
@@ -175,9 +175,9 @@ def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | No
     before it moved.
     """
     if obj.type == "ARMATURE":
-        shown = displayed(obj, scene)
-        if shown is not None and not shown.is_posed:  # its own stored numbers are of the rest pose
-            shown = _as_one(obj, scene, [drawn_bone(bone, scene) for bone in obj.pose.bones])
+        body = displayed(obj, scene)
+        if body is not None and not body.is_posed:  # its own stored numbers are of the rest pose
+            body = _as_one(obj, scene, [drawn_bone(bone, scene) for bone in obj.pose.bones])
     else:
         stamp = None if before is None or before.reason is not None else stamps.stamp_of(obj)
         if (
@@ -185,21 +185,21 @@ def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | No
             and stamp is not None
             and read.fingerprint.has_transform(obj, stamp.transform)
         ):
-            shown = before._replace(world=before.numbers.in_world(obj.matrix_world, before.unit))
+            body = before._replace(world=before.numbers.in_world(obj.matrix_world, before.unit))
         else:
-            shown = displayed(obj, scene) if "body_mass" in obj or obj in memory.followed else None
-    if shown is None or not shown.world.mass > 0.0:
+            body = displayed(obj, scene) if "body_mass" in obj or obj in memory.followed else None
+    if body is None or not body.world.mass > 0.0:
         return None
     shows_others = obj.instance_type != "NONE" or len(obj.particle_systems)
     depends = (
         obj.type == "ARMATURE"
-        or shown.method == ASSEMBLY
+        or body.method == ASSEMBLY
         or obj.body_moments.density_from in BY_OTHERS
     )
-    if not (shows_others or depends or shown.live is not None):
-        memory.drawn[obj.session_uid] = shown
+    if not (shows_others or depends or body.live is not None):
+        memory.drawn[obj.session_uid] = body
         memory.moved.discard(obj.session_uid)
-    return shown
+    return body
 
 
 def note_updates(events: handlers.Updates) -> None:
@@ -224,19 +224,19 @@ def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
     """Return the numbers of an original armature's bone at the bone's current place, or None if
     there are none.
     """
-    own = write.properties.stored(bone)
-    if own is None:
+    numbers = write.properties.stored(bone)
+    if numbers is None:
         return None
     armature = bone.id_data
-    return _stored(armature, scene, own, armature.matrix_world @ bone.matrix, bone)
+    return _stored(armature, scene, numbers, armature.matrix_world @ bone.matrix, bone)
 
 
 def _as_one(armature: Object, scene: Scene, parts: Iterable[Displayed | None]) -> Displayed | None:
     """Return the sum of a character's meshes or bones in its current pose; None if they have no
     mass.
     """
-    known = [part for part in parts if part is not None]
-    world = add_bodies([part.world for part in known])
+    measured_parts = [part for part in parts if part is not None]
+    world = add_bodies([part.world for part in measured_parts])
     if world is None:
         return None
     unit = scale.meters_per_unit(scene)
@@ -252,9 +252,11 @@ def _as_one(armature: Object, scene: Scene, parts: Iterable[Displayed | None]) -
             inertia=tuple(inertia),
             moments=tuple(moments),
         )
-    own = world.in_object(armature.matrix_world, unit)
-    worst = max(known, key=lambda part: RANKS[part.verdict])
-    return Displayed(own, world, unit, worst.method, worst.findings, worst.verdict, is_posed=True)
+    numbers = world.in_object(armature.matrix_world, unit)
+    worst = max(measured_parts, key=lambda part: RANKS[part.verdict])
+    return Displayed(
+        numbers, world, unit, worst.method, worst.findings, worst.verdict, is_posed=True
+    )
 
 
 def _weighed(armature: Object, scene: Scene) -> Displayed | None:
@@ -268,8 +270,8 @@ def _weighed(armature: Object, scene: Scene) -> Displayed | None:
     weight = posed.weight(armature, depsgraph)
     if weight is None:
         return None
-    own = weight.body.in_object(armature.matrix_world, scale.meters_per_unit(scene))
-    return _stored(armature, scene, own, armature.matrix_world, armature)._replace(
+    numbers = weight.body.in_object(armature.matrix_world, scale.meters_per_unit(scene))
+    return _stored(armature, scene, numbers, armature.matrix_world, armature)._replace(
         world=weight.body,
         is_posed=True,
         is_plumbed=True,
@@ -305,27 +307,30 @@ def _members(obj: Object, objects: Iterable[Object]) -> list[Object]:
 
 
 @memory.until_change
-def _sum(scene: Scene, layer: ViewLayer, *chosen: Object) -> Total:
-    selected = set(chosen)
+def _sum(scene: Scene, layer: ViewLayer, *objects: Object) -> Total:
+    """Return the sum of the displayed numbers of objects. An assembly whose members are among them
+    is left out, since they count by themselves.
+    """
+    selected = set(objects)
     parts = {}
     missing = []
-    for obj in chosen:
+    for obj in objects:
         if write.properties.method(obj) == ASSEMBLY and not selected.isdisjoint(
             _members(obj, selected)
         ):
             continue  # its members count by themselves
-        shown = displayed(obj, scene)
-        if shown is None:
+        body = displayed(obj, scene)
+        if body is None:
             missing.append(obj.name)
         else:
-            parts[obj] = shown
-    worlds = [shown.world for shown in parts.values()]
+            parts[obj] = body
+    worlds = [body.world for body in parts.values()]
     alone = next((world for world in worlds if world.mass > 0.0), None)
-    stale = tuple(obj.name for obj, shown in parts.items() if shown.verdict == Verdict.OUT_OF_DATE)
-    of_places, overlaps = memory.overlaps.get(scene) or (None, ())
-    if stale or of_places != places(parts):
+    stale = tuple(obj.name for obj, body in parts.items() if body.verdict == Verdict.OUT_OF_DATE)
+    overlap_places, overlaps = memory.overlaps.get(scene) or (None, ())
+    if stale or overlap_places != places(parts):
         overlaps = ()
-    verdict = max((shown.verdict for shown in parts.values()), key=RANKS.__getitem__, default=None)
+    verdict = max((body.verdict for body in parts.values()), key=RANKS.__getitem__, default=None)
     if missing and parts:
         verdict = Verdict.INCOMPLETE
     return Total(
@@ -335,7 +340,7 @@ def _sum(scene: Scene, layer: ViewLayer, *chosen: Object) -> Total:
         numbers=add_bodies(worlds) if len(worlds) > 1 else alone,
         missing=tuple(missing),
         stale=stale,
-        assumed=sum(shown.is_assumed for shown in parts.values()),
+        assumed=sum(body.is_assumed for body in parts.values()),
         findings=(
             *open_body_caveats((obj.name, write.properties.method(obj)) for obj in parts),
             *read.assembly.total_caveats(parts, layer),
@@ -344,7 +349,7 @@ def _sum(scene: Scene, layer: ViewLayer, *chosen: Object) -> Total:
         verdict=verdict,
         groups=tuple(
             grouped(
-                (obj.name_full, found) for obj, shown in parts.items() for found in shown.findings
+                (obj.name_full, finding) for obj, body in parts.items() for finding in body.findings
             )
         ),
     )

@@ -181,7 +181,10 @@ def until_change(function: Callable[Arguments, Value]) -> Callable[Arguments, Va
         if kept_at != (generation := state.generation):
             results.clear()
             kept_at = generation
-        key = tuple(getattr(one, "session_uid", one) for one in (*arguments, *options.values()))
+        key = tuple(
+            getattr(argument, "session_uid", argument)
+            for argument in (*arguments, *options.values())
+        )
         if key in results:
             return results[key]
         value = function(*arguments, **options)

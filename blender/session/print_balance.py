@@ -69,7 +69,7 @@ def balance_print(
     if change != "BALLAST" and settings.printed.pocket is None:
         settings = replace(settings, mass=None, density=1.0)
     to_body = bodies.to_si([request.surfaces.matrix], settings.unit)[0]
-    made = mesh.mesh_body(
+    printed_body = mesh.mesh_body(
         request.surfaces,
         settings.unit,
         shell=False,
@@ -83,7 +83,7 @@ def balance_print(
     def placed(**values: Any) -> numerics.Array:
         """Return the mass and its first moments along the ground, in Blender units."""
         printed = settings.printed._replace(**values)
-        mass = bodies.print_body(made, replace(settings, printed=printed), to_body).mass
+        mass = bodies.print_body(printed_body, replace(settings, printed=printed), to_body).mass
         first = mass.about_point(about).raw[1:4] if mass is not None else np.zeros(3)
         total = 0.0 if mass is None else mass.total
         return np.array([total, *(first @ axes / settings.unit)])
@@ -101,8 +101,8 @@ def balance_print(
             placed(pocket=measurement.Pocket((0.0, 0.0, 0.0), 0.0, 0.0))  # refused
         mass = placed(pocket=None)
         excess = ballast - now.infill / 100.0 * (settings.density or 0.0)
-        cores, outsides = bodies.find_cores(made, now)
-        room = bodies.PocketRoom([one.surface for one in cores], outsides, now.line_width)
+        cores, outsides = bodies.find_cores(printed_body, now)
+        room = bodies.PocketRoom([core.surface for core in cores], outsides, now.line_width)
         center, radius, reached = _place_pocket(
             room,
             lambda places: (places / settings.unit - middle) @ axes,
@@ -162,7 +162,7 @@ def _place_pocket(
     best, half = (low + high) / 2.0, (high - low) / 2.0
     per_radius = abs(excess) * 4.0 / 3.0 * np.pi
     sign = 1.0 if excess >= 0.0 else -1.0
-    found = best, 0.0, -np.inf
+    best_pocket = best, 0.0, -np.inf
     for zoom in range(ZOOMS):
         ticks = np.linspace(-1.0, 1.0, FINE if zoom else COARSE)
         steps = [ticks * size if size > 0.0 else np.zeros(1) for size in half]
@@ -176,16 +176,20 @@ def _place_pocket(
         fits = (least <= largest) & (per_radius > 0.0)
         if fits.any():
             at = int(np.where(fits, least, np.inf).argmin())
-            found = places[at], float(least[at]), margin
+            best_pocket = places[at], float(least[at]), margin
         else:
             added = sign * per_radius * SHARES[:, None] * largest**3
-            margins = np.array([statics.ballast_margins(corners, mass, flat, one) for one in added])
+            margins = np.array(
+                [statics.ballast_margins(corners, mass, flat, added_mass) for added_mass in added]
+            )
             share, at = np.unravel_index(margins.argmax(), margins.shape)
             radius = float(np.cbrt(SHARES[share]) * largest[at])
-            found = max(found, (places[at], radius, float(margins[share, at])), key=itemgetter(2))
+            best_pocket = max(
+                best_pocket, (places[at], radius, float(margins[share, at])), key=itemgetter(2)
+            )
         best = grid[at]
         half = half * (0.5 if zoom else 2.5 / COARSE)
-    return found
+    return best_pocket
 
 
 def _shorten(infill: float, low: float, high: float) -> float:

@@ -64,16 +64,16 @@ def make_rigid_bodies(
     floors: list[Object] = []
     ask = _measure_in_turn(context, bodies)
     with write.reports.progress(len(bodies)) as step:
-        for done, body in enumerate(bodies, 1):
+        for finished, body in enumerate(bodies, 1):
             try:
                 measured[body[0]] = _measured(context, body, ask)
             except Exception as error:
-                found = error.finding.code if isinstance(error, verdict.MeasureError) else None
-                if type == "PASSIVE" and found in {scene.findings.OPEN_OBJECT, NO_VOLUME}:
+                code = error.finding.code if isinstance(error, verdict.MeasureError) else None
+                if type == "PASSIVE" and code in {scene.findings.OPEN_OBJECT, NO_VOLUME}:
                     floors += body  # no engine asks for their mass
                 else:
                     failures.append(write.reports.failure(body[0].name_full, error))
-            step(done)
+            step(finished)
     # Blender reports a rigid body as a change of the shape, and again when results are stored on it
     with (
         stored.assembly.kept_up_to_date(context),
@@ -94,10 +94,11 @@ def make_rigid_bodies(
             obj.rigid_body.mesh_source = (
                 "FINAL"  # the mesh that was weighed; Calculate Mass takes the default
             )
-        for obj, one in measured.items():
-            obj.rigid_body.mass = one.target.mass
+        for obj, measured_body in measured.items():
+            obj.rigid_body.mass = measured_body.target.mass
         stored.results.store_measured(
-            context, [part for one in measured.values() for part in one.parts.items()]
+            context,
+            [part for measured_body in measured.values() for part in measured_body.parts.items()],
         )
     return RigidBodies(measured, calculated, failures, floors)
 
@@ -117,8 +118,8 @@ def _place(context: Context, measured: dict[Object, Measured], frame: str) -> li
     for _ in range(2):  # a new scale may cut faces that are not flat into other triangles
         plans = []
         joints = {}
-        for obj, one in list(measured.items()):
-            target = frame_of(obj, one.target)
+        for obj, measured_body in list(measured.items()):
+            target = frame_of(obj, measured_body.target)
             if target is None:
                 continue
             try:
@@ -129,7 +130,9 @@ def _place(context: Context, measured: dict[Object, Measured], frame: str) -> li
                 del measured[obj]
                 continue
             move_only = np.array_equal(target[:3, :3], scene.transforms.world(obj)[:3, :3])
-            plans.append(scene.reframe.Plan(obj, target, one.target.size, move_only=move_only))
+            plans.append(
+                scene.reframe.Plan(obj, target, measured_body.target.size, move_only=move_only)
+            )
         with write.reports.progress(len(plans)) as step:
             changed, refused = scene.reframe.reframe(context, plans, step)
         for plan in changed:
@@ -152,7 +155,7 @@ def _add(context: Context, measured: dict[Object, Measured], type: str, shape: s
 
     Return the objects that had no rigid body before.
     """
-    parts = [part for one in measured.values() for part in one.parts]
+    parts = [part for measured_body in measured.values() for part in measured_body.parts]
     colliders = scene.colliders.colliders_by_body(context.scene.objects) if shape == "KEEP" else {}
     added = [collider for part in parts for collider in colliders.get(part, ())]
     new = [obj for obj in parts if obj.rigid_body is None]
@@ -166,9 +169,9 @@ def _add(context: Context, measured: dict[Object, Measured], type: str, shape: s
             collider[settings.given.COLLIDER]["kind"], "CONVEX_HULL"
         )
     fresh = set(new)
-    for obj, one in measured.items():
-        inner = {part.parent for part in one.parts if part != obj}
-        for part in one.parts:
+    for obj, measured_body in measured.items():
+        inner = {part.parent for part in measured_body.parts if part != obj}
+        for part in measured_body.parts:
             if part in fresh:
                 part.rigid_body.collision_shape = "CONVEX_HULL"
             if part in inner or part in colliders:
@@ -201,11 +204,13 @@ def _bodies(objects: Sequence[Object]) -> list[Body]:
     """Return a body for each object without a parent among `objects`, with its descendants among
     them.
     """
-    chosen = set(objects)
-    members: dict[Object, list[Object]] = {obj: [] for obj in objects if obj.parent not in chosen}
+    object_set = set(objects)
+    members: dict[Object, list[Object]] = {
+        obj: [] for obj in objects if obj.parent not in object_set
+    }
     for obj in objects:
         top = obj
-        while top.parent in chosen:
+        while top.parent in object_set:
             top = top.parent
         if top != obj:
             members[top].append(obj)
@@ -234,9 +239,9 @@ def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredObje
     measurements = [measured.measurement for measured in parts.values()]
     if len(parts) > 1:
         moments = [measurement.mass_moments for measurement in measurements]
-        whole = inertia.combine(moments, preferred_axes=measurements[0].rotation)
+        compound = inertia.combine(moments, preferred_axes=measurements[0].rotation)
         unit = scale.meters_per_unit(context.scene)
-        target = scene.snap_targets.SnapTarget.of_body(body[0], whole, whole.principal, unit)
+        target = scene.snap_targets.SnapTarget.of_body(body[0], compound, compound.principal, unit)
     else:
         target = scene.snap_targets.target_of(context, body[0], parts[body[0]])
     if target.mass < scene.rigid_world.MIN_MASS:
@@ -270,7 +275,10 @@ def _calculated_masses(context: Context, measured: dict[Object, Measured]) -> di
         return {}
     with context.temp_override(object=objects[0], selected_objects=objects):
         bpy.ops.rigidbody.mass_calculate(material="Custom", density=PROBE_DENSITY)
-    return {obj: obj.rigid_body.mass * one.density / PROBE_DENSITY for obj, one in measured.items()}
+    return {
+        obj: obj.rigid_body.mass * measured_body.density / PROBE_DENSITY
+        for obj, measured_body in measured.items()
+    }
 
 
 def _joint_in_place(context: Context, obj: Object) -> Object | None:

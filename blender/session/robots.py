@@ -89,18 +89,18 @@ def candidates(context: Context, collection: str, selected: bool) -> list[Object
     """Return the objects of the named collection, else the selected ones, else all rendered ones;
     no colliders.
     """
-    chosen = [obj for obj in context.view_layer.objects if not obj.hide_render]
+    objects = [obj for obj in context.view_layer.objects if not obj.hide_render]
     if collection:
-        chosen = bpy.data.collections[collection].all_objects
+        objects = bpy.data.collections[collection].all_objects
     elif selected:
-        chosen = context.view_layer.objects.selected
-    return [obj for obj in chosen if settings.given.COLLIDER not in obj]
+        objects = context.view_layer.objects.selected
+    return [obj for obj in objects if settings.given.COLLIDER not in obj]
 
 
 def jointed_robot(
     context: Context,
     name: str,
-    made: Sequence[robots.Candidate],
+    link_candidates: Sequence[robots.Candidate],
     labels: Mapping[Object, str],
     unit: float,
 ) -> tuple[robots.Robot, list[verdict.Finding]]:
@@ -108,45 +108,45 @@ def jointed_robot(
     findings.
     """
     connections, bases, findings = read.joints.constraint_connections(context.scene, labels, unit)
-    robot, more = robots.assemble_robot(name, [*made, *bases], connections)
+    robot, robot_findings = robots.assemble_robot(name, [*link_candidates, *bases], connections)
     placed = sorted(labels, key=lambda obj: obj.name)
     shared = overlaps.shared_space_caveats(placed, context.evaluated_depsgraph_get())
-    return robot, [*findings, *more, *shared]
+    return robot, [*findings, *robot_findings, *shared]
 
 
 def object_links(
     context: Context,
     name: str,
     objects: list[Object],
-    step: Callable[[float], None] = lambda done: None,
+    step: Callable[[float], None] = lambda finished: None,
 ) -> SceneLinks:
     """Return a robot with a link for each measurable object; a finding names the others. step: gets
     finished counts.
     """
     depsgraph = context.evaluated_depsgraph_get()
-    chosen = [obj for obj in objects if read.visibility.measurable(obj)]
+    measurable = [obj for obj in objects if read.visibility.measurable(obj)]
     measured: dict[Object, Measurement] = {}
-    in_turn = measure_object.measured_in_turn(chosen, depsgraph)
+    in_turn = measure_object.measured_in_turn(measurable, depsgraph)
     failures = []
-    for done, obj in enumerate(chosen, 1):
+    for finished, obj in enumerate(measurable, 1):
         try:
             measured[obj] = in_turn(obj).measurement
         except Exception as error:
             failures.append(write.reports.failure(obj.name_full, error))
-        step(done)
+        step(finished)
     if not measured:
         raise verdict.EditRefusedError(
             failures[0] if failures else verdict.finding(robots.ROBOT_WITHOUT_LINKS)
         )
     labels = {obj: obj.name_full for obj in measured}
-    made = [
+    link_candidates = [
         object_candidate(labels[obj], obj, measurement, labels)
         for obj, measurement in measured.items()
     ]
     unit = settings.options.AS_SET.meters_per_unit(context.scene)
-    robot, findings = jointed_robot(context, name, made, labels, unit)
+    robot, findings = jointed_robot(context, name, link_candidates, labels, unit)
     members = {label: [obj] for obj, label in labels.items()}
-    return SceneLinks(robot, [*findings, *left_out(failures, len(chosen))], unit, members)
+    return SceneLinks(robot, [*findings, *left_out(failures, len(measurable))], unit, members)
 
 
 def collection_links(
@@ -160,7 +160,7 @@ def collection_links(
     `root` alone.
     """
     depsgraph = context.evaluated_depsgraph_get()
-    made = []
+    link_candidates = []
     failures = []
     members = {}
     labels = {}
@@ -172,18 +172,20 @@ def collection_links(
         except verdict.MeasureError as error:
             failures.append(write.reports.failure(label, error.finding))
             continue
-        held = {*collection.all_objects}
-        labels.update(dict.fromkeys(held, label))
-        members[label] = [obj for obj in objects if obj in held and read.visibility.measurable(obj)]
-        made.append(
+        members_of_link = {*collection.all_objects}
+        labels.update(dict.fromkeys(members_of_link, label))
+        members[label] = [
+            obj for obj in objects if obj in members_of_link and read.visibility.measurable(obj)
+        ]
+        link_candidates.append(
             robots.make_candidate(
-                label, measurement, is_fixed=any(map(read.joints.is_passive, held))
+                label, measurement, is_fixed=any(map(read.joints.is_passive, members_of_link))
             )
         )
-    if not made:
+    if not link_candidates:
         raise verdict.EditRefusedError(failures[0])
     unit = options.meters_per_unit(context.scene)
-    robot, findings = jointed_robot(context, name, made, labels, unit)
+    robot, findings = jointed_robot(context, name, link_candidates, labels, unit)
     return SceneLinks(robot, [*findings, *left_out(failures, len(collections))], unit, members)
 
 
@@ -196,7 +198,7 @@ def bone_links(
     """Return a robot with a link in rest frame for each bone that has a part; joints have the
     limits of the bones.
     """
-    made = []
+    link_candidates = []
     connections = []
     findings = []
     pieces = {}
@@ -220,7 +222,7 @@ def bone_links(
             values, mimic, unusable = read.joints.joint_values(bone)
             findings += unusable
             free = read.joints.bone_freedom(bone, values, unit)
-            made.append(robots.make_candidate(label, part.measurement))
+            link_candidates.append(robots.make_candidate(label, part.measurement))
             if parents:
                 connections.append(
                     robots.Connection(
@@ -228,9 +230,9 @@ def bone_links(
                     )
                 )
             pieces[label] = part.surfaces
-    if not made:
+    if not link_candidates:
         raise verdict.EditRefusedError(robots.ROBOT_WITHOUT_LINKS)
-    robot, left = robots.assemble_robot(name, made, connections)
+    robot, left = robots.assemble_robot(name, link_candidates, connections)
     return SceneLinks(robot, [*findings, *left], unit, pieces=pieces)
 
 

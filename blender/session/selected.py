@@ -30,10 +30,10 @@ def subject(context: Context) -> Object | None:
     active = context.object
     if active is not None and (active.mode != "OBJECT" or pinned_object(context) is not None):
         return active
-    shown = tracking.armatures.subjects(chosen_objects(context))
-    if active in shown:
+    candidates = tracking.armatures.subjects(chosen_objects(context))
+    if active in candidates:
         return active
-    return shown[0] if len(shown) == 1 else None
+    return candidates[0] if len(candidates) == 1 else None
 
 
 def armature_of(context: Context) -> Object | None:
@@ -41,10 +41,10 @@ def armature_of(context: Context) -> Object | None:
     edited, else the only chosen one.
     """
     active = context.object
-    chosen = [obj for obj in chosen_objects(context) if obj.type == "ARMATURE"]
-    if active in chosen or active is not None and tracking.armatures.stands_for_meshes(active):
+    armatures = [obj for obj in chosen_objects(context) if obj.type == "ARMATURE"]
+    if active in armatures or active is not None and tracking.armatures.stands_for_meshes(active):
         return active
-    return chosen[0] if len(chosen) == 1 else None
+    return armatures[0] if len(armatures) == 1 else None
 
 
 def require_subject(context: Context) -> Object:
@@ -126,8 +126,12 @@ def _of_all(name: str, function: Any, keywords: dict[str, Any]) -> Any:
     def write(_settings: PropertyGroup, new: Any) -> None:
         _set_all(name, items[new] if items else new)
 
-    kept = {key: known for key, known in keywords.items() if key not in ("update", "override")}
-    return function(**(kept | {"options": set(), "get": read, "set": write}))
+    own_keywords = {
+        key: value_of_keyword
+        for key, value_of_keyword in keywords.items()
+        if key not in ("update", "override")
+    }
+    return function(**(own_keywords | {"options": set(), "get": read, "set": write}))
 
 
 class BodyMomentsSelectionSettings(PropertyGroup):

@@ -76,15 +76,15 @@ class SimilarSearch:
         depsgraph = self._depsgraph
         flat = isinstance(wanted_shape, bodies.flat.flat_shape.FlatShape)
         if flat:
-            of_body = partial(bodies.shape.object_shape.surface_shape_of, depsgraph=depsgraph)
+            shape_of_body = partial(bodies.shape.object_shape.surface_shape_of, depsgraph=depsgraph)
         else:
-            of_body = bodies.shape.signatures.signatures_in_turn(
+            shape_of_body = bodies.shape.signatures.signatures_in_turn(
                 objects, depsgraph, DESCRIPTOR_ORDER
             )
 
         def compare(obj: Object) -> Generator[float, None, None]:
             nonlocal skin
-            shape = bodies.flat.flat_shape.body_or_flat(obj, depsgraph, of_body, flat)
+            shape = bodies.flat.flat_shape.body_or_flat(obj, depsgraph, shape_of_body, flat)
             yield 0.3
             signature = shape if isinstance(shape, Signature) else shape.signature(DESCRIPTOR_ORDER)
             entry = Entry(obj.name_full, "", signature)

@@ -18,17 +18,17 @@ from .tracking import staleness
 def remeasure(
     context: Context,
     objects: Sequence[Object],
-    known: Mapping[Object, bodies.stack.Measured] | None = None,
+    measurements: Mapping[Object, bodies.stack.Measured] | None = None,
 ) -> None:
-    """Measure and store results anew after objects have moved; known: measurements of those that
-    have not.
+    """Measure and store results anew after objects have moved. measurements: of objects that have
+    not.
     """
-    known = known or {}
+    measurements = measurements or {}
     stored = [obj for obj in objects if write.properties.is_stored(obj)]
     if not stored:
         return
-    measured = [(obj, known[obj]) for obj in stored if obj in known]
-    unknown = [obj for obj in stored if obj not in known]
+    measured = [(obj, measurements[obj]) for obj in stored if obj in measurements]
+    unknown = [obj for obj in stored if obj not in measurements]
     for together in bodies.measure_object.measure_many(unknown, context.evaluated_depsgraph_get()):
         for obj, outcome in together:
             # stored results stay, and the panel shows that they are out of date
@@ -52,16 +52,18 @@ def reframe_objects(
     """
 
     def plans_of(
-        chosen: Sequence[Object], right: dict[Object, bodies.stack.Measured], by_shape: bool
+        subjects: Sequence[Object], right: dict[Object, bodies.stack.Measured], by_shape: bool
     ) -> tuple[list[scene.reframe.Plan], list[Finding]]:
         """Return plans and refusals; measurements of unchanged objects with stored results go to
         `right`. by_shape: moments to sixth order choose among axes that lower ones leave open.
         """
         plans: list[scene.reframe.Plan] = []
         failures: list[Finding] = []
-        measured = bodies.measure_object.measured_in_turn(chosen, context.evaluated_depsgraph_get())
-        with write.reports.progress(len(chosen)) as step:
-            for done, obj in enumerate(chosen, 1):
+        measured = bodies.measure_object.measured_in_turn(
+            subjects, context.evaluated_depsgraph_get()
+        )
+        with write.reports.progress(len(subjects)) as step:
+            for finished, obj in enumerate(subjects, 1):
                 try:
                     scene.reframe.check(obj)
                     outcome = measured(obj)
@@ -76,20 +78,20 @@ def reframe_objects(
                         )
                     elif write.properties.is_stored(obj):
                         right[obj] = outcome
-                step(done)
+                step(finished)
         return plans, failures
 
     plans, failures = plans_of(objects, {}, not move_only)
-    known: dict[Object, bodies.stack.Measured] = {}
+    unchanged: dict[Object, bodies.stack.Measured] = {}
     with assembly.kept_up_to_date(context):
         with read.tracking.tracking_paused(), write.reports.progress(len(plans)) as step:
             changed, refused = scene.reframe.reframe(context, plans, step)
             failures += [write.reports.failure(obj.name_full, refusal) for obj, refusal in refused]
             # a new scale may change the triangles of faces that are not flat: another body
             if not move_only:
-                again, _ = plans_of([plan.obj for plan in changed], known, by_shape=False)
+                again, _ = plans_of([plan.obj for plan in changed], unchanged, by_shape=False)
                 scene.reframe.reframe(context, again)
-        remeasure(context, [plan.obj for plan in changed], known)
+        remeasure(context, [plan.obj for plan in changed], unchanged)
     if not move_only:
         staleness.mark_axes_changed(plan.obj for plan in changed)
     return changed, failures

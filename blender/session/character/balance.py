@@ -109,14 +109,14 @@ class _Search:
         self,
         context: Context,
         armature: Object,
-        known: Character,
+        measured_character: Character,
         weight: Weight,
         margin: float | None,
     ):
         assert weight.support is not None
         self.context = context
         self.armature = armature
-        self.known = known
+        self.known = measured_character
         self.unit = scale.meters_per_unit(context.scene)
         self.failure = write.reports.Refused(UNMOVABLE)
         self.axes = statics.ground_axes(-weight.support.up)
@@ -158,18 +158,18 @@ class _Search:
         shifts = []
         for axis, sign in ((axis, sign) for axis in handle.free for sign in (1.0, -1.0)):
             unit = sign * np.eye(3)[axis]
-            shown = self.look(handle, self.nudge / self.scale * unit)
-            move = shown.center - start.center if handle.turns else shown.head - start.head
+            trial = self.look(handle, self.nudge / self.scale * unit)
+            move = trial.center - start.center if handle.turns else trial.head - start.head
             reach = float(np.linalg.norm(move))
             lifts = not handle.turns and move @ up > 1e-2 * self.nudge  # stretches the legs
             if (
                 reach > (1e-3 if handle.turns else 1e-2) * self.nudge
-                and shown.slip <= SLIP * reach + self.noise
+                and trial.slip <= SLIP * reach + self.noise
                 and not lifts
                 and not any(unit @ u for u in units)
             ):
                 units.append(unit)
-                shifts.append((shown.center - start.center) / self.nudge)
+                shifts.append((trial.center - start.center) / self.nudge)
         # A turn may first lift the center, or two turns be one near gimbal lock, and only a further
         # turn move the center along the ground.
         if handle.turns:
@@ -200,31 +200,33 @@ class _Search:
         reached = REACHED * size + self.noise
         tolerance = STAYED * size + self.noise
 
-        def missing(seen: _Look) -> numerics.NDArray:
-            lift = [] if handle.turns else [up @ (head - seen.head)]
-            return np.array([*((self.target - seen.center) @ self.axes[:, :2]), *lift])
+        def missing(current: _Look) -> numerics.NDArray:
+            lift = [] if handle.turns else [up @ (head - current.head)]
+            return np.array([*((self.target - current.center) @ self.axes[:, :2]), *lift])
 
         gap = 0.0
-        seen = self.look(handle, change @ units / self.scale)
+        current = self.look(handle, change @ units / self.scale)
         for _ in range(MAX_STEPS):
-            gap = float(np.linalg.norm(missing(seen)))
-            if gap <= reached and seen.slip <= tolerance:
+            gap = float(np.linalg.norm(missing(current)))
+            if gap <= reached and current.slip <= tolerance:
                 return True
             if gap <= reached:  # the least lower hip that keeps the contacts
-                head = head - (1.05 * seen.slip + tolerance / 2.0) * up
+                head = head - (1.05 * current.slip + tolerance / 2.0) * up
             probes = [
                 self.look(handle, (change + self.nudge * row) @ units / self.scale)
                 for row in np.eye(len(units))
             ]
-            rows = np.transpose([missing(seen) - missing(one) for one in probes]) / self.nudge
+            effects = (
+                np.transpose([missing(current) - missing(probe) for probe in probes]) / self.nudge
+            )
             inverse = np.eye(len(units))  # from moves of the bone to changes
             if not handle.turns:
-                moves = np.transpose([one.head - seen.head for one in probes]) / self.nudge
+                moves = np.transpose([probe.head - current.head for probe in probes]) / self.nudge
                 inverse = np.linalg.inv(np.linalg.qr(moves)[1])
-            solve = inverse @ np.linalg.pinv(rows @ inverse, rcond=FLAT)
-            step = solve @ (rows @ change + missing(seen)) - change
+            solve = inverse @ np.linalg.pinv(effects @ inverse, rcond=FLAT)
+            step = solve @ (effects @ change + missing(current)) - change
             step *= min(1.0, FARTHEST * size / max(float(np.linalg.norm(step)), 1e-9 * size))
-            gap = float(np.linalg.norm(missing(seen)))
+            gap = float(np.linalg.norm(missing(current)))
             for share in 0.5 ** np.arange(HALVINGS):
                 trial = self.look(handle, (change + share * step) @ units / self.scale)
                 if np.linalg.norm(missing(trial)) < gap or gap <= reached:
@@ -232,13 +234,13 @@ class _Search:
             else:
                 break
             change = change + share * step
-            seen = trial
+            current = trial
         if self.failure.text == UNMOVABLE:
-            lengths = {"gap": gap, "slip": seen.slip}
+            lengths = {"gap": gap, "slip": current.slip}
             values = {
                 name: write.reports.distance(self.unit * value) for name, value in lengths.items()
             }
-            text = TOO_FAR if seen.slip <= tolerance else STRETCHED
+            text = TOO_FAR if current.slip <= tolerance else STRETCHED
             self.failure = write.reports.Refused(text, bone=handle.bone.name, **values)
         return False
 
@@ -259,24 +261,26 @@ def balance_pose(
         raise verdict.EditRefusedError(NO_SUCH_NAME, kind="bone", name=name)
     character.prepare(context, armature)
     weight = character.weight(armature, context.evaluated_depsgraph_get())
-    known = character.character(armature, unit)
-    assert weight is not None and known is not None
+    measured_character = character.character(armature, unit)
+    assert weight is not None and measured_character is not None
     if weight.contacts.height is None:
         raise write.reports.Refused(NO_CONTACT, armature=armature.name)
     if weight.support is None:
         raise write.reports.Refused(
             IN_AIR, height=write.reports.distance(unit * weight.contacts.height)
         )
-    search = _Search(context, armature, known, weight, margin)
-    if np.linalg.norm(search.gap(weight.parts.center)) <= REACHED * known.size:
+    search = _Search(context, armature, measured_character, weight, margin)
+    if np.linalg.norm(search.gap(weight.parts.center)) <= REACHED * measured_character.size:
         return {}
     with read.tracking.tracking_paused():
-        moved = next(filter(search.balance, _handles(context, armature, known, name)), None)
+        handle = next(
+            filter(search.balance, _handles(context, armature, measured_character, name)), None
+        )
         context.view_layer.update()
-    if moved is None:
+    if handle is None:
         raise search.failure
     if context.scene.tool_settings.use_keyframe_insert_auto:
-        moved.bone.keyframe_insert(moved.channel, frame=context.scene.frame_current_final)
+        handle.bone.keyframe_insert(handle.channel, frame=context.scene.frame_current_final)
     armature.update_tag()
     context.view_layer.update()
     after = character.weight(armature, context.evaluated_depsgraph_get())
@@ -284,22 +288,24 @@ def balance_pose(
     gap = float(np.linalg.norm(search.gap(after.parts.center)))
     lengths = {"gap": gap, "margin": after.support.margin}
     values = {name: write.reports.distance(unit * value) for name, value in lengths.items()}
-    return {"bone": moved.bone.name} | values
+    return {"bone": handle.bone.name} | values
 
 
-def _handles(context: Context, armature: Object, known: Character, name: str) -> Iterator[_Handle]:
+def _handles(
+    context: Context, armature: Object, measured_character: Character, name: str
+) -> Iterator[_Handle]:
     """Yield the channels to try from the root on: locations of bones that no heavy part is above,
     then rotations.
     """
-    chosen = context.active_pose_bone
-    masses = dict(zip(known.names, known.model.masses))
+    active_bone = context.active_pose_bone
+    masses = dict(zip(measured_character.names, measured_character.model.masses))
     bones = [bone for bone in context.visible_pose_bones or () if bone.id_data == armature]
-    bones.sort(key=lambda bone: (bone != chosen, len(bone.parent_recursive)))
+    bones.sort(key=lambda bone: (bone != active_bone, len(bone.parent_recursive)))
     bones = [armature.pose.bones[name]] if name else bones
     for bone in bones:
         if (
             sum(masses.get(above.name, 0.0) for above in bone.parent_recursive)
-            <= TORN * known.model.masses.sum()
+            <= TORN * measured_character.model.masses.sum()
         ):
             yield _Handle(bone, turns=False)
     for bone in bones:

@@ -87,8 +87,8 @@ class Carrier:
         """Raise Refused unless keys on the channels have an effect and are allowed."""
         scene.changes.require_editable(self.armature)
         owner = self.owner
-        if others := scene.fcurves.sharing(self.armature):
-            raise write.reports.Refused(SHARED, name=self.armature.name, others=others)
+        if sharing := scene.fcurves.sharing(self.armature):
+            raise write.reports.Refused(SHARED, name=self.armature.name, others=sharing)
         for channel in ("location", "rotation")[: 1 + turns]:
             path = self.path("location" if channel == "location" else self.rotation)
             for state, holds in self._states(channel, path):
@@ -105,9 +105,14 @@ class Carrier:
         keyed = [curve for curve in curves if curve.data_path == path]
         locked = any(getattr(owner, "lock_" + channel)) or any(curve.lock for curve in keyed)
         yield "locked", locked
-        yield "constrained", any(not one.mute and one.influence > 0.0 for one in owner.constraints)
+        yield (
+            "constrained",
+            any(not modifier.mute and modifier.influence > 0.0 for modifier in owner.constraints),
+        )
         yield "muted", any(curve.mute for curve in keyed)
-        modifiers = [one for curve in keyed for one in curve.modifiers if not one.mute]
+        modifiers = [
+            modifier for curve in keyed for modifier in curve.modifiers if not modifier.mute
+        ]
         yield "changed by F-curve modifiers", bool(modifiers)
         if animation is not None:
             yield "driven", any(driver.data_path == path for driver in animation.drivers)
@@ -117,14 +122,14 @@ class Carrier:
             sizes = (factor != 1.0 for factor in owner.delta_scale)
             yield "changed by Delta Transforms", any((*owner.delta_location, *turns, *sizes))
 
-    def left_behind(self, context: Context, known: Character, turns: bool) -> str:
+    def left_behind(self, context: Context, character: Character, turns: bool) -> str:
         """Try a small move at this frame; return the name of a part that does not follow, or ""."""
         depsgraph = context.evaluated_depsgraph_get()
         trial = Carrier(self.armature, self.owner)
         trial.read(depsgraph)
-        before = known.pose(self.armature, depsgraph)
+        before = character.pose(self.armature, depsgraph)
         move = np.eye(4)
-        move[:3, 3] = TRIAL * known.size
+        move[:3, 3] = TRIAL * character.size
         if turns:
             move[:3, :3] = numerics.rotation_matrix([1.0, TRIAL, TRIAL, TRIAL])
             move[:3, 3] += before.center - move[:3, :3] @ before.center
@@ -135,11 +140,11 @@ class Carrier:
             values = trial.values(turn, trial._old(self.rotation))
             setattr(self.owner, self.rotation, values[0])
             context.view_layer.update()
-            after = known.pose(self.armature, context.evaluated_depsgraph_get())
+            after = character.pose(self.armature, context.evaluated_depsgraph_get())
             stored.restore()
             context.view_layer.update()
         expected = move @ before.matrices
-        units = [np.abs(expected[:, :3, :3]).max()] * 3 + [known.size]
+        units = [np.abs(expected[:, :3, :3]).max()] * 3 + [character.size]
         off = (np.abs(after.matrices - expected)[:, :3] / units).max(axis=(1, 2))
         return before.names[int(off.argmax())] if off.max() > FOLLOWS else ""
 
@@ -148,9 +153,9 @@ class Carrier:
         4) move in the world at each time read.
         """
         world, basis = (np.array([frame[part] for frame in self.frames]) for part in (0, 1))
-        wanted = basis @ np.linalg.inv(world) @ moves @ world
-        turns = numerics.quaternion(wanted[:, :3, :3] / self._old("scale")[:, None])
-        return wanted[:, :3, 3], rig.continuous(turns)
+        new_basis = basis @ np.linalg.inv(world) @ moves @ world
+        turns = numerics.quaternion(new_basis[:, :3, :3] / self._old("scale")[:, None])
+        return new_basis[:, :3, 3], rig.continuous(turns)
 
     def values(self, turns: numerics.NDArray, old: numerics.NDArray) -> numerics.Array:
         """Return the (s, k) values of the rotation's channels for (s, 4) quaternions.
@@ -200,11 +205,11 @@ class Carrier:
                 new *= np.sign(new[0, 0])
             elif as_layer:
                 new = new - before
-            channels.update({(self.path(name), axis): rows for axis, rows in enumerate(new.T)})
+            channels.update({(self.path(name), axis): values for axis, values in enumerate(new.T)})
         if as_layer:
             scene.strips.add_layer(armature, LAYER, times, channels)
             return
         for curve in scene.fcurves.ensure_curves(armature):
-            rows = channels.get((curve.data_path, curve.array_index))
-            if rows is not None:
-                scene.fcurves.replace_section(curve, times, rows)
+            values = channels.get((curve.data_path, curve.array_index))
+            if values is not None:
+                scene.fcurves.replace_section(curve, times, values)

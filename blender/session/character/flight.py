@@ -113,7 +113,8 @@ class CharacterMotion(BalanceGroup):
     def course(self) -> motion.Course:
         """The frames, in Blender's units."""
         centers, spreads = (
-            np.array([getattr(one, name) for one in self._parts]) for name in ("centers", "spreads")
+            np.array([getattr(frame_parts, name) for frame_parts in self._parts])
+            for name in ("centers", "spreads")
         )
         linear = np.array([parts.matrices[:, :3, :3] for parts in self._parts])
         return motion.Course(self.step, self._parts[0].masses, centers, spreads, linear)
@@ -133,7 +134,8 @@ class CharacterMotion(BalanceGroup):
         if name and name not in bones:
             raise verdict.EditRefusedError(NO_SUCH_NAME, kind="bone", name=name)
         roots = {
-            [bones[known], *bones[known].parent_recursive][-1].name for known in self.known.names
+            [bones[part_name], *bones[part_name].parent_recursive][-1].name
+            for part_name in self.known.names
         }
         owners = (
             [bones[name]]
@@ -157,14 +159,16 @@ class CharacterMotion(BalanceGroup):
         yield from self.follow(scene, self.frames)
         touching = self.touching
         frames = self.frames
-        found = [flight for flight in motion.find_flights(touching) if touching[list(flight)].all()]
-        if not found:
+        flights = [
+            flight for flight in motion.find_flights(touching) if touching[list(flight)].all()
+        ]
+        if not flights:
             raise write.reports.Refused(
                 NO_FLIGHT, name=self.armature.name, start=frames[0], end=frames[-1]
             )
         current = scene.frame_current
         first, last = max(
-            found,
+            flights,
             key=lambda flight: (frames[flight[0]] <= current < frames[flight[1]], np.ptp(flight)),
         )
         self.first, self.last = frames[first], frames[last]
@@ -197,7 +201,7 @@ class CharacterMotion(BalanceGroup):
         self.landing = self.first + count
         if self.landing != self.last:
             for curve in fcurves.existing_curves(self.armature):
-                if any(not one.mute for one in curve.modifiers):
+                if any(not modifier.mute for modifier in curve.modifiers):
                     raise write.reports.Refused(MODIFIED_TIMES, curve=curve.data_path)
         self.before, self.after = before, after
         yield from self._sample(
@@ -226,11 +230,11 @@ class CharacterMotion(BalanceGroup):
     def _carried(self) -> spin.CarriedParts:
         """Return the parts in flight, in the axes of the carrier."""
         course = self.course
-        rows = self._flight
-        arrays = (array[rows] for array in (course.centers, course.spreads, course.linear))
+        flight = self._flight
+        arrays = (array[flight] for array in (course.centers, course.spreads, course.linear))
         section = motion.Course(self.step, course.masses, *arrays)
         assert self.carrier is not None
-        return spin.CarriedParts.of_course(section, self.carrier.axes[rows])
+        return spin.CarriedParts.of_course(section, self.carrier.axes[flight])
 
     def _moves(self, turns: bool) -> numerics.Array:
         """Return (s, 4, 4) moves onto the arc between the ends, or turns of constant spin, blended
@@ -258,16 +262,16 @@ class CharacterMotion(BalanceGroup):
         twist = numerics.quaternion(spun[-1])
         back = spin.rotation(-2.0 * share * np.arctan2(twist[1:] @ axis, twist[0]) * axis)
         moves[flight, :3, :3] = back @ spun
-        for rows, frames in (
+        for transition, frames in (
             (slice(None, flight.start), self.before),
             (slice(flight.stop, None), -self.after),
         ):
             edge = flight.start if frames > 0 else flight.stop - 1
-            whole = Quaternion(numerics.quaternion(moves[edge, :3, :3]))
-            for row in range(len(moves))[rows]:
+            edge_turn = Quaternion(numerics.quaternion(moves[edge, :3, :3]))
+            for row in range(len(moves))[transition]:
                 left = 1.0 - (places[edge] - places[row]) / frames
                 moves[row, :3, :3] = numerics.rotation_matrix(
-                    Quaternion().slerp(whole, left * left * (3.0 - 2.0 * left))
+                    Quaternion().slerp(edge_turn, left * left * (3.0 - 2.0 * left))
                 )
         moves[:, :3, 3] = centers - np.einsum("fij,fj->fi", moves[:, :3, :3], centers)
         return moves
@@ -358,8 +362,8 @@ class CharacterMotion(BalanceGroup):
             now, change = motion.momenta(course, flights)
             mass = course.masses.sum()
             stands = [
-                (np.nan, np.nan) if one is None else (one.margin, one.height)
-                for one in self.supports
+                (np.nan, np.nan) if support is None else (support.margin, support.height)
+                for support in self.supports
             ]
             margin, height = np.array(stands).T
             force = mass * change[:, :3]
@@ -373,7 +377,7 @@ class CharacterMotion(BalanceGroup):
             values = velocity, mass * velocity, angular, energy, unit * margin, zero
             signals.update(zip(list(balance_groups.DESCRIPTIONS)[3:], values))
         start = self._frames[0]
-        rows = [
+        unexplained_spans = [
             (start + span[0], start + span[1], unit * span[2], unit**2 * span[3]) for span in spans
         ]
-        return self.store(context, signals, rows), len(rows)
+        return self.store(context, signals, unexplained_spans), len(unexplained_spans)

@@ -133,10 +133,10 @@ class Character:
         factors = self.model.factors_to(
             numerics.shortest_decimal(armature.body_moments_weight.mass), shares
         )
-        held = [
+        held_parts = [
             self._held_part(obj, depsgraph) for obj, _ in read.rig.held_objects(armature, depsgraph)
         ]
-        return Parts.join([self.model.placed(matrices, factors), *held])
+        return Parts.join([self.model.placed(matrices, factors), *held_parts])
 
     def _held_part(self, obj: Object, depsgraph: Depsgraph) -> Parts:
         """Return a held object as a part at its own place, without mass if it cannot be
@@ -173,9 +173,11 @@ class Character:
         origin.
         """
         names = [bone.name for bone in armature.pose.bones]
-        named = {bone.name for bone in armature.pose.bones if bone.body_moments.is_contact}
+        contact_bones = {bone.name for bone in armature.pose.bones if bone.body_moments.is_contact}
         # last: no weight
-        may_touch = np.array([not named or name in named for name in names] + [not named])
+        may_touch = np.array(
+            [not contact_bones or name in contact_bones for name in names] + [not contact_bones]
+        )
         gravity = down(depsgraph.scene)
         reach = REACH * self.size
         lowest = np.inf
@@ -185,7 +187,9 @@ class Character:
             evaluated = obj.evaluated_get(depsgraph)
             points = read.mesh.vertex_points(evaluated.data)
             matrix = float64_matrix(evaluated.matrix_world)
-            counts = may_touch[self._bones_of(obj, bone, names, depsgraph)] if named else True
+            counts = (
+                may_touch[self._bones_of(obj, bone, names, depsgraph)] if contact_bones else True
+            )
             near, touching, height = statics.find_contacts(
                 points, matrix, gravity, ground, reach, counts
             )
@@ -195,7 +199,7 @@ class Character:
         carriers = np.concatenate(bones)
         carrying = sorted(names[bone] for bone in np.unique(carriers).tolist() if bone != NO_BONE)
         least = lowest if np.isfinite(lowest) else None
-        lifted = sorted(named.difference(carrying))
+        lifted = sorted(contact_bones.difference(carrying))
         return Contacts(np.concatenate(places), carriers, tuple(carrying), tuple(lifted), least)
 
     def _bones_of(
@@ -204,29 +208,30 @@ class Character:
         bone: str | None,
         names: Sequence[str],
         depsgraph: Depsgraph,
-        rows: numerics.NDArray | None = None,
+        vertices: numerics.NDArray | None = None,
     ) -> numerics.Index:
-        """Return the bone of most weight for each vertex of an object, as indices; rows: vertices,
-        by default all.
+        """Return the bone of most weight for each vertex of an object, as indices.
+
+        vertices: their indices, by default all.
         """
         mesh = obj.evaluated_get(depsgraph).data
         count = len(mesh.vertices)
-        rows = np.arange(count) if rows is None else rows
+        vertices = np.arange(count) if vertices is None else vertices
         index = {name: number for number, name in enumerate(names)}
         if bone is not None:
-            return np.full(len(rows), index.get(bone, NO_BONE))
-        known = self._vertex_bones.get(obj.session_uid)
-        if known is None or len(known) != count:
-            known = self._vertex_bones[obj.session_uid] = np.full(count, UNKNOWN)
+            return np.full(len(vertices), index.get(bone, NO_BONE))
+        vertex_bones = self._vertex_bones.get(obj.session_uid)
+        if vertex_bones is None or len(vertex_bones) != count:
+            vertex_bones = self._vertex_bones[obj.session_uid] = np.full(count, UNKNOWN)
         group_bones = [index.get(group.name, NO_BONE) for group in obj.vertex_groups]
-        for row in rows[known[rows] == UNKNOWN].tolist():
+        for row in vertices[vertex_bones[vertices] == UNKNOWN].tolist():
             weights = [
                 (entry.weight, group_bones[entry.group]) for entry in mesh.vertices[row].groups
             ]
-            known[row] = max(
+            vertex_bones[row] = max(
                 [pair for pair in weights if pair[1] != NO_BONE], default=(0.0, NO_BONE)
             )[1]
-        return known[rows]
+        return vertex_bones[vertices]
 
 
 def measure(context: Context, armature: Object) -> Rig:
@@ -234,12 +239,14 @@ def measure(context: Context, armature: Object) -> Rig:
     weight.
     """
     rig = measure_rig(context, armature)
-    bare = [found for found in rig.measurement.findings if found.code == UNWEIGHTED_VERTICES]
+    unweighted = [
+        finding for finding in rig.measurement.findings if finding.code == UNWEIGHTED_VERTICES
+    ]
     meshes = read.rig.skinned_objects(armature, rig.objects)
     if (
         meshes
-        and len(bare) == len(meshes)
-        and all(found.values["count"] == found.values["total"] for found in bare)
+        and len(unweighted) == len(meshes)
+        and all(finding.values["count"] == finding.values["total"] for finding in unweighted)
     ):
         raise verdict.ReadError(RIG_WITHOUT_PARTS, subject=armature.name)
     return rig
@@ -248,12 +255,12 @@ def measure(context: Context, armature: Object) -> Rig:
 def character(armature: Object, unit: float) -> Character | None:
     """Return a measured character, None if its bones have not been measured."""
     fingerprint = write.properties.fingerprint(armature)
-    known = memory.characters.get(armature)
-    if known is None or known[0] != fingerprint:
+    cached = memory.characters.get(armature)
+    if cached is None or cached[0] != fingerprint:
         bodies = {bone.name: write.properties.stored(bone) for bone in armature.pose.bones}
-        known = fingerprint, Character.from_bodies(armature, bodies, unit)
-        memory.characters[armature] = known
-    return known[1]
+        cached = fingerprint, Character.from_bodies(armature, bodies, unit)
+        memory.characters[armature] = cached
+    return cached[1]
 
 
 @memory.until_change
@@ -262,13 +269,15 @@ def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
     measured.
     """
     unit = scale.meters_per_unit(depsgraph.scene)
-    known = character(armature, unit)
+    measured_character = character(armature, unit)
     # removed in Edit Mode
-    if known is None or any(name not in armature.pose.bones for name in known.names):
+    if measured_character is None or any(
+        name not in armature.pose.bones for name in measured_character.names
+    ):
         return None
     gravity = down(depsgraph.scene)
     ground = armature.body_moments_weight.ground
-    parts, contacts, support = known.stand(armature, depsgraph, ground)
+    parts, contacts, support = measured_character.stand(armature, depsgraph, ground)
     foot = (
         parts.center - (parts.center @ gravity + ground) * gravity
         if support is None
@@ -301,17 +310,21 @@ def find(context: Context, armature: Object) -> tuple[Character, float, Rig | No
         require_gravity(context.scene)
     rig = _measure_outdated(context, armature)
     if rig is None:
-        known = character(armature, unit)
+        measured_character = character(armature, unit)
     else:
         bodies = {
             part.name: PlainBody.of_body(part.measurement.in_object_frame(), 0.0, 0.0, 0.0, {})
             for part in rig.parts
             if part.measurement is not None
         }
-        known = Character.from_bodies(armature, bodies, unit)
-    if known is None:
+        measured_character = Character.from_bodies(armature, bodies, unit)
+    if measured_character is None:
         raise verdict.ReadError(RIG_WITHOUT_PARTS, subject=armature.name)
-    return known, settings.ground if settings.show else _find_ground(context, armature, known), rig
+    return (
+        measured_character,
+        settings.ground if settings.show else _find_ground(context, armature, measured_character),
+        rig,
+    )
 
 
 def _measure_outdated(context: Context, armature: Object) -> Rig | None:
@@ -331,7 +344,7 @@ def store_rest(context: Context, armature: Object) -> None:
             stored.results.store_rig(rig)
 
 
-def keep(armature: Object, known: Character, ground: float, rig: Rig | None) -> None:
+def keep(armature: Object, measured_character: Character, ground: float, rig: Rig | None) -> None:
     """Store what `find` has found; on a linked character only remember its results."""
     armature.body_moments_weight.ground = ground
     if rig is None:
@@ -339,18 +352,18 @@ def keep(armature: Object, known: Character, ground: float, rig: Rig | None) -> 
     try:
         stored.results.store_rig(rig)
     except verdict.EditRefusedError:
-        memory.characters[armature] = write.properties.fingerprint(armature), known
+        memory.characters[armature] = write.properties.fingerprint(armature), measured_character
         handlers.count_change(armature)
 
 
 def prepare(context: Context, armature: Object) -> Rig | None:
     """Measure a character and find its ground if necessary, and keep both. Return a new Rig."""
-    known, ground, rig = find(context, armature)
-    keep(armature, known, ground, rig)
+    measured_character, ground, rig = find(context, armature)
+    keep(armature, measured_character, ground, rig)
     return rig
 
 
-def _find_ground(context: Context, armature: Object, known: Character) -> float:
+def _find_ground(context: Context, armature: Object, measured_character: Character) -> float:
     """Return the height of a character's ground: the world's origin, or its lowest point at rest or
     as posed.
 
@@ -358,12 +371,13 @@ def _find_ground(context: Context, armature: Object, known: Character) -> float:
     point.
     """
     with read.rig.rest_pose(context, armature) as depsgraph:
-        rest = known.contacts(armature, depsgraph, 0.0).height
-    posed = known.contacts(armature, context.evaluated_depsgraph_get(), 0.0).height
+        rest = measured_character.contacts(armature, depsgraph, 0.0).height
+    posed = measured_character.contacts(armature, context.evaluated_depsgraph_get(), 0.0).height
     if rest is None or posed is None:
         return armature.body_moments_weight.ground
     return max(
-        (height for height in (0.0, rest) if height <= posed + REACH * known.size), default=posed
+        (height for height in (0.0, rest) if height <= posed + REACH * measured_character.size),
+        default=posed,
     )
 
 

@@ -20,7 +20,7 @@ def map_properties(
     """Return the numbers of an object with Live on, in its own frame, mapped to its place and
     stretch.
     """
-    shown = inertia.PlainBody.of_body(
+    numbers = inertia.PlainBody.of_body(
         measured.in_object_frame(),
         measured.density,
         measured.volume,
@@ -28,8 +28,8 @@ def map_properties(
         measured.error_bound,
     )
     if current.first_order is None and read.fingerprint.has_transform(obj, current.transform):
-        return shown
-    return _mapped(obj, current, measured, shown, scene)
+        return numbers
+    return _mapped(obj, current, measured, numbers, scene)
 
 
 def is_of_another_scale(obj: Object, current: Followed) -> bool:
@@ -62,7 +62,7 @@ def _mapped(
     obj: Object,
     current: Followed,
     measured: measurement.Measurement,
-    shown: inertia.PlainBody,
+    numbers: inertia.PlainBody,
     scene: Scene,
 ) -> inertia.PlainBody:
     """Return the numbers mapped to the current matrix; volume and center are those of the last
@@ -70,7 +70,7 @@ def _mapped(
     """
     linear = _linear_map(obj, current, measured)
     if linear is None or current.matrix is None:
-        return shown
+        return numbers
     now = bodies.float64_matrix(obj.matrix_world)
     unit = scale.meters_per_unit(scene)
     stretch = abs(np.linalg.det(linear))
@@ -86,18 +86,18 @@ def _mapped(
         volume = volume * abs(np.linalg.det(now[:3, :3])) * unit**3
         center = now[:3, :3] @ center + now[:3, 3]
     if not volume > 0.0:
-        return shown
+        return numbers
     mass = measured.mass_properties.mass
     if settings.options.object_settings(obj, scene).mass is None:
         mass *= volume / measured.volume
     turn = numerics.rotation_matrix(obj.matrix_world.to_quaternion())
     image = inertia.affine_image(
-        measured.mass_properties, linear, center * unit, mass, turn @ np.transpose(shown.axes)
+        measured.mass_properties, linear, center * unit, mass, turn @ np.transpose(numbers.axes)
     )
     location = now[:3, 3] * unit
-    area = shown.area * stretch ** (2.0 / 3.0)
+    area = numbers.area * stretch ** (2.0 / 3.0)
     return inertia.PlainBody.of_body(
-        image.in_frame(turn, location), mass / volume, volume, area, shown.error_bound
+        image.in_frame(turn, location), mass / volume, volume, area, numbers.error_bound
     )
 
 

@@ -152,12 +152,12 @@ def note_updates(events: handlers.Updates) -> None:
         changed[active.session_uid] = memory.followed[active]
     for current in changed.values():
         current.is_pending = True
-    moved = any(memory.followed.by_uid(uid) is not None for uid in events.moved)
+    is_followed_moved = any(memory.followed.by_uid(uid) is not None for uid in events.moved)
     if changed and not bpy.app.is_job_running("RENDER"):
         _follow_at_once(events, set(changed))
-    others = events.collections or events.moved or events.reshaped
+    has_other_events = events.collections or events.moved or events.reshaped
     follows = len(memory.afloat) or any(current.shows_others for current in memory.followed)
-    is_due = changed or moved or others and follows
+    is_due = changed or is_followed_moved or has_other_events and follows
     if is_due and not bpy.app.background and not bpy.app.timers.is_registered(_tick):
         bpy.app.timers.register(_tick)
 

@@ -54,16 +54,16 @@ def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
     about = reference.stored_choice(root)
     write.properties.store(root, assembly.measurement)
     reference.follow(root, scene, about)
-    done: dict[read.assembly.Root, None] = {root: None}
+    visited: dict[read.assembly.Root, None] = {root: None}
     failures: list[tuple[str, Finding]] = []
     measured: list[tuple[Object, Measured]] = []
     for (
         part
     ) in assembly.root.walk():  # an assembly comes before the point mass that it may be itself
         data = part.member.data
-        if data in done:
+        if data in visited:
             continue
-        done[data] = None
+        visited[data] = None
         if part.measured is not None:
             measured.append((data, part.measured))
         elif (
@@ -152,29 +152,41 @@ def kept_up_to_date(context: Context, member: Object | None = None) -> Iterator[
 def _follow_defaults(root: read.assembly.Root, members: Collection[Object]) -> None:
     """Let the warning about members of the default density follow the findings of these members."""
     findings = write.properties.findings(root)
-    known = {obj.name for obj in members}
+    member_names = {obj.name for obj in members}
     unset = [
         obj.name
         for obj in members
-        if DENSITY_DEFAULTED in [found.code for found in write.properties.findings(obj)]
+        if DENSITY_DEFAULTED
+        in [stored_finding.code for stored_finding in write.properties.findings(obj)]
     ]
-    for found in findings:
-        if found.code == MEMBERS_DENSITY_UNSET:
-            unset = [*(name for name in found.values["names"] if name not in known), *unset]
+    for stored_finding in findings:
+        if stored_finding.code == MEMBERS_DENSITY_UNSET:
+            unset = [
+                *(name for name in stored_finding.values["names"] if name not in member_names),
+                *unset,
+            ]
     warning = [finding(MEMBERS_DENSITY_UNSET, count=len(unset), names=unset)] if unset else []
     write.properties.store_findings(
-        root, [*(found for found in findings if found.code != MEMBERS_DENSITY_UNSET), *warning]
+        root,
+        [
+            *(
+                stored_finding
+                for stored_finding in findings
+                if stored_finding.code != MEMBERS_DENSITY_UNSET
+            ),
+            *warning,
+        ],
     )
 
 
 def _is_sum(root: read.assembly.Root, bodies: dict[Object, PlainBody]) -> bool:
     """Return whether the stored total of an assembly is the sum of these bodies, in the world."""
     total = add_bodies([*bodies.values()])
-    own = write.properties.stored(root)
-    if total is None or own is None:
+    stored_total = write.properties.stored(root)
+    if total is None or stored_total is None:
         return False
     unit = scale.meters_per_unit(bpy.context.scene)
-    return _is_same(total, own.in_world(getattr(root, "matrix_world", Matrix()), unit))
+    return _is_same(total, stored_total.in_world(getattr(root, "matrix_world", Matrix()), unit))
 
 
 def _scale_rows(root: read.assembly.Root, gains: dict[str, float], mass: float) -> None:
@@ -215,18 +227,18 @@ def _is_same(before: PlainBody, now: PlainBody) -> bool:
 
 
 def _write_rows(assembly: Assembly) -> None:
-    rows = read.assembly.settings_of(assembly.root.member.data).rows
-    rows.clear()
+    tree_rows = read.assembly.settings_of(assembly.root.member.data).rows
+    tree_rows.clear()
     mass = assembly.measurement.mass_properties.mass
     for depth, part, factor, counted in _tree(assembly.root, 0, 1.0, True):
-        row = rows.add()
+        row = tree_rows.add()
         row.name = part.member.name
         row.depth = depth
         row.member = part.member.kind.value
-        own = _own_mass(part) * factor
-        row.is_counted = counted and own > 0.0
-        row.mass = own
-        row.share = own / mass if counted else 0.0
+        own_mass = _own_mass(part) * factor
+        row.is_counted = counted and own_mass > 0.0
+        row.mass = own_mass
+        row.share = own_mass / mass if counted else 0.0
         row.findings = write.properties.findings_text(_row_findings(part))
 
 
@@ -240,9 +252,9 @@ def _tree(
     below = sum([_own_mass(member) for member in part.parts], 0.0)
     if part.member.kind == read.assembly.MemberKind.INSTANCE and below > 0.0:
         factor *= _own_mass(part) / below
-    given = any(found.code == ASSEMBLY_MASS_GIVEN for found in part.findings)
+    is_given = any(finding.code == ASSEMBLY_MASS_GIVEN for finding in part.findings)
     for member in part.parts:
-        yield from _tree(member, depth + 1, factor, counted and not given)
+        yield from _tree(member, depth + 1, factor, counted and not is_given)
 
 
 def _own_mass(part: MemberBody) -> float:
@@ -285,24 +297,26 @@ def _bill_row(part: MemberBody, mass: float, level: int, counted: bool) -> dict[
         "type": part.member.kind.value.lower(),
         "counted": counted and moments is not None,
         "method": "" if measurement is None else str(measurement.method),
-        "notes": [sentence(found) for found in of_severity(findings, Severity.NOTE)],
+        "notes": [sentence(note) for note in of_severity(findings, Severity.NOTE)],
         "warnings": [
-            sentence(found) for found in of_severity(findings, Severity.WARNING, Severity.ERROR)
+            sentence(note) for note in of_severity(findings, Severity.WARNING, Severity.ERROR)
         ],
     }
     reason = part.member.left_out or part.refusal
     if reason is not None:
         row["left_out"] = sentence(reason)
     if moments is not None:
-        whole = find_properties(moments, np.eye(3))
+        properties = find_properties(moments, np.eye(3))
         volume = part.volume[0]
-        row |= {"mass": whole.mass, "volume": volume, "area": part.area[0]}
+        row |= {"mass": properties.mass, "volume": volume, "area": part.area[0]}
         row |= {"share": moments.total / mass} if counted else {}
         row |= {"density": moments.total / volume} if volume else {}
-        row |= {f"center_of_mass_{axis}": float(value) for axis, value in zip("xyz", whole.center)}
-        row |= {f"inertia_{name}": float(whole.inertia[i, j]) for name, i, j in TENSOR}
+        row |= {
+            f"center_of_mass_{axis}": float(value) for axis, value in zip("xyz", properties.center)
+        }
+        row |= {f"inertia_{name}": float(properties.inertia[i, j]) for name, i, j in TENSOR}
         row |= {
             f"principal_moment_{k}": float(value)
-            for k, value in enumerate(whole.principal.moments, start=1)
+            for k, value in enumerate(properties.principal.moments, start=1)
         }
     return row

@@ -107,9 +107,9 @@ def store(
         ui = empty.id_properties_ui(name)
         ui.update(description=description, **({"min": 0, "max": 1} if is_truth else {}))
         for axis, column in enumerate(values.reshape(len(frames), -1).T):
-            known = ~np.isnan(column)
+            has_value = ~np.isnan(column)
             kind = fcurves.CONSTANT if is_truth else fcurves.LINEAR
-            fcurves.write_keys(curves, (path, axis), times[known], column[known], kind)
+            fcurves.write_keys(curves, (path, axis), times[has_value], column[has_value], kind)
     memory.supports[empty] = {
         round(float(frame)): support
         for frame, support in zip(frames, supports)
@@ -129,10 +129,11 @@ def path(empty: Object) -> Path | None:
     signals = [
         _keys(curves, ('["{:s}"]'.format(name), 0)) for name in (INSIDE, CONTACT, UNEXPLAINED)
     ]
-    known = (
-        None if one is None or len(one) != len(centers) else one[:, 1] > 0.5 for one in signals
+    truths = (
+        None if signal is None or len(signal) != len(centers) else signal[:, 1] > 0.5
+        for signal in signals
     )
-    return Path(keys[0][:, 0], centers, *known)
+    return Path(keys[0][:, 0], centers, *truths)
 
 
 def support(empty: Object, frame: int) -> statics.Support | None:

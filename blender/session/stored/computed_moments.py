@@ -80,15 +80,22 @@ def invariants(computed: ComputedMoments, of: str, order: int) -> list[Invariant
         raise verdict.ReadError(MOMENTS_UNAVAILABLE, fault=INVARIANTS_ORDER)
     moments = normalize(_select_moments(computed, of).truncate(order))
     with np.errstate(over="ignore", invalid="ignore"):
-        found = [
+        results = [
             *hu_invariants(moments),
-            *(one for one in flusser_invariants(moments) if one.degree > HU_ORDER),
+            *(
+                invariant
+                for invariant in flusser_invariants(moments)
+                if invariant.degree > HU_ORDER
+            ),
         ]
     if not np.isfinite(
-        [(abs(one.value), one.rounding_error, one.input_error) for one in found]
+        [
+            (abs(invariant.value), invariant.rounding_error, invariant.input_error)
+            for invariant in results
+        ]
     ).all():
         raise verdict.ReadError(inertia.MOMENTS_OVERFLOW, order=order)
-    return found
+    return results
 
 
 def in_frame(
@@ -183,10 +190,16 @@ def as_csv(
     if of == "FLAT" and about == "INVARIANT":
         heading = "invariants of the flat shape, from central moments, scaled to an area of 1"
         columns = ["invariant", "real", "imaginary", *bounds]
-        found = invariants(computed, of, computed.order)
-        rows = [
-            [one.name, one.value.real, one.value.imag, one.rounding_error, one.input_error]
-            for one in found
+        results = invariants(computed, of, computed.order)
+        table_rows = [
+            [
+                invariant.name,
+                invariant.value.real,
+                invariant.value.imag,
+                invariant.rounding_error,
+                invariant.input_error,
+            ]
+            for invariant in results
         ]
     else:
         moments = in_frame(computed, of, about, frame, computed.order, reference)
@@ -201,11 +214,11 @@ def as_csv(
             columns = ["p", "q", "r"]
             powers = monomials(computed.order)
         columns = [*columns, "moment", *bounds]
-        rows = [[*which, *row] for which, row in zip(powers.tolist(), values.tolist())]
+        table_rows = [[*which, *row] for which, row in zip(powers.tolist(), values.tolist())]
     title = re.sub(
         "[,;]", " ", measurement.visible(computed.name)
     )  # otherwise the rest would be another cell
-    lines = measurement.table(columns, (dict(zip(columns, row)) for row in rows))
+    lines = measurement.table(columns, (dict(zip(columns, row)) for row in table_rows))
     return "".join(["# {:s}: {:s}\n".format(title, heading), *lines])
 
 

@@ -88,14 +88,18 @@ class Level:
             edited.faces.new([vertices[i] for i in triangle])
         everything = [*edited.verts, *edited.edges, *edited.faces]
         up = Vector(hollow.up)
-        found = bmesh.ops.bisect_plane(edited, geom=everything, plane_co=(0, 0, 0), plane_no=up)
-        edges = [item for item in found["geom_cut"] if isinstance(item, bmesh.types.BMEdge)]
-        kept = {vertex for edge in edges for vertex in edge.verts}
+        bisection = bmesh.ops.bisect_plane(edited, geom=everything, plane_co=(0, 0, 0), plane_no=up)
+        edges = [item for item in bisection["geom_cut"] if isinstance(item, bmesh.types.BMEdge)]
+        surface_vertices = {vertex for edge in edges for vertex in edge.verts}
         bmesh.ops.delete(edited, geom=[*edited.faces], context="FACES_ONLY")
         edges = [edge for edge in edges if edge.is_valid]
         bmesh.ops.triangle_fill(edited, use_beauty=True, edges=edges, normal=up)
-        lost = [vertex for vertex in edited.verts if vertex not in kept or not vertex.link_faces]
-        bmesh.ops.delete(edited, geom=lost, context="VERTS")
+        stray_vertices = [
+            vertex
+            for vertex in edited.verts
+            if vertex not in surface_vertices or not vertex.link_faces
+        ]
+        bmesh.ops.delete(edited, geom=stray_vertices, context="VERTS")
         return edited
 
 
@@ -150,23 +154,23 @@ def fill_vessel(context: Context, obj: Object, by: str, amount: float, density: 
 
 
 def measure_cut_fill(
-    context: Context, obj: Object, against: str, height: float, other: str
+    context: Context, obj: Object, against: str, height: float, reference_name: str
 ) -> KnownCutFill:
     """Compute and remember cut and fill against a height (m), the RIM or another OBJECT."""
     depsgraph = context.evaluated_depsgraph_get()
     unit = scale.meters_per_unit(context.scene)
     surface = world_surface(obj, depsgraph, unit)
     if against == "OBJECT":
-        reference = context.scene.objects.get(other)
+        reference = context.scene.objects.get(reference_name)
         if reference is None:
-            raise verdict.QueryError(NO_SUCH_NAME, kind="object", name=other)
-        found = cut_fill_against(reference, surface, depsgraph, unit)
+            raise verdict.QueryError(NO_SUCH_NAME, kind="object", name=reference_name)
+        cut_fill = cut_fill_against(reference, surface, depsgraph, unit)
     else:
-        found = cuts.surface_cut_fill(surface, None if against == "RIM" else height)
-    known = KnownCutFill(found, cuts.partly_compared(found))
-    memory.cut_fills[obj] = known
+        cut_fill = cuts.surface_cut_fill(surface, None if against == "RIM" else height)
+    known_cut_fill = KnownCutFill(cut_fill, cuts.partly_compared(cut_fill))
+    memory.cut_fills[obj] = known_cut_fill
     staleness.carry(obj, Kind.CUT_FILL, context.evaluated_depsgraph_get())
-    return known
+    return known_cut_fill
 
 
 def level_of(obj: Object, scene: Scene) -> Level | None:

@@ -42,7 +42,7 @@ def noted(obj: Object, measurement: Measurement, scene: Scene) -> Measurement:
 
 def with_default_note(findings: tuple[Finding, ...], unset: str) -> tuple[Finding, ...]:
     """Return findings with the note on the setting `unset`, unless one of them is about it."""
-    if DENSITY_DEFAULTED in [found.code for found in findings]:
+    if DENSITY_DEFAULTED in [finding.code for finding in findings]:
         return findings
     return (*findings, DEFAULTS[unset])
 
@@ -65,9 +65,9 @@ def follow_density(obj: Object, scene: Scene) -> None:
     if not extent:
         return
     if any(
-        (found.code, found.values.get("quantity"))
+        (finding.code, finding.values.get("quantity"))
         == (bodies.findings.GIVEN, bodies.findings.INERTIA)
-        for found in write.properties.findings(obj)
+        for finding in write.properties.findings(obj)
     ):
         return  # a given inertia does not follow the mass
     mass = numbers.mass
@@ -102,13 +102,15 @@ def follow_density(obj: Object, scene: Scene) -> None:
 def _findings(obj: Object, scene: Scene) -> list[Finding]:
     """Return the stored findings, with a note if the density is unset."""
     settings = obj.body_moments
-    kept = [found for found in write.properties.findings(obj) if found.code != DENSITY_DEFAULTED]
+    findings = [
+        finding for finding in write.properties.findings(obj) if finding.code != DENSITY_DEFAULTED
+    ]
     if settings.mass_from == "MASS":
-        return kept
+        return findings
     name = "linear_density" if settings.kind == "WIRE" else "density"
     if settings.is_property_set(name) or name == "density" and default_density(scene) is not None:
-        return kept
-    return [*kept, DEFAULTS[name]]
+        return findings
+    return [*findings, DEFAULTS[name]]
 
 
 def on_density(settings: PropertyGroup, context: Context) -> None:

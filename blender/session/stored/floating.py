@@ -98,7 +98,7 @@ def _roots(objects: Sequence[Object]) -> list[Object]:
     return [
         obj
         for obj in objects
-        if not any(other in objects for other in changes.ancestors(obj.parent))
+        if not any(ancestor in objects for ancestor in changes.ancestors(obj.parent))
     ]
 
 
@@ -134,10 +134,10 @@ def read(
     """
     start = time.thread_time()
     scene = depsgraph.scene
-    of_space = replace(settings.options.AS_SET, unit_scale=options.unit_scale)
+    space_options = replace(settings.options.AS_SET, unit_scale=options.unit_scale)
     parts = {
         obj: measure_body(
-            obj, depsgraph, options if obj.body_moments_tank.role == "BODY" else of_space
+            obj, depsgraph, options if obj.body_moments_tank.role == "BODY" else space_options
         )
         for obj in members
         if visibility.measurable(obj)
@@ -147,10 +147,10 @@ def read(
         return [obj for obj in parts if obj.body_moments_tank.role == role]
 
     masses = [parts[obj].measurement.mass_properties for obj in having("BODY")]
-    shares = np.array([each.mass for each in masses])
+    shares = np.array([properties.mass for properties in masses])
     mass = float(shares.sum())
     shares = shares / (mass or 1.0)
-    center = shares @ np.reshape([each.center for each in masses], (-1, 3))
+    center = shares @ np.reshape([properties.center for properties in masses], (-1, 3))
     bounds = np.reshape([parts[obj].measurement.center_bounds for obj in having("BODY")], (-1, 2))
     rest = floating.settle(
         [parts[obj].body for obj in having("BODY")],
@@ -180,7 +180,7 @@ def remember(afloat: Afloat, members: Iterable[Object], depsgraph: Depsgraph) ->
 
 def _keep(context: Context, afloat: Afloat, members: Iterable[Object]) -> Afloat:
     """Remember a body; measure its members whose results are missing or out of date."""
-    wanted = [
+    outdated = [
         obj
         for obj in members
         if visibility.measurable(obj)
@@ -191,7 +191,7 @@ def _keep(context: Context, afloat: Afloat, members: Iterable[Object]) -> Afloat
         context,
         [
             (obj, outcome)
-            for together in measure_many(wanted, context.evaluated_depsgraph_get())
+            for together in measure_many(outdated, context.evaluated_depsgraph_get())
             for obj, outcome in together
             if not isinstance(outcome, Exception)
         ],
@@ -266,28 +266,28 @@ def _turn_since(afloat: Afloat, members: Sequence[Object], scene: Scene) -> nume
 def _read_again(context: Context, members: Sequence[Object]) -> Afloat:
     """Read a body, and keep what is known of it if only its place has changed."""
     afloat = read(context.evaluated_depsgraph_get(), members)
-    known = memory.afloat.get(members[0])
+    remembered = memory.afloat.get(members[0])
     if (
-        known is None
-        or known.uids != afloat.uids
-        or known.rest.body.density != afloat.rest.body.density
+        remembered is None
+        or remembered.uids != afloat.uids
+        or remembered.rest.body.density != afloat.rest.body.density
     ):
         return afloat
-    if (turn := _turn_since(known, members, context.scene)) is not None:
+    if (turn := _turn_since(remembered, members, context.scene)) is not None:
         settle_at = afloat.rest.body.settle
         with suppress(verdict.MeasureError):
-            afloat.rests = tuple(settle_at(turn[:3, :3] @ rest.up) for rest in known.rests)
-        if np.linalg.norm(turn[:3, :3] @ known.rest.up - afloat.rest.up) < SAME_REST:
-            afloat.curve = known.curve
+            afloat.rests = tuple(settle_at(turn[:3, :3] @ rest.up) for rest in remembered.rests)
+        if np.linalg.norm(turn[:3, :3] @ remembered.rest.up - afloat.rest.up) < SAME_REST:
+            afloat.curve = remembered.curve
     return afloat
 
 
-def _is_close(places: numerics.Array, others: numerics.Array, size: float) -> bool:
+def _is_close(places: numerics.Array, expected: numerics.Array, size: float) -> bool:
     """Return whether (..., 4, 4) matrices are equal up to rounding; size: of their body."""
-    off = np.abs(places - others)
-    far = float(np.spacing(np.float32(np.abs(others[..., 3]).max())))
+    off = np.abs(places - expected)
+    far = float(np.spacing(np.float32(np.abs(expected[..., 3]).max())))
     return bool(
-        off[..., :3].max() <= PLACE_RTOL * np.abs(others[..., :3]).max()
+        off[..., :3].max() <= PLACE_RTOL * np.abs(expected[..., :3]).max()
         and off[..., 3].max() <= PLACE_RTOL * size + 4.0 * far
     )
 

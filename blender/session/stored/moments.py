@@ -80,10 +80,10 @@ def compute_moments(
     volume = measurement.volume_moments or replace(
         area * measurement.thickness, measure=Measure.VOLUME
     )
-    known = volume.truncate(order), area, measurement.moments_of_mass(order)
+    computed_moments = volume.truncate(order), area, measurement.moments_of_mass(order)
     place = measurement.rotation, measurement.location
     return ComputedMoments(
-        obj.name, *known, *place, flat, not_flat and not_flat.finding
+        obj.name, *computed_moments, *place, flat, not_flat and not_flat.finding
     ), measurement.findings
 
 
@@ -141,18 +141,22 @@ def _displayed_degrees(moments: Moments, of: str, about: str) -> Iterator[Degree
         yield Degree(degree, unit(of, about, degree), tuple(cells))
 
 
-def _displayed_invariants(found: list[Invariant], order: int) -> Iterator[Degree]:
+def _displayed_invariants(invariants: list[Invariant], order: int) -> Iterator[Degree]:
     """Yield the invariants by degree: Hu's as numbers, higher ones as real and imaginary parts."""
     for degree in range(2, order + 1):
-        rows = []
-        for one in found:
-            if one.degree == degree:
-                parts = (one.value.real, one.value.imag) if one.is_complex else (one.value.real,)
-                noise = one.rounding_error
+        cells = []
+        for invariant in invariants:
+            if invariant.degree == degree:
+                parts = (
+                    (invariant.value.real, invariant.value.imag)
+                    if invariant.is_complex
+                    else (invariant.value.real,)
+                )
+                noise = invariant.rounding_error
                 texts = [write.units.number(0.0 if abs(part) <= noise else part) for part in parts]
-                text = " + ".join(texts).replace("+ −", "− ") + " i" * one.is_complex
-                rows.append((one.name, text, " ".join(map(repr, parts))))
-        yield Degree(degree, "", tuple(rows))
+                text = " + ".join(texts).replace("+ −", "− ") + " i" * invariant.is_complex
+                cells.append((invariant.name, text, " ".join(map(repr, parts))))
+        yield Degree(degree, "", tuple(cells))
 
 
 def label(powers: list[int]) -> str:

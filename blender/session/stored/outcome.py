@@ -28,19 +28,19 @@ def remember(action: str, findings: Iterable[Finding]) -> None:
     label.
     """
     groups = grouped(
-        _refused(found)
-        for found in findings
-        if found.code == FAILURE or severity(found) == Severity.ERROR
+        _refused(finding)
+        for finding in findings
+        if finding.code == FAILURE or severity(finding) == Severity.ERROR
     )
     memory.state.outcome = ActionOutcome(action, tuple(groups)) if groups else None
     memory.state.outcome_seen_in = ()
 
 
-def _refused(found: Finding) -> tuple[str, Finding]:
+def _refused(finding: Finding) -> tuple[str, Finding]:
     """Return the full name of the refused object, or "", and the reason."""
-    if found.code != FAILURE:
-        return "", found
-    return found.values["object"], Finding.from_record(found.values["cause"])
+    if finding.code != FAILURE:
+        return "", finding
+    return finding.values["object"], Finding.from_record(finding.values["cause"])
 
 
 def last() -> ActionOutcome | None:

@@ -155,10 +155,10 @@ class ReferenceChoice:
         if self.about == "CURSOR":
             return _frame(scene.cursor.matrix, unit)
         if self.about == "OBJECT":
-            other = bpy.data.objects.get(self.object)
-            if other is None:
+            reference_object = bpy.data.objects.get(self.object)
+            if reference_object is None:
                 raise verdict.QueryError(read.findings.REFERENCE_OBJECT_MISSING)
-            return _frame(other.matrix_world, unit)
+            return _frame(reference_object.matrix_world, unit)
         if self.about == "AXIS" and len(self.points) == 2:
             return inertia.Reference.through_points(
                 *[[unit * along for along in point] for point in self.points]

@@ -35,17 +35,17 @@ def store_many(
     """
     for stack, run in groupby(measured, key=lambda item: item[1].stack):
         items = list(run)
-        for (obj, found), values in zip(
+        for (obj, outcome), values in zip(
             items, write.properties.values_of(_noted(items, stack, scene))
         ):
             try:
                 staleness.note_edits(obj, shapes.get(obj))
                 about = reference.stored_choice(obj)
                 write.properties.store_values(obj, values)
-                faults.remember(obj, found)
+                faults.remember(obj, outcome)
                 reference.follow(obj, scene, about)
-                if found.index is None:
-                    stored.sliders.remember(obj, found, scene)
+                if outcome.index is None:
+                    stored.sliders.remember(obj, outcome, scene)
             except Exception as error:
                 yield obj, error
             else:
@@ -60,15 +60,15 @@ def _noted(
     if first.index is None:
         return density.noted(obj, stack, scene)
     part: Any = stack
-    rows = [found.index for _, found in items if found.index is not None]
-    if rows != [*range(len(part.findings))]:
-        part = stack.at(rows)
+    indices = [outcome.index for _, outcome in items if outcome.index is not None]
+    if indices != [*range(len(part.findings))]:
+        part = stack.at(indices)
     findings = [
-        density.with_default_note(own, "density")
+        density.with_default_note(row_findings, "density")
         if source is core.measurement.DENSITY_FROM_VALUE
         and settings.density.is_density_unset(obj.body_moments, scene)
-        else own
-        for (obj, _), own, source in zip(items, part.findings, part.density_from)
+        else row_findings
+        for (obj, _), row_findings, source in zip(items, part.findings, part.density_from)
     ]
     return replace(part, findings=findings)
 
@@ -80,7 +80,7 @@ def store_measured(
     results.
     """
     measured = list(measured)
-    shapes = {obj: read.mesh.read_digest(obj, found.surface) for obj, found in measured}
+    shapes = {obj: read.mesh.read_digest(obj, outcome.surface) for obj, outcome in measured}
     outcomes = list(store_many(measured, context.scene, shapes))
     staleness.mark_up_to_date(
         context, [obj for obj, refusal in outcomes if refusal is None], shapes
@@ -98,30 +98,30 @@ def store_symmetry(
     """Store the symmetry that the surface confirms, and the group that the moments allow, on an
     object.
     """
-    kept = obj.body_moments_symmetry
-    kept.group = confirmed.group
-    kept.compatible = allowed.group
-    kept.tolerance = tolerance
-    kept.of_display_mesh = shape.is_display_mesh
-    kept.fingerprint = (
+    stored_symmetry = obj.body_moments_symmetry
+    stored_symmetry.group = confirmed.group
+    stored_symmetry.compatible = allowed.group
+    stored_symmetry.tolerance = tolerance
+    stored_symmetry.of_display_mesh = shape.is_display_mesh
+    stored_symmetry.fingerprint = (
         stamps.Stamp.parse(shape.fingerprint)
         ._replace(transform=read.fingerprint.scale_hash(obj))
         .text
     )
-    kept.elements.clear()
+    stored_symmetry.elements.clear()
     turn = shape.rotation.T
     for kind, order, direction in _elements(confirmed)[:MAX_STORED_ELEMENTS]:
         local = turn @ direction  # sign of a line: its largest component is positive
-        element = kept.elements.add()
+        element = stored_symmetry.elements.add()
         element.kind, element.order = kind, order
         element.direction = local if local[np.argmax(np.abs(local))] > 0.0 else -local
 
 
-def _elements(found: core.shape.Symmetry) -> list[tuple[str, int, np.ndarray]]:
-    axes = [("AXIS", order, axis) for axis, order in found.axes]
-    if len(found.revolution_axes) == 1:
-        axes = [("ROUND", 0, found.revolution_axes[0])]
-    return [*axes, *(("PLANE", 0, normal) for normal in found.planes)]
+def _elements(symmetry: core.shape.Symmetry) -> list[tuple[str, int, np.ndarray]]:
+    axes = [("AXIS", order, axis) for axis, order in symmetry.axes]
+    if len(symmetry.revolution_axes) == 1:
+        axes = [("ROUND", 0, symmetry.revolution_axes[0])]
+    return [*axes, *(("PLANE", 0, normal) for normal in symmetry.planes)]
 
 
 def store_sections(
@@ -129,15 +129,15 @@ def store_sections(
 ) -> None:
     """Store sections on their objects."""
     unit = scale.meters_per_unit(context.scene)
-    for obj, (found, description, findings) in sections:
-        parts = (found.plane.origin, found.plane.axes.ravel(), found.second, found.centroid)
-        numbers = np.concatenate([*parts, [found.area, found.perimeter]])
+    for obj, (section, description, findings) in sections:
+        parts = (section.plane.origin, section.plane.axes.ravel(), section.second, section.centroid)
+        numbers = np.concatenate([*parts, [section.area, section.perimeter]])
         mark = core.measurement.fingerprint(
             numbers.tobytes(),
             read.fingerprint.matrix_hash(obj),
             read.fingerprint.settings_hash(obj, context.scene),
         )
-        write.section.store(obj, found, description, findings, mark, unit)
+        write.section.store(obj, section, description, findings, mark, unit)
     staleness.mark_stored(context, [obj for obj, _ in sections], stamps.Kind.SECTION)
 
 

@@ -60,13 +60,15 @@ def remember(obj: Object, measured: Measured, scene: Scene) -> None:
     stamp = stamps.Stamp.parse(measured.measurement.fingerprint)
     reading = measured.reading
     body = measured.body
-    of_stamp = {stamp.geometry}, stamp.transform, scale.meters_per_unit(scene)
+    stamp_parts = {stamp.geometry}, stamp.transform, scale.meters_per_unit(scene)
     if isinstance(body, bodies.WallBody) and body.walls is not None:
-        memory.walls[obj] = _Kept(replace(reading, parts=[]), body.walls.drop_arrays(), *of_stamp)
+        memory.walls[obj] = _Kept(
+            replace(reading, parts=[]), body.walls.drop_arrays(), *stamp_parts
+        )
         if on_wall_setting not in hooks.on_wall_change:
             hooks.on_wall_change.append(on_wall_setting)
     elif isinstance(body, bodies.ThresholdGridBody):
-        memory.grids[obj] = _Kept(reading, body.grid, *of_stamp)
+        memory.grids[obj] = _Kept(reading, body.grid, *stamp_parts)
         if on_threshold not in hooks.on_threshold_change:
             hooks.on_threshold_change.append(on_threshold)
 
@@ -75,46 +77,46 @@ def max_thickness(obj: Object) -> float | None:
     """Return the thickness in m from which the object's wall folds over, or None if it is unknown
     or unlimited.
     """
-    kept = _current(memory.walls, obj)
-    if kept is None or obj.body_moments.wall == "THIN":
+    cached = _current(memory.walls, obj)
+    if cached is None or obj.body_moments.wall == "THIN":
         return None
-    limit = _walls_on_side(kept, obj).max_thickness
+    limit = _walls_on_side(cached, obj).max_thickness
     return limit if limit < float("inf") else None
 
 
 def is_too_thick(obj: Object) -> bool:
     """Return whether the current thickness is known to be too large."""
     limit = max_thickness(obj)
-    kept = memory.walls.get(obj)
-    if limit is None or kept is None:
+    cached = memory.walls.get(obj)
+    if limit is None or cached is None:
         return False
-    return not numerics.shortest_decimal(obj.body_moments.thickness) * kept.unit < limit
+    return not numerics.shortest_decimal(obj.body_moments.thickness) * cached.unit < limit
 
 
 def on_wall_setting(settings: PropertyGroup, context: Context) -> None:
     """Store the numbers of a changed wall or thickness."""
     obj, scene = settings.id_data, context.scene
-    kept = _current(memory.walls, obj, scene)
+    cached = _current(memory.walls, obj, scene)
     is_walled = settings.kind == "SHELL" and settings.wall != "THIN"
     varies = settings.mass_from == "DENSITY" and settings.density_from != "VALUE"
-    if kept is None or not is_walled or varies:
+    if cached is None or not is_walled or varies:
         return
 
     def body(request: Request) -> Body:
-        return _walls_on_side(kept, obj).body(request.settings.thickness, check_overlap=False)
+        return _walls_on_side(cached, obj).body(request.settings.thickness, check_overlap=False)
 
-    if _store(obj, scene, kept, body):
+    if _store(obj, scene, cached, body):
         staleness.mark_object(obj)
 
 
 def on_threshold(settings: PropertyGroup, context: Context) -> None:
     """Store the numbers of a changed threshold."""
     obj, scene = settings.id_data, context.scene
-    kept = _current_grid(obj, scene)
-    if kept is None:
+    cached = _current_grid(obj, scene)
+    if cached is None:
         return
-    coarse = kept.source.coarse()
-    if _store_threshold(obj, scene, kept, coarse, preview=True) and coarse is kept.source:
+    coarse = cached.source.coarse()
+    if _store_threshold(obj, scene, cached, coarse, preview=True) and coarse is cached.source:
         staleness.mark_object(obj)
     if (obj, scene) not in memory.due_numbers:
         memory.due_numbers.append((obj, scene))
@@ -129,51 +131,51 @@ def on_threshold(settings: PropertyGroup, context: Context) -> None:
 def _current(
     cache: memory.SessionCache[_Kept[Source]], obj: Object, scene: Scene | None = None
 ) -> _Kept[Source] | None:
-    """Return an object's kept walls or grid, if its stored numbers belong to the same geometry and
-    transform.
+    """Return an object's cached walls or grid, if its stored numbers belong to the same geometry
+    and transform.
 
     scene: if given, it must also have the same unit scale, and the object no edits since.
     """
-    kept, stamp = cache.get(obj), stamps.stamp_of(obj)
+    cached, stamp = cache.get(obj), stamps.stamp_of(obj)
     if (
-        kept is None
+        cached is None
         or stamp is None
-        or stamp.geometry not in kept.geometries
-        or stamp.transform != kept.transform
+        or stamp.geometry not in cached.geometries
+        or stamp.transform != cached.transform
     ):
         return None
-    if scene is not None and scale.meters_per_unit(scene) != kept.unit:
+    if scene is not None and scale.meters_per_unit(scene) != cached.unit:
         return None
-    return None if scene is not None and staleness.is_edited(obj) else kept
+    return None if scene is not None and staleness.is_edited(obj) else cached
 
 
 def _current_grid(obj: Object, scene: Scene | None) -> _Kept[bodies.ThresholdGrid] | None:
-    kept = None if scene is None else _current(memory.grids, obj, scene)
-    return kept if kept is not None and obj.body_moments.grid_as == "THRESHOLD" else None
+    cached = None if scene is None else _current(memory.grids, obj, scene)
+    return cached if cached is not None and obj.body_moments.grid_as == "THRESHOLD" else None
 
 
-def _walls_on_side(kept: _Kept[bodies.Walls], obj: Object) -> bodies.Walls:
-    return replace(kept.source, side=obj.body_moments.wall.lower())
+def _walls_on_side(cached: _Kept[bodies.Walls], obj: Object) -> bodies.Walls:
+    return replace(cached.source, side=obj.body_moments.wall.lower())
 
 
-def _store(obj: Object, scene: Scene, kept: _Kept, body: Callable[[Request], Body]) -> bool:
+def _store(obj: Object, scene: Scene, cached: _Kept, body: Callable[[Request], Body]) -> bool:
     """Write the numbers of a body to the object; return False if there are none; the panel and
     Measure then say why.
     """
-    request = Request.resolve(obj, unit=kept.unit)
+    request = Request.resolve(obj, unit=cached.unit)
     try:
-        measurement = measurement_of(kept.reading, body(request), request)
+        measurement = measurement_of(cached.reading, body(request), request)
     except verdict.MeasureError:
         return False
     write.properties.store(obj, density.noted(obj, measurement, scene))
-    kept.geometries.add(stamps.Stamp.parse(measurement.fingerprint).geometry)
+    cached.geometries.add(stamps.Stamp.parse(measurement.fingerprint).geometry)
     return True
 
 
 def _store_threshold(
     obj: Object,
     scene: Scene,
-    kept: _Kept[bodies.ThresholdGrid],
+    cached: _Kept[bodies.ThresholdGrid],
     grid: bodies.ThresholdGrid,
     preview: bool,
 ) -> bool:
@@ -181,10 +183,10 @@ def _store_threshold(
     options = GridOptions.from_settings(obj.body_moments)
 
     def body(_request: Request) -> Body:
-        key = grid_key(obj) if grid is kept.source else COARSE
+        key = grid_key(obj) if grid is cached.source else COARSE
         return replace(bodies.threshold_grid_body(grid, options, preview), density_key=key)
 
-    return _store(obj, scene, kept, body)
+    return _store(obj, scene, cached, body)
 
 
 def _finish() -> None:
@@ -195,8 +197,10 @@ def _finish() -> None:
     while memory.due_numbers:
         obj, scene = memory.due_numbers.pop()
         try:
-            kept = _current_grid(obj, scene)
+            cached = _current_grid(obj, scene)
         except ReferenceError:  # removed meanwhile
             continue
-        if kept is not None and _store_threshold(obj, scene, kept, kept.source, preview=False):
+        if cached is not None and _store_threshold(
+            obj, scene, cached, cached.source, preview=False
+        ):
             staleness.mark_object(obj)

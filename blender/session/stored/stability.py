@@ -69,11 +69,11 @@ def _up_to_date(obj: Object, scene: Scene) -> KnownHull | None:
         return None
     last.sought_at = memory.state.generation
     digest = read.mesh.shape_digest(obj, depsgraph)
-    known = [one for one in last.earlier if digest is not None and one.digest == digest]
-    if not known:
+    matches = [cached for cached in last.earlier if digest is not None and cached.digest == digest]
+    if not matches:
         return None
-    others = tuple(one for one in (*last.earlier, last) if one is not known[-1])
-    memory.hulls[obj] = replace(known[-1], earlier=others)
+    remaining = tuple(cached for cached in (*last.earlier, last) if cached is not matches[-1])
+    memory.hulls[obj] = replace(matches[-1], earlier=remaining)
     staleness.carry(obj, Kind.HULL, depsgraph)
     return memory.hulls[obj]
 
@@ -196,9 +196,9 @@ def _ground(
 ) -> float:
     """Return the distance from the center down to the ground, in Blender's units."""
     if ground == "LOWEST":
-        found = support(obj, context.scene)
-        assert found is not None  # it is known as its poses are
-        return found.height
+        present_support = support(obj, context.scene)
+        assert present_support is not None  # it is known as its poses are
+        return present_support.height
     point = (
         np.array(context.scene.cursor.location, np.float64) if ground == "CURSOR" else np.zeros(3)
     )

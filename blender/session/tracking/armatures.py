@@ -45,11 +45,11 @@ def subjects(objects: Iterable[Object]) -> list[Object]:
     Colliders, and objects without a shape or results, are left out, unless nothing else is among
     the objects.
     """
-    found: dict[Object, None] = {}
-    chosen = list(objects)
-    for obj in [obj for obj in chosen if _counts(obj)] or chosen:
-        found.update(dict.fromkeys(deformed_meshes(obj) if stands_for_meshes(obj) else (obj,)))
-    return list(found)
+    by_object: dict[Object, None] = {}
+    candidates = list(objects)
+    for obj in [obj for obj in candidates if _counts(obj)] or candidates:
+        by_object.update(dict.fromkeys(deformed_meshes(obj) if stands_for_meshes(obj) else (obj,)))
+    return list(by_object)
 
 
 def _counts(obj: Object) -> bool:

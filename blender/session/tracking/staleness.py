@@ -307,12 +307,12 @@ def note_edits(obj: Object, shape: bytes | None = None) -> None:
     """
     uid = obj.session_uid
     newest = memory.state.updates
-    seen = memory.resolved.get(uid, 0)
-    if seen >= newest:
+    resolved_until = memory.resolved.get(uid, 0)
+    if resolved_until >= newest:
         return
     memory.resolved[uid] = newest
-    edit, last = updates.last_since(obj, seen)
-    if last.number <= seen:
+    edit, last = updates.last_since(obj, resolved_until)
+    if last.number <= resolved_until:
         return
     carried = stamps.with_geometry(obj)
     if (

@@ -93,8 +93,12 @@ def stamp_of(owner: Object | Collection, kind: Kind = Kind.RESULTS) -> Stamp | N
     if kind == Kind.RESULTS:
         return _of_results(owner)
     if kind == Kind.SECTION:
-        known = section.stored(owner)
-        return None if known is None else Stamp.parse(known.fingerprint, kind, known.unit)
+        stored_section = section.stored(owner)
+        return (
+            None
+            if stored_section is None
+            else Stamp.parse(stored_section.fingerprint, kind, stored_section.unit)
+        )
     if kind == Kind.LIVE:
         followed = memory.followed.get(owner)
         return followed and Stamp(kind, measurement.settings.VERSION, settings=followed.settings)

@@ -57,9 +57,10 @@ def last_edit(obj: Object) -> Update:
     that may be an edit.
     """
     last = memory.edits.get(obj.session_uid, NEVER)
-    for shown in shown_by(obj):
+    for instance in shown_by(obj):
         last = max(
-            last, *[stamps.get(shown.session_uid, NEVER) for stamps in (memory.edits, memory.moves)]
+            last,
+            *[stamps.get(instance.session_uid, NEVER) for stamps in (memory.edits, memory.moves)],
         )
     settings = obj.body_moments
     if settings.density_from == "VOLUME" and settings.density_volume is not None:
@@ -115,9 +116,9 @@ def note_updates(updates: handlers.Updates) -> None:
         return
     reshaped: Iterable[int] = updates.reshaped
     if changed_settings and not updates.frame_changed:
-        of_settings = changed_settings.intersection(reshaped)
-        memory.returns.update(dict.fromkeys(of_settings, stamp))
-        reshaped = [uid for uid in reshaped if uid not in of_settings]
+        changed_by_settings = changed_settings.intersection(reshaped)
+        memory.returns.update(dict.fromkeys(changed_by_settings, stamp))
+        reshaped = [uid for uid in reshaped if uid not in changed_by_settings]
     memory.edits.update(dict.fromkeys([*reshaped, *updates.collections], stamp))
     memory.moves.update(dict.fromkeys(updates.moved, stamp))
 
