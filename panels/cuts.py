@@ -87,7 +87,7 @@ def _level(layout: UILayout, level: stored.cuts.Level) -> None:
 
 
 def _cut_fill(layout: UILayout, known: stored.cuts.KnownCutFill) -> None:
-    found = known.found
+    found = known.cut_fill
     layout.label(text="Cut and Fill", icon="MOD_BOOLEAN")
     rows.quantities(
         layout,

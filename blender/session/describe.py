@@ -77,7 +77,7 @@ def describe(
             "frame must be one of {}, not {!r}".format(", ".join(map(repr, FRAMES)), frame)
         )
     _check(options)
-    subjects = _chosen(objects)
+    subjects = _objects_named(objects)
     depsgraph = bpy.context.evaluated_depsgraph_get()
     outcomes = [
         pair
@@ -115,7 +115,7 @@ def _check(options: dict[str, Any]) -> None:
             raise ValueError("{} must be {}, not {!r}".format(name, expected, value))
 
 
-def _chosen(objects: Object | str | Iterable[Object | str] | None) -> list[Object]:
+def _objects_named(objects: Object | str | Iterable[Object | str] | None) -> list[Object]:
     """Return the objects, each once. Raises ValueError."""
     if objects is None:
         return list(bpy.context.view_layer.objects.selected)  # also without a window

@@ -115,7 +115,7 @@ def _set_all(name: str, value: Any) -> None:
             setattr(obj.body_moments, name, value)
 
 
-def _of_all(name: str, function: Any, keywords: dict[str, Any]) -> Any:
+def _shared_property(name: str, function: Any, keywords: dict[str, Any]) -> Any:
     """Return the property that shows the first object's setting and sets that of all objects."""
     items = [item[0] for item in keywords.get("items", ())]
 
@@ -144,7 +144,7 @@ ANNOTATIONS = (
     | properties.BodyMomentsObjectSettings.__annotations__
 )
 BodyMomentsSelectionSettings.__annotations__ = {
-    name: _of_all(name, ANNOTATIONS[name].function, ANNOTATIONS[name].keywords)
+    name: _shared_property(name, ANNOTATIONS[name].function, ANNOTATIONS[name].keywords)
     for name in NAMES
     if name != "density_volume"
 }

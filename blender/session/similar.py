@@ -47,10 +47,10 @@ class SimilarSearch:
 
     The scene must not change meanwhile.
 
-    wanted: the signature of the measured object, once `measure` has ended.
+    signature: the signature of the measured object, once `measure` has ended.
     """
 
-    wanted: Signature
+    signature: Signature
 
     def __init__(self, obj: Object, depsgraph: Depsgraph):
         self._obj, self._depsgraph = obj, depsgraph
@@ -63,7 +63,7 @@ class SimilarSearch:
         """Measure the wanted object, in steps. Raises MeasureError if it has no signature."""
         self._shape = bodies.flat.flat_shape.comparable_shape_of(self._obj, self._depsgraph)
         yield 0.0
-        self.wanted = self._shape.signature(DESCRIPTOR_ORDER)
+        self.signature = self._shape.signature(DESCRIPTOR_ORDER)
 
     def comparison(
         self, objects: Sequence[Object]
@@ -88,7 +88,7 @@ class SimilarSearch:
             yield 0.3
             signature = shape if isinstance(shape, Signature) else shape.signature(DESCRIPTOR_ORDER)
             entry = Entry(obj.name_full, "", signature)
-            likeness = similarity(self.wanted, entry.signature)
+            likeness = similarity(self.signature, entry.signature)
             if classify(likeness) in UNDECIDED_HANDEDNESS:
                 yield 0.6
                 skin = skin or bodies.flat.flat_shape.distance_from(wanted_shape)
@@ -112,7 +112,7 @@ class SimilarSearch:
         like copies.
         """
         matches = []
-        for entry, likeness in rank(self.wanted, self._objects, scaled, mirrored):
+        for entry, likeness in rank(self.signature, self._objects, scaled, mirrored):
             is_mirror_image = self._mirror_images.get(entry, likeness.is_mirror_image)
             likeness = replace(likeness, is_mirror_image=is_mirror_image)
             matches.append(_match(entry, likeness, scaled, mirrored, self._objects[entry]))
@@ -127,7 +127,7 @@ class SimilarSearch:
         entries, missing = read_library(path)
         for _ in self.measure():
             pass
-        ranked = rank(self.wanted, entries, scaled, mirrored)
+        ranked = rank(self.signature, entries, scaled, mirrored)
         return [_match(entry, likeness, scaled, mirrored) for entry, likeness in ranked], missing
 
 

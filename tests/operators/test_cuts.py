@@ -194,7 +194,7 @@ def test_empty_of_any_scale_is_its_plane():
     add(None, "Empty", (7, 7, 1), scale=(1e-9, 1e6, 0))
     slope = add_slope()
     assert CUT_FILL(against="OBJECT", other="Empty") == {"FINISHED"}
-    found = memory.cut_fills[slope].found
+    found = memory.cut_fills[slope].cut_fill
     assert (found.cut.total, found.fill.total) == pytest.approx((0.25, 0.25))
 
 
@@ -253,10 +253,10 @@ def test_vessel_with_real_walls_holds_liquid_within_them(wall):
 def test_cut_and_fill_of_a_slope():
     slope = add_slope()
     assert CUT_FILL(against="HEIGHT", height=1.0) == {"FINISHED"}
-    found = memory.cut_fills[slope].found
+    found = memory.cut_fills[slope].cut_fill
     assert (found.cut.total, found.fill.total) == pytest.approx((0.25, 0.25))
     assert CUT_FILL(against="RIM") == {"FINISHED"}
-    assert memory.cut_fills[slope].found.net == pytest.approx(0.0, abs=1e-12)
+    assert memory.cut_fills[slope].cut_fill.net == pytest.approx(0.0, abs=1e-12)
     assert CUT_FILL(against="OBJECT", other="Nothing") == {"CANCELLED"}
     assert "“Nothing”" in refusal()
     bpy.ops.mesh.primitive_cube_add()

@@ -100,5 +100,5 @@ def test_pit_below_its_rim(window):
     window.ask("bpy.ops.object.body_moments_cut_fill(against='RIM')")
     window.point_at_view()
     window.picture("cut-fill-pit")
-    found = window.get(f"{memory}.cut_fills[bpy.data.objects['Pit']].found.fill.total")
+    found = window.get(f"{memory}.cut_fills[bpy.data.objects['Pit']].cut_fill.fill.total")
     assert found == pytest.approx(6 * 400 * (2 / 3) ** 2, rel=0.01)

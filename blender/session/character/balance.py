@@ -116,7 +116,7 @@ class _Search:
         assert weight.support is not None
         self.context = context
         self.armature = armature
-        self.known = measured_character
+        self.character = measured_character
         self.unit = scale.meters_per_unit(context.scene)
         self.failure = write.reports.Refused(UNMOVABLE)
         self.axes = statics.ground_axes(-weight.support.up)
@@ -144,11 +144,11 @@ class _Search:
         matrices = matrices[self.bones]
         moves = (matrices[:, :3, :3] @ self.local)[:, :, 0] + matrices[:, :3, 3] - self.points
         slip = float(np.linalg.norm(moves, axis=1).max(initial=0.0))
-        return _Look(self.known.pose(self.armature, depsgraph).center, head, slip)
+        return _Look(self.character.pose(self.armature, depsgraph).center, head, slip)
 
     def balance(self, handle: _Handle) -> bool:
         """Move the bone and return True, or if that is impossible, leave it and return False."""
-        size = self.known.size
+        size = self.character.size
         up = self.axes[:, 2]
         start = self.look(handle, np.zeros(3))
         self.nudge = max(NUDGE * size, 10.0 * self.noise)
@@ -195,7 +195,7 @@ class _Search:
         """Find the least move from a first change of the units on; return whether the center is
         over the target, the bone no higher than it was, and the contacts in place.
         """
-        size = self.known.size
+        size = self.character.size
         up = self.axes[:, 2]
         reached = REACHED * size + self.noise
         tolerance = STAYED * size + self.noise

@@ -135,7 +135,7 @@ class Carrier:
             move[:3, 3] += before.center - move[:3, :3] @ before.center
         stored = scene.transforms.TransformChannels(self.owner)
         with tracking_paused():
-            place, turn = trial.wanted(move[None])
+            place, turn = trial.channel_values(move[None])
             self.owner.location = place[0]
             values = trial.values(turn, trial._old(self.rotation))
             setattr(self.owner, self.rotation, values[0])
@@ -148,7 +148,7 @@ class Carrier:
         off = (np.abs(after.matrices - expected)[:, :3] / units).max(axis=(1, 2))
         return before.names[int(off.argmax())] if off.max() > FOLLOWS else ""
 
-    def wanted(self, moves: numerics.NDArray) -> tuple[numerics.Array, numerics.Array]:
+    def channel_values(self, moves: numerics.NDArray) -> tuple[numerics.Array, numerics.Array]:
         """Return the (s, 3) locations and (s, 4) continuous quaternions of the channels for a (4,
         4) move in the world at each time read.
         """
@@ -184,7 +184,7 @@ class Carrier:
         """
         armature = self.armature
         old = {name: self._old(name) for name in ("location", self.rotation)[: 1 + turns]}
-        locations, quaternions = self.wanted(moves)
+        locations, quaternions = self.channel_values(moves)
         places = np.arange(len(times)).astype(np.float64)
         if turns:
             mode = self.owner.rotation_mode

@@ -80,7 +80,9 @@ class CharacterMotion(BalanceGroup):
         subframe = scene.frame_subframe
         scene.frame_set(frames[0])
         try:
-            self._found = self.known, self.ground, _rig = weight.find(context, armature)
+            self._found_character = self.character, self.ground, _rig = weight.find(
+                context, armature
+            )
         finally:
             scene.frame_set(before, subframe=subframe)
         self._context = context
@@ -98,10 +100,10 @@ class CharacterMotion(BalanceGroup):
 
     def _add_frame(self, motion: object, depsgraph: Depsgraph) -> None:
         if self.carrier is None:
-            parts, _contacts, support = self.known.stand(self.armature, depsgraph, self.ground)
+            parts, _contacts, support = self.character.stand(self.armature, depsgraph, self.ground)
             self.supports.append(support)
         else:
-            parts = self.known.pose(self.armature, depsgraph)
+            parts = self.character.pose(self.armature, depsgraph)
             self.carrier.read(depsgraph)
         if self._parts and parts.names != self._parts[0].names:
             several = set(parts.names).symmetric_difference(self._parts[0].names)
@@ -135,7 +137,7 @@ class CharacterMotion(BalanceGroup):
             raise verdict.EditRefusedError(NO_SUCH_NAME, kind="bone", name=name)
         roots = {
             [bones[part_name], *bones[part_name].parent_recursive][-1].name
-            for part_name in self.known.names
+            for part_name in self.character.names
         }
         owners = (
             [bones[name]]
@@ -143,12 +145,12 @@ class CharacterMotion(BalanceGroup):
             else [*map(bones.get, roots if len(roots) == 1 else ()), self.armature]
         )
         for owner in owners:
-            self.found = Carrier(self.armature, owner)
-            self.found.require_free(turns)
-            part = self.found.left_behind(context, self.known, turns)
+            self.mover = Carrier(self.armature, owner)
+            self.mover.require_free(turns)
+            part = self.mover.left_behind(context, self.character, turns)
             if not part:
                 return
-        if turns and (above := self.found.uneven_parent) is not None:
+        if turns and (above := self.mover.uneven_parent) is not None:
             raise write.reports.Refused(UNEVENLY_SCALED, name=owners[-1].name, above=above.name)
         raise write.reports.Refused(NOT_CARRIED, part=part, name=owners[0].name)
 
@@ -216,7 +218,7 @@ class CharacterMotion(BalanceGroup):
     def _sample(self, scene: Scene, frames: Sequence[float]) -> Iterator[int]:
         """Follow the poses and the carrier at the nodes between the frames."""
         self._forget()
-        self.carrier = Carrier(self.armature, self.found.owner)
+        self.carrier = Carrier(self.armature, self.mover.owner)
         starts = np.array(frames[:-1])[:, None]
         times = (starts + np.diff(frames)[:, None] * spin.NODES[:-1]).ravel()
         return (len(self.frames) for _ in self.follow(scene, [*times.tolist(), frames[-1]]))
@@ -253,11 +255,11 @@ class CharacterMotion(BalanceGroup):
             return moves
         flight = self._flight
         parts = self._carried()
-        self.kept = parts.first_momentum
-        spun = parts.constant_spin(self.kept) @ parts.axes.swapaxes(-1, -2)
+        self.momentum = parts.first_momentum
+        spun = parts.constant_spin(self.momentum) @ parts.axes.swapaxes(-1, -2)
         spun = np.concatenate([spun[:, :-1].reshape(-1, 3, 3), spun[-1:, -1]])
         # A turn about the momentum keeps it.
-        axis = self.kept / max(float(np.linalg.norm(self.kept)), np.finfo(float).tiny)
+        axis = self.momentum / max(float(np.linalg.norm(self.momentum)), np.finfo(float).tiny)
         share = self.before / (self.before + self.after)
         twist = numerics.quaternion(spun[-1])
         back = spin.rotation(-2.0 * share * np.arctan2(twist[1:] @ axis, twist[0]) * axis)
@@ -300,7 +302,7 @@ class CharacterMotion(BalanceGroup):
                     pass
                 self._check(np.array(self.centers) - targets, turns)
                 if self.is_lost and not anyway:
-                    owner = self.found.owner
+                    owner = self.mover.owner
                     is_quaternion = owner.rotation_mode == "QUATERNION"
                     raise write.reports.Refused(
                         SPIN_LOST,
@@ -312,16 +314,16 @@ class CharacterMotion(BalanceGroup):
             except BaseException:
                 restore()
                 raise
-        weight.keep(self.armature, *self._found)
+        weight.keep(self.armature, *self._found_character)
         self._retrace(context)
 
     def _check(self, off: numerics.NDArray, turns: bool) -> None:
         """Set the distance of the center at the keys, and the deviation of the momentum."""
         distance = float(np.linalg.norm(off[:: spin.LAST], axis=1).max())
-        self.off = distance * self.unit if distance > FOLLOWS * self.known.size else 0.0
+        self.off = distance * self.unit if distance > FOLLOWS * self.character.size else 0.0
         self.deviation = self.worst = 0.0
         if turns:
-            deviations = self._carried().deviations(self.kept)
+            deviations = self._carried().deviations(self.momentum)
             frame, node = np.unravel_index(int(deviations.argmax()), deviations.shape)
             self.deviation = float(deviations.max())
             self.worst = float(self.first + frame + spin.NODES[node])
@@ -348,7 +350,7 @@ class CharacterMotion(BalanceGroup):
         """Key the path on an empty, with curves of the momenta; return it and the number of
         unexplained spans.
         """
-        weight.keep(self.armature, *self._found)
+        weight.keep(self.armature, *self._found_character)
         course = self.course
         touching = self.touching
         unit = self.unit

@@ -51,10 +51,10 @@ class ComputedMoments:
 
     @property
     def order(self) -> int:
-        return self.known.order
+        return self.volume_or_flat.order
 
     @property
-    def known(self) -> Moments:
+    def volume_or_flat(self) -> Moments:
         """The moments of the volume, or of the flat shape if there is no volume."""
         if self.volume is not None:
             return self.volume

@@ -107,7 +107,7 @@ class Level:
 class KnownCutFill:
     """Cut and fill of a surface, and findings about them."""
 
-    found: cuts.CutFill
+    cut_fill: cuts.CutFill
     findings: tuple[verdict.Finding, ...]
 
 

@@ -45,7 +45,7 @@ class Afloat:
     uids: the session uids of its objects, which survive undo; name: of the first one. places:
     (k, 4, 4) their matrices when it was read; roles: of the members.
     rest: where it settles from there, in m. curve: its righting arms. rests: all positions of rest.
-    shown: the generation and the scene, and what is displayed for them. seconds: of reading it.
+    displayed: the generation and the scene, and what is displayed for them. seconds: of reading it.
     """
 
     uids: tuple[int, ...]
@@ -55,7 +55,7 @@ class Afloat:
     rest: floating.Flotation
     curve: floating.RightingCurve | None = None
     rests: tuple[floating.Flotation, ...] = ()
-    shown: tuple[tuple, Held | verdict.Finding | None] | None = None
+    displayed: tuple[tuple, Held | verdict.Finding | None] | None = None
     seconds: float = 0.0
 
 
@@ -333,13 +333,13 @@ def held_body(obj: Object, scene: Scene) -> Held | verdict.Finding | None:
         return None
     liquid = scene.body_moments_liquid.level, settings.floating.liquid_density(scene)
     key = (memory.state.generation, scene.session_uid, *liquid)
-    if afloat.shown is None or afloat.shown[0] != key:
+    if afloat.displayed is None or afloat.displayed[0] != key:
         try:
             value = _read_held(obj, afloat, scene)
         except verdict.MeasureError as refusal:
             value = refusal.finding
-        afloat.shown = (key, value)
-    return afloat.shown[1]
+        afloat.displayed = (key, value)
+    return afloat.displayed[1]
 
 
 def _members(afloat: Afloat, scene: Scene) -> list[Object]:
@@ -365,7 +365,7 @@ def follow(depsgraph: Depsgraph, budget: float) -> bool:
         try:
             remember(read(depsgraph, members), members, depsgraph)
         except verdict.MeasureError as refusal:
-            afloat.shown = ((), refusal.finding)
+            afloat.displayed = ((), refusal.finding)
             handlers.count_change(members[0])
     return waiting
 
@@ -377,7 +377,7 @@ def _read_held(obj: Object, afloat: Afloat, scene: Scene) -> Held | verdict.Find
     turn = _turn_since(afloat, members, scene)
     if turn is None:
         is_live = any(member in memory.followed for member in members)
-        return afloat.shown[1] if is_live and afloat.shown is not None else None
+        return afloat.displayed[1] if is_live and afloat.displayed is not None else None
     unit = meters_per_unit(scene)
     turn[:3, 3] *= unit
     up = _up(scene)

@@ -91,7 +91,7 @@ def stamp_of(owner: Object | Collection, kind: Kind = Kind.RESULTS) -> Stamp | N
     none.
     """
     if kind == Kind.RESULTS:
-        return _of_results(owner)
+        return _results_stamp(owner)
     if kind == Kind.SECTION:
         stored_section = section.stored(owner)
         return (
@@ -113,7 +113,7 @@ def stamp_of(owner: Object | Collection, kind: Kind = Kind.RESULTS) -> Stamp | N
     return Stamp.parse(text, kind) if text else None
 
 
-def _of_results(owner: Object | Collection) -> Stamp | None:
+def _results_stamp(owner: Object | Collection) -> Stamp | None:
     text = properties.fingerprint(owner)
     if not text and "body_mass" not in owner:
         return None
