@@ -65,15 +65,19 @@ WORDS = {
 }
 HEAD = """# Published Robots, Audited
 
-This page audits robot descriptions in packages of the Python index, with their real meshes. A row
-is one robot: if several files describe a robot of that name, it is the file with the most links.
-{robots} robots with {links} links: {error} errors, {warning} warnings. In all {files} files of
-these packages the audit repaired {repaired} links; of these, {left} have an error or a warning
-about their inertial when audited again. Total mass and center of {compared} files that Pinocchio
-(URDF) or MuJoCo (MJCF) loads were compared with theirs: {differ} differ by more than 1e-9. The
-geometry's numbers assume that the drawn shapes of a link hold all of its mass.
-[Audit](robots.md#audit) says what the findings mean. The page was made by `python3 tests/project.py
-robots`.
+This page audits robot descriptions from packages of the Python Package Index, with their real
+meshes. Each row of the table is one robot. If several files describe a robot with the same name,
+the row shows the file with the most links.
+
+- **Audit.** The {robots} robots have {links} links. The audit found {error} errors and {warning}
+  warnings; [Audit](robots.md#audit) explains them.
+- **Repair.** The packages contain {files} files. In these files, the audit repaired {repaired}
+  links. In a second audit, {left} of these links have an error or a warning about the inertial.
+- **Comparison.** Pinocchio (URDF) or MuJoCo (MJCF) can load {compared} of the files. We compared
+  total mass and center with the values of these programs: {differ} files differ by more than 1e-9.
+
+Errors and warnings about the geometry assume that the drawn shapes of a link contain all of its
+mass. To make this page again, run `python3 tests/project.py robots`.
 
 | package | robot | file | links | mass, kg | errors | warnings | what was found (links) |
 |---|---|---|---|---|---|---|---|

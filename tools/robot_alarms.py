@@ -601,20 +601,23 @@ def count_alarms(audit: Audit, path: Path, roots: Roots, content: Path, codes: d
 HEAD = """# Faults Found, and Alarms
 
 This page tests the [audit](robots.md#audit) in two ways. First, we put known faults into published
-robots, and count how many of these faults the audit finds. Second, other programs check the alarms
-of the audit about the unchanged robots. The robots are the URDF and MJCF files of [Published
-Robots, Audited](robots-audited.md). The command `python3 tests/project.py alarms` made this page.
+robots, and count how many of these faults the audit finds. Second, we audit the unchanged robots,
+and other programs check each alarm of the audit. The robots are the URDF and MJCF files of
+[Published Robots, Audited](robots-audited.md). The command `python3 tests/project.py alarms` made
+this page.
 
 ## Faults
 
 The inertial of a link is its mass, center and inertia. Each kind of fault is put into up to three
-links of each URDF file. Without the fault, these links are right: the audit gives no error or
-warning about them, and their inertial differs by less than 0.5 % from the inertial of the evenly
-filled geometry. A fault is left out if it changes the inertial by less than 2 %.
+links of each URDF file. We choose links that are right without the fault: the audit gives no error
+or warning about the link, and its inertial differs by less than 0.5 % from the inertial of the
+evenly filled geometry. A fault is left out if it changes the inertial by less than 2 %.
 
 The faults in the last five rows of the table below concern several links together. Each of these
 faults is put into a URDF file at most once. [Twins](robots.md#twins) are two links that should have
 equal or mirrored inertials. The mass of twins may be spread unevenly.
+
+The columns of the table are:
 
 - *Planted* is the number of links with the fault.
 - *Found* is the number of these links about which the audit gives an error or a warning.
@@ -626,15 +629,16 @@ Some names of faults need an explanation:
 
 - *A + B < C*: A, B and C are the principal moments. No body can have such moments.
 - *order of …*: the six entries of the inertia are in the order of another program, or in the order
-  of a matrix below its diagonal.
+  of the lower triangle of the matrix.
 - *inertia of mass 1*: the inertia is divided by the mass.
+- *y for z up*: the inertial is stated in axes with y up instead of z up.
 - *parallel axes of the wrong sign*: the inertia was moved from the origin to the center, although
   it was already about the center.
 - *by the expected total*: the audit finds the fault because the total mass is wrong.
 
-Some faults cannot be undone. No repair can know a missing mass. Pounds can look like kilograms: if
-mass and inertia are in lb and lb·in², their quotient is the same number as for kg and kg·in². The
-audit then proposes kg·in². But if the center is in inches, too, the audit proposes pounds.
+Some faults cannot be undone. No repair can know a missing mass. Pounds can look like kilograms,
+because the inertia per mass is the same number in lb·in² per lb and in kg·in² per kg. The audit
+then proposes kg·in². But if the center is in inches, too, the audit proposes pounds.
 
 | fault | planted | found | undone |
 |---|---|---|---|
@@ -650,8 +654,8 @@ An alarm is an error or a warning of the audit. The published files have {links}
 - MuJoCo reads the MJCF files.
 - NumPy computes with the numbers of the XML files.
 
-An alarm is confirmed if these programs agree with the audit. Only the search for the mesh files
-uses code of the audit itself.
+An alarm is confirmed if these programs agree with the audit. The check uses code of the audit only
+to find the mesh files.
 
 {verdict}
 

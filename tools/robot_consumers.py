@@ -106,10 +106,11 @@ the command writes this page.
 
 ## Robots with Right Numbers
 
-The first table compares the total mass, center and inertia of each robot in a program with the
-exact numbers. Each row shows the largest relative differences of all files in one format. The
-difference of the centers is a distance. To make it relative, we divide it by the larger of two
-lengths: the radius of gyration, and the distance of the center from the origin.
+In each program, we read the total mass, center and inertia of each robot, and compare these numbers
+with the exact numbers. Each row of the first table shows the largest relative differences of all
+files in one format. The difference of the centers is a distance. To make this distance relative, we
+divide it by the larger of two lengths: the radius of gyration, and the distance of the center from
+the origin.
 
 Two programs have differences above 1e-12 although they use the numbers of the file:
 
@@ -124,9 +125,9 @@ Two programs have differences above 1e-12 although they use the numbers of the f
 ## Links with Missing or Impossible Numbers
 
 The inertial of a link is its mass, center and inertia. The second table shows how programs read a
-link of a URDF file if its inertial is missing or impossible. The collider of this link is a cube of
-1 m. A cell of the table gives the mass of the link in the program, and its three principal moments
-in kg·m². There are three tests:
+link of a URDF file if the inertial of the link is missing or impossible. The collider of this link
+is a cube of 1 m. A cell of the table gives the mass of the link in the program, and the three
+principal moments in kg·m². There are three tests:
 
 - *no inertial*: the file states no inertial for the link.
 - *A + B < C by 1e-12*: the file states a mass of 1 kg, and the principal moments A, B and C: 1, 2
