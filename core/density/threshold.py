@@ -42,7 +42,7 @@ from ..numerics import (
 )
 from ..verdict import MeasureError
 from .findings import DENSITY_NON_FINITE, GRID_TRANSFORM_SINGULAR
-from .spline_grid import contract
+from .spline_grid import contract, full_support_integrals
 from .threshold_cells import TURNS, Cells, Columns, integrate
 
 RULES = (3, 5, 8, 12)  # Points along x and y; each rule is compared with the one before.
@@ -270,7 +270,10 @@ class _Sums:
             return
         mask = whole.astype(np.float64)
         starts = [first + np.arange(n) for first, n in zip(origin, whole.shape)]
-        tables = [_interval_moments(start, self.order + 1) for start in starts]
+        tables = [
+            full_support_integrals(np.append(start, start[-1] + 1.0), 1, self.order + 1)
+            for start in starts
+        ]
         constant = [table[: self.order + 1] for table in tables]
         sizes = [np.abs(table) for table in constant]
         self.totals[VOLUME] += self._contract(mask, constant)
@@ -433,12 +436,3 @@ class _Sums:
             [reach[p][0] * reach[q][1] * reach[r][2] for p, q, r in self.powers.tolist()]
         )
         sums += np.einsum("ki,mi->mk", largest, np.stack([volumes, areas, volumes * density]))
-
-
-def _interval_moments(first: NDArray, order: int) -> Array:
-    """Return (order + 1, n) ∫ t^l over the unit intervals that start at n points, by an exact
-    rule.
-    """
-    nodes, weights = gauss_legendre(order // 2 + 1)
-    points = first[:, None] + nodes
-    return np.stack([(points**power) @ weights for power in range(order + 1)])

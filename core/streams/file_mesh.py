@@ -12,7 +12,7 @@ import numpy as np
 
 from ..files import refuse_non_finite
 from ..mesh import Surface, first_at_equal_position
-from ..numerics import Array, Index, Mask, NDArray
+from ..numerics import Array, Index, Mask, NDArray, segment_starts
 
 CORNERS_PER_BLOCK = 1 << 18
 
@@ -25,7 +25,7 @@ class FileMesh:
 
     points: (n, 3). corners: (k,) vertices of all faces, one face after another. sides: (m,) the
     number of corners of each face. edges: (e, 2) edges beside faces. values: (n,) numbers of the
-    vertices, by name.
+    vertices, by the name of their property.
     """
 
     name: str
@@ -39,27 +39,26 @@ class FileMesh:
         """Return the faces as a surface of triangles, quads, and the triangles of larger
         polygons.
         """
-        starts = np.cumsum(self.sides) - self.sides
-        faces = np.arange(len(self.sides))
+        starts = segment_starts(self.sides)
         triangles: list[NDArray[np.integer]] = [np.zeros((0, 3), np.int32)]
-        owners = [faces[:0]]
+        triangle_faces = [np.zeros(0, np.int32)]
         quads = np.zeros((0, 4), np.int32)
-        quad_faces = faces[:0]
+        quad_faces = triangle_faces[0]
         for count in np.unique(self.sides).tolist():
-            these = faces[self.sides == count]
-            corners = self.corners[starts[these, None] + np.arange(count)].astype(np.int32)
+            faces = np.flatnonzero(self.sides == count).astype(np.int32)
+            corners = self.corners[starts[faces, None] + np.arange(count)].astype(np.int32)
             if count == 4:
-                quads, quad_faces = corners, these
-                continue
-            cut = tessellate(self.points, corners) if count > 3 else corners[:, None]
-            triangles.append(cut.reshape(-1, 3))
-            owners.append(np.repeat(these, count - 2))
+                quads = corners
+                quad_faces = faces
+            else:
+                triangles.append(polygon_triangles(self.points, corners))
+                triangle_faces.append(np.repeat(faces, count - 2))
         return Surface(
             self.points,
             np.concatenate(triangles),
             quads,
-            np.concatenate(owners).astype(np.int32),
-            quad_faces.astype(np.int32),
+            np.concatenate(triangle_faces),
+            quad_faces,
             self.corners.astype(np.int32),
         )
 
@@ -70,49 +69,52 @@ def name_of_file(path: Path) -> str:
 
 
 class Polygons:
-    """Faces that come in blocks of (n, k) corners."""
+    """Faces that come in blocks of (n, k) corners, in any order."""
 
     def __init__(self) -> None:
         self._blocks: list[tuple[Index, NDArray[np.integer]]] = []
         self._count = 0
 
-    def add(self, corners: NDArray[np.integer], rows: Index | None = None) -> None:
-        """Add faces. rows: (n,) their places among all faces, by default behind the others."""
-        rows = self._count + np.arange(len(corners)) if rows is None else rows
-        self._blocks.append((rows, corners))
-        self._count = max(self._count, int(rows.max(initial=-1)) + 1)
+    def add(self, corners: NDArray[np.integer], numbers: Index | None = None) -> None:
+        """Add faces. numbers: (n,) their places among all faces, by default behind the others."""
+        numbers = self._count + np.arange(len(corners)) if numbers is None else numbers
+        self._blocks.append((numbers, corners))
+        self._count = max(self._count, int(numbers.max(initial=-1)) + 1)
 
     def join(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """Return corners and sides of all faces, without repeated corners and without faces of two
         corners.
         """
         sides = np.zeros(self._count, np.int64)
-        for rows, corners in self._blocks:
-            sides[rows] = corners.shape[1]
-        starts = np.cumsum(sides) - sides
+        for numbers, corners in self._blocks:
+            sides[numbers] = corners.shape[1]
+        starts = segment_starts(sides)
         joined = np.empty(int(sides.sum()), np.int64)
-        for rows, corners in self._blocks:
-            joined[starts[rows, None] + np.arange(corners.shape[1])] = corners
+        for numbers, corners in self._blocks:
+            joined[starts[numbers, None] + np.arange(corners.shape[1])] = corners
         return without_repeats(joined, sides[sides > 0])
 
 
 def without_repeats(
     corners: NDArray[np.int64], sides: NDArray[np.int64]
 ) -> tuple[NDArray, NDArray]:
-    starts = np.cumsum(sides) - sides
+    """Return corners and sides of faces (`FileMesh`) without corners that repeat the one before,
+    and without faces of two corners.
+    """
+    starts = segment_starts(sides)
     before = np.arange(len(corners)) - 1
-    before[starts] += sides
+    before[starts] += sides  # The first corner of a face follows its last one.
     keep = corners != corners[before]
     if keep.all():
         return corners, sides
-    left = np.add.reduceat(keep, starts)
-    keep &= np.repeat(left > 2, sides)
-    return corners[keep], left[left > 2]
+    remaining_sides = np.add.reduceat(keep, starts)
+    keep &= np.repeat(remaining_sides > 2, sides)
+    return corners[keep], remaining_sides[remaining_sides > 2]
 
 
 def merge_equal(points: NDArray[np.float32]) -> tuple[NDArray[np.float32], Index]:
-    """Return the different points of (n, 3), in the order of their first places, and the (n,) index
-    of each point.
+    """Return the different points among (n, 3), in the order of their first places, and the (n,)
+    index of each point among them.
     """
     points = points + np.float32(0.0)  # -0.0 equals 0.0
     first = first_at_equal_position(points)
@@ -122,31 +124,35 @@ def merge_equal(points: NDArray[np.float32]) -> tuple[NDArray[np.float32], Index
 
 def box_of_blocks(blocks: Iterable[NDArray[np.floating]], element: str) -> Box:
     """Return the least and the largest coordinates of (n, 3) or (n, 3, 3) blocks, zeros if there
-    are none.
+    are none; FileError that names the first element that is not finite.
     """
     low = np.full(3, np.inf)
     high = np.full(3, -np.inf)
-    rows = bad = first = 0
+    row_count = bad_count = first_bad = 0
     for block in blocks:
-        least, largest = Surface(block.reshape(-1, 3)).box if len(block) else (low, high)
-        if np.isfinite([least, largest]).all() or not len(block):
+        if not len(block):
+            continue
+        least, largest = Surface(block.reshape(-1, 3)).box
+        if np.isfinite([least, largest]).all():
             low = np.minimum(low, least)
             high = np.maximum(high, largest)
         else:
-            wrong = ~np.isfinite(block.reshape(len(block), -1))
-            first = first if bad else rows + int(np.argmax(wrong.any(axis=1)))
-            bad += int(np.count_nonzero(wrong))
-        rows += len(block)
-    refuse_non_finite(bad, element, first)
-    return (low, high) if rows else (np.zeros(3), np.zeros(3))
+            is_bad = ~np.isfinite(block.reshape(len(block), -1))
+            if not bad_count:
+                first_bad = row_count + int(np.argmax(is_bad.any(axis=1)))
+            bad_count += int(np.count_nonzero(is_bad))
+        row_count += len(block)
+    refuse_non_finite(bad_count, element, first_bad)
+    return (low, high) if row_count else (np.zeros(3), np.zeros(3))
 
 
 def strip_triangles(strip: NDArray[np.integer]) -> NDArray[np.integer]:
     """Return the (n, 3) triangles of strips of vertices, which -1 separates."""
     corners = np.stack([strip[:-2], strip[1:-1], strip[2:]], axis=1)
-    begins = np.maximum.accumulate(np.where(strip < 0, np.arange(1, len(strip) + 1), 0))[:-2]
-    is_odd = (np.arange(len(corners)) - begins) % 2 == 1
-    corners[is_odd, :2] = corners[is_odd, 1::-1]
+    after_separator = np.where(strip < 0, np.arange(1, len(strip) + 1), 0)
+    strip_starts = np.maximum.accumulate(after_separator)[:-2]
+    is_odd = (np.arange(len(corners)) - strip_starts) % 2 == 1
+    corners[is_odd, :2] = corners[is_odd, 1::-1]  # Every other triangle of a strip is turned.
     return corners[(corners >= 0).all(axis=1)]
 
 
@@ -154,9 +160,14 @@ def polygon_surface(points: NDArray[np.floating], faces: NDArray[np.integer]) ->
     """Return a surface of (n, k) faces: triangles, quads, or the triangles of larger polygons."""
     if faces.shape[1] == 4:
         return Surface(points, quads=faces)
-    return Surface(
-        points, faces if faces.shape[1] == 3 else tessellate(points, faces).reshape(-1, 3)
-    )
+    return Surface(points, polygon_triangles(points, faces))
+
+
+def polygon_triangles(
+    points: NDArray[np.floating], faces: NDArray[np.integer]
+) -> NDArray[np.integer]:
+    """Return the (m, 3) triangles of (n, k) faces, one face after another."""
+    return faces if faces.shape[1] == 3 else tessellate(points, faces).reshape(-1, 3)
 
 
 def tessellate(points: NDArray[np.floating], polygons: NDArray[np.integer]) -> NDArray[np.integer]:
@@ -182,105 +193,113 @@ def _flatten(corners: Array) -> Array:
     """
     about = corners - corners[:, :1]
     normal = np.cross(about, np.roll(about, -1, axis=1)).sum(axis=1)
-    least = np.zeros_like(normal)
-    least[np.arange(len(normal)), np.abs(normal).argmin(axis=1)] = 1.0
-    right = np.cross(least, normal)
+    # The axis that is farthest from the normal.
+    axis = np.zeros_like(normal)
+    axis[np.arange(len(normal)), np.abs(normal).argmin(axis=1)] = 1.0
+    right = np.cross(axis, normal)
     right /= np.maximum(np.linalg.norm(right, axis=1), np.finfo(float).tiny)[:, None]
     normal /= np.maximum(np.linalg.norm(normal, axis=1), np.finfo(float).tiny)[:, None]
-    return np.stack(
-        [np.einsum("nki,ni->nk", about, axis) for axis in (right, np.cross(normal, right))], axis=2
-    )
+    up = np.cross(normal, right)
+    return np.stack([np.einsum("nki,ni->nk", about, axis) for axis in (right, up)], axis=2)
 
 
 class _Ears:
-    """Polygons of k corners, (n, k, 2), that are cut at the same time.
+    """Polygons of k corners, (n, k, 2), from which ears are cut, one from each at a time.
 
-    before, after: (n, k) neighbors of the corners that are left. turn: (n, k) their signs, 1 for
-    convex corners.
+    before, after: (n, k) neighbors of the corners that are left. sign: (n, k) 1 for convex corners,
+    0 for straight ones, -1 for concave ones.
     """
 
     def __init__(self, corners: Array) -> None:
         self._corners = corners
         self._count, self._sides = corners.shape[:2]
-        self._every = np.arange(self._count)
+        self._polygons = np.arange(self._count)
         ring = np.arange(self._sides)
-        self._before, self._after = (
-            np.roll(ring, way)[None].repeat(self._count, 0) for way in (1, -1)
-        )
+        self._before = np.roll(ring, 1)[None].repeat(self._count, 0)
+        self._after = np.roll(ring, -1)[None].repeat(self._count, 0)
         self._is_left = np.ones((self._count, self._sides), bool)
-        self._turn = np.stack(
-            [self._signs(self._every, self._every * 0 + corner) for corner in ring], axis=1
+        self._sign = np.stack(
+            [self._signs(self._polygons, np.full(self._count, corner)) for corner in ring], axis=1
         )
 
     def cut(self) -> Index:
         """Return the (n, k - 2, 3) corners of the triangles, from 0 to k - 1."""
-        every = self._every
+        polygons = self._polygons
         before = self._before
         after = self._after
         start = np.zeros(self._count, np.intp)
         is_backward = np.zeros(self._count, bool)
         triangles = np.empty((self._count, self._sides - 2, 3), np.intp)
         for k in range(self._sides - 3):
-            ear = self._find(start, is_backward, self._sides - k)
-            first = before[every, ear]
-            last = after[every, ear]
-            triangles[:, k] = np.stack([first, ear, last], axis=1)
-            after[every, first], before[every, last] = last, first
-            self._is_left[every, ear] = False
-            for corner in (first, last):  # A convex corner stays convex.
-                turn = self._turn[every, corner]
-                self._turn[every, corner] = np.where(turn > 0, turn, self._signs(every, corner))
-            start = np.where(is_backward, before[every, first], after[every, last])
-            turns_back = self._turn[every, start] <= 0
-            beyond = np.where(is_backward, before[every, start], after[every, start])
+            ear = self._find_ears(start, is_backward, self._sides - k)
+            previous = before[polygons, ear]
+            following = after[polygons, ear]
+            triangles[:, k] = np.stack([previous, ear, following], axis=1)
+            after[polygons, previous] = following
+            before[polygons, following] = previous
+            self._is_left[polygons, ear] = False
+            for corner in (previous, following):  # A convex corner stays convex.
+                sign = self._sign[polygons, corner]
+                self._sign[polygons, corner] = np.where(
+                    sign > 0, sign, self._signs(polygons, corner)
+                )
+            start = np.where(is_backward, before[polygons, previous], after[polygons, following])
+            turns_back = self._sign[polygons, start] <= 0
+            beyond = np.where(is_backward, before[polygons, start], after[polygons, start])
             start = np.where(turns_back, beyond, start)
             is_backward ^= turns_back
         corner = self._is_left.argmax(axis=1)
-        triangles[:, -1] = np.stack([corner, after[every, corner], before[every, corner]], axis=1)
+        triangles[:, -1] = np.stack(
+            [corner, after[polygons, corner], before[polygons, corner]], axis=1
+        )
         return triangles
 
-    def _find(self, start: Index, is_backward: Mask, left: int) -> Index:
+    def _find_ears(self, start: Index, is_backward: Mask, corners_left: int) -> Index:
         """Return the (n,) ears: convex corners, else straight ones, else those that are not
         concave, else any.
-        """
-        found = start.copy()
-        waiting = self._every
-        for least, most, is_checked in ((1, 1, True), (0, 0, True), (0, 1, False)):
-            at = start[waiting]
-            for _ in range(left):
-                turn = self._turn[waiting, at]
-                is_ear = (turn >= least) & (turn <= most)
-                if is_checked:
-                    tried = np.flatnonzero(is_ear)
-                    is_ear[tried] = ~self._holds_corner(waiting[tried], at[tried])
-                found[waiting[is_ear]] = at[is_ear]
-                waiting, at = waiting[~is_ear], at[~is_ear]
-                if not len(waiting):
-                    return found
-                at = np.where(
-                    is_backward[waiting], self._before[waiting, at], self._after[waiting, at]
-                )
-        return found
 
-    def _holds_corner(self, which: Index, tip: Index) -> Mask:
+        start: (n,) the corners with which the search begins.
+        """
+        ears = start.copy()
+        waiting = self._polygons
+        for least_sign, largest_sign, is_checked in ((1, 1, True), (0, 0, True), (0, 1, False)):
+            tip = start[waiting]
+            for _ in range(corners_left):
+                sign = self._sign[waiting, tip]
+                is_ear = (sign >= least_sign) & (sign <= largest_sign)
+                if is_checked:
+                    candidates = np.flatnonzero(is_ear)
+                    is_ear[candidates] = ~self._holds_corner(waiting[candidates], tip[candidates])
+                ears[waiting[is_ear]] = tip[is_ear]
+                waiting = waiting[~is_ear]
+                tip = tip[~is_ear]
+                if not len(waiting):
+                    return ears
+                tip = np.where(
+                    is_backward[waiting], self._before[waiting, tip], self._after[waiting, tip]
+                )
+        return ears
+
+    def _holds_corner(self, polygons: Index, tip: Index) -> Mask:
         """Return whether another corner that is not convex lies in the triangle at a corner, or on
         its edges.
         """
-        ends = self._before[which, tip], tip, self._after[which, tip]
-        others = self._is_left[which] & (self._turn[which] <= 0)
+        ends = self._before[polygons, tip], tip, self._after[polygons, tip]
+        others = self._is_left[polygons] & (self._sign[polygons] <= 0)
         for end in ends:
-            others[np.arange(len(which)), end] = False
+            others[np.arange(len(polygons)), end] = False
         row, corner = np.nonzero(others)
-        point = self._corners[which[row], corner]
-        a, b, c = (self._corners[which[row], end[row]] for end in ends)
+        point = self._corners[polygons[row], corner]
+        a, b, c = (self._corners[polygons[row], end[row]] for end in ends)
         is_within = (
             (_area(a, b, point) >= 0.0) & (_area(b, c, point) >= 0.0) & (_area(c, a, point) >= 0.0)
         )
-        return np.bincount(row[is_within], minlength=len(which)) > 0
+        return np.bincount(row[is_within], minlength=len(polygons)) > 0
 
-    def _signs(self, which: Index, corner: Index) -> NDArray[np.int8]:
-        ends = self._before[which, corner], corner, self._after[which, corner]
-        return np.sign(_area(*(self._corners[which, end] for end in ends))).astype(np.int8)
+    def _signs(self, polygons: Index, corner: Index) -> NDArray[np.int8]:
+        """Return whether corners of polygons are convex (1), straight (0) or concave (-1)."""
+        ends = self._before[polygons, corner], corner, self._after[polygons, corner]
+        return np.sign(_area(*(self._corners[polygons, end] for end in ends))).astype(np.int8)
 
 
 def _area(a: NDArray, b: NDArray, c: NDArray) -> Array:

@@ -53,11 +53,12 @@ def measure_stream(
     the box of all. FileError if the file is damaged, or not finite. progress: called with the count
     of faces read since the last time.
     """
-    for find_box in (mesh.sampled_box, mesh.box):
-        found = _measure_about(mesh, *find_box(), order, area_order, threads, progress)
-        if found is not None:
-            return found
-    raise AssertionError("piece outside its box")
+    orders = order, area_order
+    integrals = _measure_about(mesh, *mesh.sampled_box(), *orders, threads, progress)
+    if integrals is None:
+        integrals = _measure_about(mesh, *mesh.box(), *orders, threads, progress)
+    assert integrals is not None  # No piece reaches beyond the box of all.
+    return integrals
 
 
 class _FarPiece(Exception):
@@ -74,19 +75,20 @@ def _measure_about(
     progress: Callable[[int], None] | None,
 ) -> StreamIntegrals | None:
     """Measure a mesh about the center of a box; None if a piece reaches much farther."""
-    large = max(np.abs(low).max(), np.abs(high).max()) > np.finfo(np.float32).max
-    center = box_center(low, high, np.dtype(np.float64 if large else np.float32))
+    is_large = max(np.abs(low).max(), np.abs(high).max()) > np.finfo(np.float32).max
+    center = box_center(low, high, np.dtype(np.float64 if is_large else np.float32))
     reach = float(np.maximum(high - center, center - low).max())
     boundary = BoundarySum()
-    counts = []
+    face_counts = []
 
     def pieces() -> Iterator[Surface]:
+        """Yield the pieces, and add up their boundary and their faces on the way."""
         for piece in mesh.pieces():
-            counts.append(len(piece.triangles) + len(piece.quads))
+            face_counts.append(len(piece.triangles) + len(piece.quads))
             if progress is not None:
-                progress(counts[-1])
+                progress(face_counts[-1])
             least, largest = piece.box
-            # Also if it is NaN, which the box of all faces refuses.
+            # "Not less", so that NaN raises it too; the box of all pieces refuses NaN.
             if not np.maximum(largest - center, center - least).max() <= MAX_REACH_RATIO * reach:
                 raise _FarPiece
             boundary.add(piece.points.reshape(-1, 3, 3) if mesh.is_loose else piece)
@@ -104,9 +106,9 @@ def _measure_about(
         )
     except _FarPiece:
         return None
-    if not counts:
+    if not face_counts:
         raise FileError(FILE_WITHOUT_OBJECTS, content="faces")
-    return StreamIntegrals(volume, area, boundary.is_zero, sum(counts))
+    return StreamIntegrals(volume, area, boundary.is_zero, sum(face_counts))
 
 
 def open_mesh_file(path: str | Path) -> MeshFile:

@@ -75,8 +75,9 @@ _FACET_WORDS = [
 
 
 class StlFile:
-    """The triangles of an .stl file. face_count: estimated for a text. is_loose: True, as triangles
-    share no points.
+    """The triangles of an .stl file.
+
+    face_count: their number, estimated for a text. is_loose: True, as triangles share no points.
     """
 
     is_loose = True
@@ -103,8 +104,9 @@ class StlFile:
         else:
             with open(self._path, "rb") as file:
                 blocks = list(islice(self._text_corners(file), 1))
-        is_finite = all(np.isfinite(block).all() for block in blocks)
-        return box_of_blocks(blocks, "triangle") if is_finite else self.box()
+        if all(np.isfinite(block).all() for block in blocks):
+            return box_of_blocks(blocks, "triangle")
+        return self.box()
 
     def box(self) -> Box:
         """Return the least and the largest coordinates. Raises FileError if some are not finite."""
@@ -125,12 +127,13 @@ class StlFile:
             [np.zeros((0, 3), np.float32), *(piece.points for piece in self.pieces())]
         )
         box_of_blocks([points.reshape(-1, 3, 3)], "triangle")
-        points, index = merge_equal(points)
-        faces = without_repeats(index, np.full(len(index) // 3, 3))
-        return FileMesh(name_of_file(self._path), points, *faces)
+        points, corners = merge_equal(points)
+        corners, sides = without_repeats(corners, np.full(len(corners) // 3, 3))
+        return FileMesh(name_of_file(self._path), points, corners, sides)
 
     def _text_corners(self, file: BinaryIO) -> Iterator[NDArray[np.float32]]:
-        waiting = b""
+        """Yield (n, 3, 3) corners of a text, which is read in blocks that end anywhere."""
+        waiting = b""  # text behind the last whole facet
         file.readline()  # the first solid's name, of any words
         while chunk := file.read(TEXT_PER_BLOCK):
             waiting += chunk.lower()
@@ -149,8 +152,8 @@ class StlFile:
 
         FileError if a word is wrong.
         """
-        is_whole = _FACETS.match(text).end() == len(text)  # type: ignore[union-attr]
-        if not is_whole and not self._is_checked:
+        is_plain = _FACETS.match(text).end() == len(text)  # type: ignore[union-attr]
+        if not is_plain and not self._is_checked:
             check_stl_text(map_file(self._path))
             self._is_checked = True
         if b"solid" in text:
@@ -172,8 +175,10 @@ def _binary_corners(file: BinaryIO) -> Iterator[NDArray[np.float32]]:
 
 def check_stl_text(data: Data) -> None:
     """Raise FileError if an importer would misread a word."""
-    first = _FIRST_LINE.match(data)
-    at = first.end() if first else 0
+    first_line = _FIRST_LINE.match(data)
+    at = first_line.end() if first_line else 0
+    # The expression passes over all facets without a fault. The words of the next one are compared
+    # one by one; if they are right after all, the search goes on behind them.
     while (at := _FACETS.match(data, at).end()) < len(data):  # type: ignore[union-attr]
         words = list(islice(_WORD.finditer(data, at), len(_FACET_WORDS)))
         is_cut = len(words) < len(_FACET_WORDS)
@@ -187,6 +192,7 @@ def check_stl_text(data: Data) -> None:
 
 
 def _find_fault(word: bytes, expected: str | bool) -> Fault | None:
+    """Return the fault of a word, or None. expected: an item of _FACET_WORDS."""
     if isinstance(expected, bool):
         return find_number_fault(word, expected)
     return None if word.lower() == expected.encode() else (shorten(word), "“{}”".format(expected))
