@@ -106,8 +106,8 @@ class StreamBody(Body):
         """
         if order <= self.volume.order and (not area or order <= self.area.order):
             return self.volume.truncate(order), self.area.truncate(order) if area else None
-        found = streams.measure_stream(self.mesh, order, order if area else 0, self.threads)
-        volume, areas = _in_meters(found, self.unit)
+        integrals = streams.measure_stream(self.mesh, order, order if area else 0, self.threads)
+        volume, areas = _in_meters(integrals, self.unit)
         return volume, areas if area else None
 
 
@@ -122,10 +122,10 @@ class FaceBody(Body):
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
         """Return the moments to an order."""
-        found = nurbs.measure_patches(
+        integrals = nurbs.measure_patches(
             self.faces, order=order, area_order=order if area else 0, stored=self.stored
         )
-        return found.volume, found.area if area else None
+        return integrals.volume, integrals.area if area else None
 
 
 def measure_faces(
@@ -138,14 +138,14 @@ def measure_faces(
     scale = np.diag([*[settings.unit] * 3, 1.0])
     placed = tuple(face.transform(scale) for face in faces)
     stored = settings.unit * rounding
-    found = nurbs.measure_patches(placed, area_order=3, stored=stored)
+    integrals = nurbs.measure_patches(placed, area_order=3, stored=stored)
     is_shell = settings.kind == "shell"
     body = FaceBody(
-        found.volume * 0.0 if is_shell else found.volume,
-        found.area,
-        found.health,
-        Method(Procedure.SHELL if is_shell else found.method, Source.NURBS),
-        found.findings,
+        integrals.volume * 0.0 if is_shell else integrals.volume,
+        integrals.area,
+        integrals.health,
+        Method(Procedure.SHELL if is_shell else integrals.method, Source.NURBS),
+        integrals.findings,
         estimated=True,
         faces=placed,
         stored=stored,
@@ -163,31 +163,32 @@ def measure_mesh_file(
     """Return the mass properties of an .stl or .ply file as one body; `progress` gets the number of
     faces just read.
     """
-    kind, unit = settings.kind, settings.unit
+    kind = settings.kind
+    unit = settings.unit
     order = max(settings.order or KNOWN_ORDER, KNOWN_ORDER)
     area_order = order if kind == "shell" or settings.surface else 0
     with about_file(name):
         mesh = streams.open_mesh_file(path)
-        found = streams.measure_stream(mesh, order, area_order, settings.threads, progress)
-        volume, area = _in_meters(found, unit)
-        notes = [*findings, finding(MESH_STREAMED, count=found.face_count)]
-        verdict = Procedure.EXACT
-        if not found.closed:
-            verdict = Procedure.OPEN
-            notes += [finding(STREAMED_OPEN)] if kind == "solid" else []
-        elif found.volume.total < 0.0:
-            verdict = Procedure.REORIENTED
-            notes += (
-                [finding(solid.INVERTED_COMPONENTS, count=1, total=1)] if kind == "solid" else []
-            )
+        integrals = streams.measure_stream(mesh, order, area_order, settings.threads, progress)
+        volume, area = _in_meters(integrals, unit)
+        notes = [*findings, finding(MESH_STREAMED, count=integrals.face_count)]
+        procedure = Procedure.EXACT
+        if not integrals.closed:
+            procedure = Procedure.OPEN
+            if kind == "solid":
+                notes.append(finding(STREAMED_OPEN))
+        elif integrals.volume.total < 0.0:
+            procedure = Procedure.REORIENTED
+            if kind == "solid":
+                notes.append(finding(solid.INVERTED_COMPONENTS, count=1, total=1))
         body = StreamBody(
             volume,
             area,
-            StreamHealth(closed=found.closed),
-            Method(verdict),
+            StreamHealth(closed=integrals.closed),
+            Method(procedure),
             tuple(notes),
-            # axes of many faces come from third order, without reading them again
-            face_count=found.face_count,
+            # Axes of many faces come from third order, without reading them again.
+            face_count=integrals.face_count,
             mesh=mesh,
             unit=unit,
             threads=settings.threads,
@@ -197,13 +198,13 @@ def measure_mesh_file(
         return measure_reading(bare_reading(name, "MESH"), body, replace(settings, unit=1.0))
 
 
-def _in_meters(found: streams.StreamIntegrals, unit: float) -> tuple[Moments, Moments]:
+def _in_meters(integrals: streams.StreamIntegrals, unit: float) -> tuple[Moments, Moments]:
     """Return the moments of volume and area, in SI units; a negative volume is reversed, as if
     faces were outward.
     """
     matrix = np.diag([unit, unit, unit, 1.0])
-    volume = found.volume * -1.0 if found.volume.total < 0.0 else found.volume
-    return volume.transform(matrix), found.area.transform(matrix)
+    volume = integrals.volume * -1.0 if integrals.volume.total < 0.0 else integrals.volume
+    return volume.transform(matrix), integrals.area.transform(matrix)
 
 
 @dataclass(frozen=True)
@@ -249,32 +250,38 @@ def measure_labels(
         matrix, placing = scans.sample_matrix(scan, array.spacing, array.origin, array.unit_scale)
         samples, matrix = in_file_order(scan.samples, matrix)
         sums = {
-            label_value(label, scan.slope, scan.intercept): row
-            for label, row in sum_labels(samples).items()
+            label_value(label, scan.slope, scan.intercept): label_sums
+            for label, label_sums in sum_labels(samples).items()
         }
         chosen = sorted(sums.keys() - {0}) if wanted is None else [*dict.fromkeys(wanted)]
         if absent := [label for label in chosen if label not in sums]:
-            values = {"labels": absent, "others": sorted(sums), "remedy": "--label"}
-            raise ReadError(scans.LABEL_ABSENT, file=os.path.basename(path), **values)
+            raise ReadError(
+                scans.LABEL_ABSENT,
+                file=os.path.basename(path),
+                labels=absent,
+                others=sorted(sums),
+                remedy="--label",
+            )
         if not chosen:
             raise ReadError(GRID_EMPTY)
-        known = {**scan.labels, **table}
+        descriptions = [table.get(label, scan.labels.get(label, scans.Label())) for label in chosen]
         names = [
-            known.get(label, scans.Label()).name or "{} {}".format(name, label) for label in chosen
+            description.name or "{} {}".format(name, label)
+            for label, description in zip(chosen, descriptions)
         ]
         measured = []
-        for label, own_name in zip(chosen, names):
-            if names.count(own_name) > 1:
-                own_name = "{} ({})".format(own_name, label)
-            about = known.get(label, scans.Label())
-            own = settings
-            if about.density is not None:
-                own = replace(settings, density=about.density, mass=None)
+        for label, description, label_name in zip(chosen, descriptions, names):
+            if names.count(label_name) > 1:
+                label_name = "{} ({})".format(label_name, label)
+            label_settings = settings
+            if description.density is not None:
+                label_settings = replace(settings, density=description.density, mass=None)
             body = label_body(sums[label], matrix, (*scan.findings, *placing))
+            measurement = measure_reading(bare_reading(label_name, "ARRAY"), body, label_settings)
             entry: dict[str, Any] = {"value": label, "voxels": int(sums[label][0])}
-            entry |= {"color": [*about.color]} if about.color is not None else {}
-            reading = bare_reading(own_name, "ARRAY")
-            measured.append((measure_reading(reading, body, own), {"label": entry}))
+            if description.color is not None:
+                entry["color"] = [*description.color]
+            measured.append((measurement, {"label": entry}))
     return measured
 
 
@@ -296,10 +303,11 @@ def measure_array(
         positions = scans.read_all_positions(array.positions, scan.samples.shape)
         matrix, positions = scans.place_samples(matrix, positions, array.unit_scale or 1.0)
         if array.positions:
-            # unknown, if two axes have positions
-            unspaced = finding(scans.SCAN_UNSTATED, part="spacing", option="spacing")
-            findings = [one for one in findings if len(array.positions) < 3 or one != unspaced]
-            findings.append(finding(SAMPLES_POSITIONED, axes=sorted(array.positions)))
+            if len(array.positions) == len(scans.AXES):  # then no axis lacks a spacing
+                unspaced = finding(scans.SCAN_UNSTATED, part="spacing", option="spacing")
+                findings = tuple(result for result in findings if result != unspaced)
+            positioned = finding(SAMPLES_POSITIONED, axes=sorted(array.positions))
+            findings = (*findings, positioned)
         findings = (*scan.findings, *findings)
         if array.threshold is None:
             grid = GridOptions(value_density=array.density_scale, spline_order=array.spline_order)
@@ -312,13 +320,13 @@ def measure_array(
             samples = Samples(
                 scan.samples, shape, matrix, grid, None, scan.slope, scan.intercept, positions
             )
-            made = density_body(samples, findings, progress, settings.order or KNOWN_ORDER)
-            made = replace(made, density_from=finding(DENSITY_FROM, source="samples"))
+            body = density_body(samples, findings, progress, settings.order or KNOWN_ORDER)
+            body = replace(body, density_from=finding(DENSITY_FROM, source="samples"))
         else:
-            made = _threshold_body(name, scan, matrix, array, settings, findings, progress)
+            body = _threshold_body(name, scan, matrix, array, settings, findings, progress)
+        density = None if body.mass is not None else settings.density
         reading = bare_reading(name, "ARRAY")
-        density = None if made.mass is not None else settings.density
-        return measure_reading(reading, made, replace(settings, density=density))
+        return measure_reading(reading, body, replace(settings, density=density))
 
 
 def in_file_order(samples: NDArray, matrix: Array) -> tuple[NDArray, Array]:

@@ -14,7 +14,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from .. import mesh, moments, polyhedron, verdict
-from ..numerics import Array, Index, NDArray
+from ..numerics import Array, Index, Mask, NDArray, sums_by_index
 from ..solid import (
     COMPONENTS_NESTED,
     COMPONENTS_OVERLAP,
@@ -37,17 +37,20 @@ def singular_instances_message(reading: Reading) -> verdict.Finding:
 def findings_by_part(
     parts: Iterable[tuple[str, Iterable[verdict.Finding]]], whole: str
 ) -> list[verdict.Finding]:
-    """Return findings of parts, (object's name, findings), with equal ones joined, and those of
-    `whole` as they are.
+    """Return findings of parts, (object's name, findings), with equal ones joined and the names of
+    their objects added; those of `whole` alone as they are.
     """
     parts = list(parts)
     if len(parts) == 1 and parts[0][0] in ("", whole):
         return each_once(parts[0][1])
-    merged: dict[tuple, tuple[verdict.Finding, dict[str, None]]] = {}
+    results = {}
+    sources: dict[tuple, dict[str, None]] = {}  # names in order, each once
     for name, findings in parts:
         for result in findings:
-            merged.setdefault(_identity(result), (result, {}))[1][name or whole] = None
-    return [result.of_sources(list(names)) for result, names in merged.values()]
+            key = _identity(result)
+            results.setdefault(key, result)
+            sources.setdefault(key, {})[name or whole] = None
+    return [result.of_sources(list(sources[key])) for key, result in results.items()]
 
 
 def each_once(findings: Iterable[verdict.Finding]) -> list[verdict.Finding]:
@@ -56,6 +59,7 @@ def each_once(findings: Iterable[verdict.Finding]) -> list[verdict.Finding]:
 
 
 def _identity(result: verdict.Finding) -> tuple[verdict.Finding, object]:
+    """Return a key that is equal for findings with equal values and elements."""
     elements = result.elements
     return result, elements.tobytes() if isinstance(elements, np.ndarray) else repr(elements)
 
@@ -78,77 +82,104 @@ class PlaceComparison:
     overlapping_slightly: bool
 
 
-def compare_places(solids: Sequence[tuple[SolidIntegrals, Array]]) -> PlaceComparison:
-    """Find solids that overlap or contain each other in their places, given by (k, 4, 4) maps for
-    each solid.
+@dataclass(frozen=True, eq=False)
+class _Images:
+    """The components of solids in all their places, as one mesh in the world.
+
+    corners: (n, 3). triangles: (t, 3). component: (t,) of each triangle, 0 to c - 1. owner: (c, 2)
+    [solid, its component] of each component. place: (c,) number of its place, each of one solid.
+    is_closed: (c,). displacement: largest error of a corner by the rounding of coordinates.
     """
-    points = []
+
+    corners: Array
+    triangles: Index
+    component: Index
+    owner: Index
+    place: Index
+    is_closed: Mask
+    displacement: float
+
+
+def _place_solids(solids: Sequence[tuple[SolidIntegrals, Array]]) -> _Images:
+    """Return the images of solids under (k, 4, 4) maps each."""
+    corners = []
     triangles = []
     component = []
     owner = []
     place = []
-    closed = []
-    number = shift = places = 0
+    is_closed = []
+    corner_count = component_count = place_count = 0
     displacement = 0.0
-    for which, (solid, matrices) in enumerate(solids):
+    for number, (solid, matrices) in enumerate(solids):
         parts = solid.parts()
-        count = len(matrices)
         linear = matrices[:, :3, :3]
-        at = np.arange(count)
-        points.append(
-            parts.points.astype(np.float64) @ linear.transpose(0, 2, 1) + matrices[:, None, :3, 3]
-        )
-        mirrored = np.linalg.det(linear)[:, None, None] < 0.0
-        images = np.where(mirrored, parts.triangles[:, ::-1], parts.triangles).astype(np.intp)
-        triangles.append(images + (shift + len(parts.points) * at)[:, None, None])
-        component.append(parts.part + (number + parts.number * at)[:, None])
-        owner.append(
-            np.tile(
-                np.stack([np.full(parts.number, which), np.arange(parts.number)], axis=1),
-                (count, 1),
-            )
-        )
-        place.append(np.repeat(places + at, parts.number))
-        closed.append(np.tile(solid.oriented.solid & ~solid.oriented.mesh.open, count))
-        moved = np.abs(linear) @ solid.repaired_surface.coordinate_error
-        displacement = max(displacement, float(np.linalg.norm(moved, axis=1).max()))
-        number = number + count * parts.number
-        shift = shift + count * len(parts.points)
-        places = places + count
-    owner = np.concatenate(owner)
-    place = np.concatenate(place)
-    closed = np.concatenate(closed)
-    corners = np.concatenate([image.reshape(-1, 3) for image in points])
+        images = parts.points.astype(np.float64) @ linear.transpose(0, 2, 1)
+        corners.append((images + matrices[:, None, :3, 3]).reshape(-1, 3))
+        # A mirrored image keeps its faces outward.
+        is_mirrored = np.linalg.det(linear)[:, None, None] < 0.0
+        faces = np.where(is_mirrored, parts.triangles[:, ::-1], parts.triangles).astype(np.intp)
+        copies = np.arange(len(matrices))
+        first_corner = corner_count + len(parts.points) * copies
+        first_component = component_count + parts.number * copies
+        triangles.append((faces + first_corner[:, None, None]).reshape(-1, 3))
+        component.append((parts.part + first_component[:, None]).ravel())
+        own_components = np.tile(np.arange(parts.number), len(copies))
+        owner.append(np.stack([np.full_like(own_components, number), own_components], axis=1))
+        place.append(np.repeat(place_count + copies, parts.number))
+        is_closed.append(np.tile(solid.oriented.solid & ~solid.oriented.mesh.open, len(copies)))
+        error = np.abs(linear) @ solid.repaired_surface.coordinate_error
+        displacement = max(displacement, float(np.linalg.norm(error, axis=1).max()))
+        corner_count += len(copies) * len(parts.points)
+        component_count += len(copies) * parts.number
+        place_count += len(copies)
+    return _Images(
+        np.concatenate(corners),
+        np.concatenate(triangles),
+        np.concatenate(component),
+        np.concatenate(owner),
+        np.concatenate(place),
+        np.concatenate(is_closed),
+        displacement,
+    )
+
+
+def compare_places(solids: Sequence[tuple[SolidIntegrals, Array]]) -> PlaceComparison:
+    """Find solids that overlap or contain each other in their places, given by (k, 4, 4) maps for
+    each solid.
+    """
+    images = _place_solids(solids)
+    place = images.place
     components = mesh.sort_components(
-        corners,
-        np.concatenate([image.reshape(-1, 3) for image in triangles]),
-        np.concatenate([image.ravel() for image in component]),
-        number,
+        images.corners, images.triangles, images.component, len(place)
     )
-    size = float(np.linalg.norm(np.ptp(corners, axis=0)))
-    tolerance = verdict.welding_tolerance(size, displacement)
+    size = float(np.linalg.norm(np.ptp(images.corners, axis=0)))
+    tolerance = verdict.welding_tolerance(size, images.displacement)
     extent = np.linalg.norm(components.high - components.low, axis=1)
-    flattened = (
-        np.abs(components.volume) <= verdict.CLOSED_SHEET_VOLUME_RTOL * extent * components.area
+    is_flat = np.abs(components.volume) <= verdict.CLOSED_SHEET_VOLUME_RTOL * extent * (
+        components.area
     )
-    relations = classify_pairs(corners, components, closed & ~flattened, tolerance)
+    relations = classify_pairs(images.corners, components, images.is_closed & ~is_flat, tolerance)
     inner, outer = relations.contained_in.T
-    elsewhere = place[inner] != place[outer]
-    inner, outer = inner[elsewhere], outer[elsewhere]
-    # Count how often each other place surrounds a component: 0 in its cavities.
-    key, pair = np.unique(inner * places + place[outer], return_inverse=True)
-    surrounds = np.bincount(pair.ravel(), np.sign(components.volume[outer])) > 0.0
-    nested = np.unique((key // places)[surrounds])
+    is_elsewhere = place[inner] != place[outer]
+    inner = inner[is_elsewhere]
+    outer = outer[is_elsewhere]
+    # For each component and other place: how many times the components there surround it, less the
+    # cavities that it is in. So 0 in a cavity.
+    pairs, pair_index = np.unique(
+        np.stack([inner, place[outer]], axis=1), axis=0, return_inverse=True
+    )
+    times = sums_by_index(pair_index.ravel(), np.sign(components.volume[outer]), len(pairs))
+    nested = np.unique(pairs[times > 0.0, 0])
     nested = nested[components.volume[nested] > 0.0]
-    pairs = relations.intersecting
-    pairs = pairs[place[pairs[:, 0]] != place[pairs[:, 1]]]
+    overlapping = relations.intersecting  # (k, 2)
+    overlapping = overlapping[place[overlapping[:, 0]] != place[overlapping[:, 1]]]
     negligible = verdict.NEGLIGIBLE * components.volume.sum() / size
     return PlaceComparison(
-        owner[nested],
-        owner[np.unique(pairs)],
+        images.owner[nested],
+        images.owner[np.unique(overlapping)],
         relations.undecided_pairs,
-        bool(components.area[nested].sum() < negligible),
-        bool(components.area[pairs].min(axis=1).sum() < negligible),
+        nested_slightly=bool(components.area[nested].sum() < negligible),
+        overlapping_slightly=bool(components.area[overlapping].min(axis=1).sum() < negligible),
     )
 
 
@@ -163,22 +194,19 @@ def overlap_findings(
         (COMPONENTS_NESTED, comparison.nested, comparison.nested_slightly),
         (COMPONENTS_OVERLAP, comparison.overlapping, comparison.overlapping_slightly),
     ):
-        if len(components):
-            elements = []
-            for which in np.unique(components[:, 0]):
-                parts = solids[which].parts()
-                name = reading.parts[which].source_object_name or reading.name
-                of_these = np.isin(parts.part, components[components[:, 0] == which, 1]) & (
-                    parts.face >= 0
-                )
-                elements += [[face, name] for face in np.unique(parts.face[of_these]).tolist()]
-            findings.append(verdict.finding(code, elements, slight=slight, count=len(components)))
-    if comparison.undecided_pairs:
-        findings.append(
-            verdict.finding(
-                UNCHECKED, subject=OVERLAP_OF_COMPONENTS, count=comparison.undecided_pairs
-            )
-        )
+        if not len(components):
+            continue
+        elements = []
+        for number in np.unique(components[:, 0]):
+            parts = solids[number].parts()
+            name = reading.parts[number].source_object_name or reading.name
+            of_solid = components[components[:, 0] == number, 1]
+            faces = parts.face[np.isin(parts.part, of_solid) & (parts.face >= 0)]
+            elements += [[face, name] for face in np.unique(faces).tolist()]
+        findings.append(verdict.finding(code, elements, slight=slight, count=len(components)))
+    count = comparison.undecided_pairs
+    if count:
+        findings.append(verdict.finding(UNCHECKED, subject=OVERLAP_OF_COMPONENTS, count=count))
     return findings
 
 
@@ -207,15 +235,17 @@ def area_of_instances(
     matrices: NDArray,
     measured: Callable[[mesh.Surface], moments.Moments] | None,
 ) -> Iterator[moments.Moments]:
-    """Yield the area moments of a surface's images, `measured` once for each uneven map, or None
-    for totals alone.
+    """Yield the area moments of a surface's images.
+
+    area: moments of the surface, which similarities map. measured: returns those of a surface that
+    another map has made; None if totals are enough.
     """
     if measured is None:
-        even = moments.are_similarities(matrices[:, :3, :3])
-        if even.any():
-            yield moments.sum_of_images(area, matrices[even])
-        if not even.all():
-            yield polyhedron.area_of_images(surface, matrices[~even, :3, :3])
+        is_even = moments.are_similarities(matrices[:, :3, :3])
+        if is_even.any():
+            yield moments.sum_of_images(area, matrices[is_even])
+        if not is_even.all():
+            yield polyhedron.area_of_images(surface, matrices[~is_even, :3, :3])
         return
     for image, matrices_of_image, _ in group_by_similarity(surface, matrices):
         yield moments.sum_of_images(
@@ -244,24 +274,26 @@ def merge_health(healths: Iterable[tuple[verdict.MeshHealth, int, float]]) -> ve
     """Return the summed health of parts (health, instances, area); only a single part keeps its
     faulty elements.
     """
-    healths = list(healths)
-    first, copies, _ = healths[0]
-    if len(healths) == 1 and copies == 1:
+    parts = list(healths)
+    first, copies, _ = parts[0]
+    if len(parts) == 1 and copies == 1:
         return first
-    area = sum(part_area for *_, part_area in healths)
+    area = sum(part_area for *_, part_area in parts)
+    cap_area = sum(health.cap_area_share * part_area for health, _, part_area in parts)
     total = {
         "defective_elements": verdict.DefectiveElements(),
-        "closed": all(h.closed for h, *_ in healths),
-        "welded": any(h.welded for h, *_ in healths),
+        "closed": all(health.closed for health, *_ in parts),
+        "welded": any(health.welded for health, *_ in parts),
         verdict.SELF_INTERSECTION: min(
-            (h.self_intersection for h, *_ in healths), key=list(verdict.Intersection).index
+            (health.self_intersection for health, *_ in parts),
+            key=list(verdict.Intersection).index,
         ),
-        "volume_spread": sum(h.volume_spread for h, *_ in healths),
-        "cap_area_share": sum(h.cap_area_share * part_area for h, _, part_area in healths) / area
-        if area > 0.0
-        else 0.0,
+        "volume_spread": sum(health.volume_spread for health, *_ in parts),
+        "cap_area_share": cap_area / area if area > 0.0 else 0.0,
     }
     for field in fields(verdict.MeshHealth):
         if field.name not in total:
-            total[field.name] = sum(getattr(h, field.name) * k for h, k, _ in healths)
+            total[field.name] = sum(
+                getattr(health, field.name) * count for health, count, _ in parts
+            )
     return verdict.MeshHealth(**total)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
@@ -25,7 +25,7 @@ from ..solid import (
     measure_again,
     measure_stack,
 )
-from ..verdict import NEGLIGIBLE, Finding, Method, Procedure, finding, least_trusted
+from ..verdict import NEGLIGIBLE, Finding, MeshHealth, Method, Procedure, finding, least_trusted
 from .findings import (
     DRAWN_AS_POLYGONS,
     FLAT_SURFACES,
@@ -63,9 +63,10 @@ class MeshBody(measurement.Body):
         """Return the moments of volume and area (None without `area`) to an order, measured once
         for each part.
         """
-        volumes, areas = [], []
-        # up to third order the area is found on the way, and makes bounds smaller
-        alone = 0 if order <= 3 else None
+        volumes = []
+        areas = []
+        # Up to third order the area costs nothing, and makes the bounds of the volume smaller.
+        least_area_order = 0 if order <= 3 else None
 
         def measured(surface: mesh.Surface) -> Moments:
             return polyhedron.polyhedron_moments(
@@ -74,8 +75,8 @@ class MeshBody(measurement.Body):
 
         for solid, matrices in self.solids:
             surface = solid.given_surface
-            # otherwise the repaired surface has fewer or more faces
-            same = (
+            # Otherwise, the repair has removed or added faces, and the area is measured alone.
+            has_same_faces = (
                 solid.method in (Procedure.EXACT, Procedure.REORIENTED)
                 and not solid.health.duplicate_faces
                 and solid.repaired_surface.triangle_count == surface.triangle_count
@@ -83,7 +84,7 @@ class MeshBody(measurement.Body):
             volume, faces = polyhedron.polyhedron_moments(
                 solid.repaired_surface,
                 order,
-                area_order=order if area and same else alone,
+                area_order=order if area and has_same_faces else least_area_order,
                 about=solid.volume.about,  # an open surface's moments depend on it
                 exact=True,
                 threads=self.threads,
@@ -91,7 +92,7 @@ class MeshBody(measurement.Body):
             )
             volumes.append(sum_of_images(volume, matrices))
             if area:
-                of_faces = faces if same and faces is not None else measured(surface)
+                of_faces = faces if has_same_faces and faces is not None else measured(surface)
                 areas.extend(area_of_instances(surface, of_faces, matrices, measured))
         return sum_moments(volumes), sum_moments(areas) if area else None
 
@@ -127,99 +128,113 @@ def with_input_error(moments: Moments, known: Moments) -> Moments:
 def extend_input_error(moments: Moments, known: Moments) -> Moments:
     """Return moments with input bounds of every order: the bound of the `known` total times powers
     of the reach.
+
+    The bound of the first moment along x is that of the total times the reach.
     """
-    swept, further = known.input_error[:2].tolist()
-    reach = further / swept if swept > 0.0 else 0.0
-    return replace(moments, input_error=swept * reach ** monomials(moments.order).sum(axis=1))
+    total_error, first_error = known.input_error[:2].tolist()
+    reach = first_error / total_error if total_error > 0.0 else 0.0
+    return replace(moments, input_error=total_error * reach ** monomials(moments.order).sum(axis=1))
 
 
 def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -> MeshBody:
     """Return the sum of all parts, each measured once in its own coordinates, and mapped to its
     places.
     """
-    volumes = []
-    areas = []
-    healths = []
-    procedures = []
-    by_part = []
-    parts = []
-    drawn = drawn_names(reading)
-
-    def measured_area(surface: mesh.Surface) -> Moments:
-        return polyhedron.polyhedron_moments(
-            surface, area_order=3, threads=threads, allow_open=True
-        )[1]
-
-    measured = measured_area if shell else None
-    surfaces = [part.surface for part in reading.parts]
     measure = partial(measure_stack, shell=True) if shell else measure_again
-    stack = measure(surfaces, threads=threads)
-    for i, part in enumerate(reading.parts):
-        solid = stack[i]
-        matrices = to_si(part.matrices, unit)
-        volumes.append(sum_of_images(solid.volume, matrices))
-        image_areas = list(area_of_instances(solid.given_surface, solid.area, matrices, measured))
-        areas.extend(image_areas)
-        total = float(solid.volume.raw[0])
-        stretch = float(volumes[-1].raw[0]) / total if total else 0.0  # Σ |det|
-        health = replace(solid.health, volume_spread=solid.health.volume_spread * stretch)
-        healths.append(
-            (health, len(matrices), sum([float(moments.raw[0]) for moments in image_areas]))
-        )
-        flat = not shell and not solid.volume.raw.any()
-        procedures.append(None if flat else Procedure(solid.method))
-        if shell:  # A sheet is not repaired.
-            copies = solid.health.defective_elements.duplicate_faces
-            remarks = [_copies_of_shell(part.surface, copies)] if len(copies) else []
-        else:
-            remarks = [] if flat else of_drawn(solid.findings, [part], drawn)
-        by_part.append((part.source_object_name, remarks))
-        parts.append((solid, matrices))
-    findings = findings_by_part(by_part, reading.name)
-    health = merge_health(healths)
+    stack = measure([part.surface for part in reading.parts], threads=threads)
+    drawn = drawn_names(reading)
+    images = [
+        _measure_part(part, stack[i], unit, shell, threads, drawn)
+        for i, part in enumerate(reading.parts)
+    ]
+    volume = sum_moments([image.volume for image in images])
+    health = merge_health((image.health, len(image.matrices), image.area) for image in images)
+    findings = findings_by_part(
+        [(part.source_object_name, image.findings) for part, image in zip(reading.parts, images)],
+        reading.name,
+    )
+    solids = tuple((image.solid, image.matrices) for image in images)
     if not shell and instances_overlap(reading):
-        if (
-            sum(part.surface.triangle_count * len(part.matrices) for part in reading.parts)
-            <= MAX_COMPARED_TRIANGLES
-        ):
-            comparison = compare_places(parts)
-            findings += overlap_findings(reading, [solid for solid, _ in parts], comparison)
-            nested, overlapping = (
-                len(pairs) for pairs in (comparison.nested, comparison.overlapping)
-            )
+        count = sum(part.surface.triangle_count * len(part.matrices) for part in reading.parts)
+        if count <= MAX_COMPARED_TRIANGLES:
+            comparison = compare_places(solids)
+            findings += overlap_findings(reading, [solid for solid, _ in solids], comparison)
             health = replace(
                 health,
-                nested_components=health.nested_components + nested,
-                overlapping_components=health.overlapping_components + overlapping,
+                nested_components=health.nested_components + len(comparison.nested),
+                overlapping_components=health.overlapping_components + len(comparison.overlapping),
             )
         else:
             findings.append(finding(UNCHECKED, subject=OVERLAP_OF_INSTANCES))
-    of_solids = [procedure for procedure in procedures if procedure]
-    if of_solids and len(of_solids) < len(procedures):
-        flat_area = sum(
-            [area for (_, _, area), procedure in zip(healths, procedures) if procedure is None]
-        )
-        slight = flat_area * unit * instances_size(reading) < NEGLIGIBLE * float(
-            sum_moments(volumes).total
-        )
-        findings.append(
-            finding(
-                FLAT_SURFACES, slight=slight, count=procedures.count(None), total=len(procedures)
-            )
-        )
+    flat = [image for image in images if image.is_flat]
+    if 0 < len(flat) < len(images):
+        flat_area = sum([image.area for image in flat])
+        negligible = NEGLIGIBLE * float(volume.total)
+        slight = flat_area * unit * instances_size(reading) < negligible
+        findings.append(finding(FLAT_SURFACES, slight=slight, count=len(flat), total=len(images)))
     return MeshBody(
-        sum_moments(volumes),
-        sum_moments(areas),
+        volume,
+        sum_moments([moments for image in images for moments in image.area_moments]),
         health,
-        Method(least_trusted(of_solids)),
+        Method(
+            least_trusted([Procedure(image.solid.method) for image in images if not image.is_flat])
+        ),
         tuple(findings),
-        face_count=sum([solid.face_count for solid, _ in parts]),
-        solids=tuple(parts),
+        face_count=sum([image.solid.face_count for image in images]),
+        solids=solids,
         threads=threads,
     )
 
 
+class _PartImages(NamedTuple):
+    """A measured surface in all its places, in SI units.
+
+    matrices: (k, 4, 4) maps to its places. area_moments: one or several, to be added; area: their
+    total. is_flat: True for a solid without volume.
+    """
+
+    solid: SolidIntegrals
+    matrices: Array
+    volume: Moments
+    area_moments: list[Moments]
+    area: float
+    health: MeshHealth
+    is_flat: bool
+    findings: list[Finding]
+
+
+def _measure_part(
+    part: Part, solid: SolidIntegrals, unit: float, shell: bool, threads: int, drawn: set[str]
+) -> _PartImages:
+    """Return the images of a measured part. drawn: as `drawn_names` returns."""
+
+    def measured(surface: mesh.Surface) -> Moments:
+        return polyhedron.polyhedron_moments(
+            surface, area_order=3, threads=threads, allow_open=True
+        )[1]
+
+    matrices = to_si(part.matrices, unit)
+    volume = sum_of_images(solid.volume, matrices)
+    area_moments = list(
+        area_of_instances(solid.given_surface, solid.area, matrices, measured if shell else None)
+    )
+    own_volume = float(solid.volume.raw[0])
+    stretch = float(volume.raw[0]) / own_volume if own_volume else 0.0  # Σ |det|
+    health = replace(solid.health, volume_spread=solid.health.volume_spread * stretch)
+    is_flat = not shell and not solid.volume.raw.any()
+    findings = []
+    if shell:  # A sheet is not repaired.
+        copies = solid.health.defective_elements.duplicate_faces
+        if len(copies):
+            findings.append(_copies_of_shell(part.surface, copies))
+    elif not is_flat:
+        findings = of_drawn(solid.findings, [part], drawn)
+    area = sum([float(moments.raw[0]) for moments in area_moments])
+    return _PartImages(solid, matrices, volume, area_moments, area, health, is_flat, findings)
+
+
 def _copies_of_shell(surface: mesh.Surface, copies: Integers) -> Finding:
+    """Return the finding about faces of a sheet that are there twice. copies: their indices."""
     triangles, faces = surface.all_triangles()
     area = np.linalg.norm(mesh.normals(surface.points.astype(np.float64), triangles), axis=1)
     slight = bool(area[np.isin(faces, copies)].sum() < NEGLIGIBLE * area.sum())

@@ -16,7 +16,9 @@ ROUNDINGS = 8.0  # relative bound of a ball's moments, in units of float64
 
 
 def ball_moments(center: Array, radius: float, order: int) -> moments.Moments:
-    """Return the moments of the volume of a ball about its center."""
+    """Return the moments of the volume of a ball about its center: 0 if an exponent is odd, else
+    2 Γ((p+1)/2) Γ((q+1)/2) Γ((r+1)/2) / Γ((n+3)/2) · R^(n+3) / (n+3) with n = p+q+r.
+    """
     exponents = moments.monomials(order)
     degree = exponents.sum(axis=1) + 3
     gammas = np.array([math.gamma((n + 1) / 2.0) for n in range(order + 4)])
@@ -37,19 +39,24 @@ class PocketRoom:
         self, cores: Sequence[mesh.Surface], outsides: Sequence[mesh.Surface], line: float
     ) -> None:
         self.line = line
-        joined = mesh.join_surfaces(cores), mesh.join_surfaces(outsides)
-        self._trees = [mesh.tree_of_all(one.points, one.all_triangles()[0]) for one in joined]
-        self.low, self.high = joined[0].points.min(axis=0), joined[0].points.max(axis=0)
+        core = mesh.join_surfaces(cores)
+        outside = mesh.join_surfaces(outsides)
+        self._trees = [
+            mesh.tree_of_all(surface.points, surface.all_triangles()[0])
+            for surface in (core, outside)
+        ]
+        self.low = core.points.min(axis=0)
+        self.high = core.points.max(axis=0)
 
     def radii(self, places: Array) -> Array:
         """Return the (k,) largest radii of pockets around places (k, 3); 0 outside of the core."""
-        whole = np.zeros(len(places), np.intp)
+        part = np.zeros(len(places), np.intp)  # A tree may hold several meshes; these hold one.
         core, outside = self._trees
-        winding, is_sure = core.winding_numbers(places - core.origin, whole, 0.0)
+        winding, is_sure = core.winding_numbers(places - core.origin, part, 0.0)
         inside = np.flatnonzero(is_sure & (winding == 1))
-        found = np.zeros(len(places))
-        places, whole = places[inside], whole[inside]
-        away = outside.distances(places - outside.origin, whole) - self.line
-        radii = np.minimum(core.distances(places - core.origin, whole), away)
-        found[inside] = np.maximum(radii, 0.0)
-        return found
+        inner = places[inside]
+        from_outside = outside.distances(inner - outside.origin, part[inside]) - self.line
+        from_core = core.distances(inner - core.origin, part[inside])
+        radii = np.zeros(len(places))
+        radii[inside] = np.maximum(np.minimum(from_core, from_outside), 0.0)
+        return radii

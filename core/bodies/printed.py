@@ -25,7 +25,8 @@ def find_cores(
     body: MeshBody, printed: measurement.PrintSettings
 ) -> tuple[list[wall.PrintCore], list[mesh.Surface]]:
     """Return the cores of a body, and the surfaces of its outside. Raises MeasureError."""
-    cores, outsides = [], []
+    cores = []
+    outsides = []
     for solid, matrices in body.solids:
         if solid.method == verdict.Procedure.OPEN:
             raise verdict.ReadError(wall.PRINT_UNFIT, fault="its surface is open. Close it")
@@ -51,24 +52,24 @@ def print_body(
         raise verdict.ReadError(measurement.WALL_UNSUPPORTED, quantity="A varying density")
     order = max(moments.KNOWN_ORDER, settings.order or 0)
     cores, outsides = find_cores(body, printed)
-    core = moments.sum_moments(
+    core_volume = moments.sum_moments(
         [
-            polyhedron.polyhedron_moments(one.surface, order, exact=True, allow_open=True)[0]
-            for one in cores
+            polyhedron.polyhedron_moments(core.surface, order, exact=True, allow_open=True)[0]
+            for core in cores
         ]
     )
     volume = body.third_order() if order == moments.KNOWN_ORDER else body.moments(order, False)[0]
-    if not core.total > LEAST_CORE * volume.total:
+    if not core_volume.total > LEAST_CORE * volume.total:
         raise verdict.ReadError(
             wall.PRINT_UNFIT,
             fault="its walls and layers are thicker than the part. Use Kind: Solid",
         )
-    filled = volume + core * (printed.infill / 100.0 - 1.0)
+    material = volume + core_volume * (printed.infill / 100.0 - 1.0)
     findings = body.findings
-    minimum = min(one.minimum for one in cores)
-    maximum = max(one.maximum for one in cores)
+    minimum = min(core.minimum for core in cores)
+    maximum = max(core.maximum for core in cores)
     if minimum < 1.0 - REPORTED or maximum > 1.0 + REPORTED:
-        misplaced = sum(one.misplaced for one in cores) * (1.0 - printed.infill / 100.0)
+        misplaced = sum(core.misplaced for core in cores) * (1.0 - printed.infill / 100.0)
         slight = misplaced < verdict.NEGLIGIBLE * volume.total
         varies = verdict.finding(
             WALL_THICKNESS_VARIES, slight=slight, minimum=minimum, maximum=maximum
@@ -82,12 +83,12 @@ def print_body(
             raise verdict.ReadError(wall.PRINT_UNFIT, fault=fault)
         place = np.eye(4) if place is None else place
         center = place[:3, :3] @ pocket.center + place[:3, 3]
-        room = PocketRoom([one.surface for one in cores], outsides, printed.line_width)
+        room = PocketRoom([core.surface for core in cores], outsides, printed.line_width)
         if pocket.radius > float(room.radii(center[None])[0]) * (1.0 + POCKET_RTOL):
             fault = "its pocket reaches out of the core. Make it smaller, or remove it"
             raise verdict.ReadError(wall.PRINT_UNFIT, fault=fault)
         ball = ball_moments(center, pocket.radius, order)
-        filled = filled + ball * (-printed.infill / 100.0)
+        material = material + ball * (-printed.infill / 100.0)
         ballast = replace(ball, measure=moments.Measure.MASS) * pocket.density
         record |= {
             "pocket_center": center.tolist(),
@@ -95,9 +96,9 @@ def print_body(
             "pocket_density": pocket.density,
             "pocket_mass": ballast.total,
         }
-    mass = replace(filled, measure=moments.Measure.MASS) * (settings.density or 1.0)
-    record |= {"core_volume": core.total, "material_volume": filled.total}
-    kilograms = settings.mass or mass.total
+    mass = replace(material, measure=moments.Measure.MASS) * (settings.density or 1.0)
+    record |= {"core_volume": core_volume.total, "material_volume": material.total}
+    kilograms = settings.mass or mass.total  # of printed material, without ballast
     if ballast is not None:
         mass = mass + ballast
     if printed.price > 0.0:

@@ -86,12 +86,11 @@ class WallPiece:
     def moments(self, side: str, thickness: float, order: int = KNOWN_ORDER) -> Moments:
         """Return the moments of the wall, in SI units."""
         reach = split_thickness(side, thickness / self.scale)
-        own = (
-            self.offset.moments(*reach)
-            if order <= KNOWN_ORDER
-            else wall_moments(self.offset, *reach, order)
-        )
-        return sum_of_images(own, self.matrices)
+        if order <= KNOWN_ORDER:
+            wall = self.offset.moments(*reach)
+        else:
+            wall = wall_moments(self.offset, *reach, order)
+        return sum_of_images(wall, self.matrices)
 
     def surfaces(self, side: str, thickness: float) -> Iterator[mesh.Surface]:
         """Yield the closed surfaces of the wall in its places, in m."""
@@ -173,23 +172,25 @@ class Walls:
         )
 
     def _folded_reason(self, thickness: float) -> Finding:
+        """Return the finding about the wall that folds over first, with the (3,) point in m where
+        it does.
+        """
         piece = min(self.pieces, key=lambda piece: piece.max_thickness(self.side))
-        largest = self.max_thickness
         point = None
-        if len(piece.offset.points):
+        if len(piece.offset.points):  # else they were dropped (`drop_arrays`)
             matrix = piece.matrices[0]
-            point = (
-                matrix[:3, :3] @ piece.offset.first_fold_location(self.side) + matrix[:3, 3]
-            ).tolist()
+            location = piece.offset.first_fold_location(self.side)
+            point = (matrix[:3, :3] @ location + matrix[:3, 3]).tolist()
         return finding(
             WALL_FOLDS,
             thickness=thickness,
             side=self.side,
-            largest=_round_down(largest),
+            largest=_round_down(self.max_thickness),
             point=point,
         )
 
-    def _decisions(self, thickness: float, looked: bool) -> list[Finding]:
+    def _decisions(self, thickness: float, check_overlap: bool) -> list[Finding]:
+        """Return findings about the walls of a thickness, m."""
         findings = [finding(WALL_MEASURED, thickness=thickness, side=self.side), *self.findings]
         minimum = float(min(piece.offset.min_ratio for piece in self.pieces))
         maximum = float(max(piece.offset.max_ratio for piece in self.pieces))
@@ -201,7 +202,7 @@ class Walls:
         ignored = sum(piece.offset.degenerate_triangles for piece in self.pieces)
         if ignored:
             findings.append(finding(WALL_FACES_WITHOUT_AREA, count=ignored))
-        if not looked:
+        if not check_overlap:
             findings.append(
                 finding(
                     UNCHECKED, subject="the overlap of the walls at this thickness. Press Measure"
@@ -277,38 +278,35 @@ def find_walls(reading: Reading, body: mesh_body.MeshBody, side: str) -> Walls:
     """
     if body.mass is not None:
         raise ReadError(WALL_UNSUPPORTED, quantity="A varying density")
-    pieces, findings = [], []
+    pieces = []
+    findings = []
     for part, (solid, matrices) in zip(reading.parts, body.solids):
-        surface = _orient_outward(part.surface, solid, findings)
+        surface, decisions = _orient_outward(part.surface, solid)
+        findings += decisions
         for image, image_matrices, _ in instances.group_by_similarity(surface, matrices):
             offset = offset_solid(image)
-            scale = np.cbrt(np.abs(np.linalg.det(image_matrices[:, :3, :3])))
-            _, which = np.unique(np.round(np.log(scale) / SAME_SCALE_RTOL), return_inverse=True)
-            for i in range(int(which.max()) + 1):
-                members = which.ravel() == i
-                pieces.append(
-                    WallPiece(offset, float(scale[members].mean()), image_matrices[members])
-                )
+            scales = np.cbrt(np.abs(np.linalg.det(image_matrices[:, :3, :3])))
+            rounded = np.round(np.log(scales) / SAME_SCALE_RTOL)
+            for scale in np.unique(rounded):
+                has_scale = rounded == scale
+                mean_scale = float(scales[has_scale].mean())
+                pieces.append(WallPiece(offset, mean_scale, image_matrices[has_scale]))
     return Walls(body, side, tuple(pieces), unique(findings))
 
 
 def _orient_outward(
-    surface: mesh.Surface, solid: SolidIntegrals, findings: list[Finding]
-) -> mesh.Surface:
-    """Return the surface with faces outward if it is closed, else unchanged with a finding."""
-    if solid.method in (Procedure.EXACT, Procedure.REORIENTED):
-        repaired = solid.repaired_surface
-        area = polyhedron.polyhedron_moments(repaired, area_order=0, allow_open=True)[1].total
-        # else the repair has removed faces
-        if abs(area - solid.area.total) <= SAME_AREA_RTOL * solid.area.total:
-            findings += [
-                result
-                for result in solid.findings
-                if result.code in {FLIPPED_FACES, INVERTED_COMPONENTS}
-            ]
-            return solid.repaired_surface
-    findings.append(finding(WALL_UNORIENTED))
-    return surface
+    surface: mesh.Surface, solid: SolidIntegrals
+) -> tuple[mesh.Surface, list[Finding]]:
+    """Return the surface with faces outward if it is closed, else as it is; and findings."""
+    unoriented = surface, [finding(WALL_UNORIENTED)]
+    if solid.method not in (Procedure.EXACT, Procedure.REORIENTED):
+        return unoriented
+    repaired = solid.repaired_surface
+    area = polyhedron.polyhedron_moments(repaired, area_order=0, allow_open=True)[1].total
+    if abs(area - solid.area.total) > SAME_AREA_RTOL * solid.area.total:
+        return unoriented  # The repair has removed faces.
+    turns = FLIPPED_FACES, INVERTED_COMPONENTS
+    return repaired, [result for result in solid.findings if result.code in turns]
 
 
 def _round_down(length: float) -> float:
@@ -317,6 +315,6 @@ def _round_down(length: float) -> float:
     """
     if not isfinite(length):
         return inf
-    unit = 10.0 ** (floor(log10(length)) - 3)
-    down = float("{:.4g}".format(floor(length / unit) * unit))
-    return down if down < length else float("{:.4g}".format(down - unit))
+    unit = 10.0 ** (floor(log10(length)) - 3)  # of the fourth digit
+    rounded = float("{:.4g}".format(floor(length / unit) * unit))
+    return rounded if rounded < length else float("{:.4g}".format(rounded - unit))

@@ -47,7 +47,8 @@ DIRECT_COST = 6.0  # Cost of a frequency in closed form, in cells spread.
 SAMPLE_FREQUENCIES = 24  # frequencies that are compared with the closed form
 ERROR_SAFETY_FACTOR = 3.0  # ratio of the reported or allowed error to the largest difference found
 # Rough shares of the time: of `_assign_triangles`, and of the comparison.
-SHARING_TIME, CHECKING_TIME = 0.3, 0.1
+ASSIGNMENT_TIME = 0.3
+CHECKING_TIME = 0.1
 TRIAL_RADII = (1.0, 0.6, 0.35, 0.2, 0.1, 0.05)  # Relative to the largest frequency along an axis.
 # Allowed factors of the errors of single triangles over the error of their sum.
 ERROR_CREDITS = (1e6, 1e5, 1e4, 1e3, 1e2, 10.0)
@@ -69,14 +70,18 @@ class GridTransform(Transform):
     otherwise errors are as for `solid_transform`.
     """
 
-    spreading: Spreading  # Set if any triangle takes points.
+    # Set if any triangle takes points.
+    spreading: Spreading
+    exact: Transform  # closed form at a sample of the frequencies
 
     def __init__(
         self, surface: Surface, grid: FrequencyGrid, of: Measure, tolerance: float, threads: int = 1
     ):
         check_type("grid", grid, FrequencyGrid)
         super().__init__(surface, grid, of, threads)
-        self.surface, self.grid, faces = surface, grid, self.faces
+        self.surface = surface
+        self.grid = grid
+        faces = self.faces
         # Allowed error of a mean over the area: half of the tolerance each for the points and for
         # the kernel.
         if of == Measure.VOLUME:
@@ -88,48 +93,50 @@ class GridTransform(Transform):
             step = 1.0
             largest = 1.0
         self.width = _kernel_width(grid.half, allowed * step, of == Measure.VOLUME)
-        # Allowed errors of a D, and of the transform.
-        self.each = allowed * largest / 2.0
-        self.joint_count = allowed * faces.area / ERROR_SAFETY_FACTOR
-        self.fine: list[tuple[int, Index]] = []
+        # Allowed errors of one D, and of all together.
+        self.single_tolerance = allowed * largest / 2.0
+        self.joint_tolerance = allowed * faces.area / ERROR_SAFETY_FACTOR
+        # Triangles that take points: the number of points along a side, and their indices.
+        self.point_groups: list[tuple[int, Index]] = []
 
     def _assign_triangles(self) -> Iterator[float]:
-        """Set `fine`, the triangles by number of points, and `direct`, the triangles that keep
-        their closed form.
-        """
-        counts = yield from self._counts()
+        """Set `point_groups`, and `direct`, the triangles that keep their closed form."""
+        counts = yield from self._point_counts()
         most = min(MAX_POINTS_PER_SIDE, int(np.sqrt(DIRECT_COST * len(self.sums) / self.width**3)))
         self.direct = self.faces.select(np.flatnonzero(counts > most))
-        self.fine = [
+        self.point_groups = [
             (n, np.flatnonzero(counts == n)) for n in np.unique(counts[counts <= most]).tolist()
         ]
-        if self.fine:
-            self.spreading = Spreading(
-                self.grid.half, self.width, 3 if self.measure == Measure.VOLUME else 1
-            )
 
-    def _counts(self) -> Generator[float, None, NDArray[np.int64]]:
-        """Return the (m,) numbers of Gauss points along the sides of the triangles."""
+    def _point_counts(self) -> Generator[float, None, NDArray[np.int64]]:
+        """Return the (m,) numbers of Gauss points along the sides of the triangles.
+
+        They are the fewest that keep the joint error at the trial vectors, or those of the bound.
+        """
         largest = np.sqrt(3.0) * self.grid.largest * self.faces.scale
         spans = largest * self.faces.diameters
-        regular = largest * self.faces.heights >= 2.0 * np.pi
-        bound = _points_per_side(spans, self.each)
+        keeps_bound = largest * self.faces.heights >= 2.0 * np.pi  # see the module
+        bound = _points_per_side(spans, self.single_tolerance)
         q = _trial_vectors(self.grid) * self.faces.scale
         size = np.sqrt((q**2).sum(axis=1)) if self.measure == Measure.VOLUME else 1.0
-        exact, before = None, bound
+        exact_rows = np.zeros(0, np.intp)
+        exact = np.zeros(len(q), np.complex128)
+        counts = bound
         for credit in ERROR_CREDITS:
-            fewer = np.where(regular, bound, _points_per_side(spans, self.each * credit))
-            tried = np.flatnonzero((fewer < bound) & (fewer <= MAX_POINTS_PER_SIDE))
-            if not len(tried) or np.array_equal(fewer, before):
+            before = counts
+            counts = _points_per_side(spans, self.single_tolerance * credit)
+            counts = np.where(keeps_bound, bound, counts)
+            rows = np.flatnonzero((counts < bound) & (counts <= MAX_POINTS_PER_SIDE))
+            if not len(rows) or np.array_equal(counts, before):
                 continue
-            before = fewer
-            if exact is None or len(exact[0]) != len(tried):
-                exact = tried, (yield from self._sum_over(tried, q))
-            points = np.zeros(len(q), np.complex128)
-            for n in np.unique(fewer[tried]).tolist():
-                points += yield from self._points_over(tried[fewer[tried] == n], n, q)
-            if (np.abs(points - exact[1]) / size).max() <= self.joint_count:
-                return fewer
+            if len(rows) != len(exact_rows):  # With less credit, rows only become fewer.
+                exact_rows = rows
+                exact = yield from self._sum_over(rows, q)
+            sums = np.zeros(len(q), np.complex128)
+            for n in np.unique(counts[rows]).tolist():
+                sums += yield from self._points_over(rows[counts[rows] == n], n, q)
+            if (np.abs(sums - exact) / size).max() <= self.joint_tolerance:
+                return counts
         return bound
 
     def _sum_over(
@@ -141,10 +148,10 @@ class GridTransform(Transform):
         faces = self.faces.select(triangle_rows)
         waves = ListWaves(q)
         total = np.zeros(len(q), np.complex128)
-        every = slice(0, len(q))
+        all_waves = slice(0, len(q))
         for run in faces.blocks(PAIRS_PER_BLOCK // len(q)):
             block = TriangleBlock(faces, run)
-            real, imaginary = PhaseMeans(block, waves, every)(every)
+            real, imaginary = PhaseMeans(block, waves, all_waves)(all_waves)
             weights = self._weights(block.normals, waves.q)
             total += (weights * (real + 0.5)).sum(axis=1) + 1j * (weights * imaginary).sum(axis=1)
             yield 0.0
@@ -174,10 +181,8 @@ class GridTransform(Transform):
         """Return (k, m) (q·N) / |q|, or (1, m) |N|, for normals (3, m) and wave vectors (3, k)."""
         if self.measure == Measure.AREA:
             return np.sqrt((vectors**2).sum(axis=0))[None]
-        return (
-            sum(np.multiply.outer(a, b) for a, b in zip(q, vectors))
-            / np.sqrt((q**2).sum(axis=0))[:, None]
-        )
+        products = sum(np.multiply.outer(a, b) for a, b in zip(q, vectors))
+        return products / np.sqrt((q**2).sum(axis=0))[:, None]
 
     def _nodes(self, triangles: NDArray, n: int) -> tuple[NDArray, NDArray, NDArray]:
         """Return (3, m, k) points in triangles, (3, m) the normals and (k,) weights."""
@@ -194,58 +199,60 @@ class GridTransform(Transform):
     def steps(self) -> Iterator[float]:
         """Do the work in parts; yield the rough fraction done, from 0 to 1, after each."""
         expected = len(self.faces.triangles) * len(_trial_vectors(self.grid)) / PAIRS_PER_BLOCK
-        for tried, _ in enumerate(self._assign_triangles()):
-            yield SHARING_TIME * tried / (tried + expected)
-        checked = CHECKING_TIME if self.fine else 0.0
-        direct = len(self.direct.triangles) * len(self.sums) * DIRECT_COST
-        total = direct + self.width**3 * sum(
-            len(triangle_rows) * len(triangle_rule(n)[1]) for n, triangle_rows in self.fine
-        )
-        done = 0.0
+        for trials, _ in enumerate(self._assign_triangles()):
+            yield ASSIGNMENT_TIME * trials / (trials + expected)
+        checking_time = CHECKING_TIME if self.point_groups else 0.0
+        # Costs are in cells spread.
+        direct_cost = len(self.direct.triangles) * len(self.sums) * DIRECT_COST
+        point_count = sum(len(rows) * len(triangle_rule(n)[1]) for n, rows in self.point_groups)
+        spreading_cost = self.width**3 * point_count
+        unit = (1.0 - ASSIGNMENT_TIME - checking_time) / (direct_cost + spreading_cost)
         for share in super().steps():
-            done = share * direct
-            yield SHARING_TIME + (1.0 - SHARING_TIME - checked) * done / total
-        for n, triangle_rows in self.fine:
+            yield ASSIGNMENT_TIME + share * direct_cost * unit
+        if not self.point_groups:
+            return
+        for share in self._spread_points():
+            yield ASSIGNMENT_TIME + (direct_cost + share * spreading_cost) * unit
+        vectors = self.waves.vectors(slice(0, self.waves.rows))
+        middle = (self.grid.half, self.grid.half, 0)
+        for axis, waves in enumerate(self.spreading.sums()):
+            # Less the 1/2 that `Transform` subtracts from each D.
+            spread = waves.reshape(-1) - waves[middle].real
+            self.sums += vectors[axis] * spread if self.measure == Measure.VOLUME else spread
+            yield 1.0 - checking_time
+        samples = self.grid.vectors()[_sample_indices(self.grid)]
+        self.exact = Transform(self.surface, samples, self.measure, self.threads)
+        yield from (1.0 - checking_time * (1.0 - share) for share in self.exact.steps())
+
+    def _spread_points(self) -> Iterator[float]:
+        """Spread the points of `point_groups`; yield the fraction done after each chunk."""
+        strength_count = 3 if self.measure == Measure.VOLUME else 1
+        self.spreading = Spreading(self.grid.half, self.width, strength_count)
+        total = sum(len(rows) * len(triangle_rule(n)[1]) for n, rows in self.point_groups)
+        done = 0
+        for n, rows in self.point_groups:
             count = len(triangle_rule(n)[1])
             size = max(1, POINTS_PER_CHUNK // count)
-            for start in range(0, len(triangle_rows), size):
-                some = triangle_rows[start : start + size]
-                points, strengths, weights = self._nodes(self.faces.triangles[some], n)
+            for start in range(0, len(rows), size):
+                chunk = rows[start : start + size]
+                points, strengths, weights = self._nodes(self.faces.triangles[chunk], n)
                 if self.measure == Measure.AREA:
                     strengths = np.sqrt((strengths**2).sum(axis=0))[None]
-                strengths = (strengths[..., None] * weights).reshape(len(strengths), -1)
-                self.spreading.add(
-                    points.reshape(3, -1) * (self.grid.step * self.faces.scale), strengths
-                )
-                done += len(some) * count * self.width**3
-                yield SHARING_TIME + (1.0 - SHARING_TIME - checked) * done / total
-        if self.fine:
-            vectors = self.waves.vectors(slice(0, self.waves.rows))
-            middle = (self.grid.half, self.grid.half, 0)
-            for axis, waves in enumerate(self.spreading.sums()):
-                # less the 1/2 that `Transform` subtracts from each D
-                spread = waves.reshape(-1) - waves[middle].real
-                self.sums += vectors[axis] * spread if self.measure == Measure.VOLUME else spread
-                yield 1.0 - checked
-            self.exact = Transform(
-                self.surface,
-                self.grid.vectors()[_sample_indices(self.grid)],
-                self.measure,
-                self.threads,
-            )
-            yield from (1.0 - checked * (1.0 - share) for share in self.exact.steps())
+                strengths = (strengths[..., None] * weights).reshape(strength_count, -1)
+                angles = points.reshape(3, -1) * (self.grid.step * self.faces.scale)
+                self.spreading.add(angles, strengths)
+                done += len(chunk) * count
+                yield done / total
 
     def result(self) -> Spectrum:
         """Return the spectrum, when all steps are done; its error includes the difference from
         closed-form samples.
         """
         spectrum = super().result()
-        if not self.fine:
+        if not self.point_groups:
             return spectrum
-        error = (
-            ERROR_SAFETY_FACTOR
-            * np.abs(spectrum.values[_sample_indices(self.grid)] - self.exact.result().values).max()
-        )
+        samples = spectrum.values[_sample_indices(self.grid)]
+        error = ERROR_SAFETY_FACTOR * np.abs(samples - self.exact.result().values).max()
         return replace(spectrum, error=spectrum.error + error, method=APPROXIMATE)
 
 
@@ -286,7 +293,8 @@ def _sample_indices(grid: FrequencyGrid) -> Index:
     """Return indices of sample places on a grid: on axes and diagonals, where faces show most, and
     random ones.
     """
-    h, n = grid.half, grid.count
+    h = grid.half
+    n = grid.count
     steps = np.concatenate([np.eye(3, dtype=int), np.ones((1, 3), int), 1 - np.eye(3, dtype=int)])
     positions = np.concatenate(
         [h + steps * s for s in (-h, -1, 1)]
@@ -323,9 +331,10 @@ class Spreading:
     """
 
     def __init__(self, half: int, width: int, count: int):
-        self.half, self.width = half, width
+        self.half = half
+        self.width = width
         self.side = _grid_side(half, width)
-        # along x some more cells, so that a block of neighbors covers one run of them
+        # Along x some more cells, so that a block of neighbors covers one run of them.
         self.cells = [np.zeros((self.side + width) * self.side**2) for _ in range(count)]
 
     def add(self, angles: Array, strengths: Array) -> None:
@@ -335,48 +344,49 @@ class Spreading:
         order = np.argsort(positions[0])
         size = max(1, CELLS_PER_BLOCK // self.width**3)
         for start in range(0, len(order), size):
-            some = order[start : start + size]
-            self._add_block(positions[:, some], strengths[:, some])
+            block = order[start : start + size]
+            self._add_block(positions[:, block], strengths[:, block])
 
     def _add_block(self, positions: NDArray, strengths: NDArray) -> None:
+        """Spread points at (3, p) positions, in cells and with neighbors along x, with strengths
+        (count, p).
+        """
         n = self.side
         w = self.width
         p = positions.shape[1]
         steps = np.arange(w)
         first = np.floor(positions - w / 2.0) + 1.0
-        kernel = _kernel(((first - positions)[..., None] + steps) * (2.0 / w), w)
+        kernel = _kernel(((first - positions)[..., None] + steps) * (2.0 / w), w)  # (3, p, w)
         x, y, z = first.astype(np.int64)[..., None] + (steps + w // 2)
-        y = y % n
-        z = z % n
         low = int(x.min())
         high = int(x.max()) + 1
-        plane = (y[:, :, None] * n + z[:, None, :]).reshape(p, 1, w * w)
-        index = ((x - low)[:, :, None] * (n * n) + plane).reshape(-1)
-        plane = (kernel[1][:, :, None] * kernel[2][:, None, :]).reshape(p, 1, w * w)
+        yz_cell = ((y % n)[:, :, None] * n + (z % n)[:, None, :]).reshape(p, 1, w * w)
+        yz_kernel = (kernel[1][:, :, None] * kernel[2][:, None, :]).reshape(p, 1, w * w)
+        cell = ((x - low)[:, :, None] * (n * n) + yz_cell).reshape(-1)
         weights = np.empty((p, w, w * w))
         run = slice(low * n * n, high * n * n)
         for cells, strength in zip(self.cells, strengths):
-            np.multiply((kernel[0] * strength[:, None])[:, :, None], plane, out=weights)
-            cells[run] += np.bincount(index, weights.reshape(-1), minlength=run.stop - run.start)
+            np.multiply((kernel[0] * strength[:, None])[:, :, None], yz_kernel, out=weights)
+            cells[run] += np.bincount(cell, weights.reshape(-1), minlength=run.stop - run.start)
 
     def sums(self) -> Iterator[NDArray[np.complex128]]:
         """Yield the (2 half + 1, 2 half + 1, half + 1) sums of each strength, for k_z ≥ 0, and drop
         its cells.
         """
         n = self.side
-        along = np.arange(-self.half, self.half + 1)
-        factor = np.exp(2j * np.pi / n * (self.width // 2) * along) / _kernel_transform(
-            along / n, self.width
-        )
+        k = np.arange(-self.half, self.half + 1)
+        # Cells are numbered from half a kernel below the grid.
+        shift = np.exp(2j * np.pi / n * (self.width // 2) * k)
+        factor = shift / _kernel_transform(k / n, self.width)
         while self.cells:
             cells = self.cells.pop(0).reshape(-1, n, n)
-            cells[: self.width] += cells[n:]
+            cells[: self.width] += cells[n:]  # The cells beyond the grid are those at its start.
             waves = np.fft.rfftn(cells[:n])
-            part = waves[np.ix_(along, along, along[self.half :])]
-            part *= factor[:, None, None]
-            part *= factor[None, :, None]
-            part *= factor[None, None, self.half :]
-            yield part
+            sums = waves[np.ix_(k, k, k[self.half :])]
+            sums *= factor[:, None, None]
+            sums *= factor[None, :, None]
+            sums *= factor[None, None, self.half :]
+            yield sums
 
 
 def _kernel(z: NDArray, width: int) -> Array:

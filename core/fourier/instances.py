@@ -43,45 +43,41 @@ class BodyTransform:
         threads: int = 1,
     ):
         self.q = q if isinstance(q, FrequencyGrid) else wave_vectors(q, 3)
-        self.measure, self.threads = of, threads
-        self.jobs = [
-            job for surface, matrices in parts for job in _distinct_images(surface, matrices)
+        self.measure = of
+        self.threads = threads
+        # Surfaces, and the (k, 3) places of their copies.
+        self.images = [
+            image for surface, matrices in parts for image in _distinct_images(surface, matrices)
         ]
-        if not self.jobs:
+        if not self.images:
             raise MeasureError(NO_FACES)
-        self.weights = [len(surface.triangles) for surface, _ in self.jobs]
-        instance_count = sum(len(offsets) for _, offsets in self.jobs)
-        self.tolerance = None
-        if (
-            isinstance(q, FrequencyGrid)
-            and sum(self.weights) * q.count**3 / 2.0 > MAX_CLOSED_FORM_PAIRS
-        ):
-            self.tolerance = FOURIER_RTOL * total / instance_count
+        self.triangle_count = sum(len(surface.triangles) for surface, _ in self.images)
+        self.tolerance = FOURIER_RTOL * total / sum(len(offsets) for _, offsets in self.images)
         self.spectrum: Spectrum | None = None
 
     def steps(self) -> Iterator[float]:
         """Do the work in parts; yield the fraction done, from 0 to 1, after each."""
         done = 0
-        everything = sum(self.weights)
-        for weight, (surface, offsets) in zip(self.weights, self.jobs):
-            if self.tolerance is None or not isinstance(self.q, FrequencyGrid):
-                transform = Transform(surface, self.q, self.measure, self.threads)
-            else:
-                transform = GridTransform(
-                    surface, self.q, self.measure, self.tolerance, self.threads
-                )
+        for surface, offsets in self.images:
+            transform = self._transform(surface)
             for share in transform.steps():
-                yield (done + share * weight) / everything
-            part_spectrum = transform.result()
-            waves = np.zeros(len(part_spectrum.q), np.complex128)
-            done += weight
+                yield (done + share * len(surface.triangles)) / self.triangle_count
+            spectrum = transform.result()
+            phases = np.zeros(len(spectrum.q), np.complex128)
+            done += len(surface.triangles)
             for offset in offsets:
-                waves += phase_factors(part_spectrum.q, offset)
-                yield done / everything
-            part_spectrum = part_spectrum.multiply_by_phases(waves, len(offsets))
-            self.spectrum = (
-                part_spectrum if self.spectrum is None else self.spectrum + part_spectrum
-            )
+                phases += phase_factors(spectrum.q, offset)
+                yield done / self.triangle_count
+            spectrum = spectrum.multiply_by_phases(phases, len(offsets))
+            self.spectrum = spectrum if self.spectrum is None else self.spectrum + spectrum
+
+    def _transform(self, surface: Surface) -> Transform:
+        """Return the transform of a surface: to a tolerance if all together are large."""
+        if isinstance(self.q, FrequencyGrid):
+            pairs = self.triangle_count * self.q.count**3 / 2.0
+            if pairs > MAX_CLOSED_FORM_PAIRS:
+                return GridTransform(surface, self.q, self.measure, self.tolerance, self.threads)
+        return Transform(surface, self.q, self.measure, self.threads)
 
     def result(self) -> Spectrum:
         """Return the spectrum of all surfaces together, when all steps are done."""

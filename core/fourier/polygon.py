@@ -85,18 +85,17 @@ class RegionTransform:
     ):
         self.grid = q if isinstance(q, FrequencyGrid) else None
         self.vectors = half_of_grid(q) if isinstance(q, FrequencyGrid) else wave_vectors(q, 2)
-        used = points[edges.ravel()] if len(edges) else np.zeros((1, 2))
-        if not np.isfinite(used).all():
+        ends = points[edges.ravel()] if len(edges) else np.zeros((1, 2))
+        if not np.isfinite(ends).all():
             raise ValueError("coordinates must be finite")
-        self.center = used.min(axis=0) / 2.0 + used.max(axis=0) / 2.0
-        reach = np.sqrt(((used - self.center) ** 2).sum(axis=1)).max()
-        self.scale = scale = (
-            float(np.ldexp(1.0, int(np.ceil(np.log2(reach))))) if reach > 0.0 else 1.0
-        )
-        self.start, self.end = ((points[edges[:, i]] - self.center) / scale for i in (0, 1))
-        self.perimeter = float(np.hypot(*(self.end - self.start).T).sum()) * scale
-        # an edge that moves sweeps over its length times the way, and a little at its ends
-        self.moved, self.input_error = (
+        self.center = ends.min(axis=0) / 2.0 + ends.max(axis=0) / 2.0
+        reach = np.sqrt(((ends - self.center) ** 2).sum(axis=1)).max()
+        exponent = int(np.ceil(np.log2(reach))) if reach > 0.0 else 0
+        self.scale = float(np.ldexp(1.0, exponent))
+        self.start, self.end = ((points[edges[:, i]] - self.center) / self.scale for i in (0, 1))
+        self.perimeter = float(np.hypot(*(self.end - self.start).T).sum()) * self.scale
+        # An edge that moves sweeps over its length times the way, and a little at its ends.
+        self.rounding_error, self.input_error = (
             np.sqrt(2.0) * step * (self.perimeter + 3.0 * step * len(edges))
             for step in (rounded, stored)
         )
@@ -119,18 +118,18 @@ class RegionTransform:
         scale = self.scale
         values = self.values
         q = self.vectors
-        near = np.sqrt((q**2).sum(axis=1)) * scale <= ZERO_WAVE_NUMBER
-        if near.any():
+        is_zero = np.sqrt((q**2).sum(axis=1)) * scale <= ZERO_WAVE_NUMBER
+        if is_zero.any():  # A - i q·∫x dA
             edge = self.end - self.start
             cross = self.start[:, 0] * edge[:, 1] - self.start[:, 1] * edge[:, 0]
-            first = (cross[:, None] * (self.start + self.end)).sum(axis=0) / 6.0
-            values[near] = cross.sum() / 2.0 - 1j * (q[near] @ first * scale)
+            first_moment = (cross[:, None] * (self.start + self.end)).sum(axis=0) / 6.0
+            values[is_zero] = cross.sum() / 2.0 - 1j * (q[is_zero] @ first_moment * scale)
         values = values * scale**2 * phase_factors(q, self.center)
         if self.grid is not None:
             q = self.grid.vectors()
             values = self.grid.expand(values)
-        error = U * ROUNDING_FACTOR * self.perimeter * scale + self.moved + 8.0 * U * np.abs(values)
-        return Spectrum(q, values, error, float(self.input_error))
+        error = U * ROUNDING_FACTOR * self.perimeter * scale + self.rounding_error
+        return Spectrum(q, values, error + 8.0 * U * np.abs(values), float(self.input_error))
 
 
 def half_of_grid(grid: FrequencyGrid) -> Array:
@@ -142,25 +141,24 @@ def half_of_grid(grid: FrequencyGrid) -> Array:
 
 
 def _edge_sum(middle: NDArray, half: NDArray, normal: NDArray, q: NDArray) -> Complex:
-    """Return (M,) the sum over k edges at (M, 2) wave vectors; middles, half edges and normals are
-    (2, k).
+    """Return the module's sum over k edges at (M, 2) wave vectors, (M,); middles, half edges and
+    normals are (2, k).
     """
-    block = q.T
-    m, t, across = (
-        sum((np.multiply.outer(a, b) for a, b in zip(block, vectors)), np.zeros(()))
+    half_phase, t, across = (
+        sum((np.multiply.outer(a, b) for a, b in zip(q.T, vectors)), np.zeros(()))
         for vectors in (middle / 2.0, half, normal)
     )
-    v = -2.0 * np.sin(m) * (np.sin(m) + 1j * np.cos(m))  # exp(-i q·x) - 1
-    less = _sinc_minus_one(t)
-    square = np.maximum((block**2).sum(axis=0), ZERO_WAVE_NUMBER**2)
-    return 1j * (across * (v + (1.0 + v) * less)).sum(axis=1) / square
+    # exp(-i m) - 1, without cancellation
+    turn = -2.0 * np.sin(half_phase) * (np.sin(half_phase) + 1j * np.cos(half_phase))
+    square = np.maximum((q.T**2).sum(axis=0), ZERO_WAVE_NUMBER**2)
+    return 1j * (across * (turn + (1.0 + turn) * _sinc_minus_one(t))).sum(axis=1) / square
 
 
 def _sinc_minus_one(t: NDArray) -> Array:
     """Return sin(t) / t - 1, accurate to its last digits."""
     square = np.minimum(t * t, 1.0)
-    total = np.zeros_like(t)
+    series = np.zeros_like(t)
     for k in range(SERIES_TERMS, 0, -1):
-        total = square * (total + (-1.0) ** k / factorial(2 * k + 1))
-    large = np.abs(t) > 1.0
-    return np.where(large, np.sin(t) / np.where(large, t, 1.0) - 1.0, total)
+        series = square * (series + (-1.0) ** k / factorial(2 * k + 1))
+    is_large = np.abs(t) > 1.0
+    return np.where(is_large, np.sin(t) / np.where(is_large, t, 1.0) - 1.0, series)

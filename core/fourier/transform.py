@@ -21,6 +21,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
+from typing import cast
 
 import numpy as np
 
@@ -136,25 +137,26 @@ class Transform:
     def __init__(
         self, surface: Surface, q: ArrayLike | FrequencyGrid, of: Measure, threads: int = 1
     ):
-        self.q = waves = q if isinstance(q, FrequencyGrid) else wave_vectors(q, 3)
-        self.measure, self.threads = of, threads
-        self.faces = self.direct = SortedTriangles(surface)
+        self.q = q if isinstance(q, FrequencyGrid) else wave_vectors(q, 3)
+        self.measure = of
+        self.threads = threads
+        self.faces = SortedTriangles(surface)
+        self.direct = self.faces  # the triangles that are summed in closed form
         self.volume, self.area = polyhedron_moments(
             surface, area_order=0, threads=threads, allow_open=True
         )
-        self.gap = 0.0
+        self.gap = 0.0  # the part of the vector sum that only an open surface has
         if of == Measure.VOLUME:
-            self.gap = (
-                float(np.linalg.norm(np.cross(GENERIC_WAVE_VECTOR[0], self._vector_sum()))) / 1.5
-            )
+            across = np.cross(GENERIC_WAVE_VECTOR[0], self._vector_sum())
+            self.gap = float(np.linalg.norm(across)) / 1.5
             if self.gap > OPEN_AREA_RTOL * self.faces.area:
                 raise MeasureError(FOURIER_OF_OPEN_SURFACE)
         scale = self.faces.scale
-        self.waves = (
-            GridWaves(waves, scale)
-            if isinstance(waves, FrequencyGrid)
-            else ListWaves(waves * scale)
-        )
+        if isinstance(self.q, FrequencyGrid):
+            self.waves = GridWaves(self.q, scale)
+        else:
+            self.waves = ListWaves(self.q * scale)
+        # Sums in the order of `waves`, and what was rounded off them.
         self.sums, self.rest = np.zeros((2, self.waves.rows * self.waves.columns), np.complex128)
 
     def _vector_sum(self) -> Complex:
@@ -173,25 +175,24 @@ class Transform:
 
     def steps(self) -> Iterator[float]:
         """Do the work in parts; yield the fraction done, from 0 to 1, after each."""
-        faces = min(TRIANGLES_PER_BLOCK, max(len(self.direct.triangles), 1))
-        size = max(1, PAIRS_PER_TASK // (faces * self.waves.columns))
+        block_size = min(TRIANGLES_PER_BLOCK, max(len(self.direct.triangles), 1))
+        rows_per_task = max(1, PAIRS_PER_TASK // (block_size * self.waves.columns))
         rows = self.waves.rows
-        parts = [slice(i, min(i + size, rows)) for i in range(0, rows, size)]
-        shares = [(run, part) for run in self.direct.blocks() for part in parts]
+        parts = [slice(i, min(i + rows_per_task, rows)) for i in range(0, rows, rows_per_task)]
+        tasks = [(run, part) for run in self.direct.blocks() for part in parts]
         if self.threads == 1:
-            results = map(self._run_task, shares)
-            for done, (part, values) in enumerate(results, 1):
-                self._add(part, values)
-                yield done / len(shares)
+            for done, task in enumerate(tasks, 1):
+                self._add(*self._run_task(task))
+                yield done / len(tasks)
             return
         with ThreadPoolExecutor(self.threads) as pool:
             waiting: list[Future] = []
             try:
-                for done, share in enumerate(shares, 1):
-                    waiting.append(pool.submit(self._run_task, share))
+                for submitted, task in enumerate(tasks, 1):
+                    waiting.append(pool.submit(self._run_task, task))
                     if len(waiting) > 2 * self.threads:
                         self._add(*waiting.pop(0).result())
-                        yield (done - len(waiting)) / len(shares)
+                        yield (submitted - len(waiting)) / len(tasks)
                 for future in waiting:
                     self._add(*future.result())
                 yield 1.0
@@ -206,9 +207,12 @@ class Transform:
         self.sums[part], rest = two_sum(self.sums[part], values)
         self.rest[part] += rest
 
-    def _run_task(self, share: tuple[slice, slice]) -> tuple[slice, Complex]:
-        """Return the slice of a task's results, and Σ (q·N) (D - 1/2) or Σ |N| (D - 1/2) there."""
-        run, part = share
+    def _run_task(self, task: tuple[slice, slice]) -> tuple[slice, Complex]:
+        """Return the slice of a task's results, and Σ (q·N) (D - 1/2) or Σ |N| (D - 1/2) there.
+
+        task: a run of triangles, and a part of the rows of the wave vectors.
+        """
+        run, part = task
         block = TriangleBlock(self.direct, run)
         columns = self.waves.columns
         means = PhaseMeans(block, self.waves, part)
@@ -216,49 +220,47 @@ class Transform:
         size = max(1, PAIRS_PER_BLOCK // (len(block.lengths) * columns))
         sums = np.empty((part.stop - part.start) * columns, np.complex128)
         for i in range(part.start, part.stop, size):
-            wave_rows = slice(i, min(i + size, part.stop))
+            stop = min(i + size, part.stop)
+            wave_rows = slice(i, stop)
             real, imaginary = means(wave_rows)
             weight = across(wave_rows) if self.measure == Measure.VOLUME else block.lengths
-            here = slice(
-                (wave_rows.start - part.start) * columns, (wave_rows.stop - part.start) * columns
-            )
-            sums.real[here] = np.add.reduce(np.multiply(real, weight, out=real), axis=1)
-            sums.imag[here] = np.add.reduce(np.multiply(imaginary, weight, out=imaginary), axis=1)
+            place = slice((i - part.start) * columns, (stop - part.start) * columns)
+            sums.real[place] = np.add.reduce(np.multiply(real, weight, out=real), axis=1)
+            sums.imag[place] = np.add.reduce(np.multiply(imaginary, weight, out=imaginary), axis=1)
         return slice(part.start * columns, part.stop * columns), sums
 
     def result(self) -> Spectrum:
         """Return the spectrum, when all steps are done."""
         faces = self.faces
-        values = self.sums + self.rest
+        sums = self.sums + self.rest
         if self.measure == Measure.AREA:
-            values = values + faces.area
-            unit = 2
+            ordered = sums + faces.area  # each D less 1/2, and Σ |N| is twice the area
+            unit = faces.scale**2
             moments = self.area
         else:
-            values = self._to_transform(values)
-            unit = 3
+            ordered = self._to_transform(sums)
+            unit = faces.scale**3
             moments = self.volume
-        q = self.q
-        if isinstance(self.waves, ListWaves):
-            ordered = values
-            values = np.empty_like(values)
-            values[self.waves.order] = ordered
-        if isinstance(q, FrequencyGrid):
-            q, values = q.vectors(), q.expand(values)
-        values *= faces.scale**unit
-        turn = phase_factors(q, faces.center)
-        error = faces.scale**unit * (U * ROUNDING_FACTOR * faces.area + self.gap)
+        if isinstance(self.q, FrequencyGrid):
+            q = self.q.vectors()
+            values = self.q.expand(ordered)
+        else:
+            q = self.q
+            values = np.empty_like(ordered)
+            values[cast("ListWaves", self.waves).order] = ordered
+        values *= unit
+        error = unit * (U * ROUNDING_FACTOR * faces.area + self.gap) + 8.0 * U * np.abs(values)
         return Spectrum(
-            q, values * turn, error + 8.0 * U * np.abs(values), float(moments.input_error[0])
+            q, values * phase_factors(q, faces.center), error, float(moments.input_error[0])
         )
 
     def _to_transform(self, sums: Complex) -> Complex:
         """Return F in units of the scale: i/q² times the sums, or by the moments if q is zero."""
         q = self.waves.vectors(slice(0, self.waves.rows))
         square = (q * q).sum(axis=0)
-        nothing = square <= ZERO_WAVE_NUMBER**2
-        values = 1j * sums / np.where(nothing, 1.0, square)
+        is_zero = square <= ZERO_WAVE_NUMBER**2
+        values = 1j * sums / np.where(is_zero, 1.0, square)
         raw = self.volume.raw[:4] / self.faces.scale ** np.array([3, 4, 4, 4])
         about = (self.volume.about - self.faces.center) / self.faces.scale
-        values[nothing] = raw[0] - 1j * (q[:, nothing].T @ (raw[1:] + raw[0] * about))
+        values[is_zero] = raw[0] - 1j * (q[:, is_zero].T @ (raw[1:] + raw[0] * about))
         return values

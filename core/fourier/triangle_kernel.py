@@ -35,10 +35,8 @@ from ..numerics import (
 from ..verdict import MAX_COORDINATE, NO_FACES, OBJECT_SIZE, TOO_LARGE, MeasureError, check_size
 from .wave_vectors import GridWaves, ListWaves
 
-TRIANGLES_PER_BLOCK = 128  # triangles
-PAIRS_PER_BLOCK = (
-    16384  # Pairs of triangles and frequencies at a time: their arrays stay in the cache.
-)
+TRIANGLES_PER_BLOCK = 128
+PAIRS_PER_BLOCK = 16384  # of triangles and frequencies at a time: their arrays stay in the cache
 TRIANGLES_PER_BATCH = 1 << 16  # triangles that are prepared at a time
 MAX_SERIES_DIAMETER = 3.0  # largest |q| times diameter up to which a whole block takes the series
 MAX_SERIES_SQUARE = 1.0  # Σ d² below which a single pair takes the series
@@ -102,14 +100,14 @@ class SortedTriangles:
             )
             diameter = sides.max(axis=0)
             shortest = sides.min(axis=0)
-            double = np.sqrt((compensated_normals(a, b, c) ** 2).sum(axis=0))
-            self.area += float(double.sum()) / 2.0
-            heights.append(double / np.maximum(shortest, TINY))
+            doubled_area = np.sqrt((compensated_normals(a, b, c) ** 2).sum(axis=0))
+            self.area += float(doubled_area.sum()) / 2.0
+            heights.append(doubled_area / np.maximum(shortest, TINY))
             cell = np.clip(
                 ((a + b + c) / 3.0 + 1.0) * (MORTON_CELLS / 2.0), 0, MORTON_CELLS
             ).astype(np.int64)
             octave = np.clip(np.frexp(diameter)[1] + 1100, 0, 2000).astype(np.int64)
-            x, y, z = spread_bits(cell)  # interleaved: the place on a Z-shaped curve
+            x, y, z = spread_bits(cell)  # Interleaved, they are the place on a Z-shaped curve.
             keys.append(octave << 30 | x | y << 1 | z << 2)
             diameters.append(diameter)
         order = np.argsort(np.concatenate(keys), kind="stable")
@@ -126,11 +124,11 @@ class SortedTriangles:
 
     def select(self, selection: Index) -> SortedTriangles:
         """Return selected triangles, at the same scale."""
-        some = copy(self)
-        some.triangles = self.triangles[selection]
-        some.diameters = self.diameters[selection]
-        some.heights = self.heights[selection]
-        return some
+        selected = copy(self)
+        selected.triangles = self.triangles[selection]
+        selected.diameters = self.diameters[selection]
+        selected.heights = self.heights[selection]
+        return selected
 
 
 class TriangleBlock:
@@ -150,24 +148,24 @@ class TriangleBlock:
         self.normals = compensated_normals(a, b, c)
         self.centers = (a + b + c) / 3.0
         self.from_center = ((a - b) + (a - c)) / 3.0, ((b - a) + (b - c)) / 3.0
-        ends = np.sort(
-            np.stack([triangles[:, [1, 2]], triangles[:, [2, 0]], triangles[:, [0, 1]]]).astype(
-                np.int64
-            )
-        )
-        unique, edges = np.unique(ends[..., 0] * len(points) + ends[..., 1], return_inverse=True)
+        # Each pair of ends as one number, so that triangles share the edges between them.
+        ends = np.stack([triangles[:, [1, 2]], triangles[:, [2, 0]], triangles[:, [0, 1]]])
+        low, high = np.sort(ends.astype(np.int64)).transpose(2, 0, 1)
+        codes, edges = np.unique(low * len(points) + high, return_inverse=True)
         self.edges = edges.reshape(3, -1)
-        first, second = (points[end].T for end in np.divmod(unique, len(points)))
+        first, second = (points[end].T for end in np.divmod(codes, len(points)))
         self.middles = (first + second) / 2.0
         self.halves = (first - second) / 2.0
         self.lengths = np.sqrt((self.normals**2).sum(axis=0))
 
 
 class PhaseMeans:
-    """The values D - 1/2 of a block's triangles for a part of the wave vectors."""
+    """The values D - 1/2 of a block's triangles for a part of the rows of the wave vectors."""
 
     def __init__(self, block: TriangleBlock, waves: ListWaves | GridWaves, part: slice):
-        self.block, self.waves = block, waves
+        self.block = block
+        self.waves = waves
+        # The deviations d of the phases at a and b, and exp(-i s0/2).
         self.first, self.second = (waves.dot(part, vectors) for vectors in block.from_center)
         self.half = waves.phase_factors(part, block.centers / 2.0)
         self.largest = np.sqrt((waves.vectors(part) ** 2).sum(axis=0).max()) * block.diameter
@@ -178,7 +176,8 @@ class PhaseMeans:
 
     def __call__(self, wave_rows: slice) -> tuple[Array, Array]:
         """Return (m, k) real and imaginary parts of D - 1/2 for some rows of the part."""
-        a, b = self.first(wave_rows), self.second(wave_rows)
+        a = self.first(wave_rows)
+        b = self.second(wave_rows)
         c = -(a + b)
         if self.largest > MAX_SERIES_DIAMETER:
             return self._by_edges(wave_rows, a, b, c)
@@ -188,22 +187,25 @@ class PhaseMeans:
     def _by_edges(
         self, wave_rows: slice, a: NDArray, b: NDArray, c: NDArray
     ) -> tuple[NDArray, NDArray]:
+        """Return D - 1/2 from E at the edges, or by the series for pairs with a small Σ d². a, b,
+        c: (m, k) the deviations d.
+        """
         square = a * a + b * b + c * c
         cosine, sine = self.middle(wave_rows)
         phase = np.maximum(np.abs(self.along(wave_rows)), TINY)
         sinc = np.sin(phase) / phase
         small = np.flatnonzero(square < MAX_SERIES_SQUARE)
         series = self._series_of_pairs(small, self.waves.vectors(wave_rows), a, b, c)
-        x, y, z = self.block.edges
+        edge_a, edge_b, edge_c = self.block.edges
         negative = -np.maximum(square, MAX_SERIES_SQUARE / 2.0, out=square)
         real, imaginary = (
             (
-                wave.take(x, 1, mode="clip") * a
-                + wave.take(y, 1, mode="clip") * b
-                + wave.take(z, 1, mode="clip") * c
+                part_of_e.take(edge_a, 1, mode="clip") * a
+                + part_of_e.take(edge_b, 1, mode="clip") * b
+                + part_of_e.take(edge_c, 1, mode="clip") * c
             )
             / negative
-            for wave in (sine * sinc, cosine * sinc)
+            for part_of_e in (sine * sinc, cosine * sinc)
         )
         real -= 0.5
         real.reshape(-1)[small], imaginary.reshape(-1)[small] = series
@@ -237,13 +239,18 @@ def _series(square: NDArray, cube: NDArray, terms: int) -> tuple[NDArray, NDArra
     """Return real and imaginary part of the sum over n ≥ 2 of (-i)^n h_n / (n+2)!, from -e2 and
     e3.
     """
-    # n = 2, 3 and 1
-    even = -square
-    odd = cube
-    before = np.zeros_like(square)
-    real, imaginary = even / 24.0, odd / 120.0
+    # (-i)^n h_n is real for even n, and i times a real number for odd n.
+    even = -square  # h_2, with the sign of (-i)^2
+    odd = cube  # h_3, with the sign of (-i)^3 / i
+    last_odd = np.zeros_like(square)
+    real = even / 24.0
+    imaginary = odd / 120.0
     for n in range(4, terms, 2):
-        even, odd, before = -(square * even + cube * before), cube * even - square * odd, odd
+        next_even = -(square * even + cube * last_odd)
+        next_odd = cube * even - square * odd
+        last_odd = odd
+        even = next_even
+        odd = next_odd
         real += even * (1.0 / factorial(n + 2))
         imaginary += odd * (1.0 / factorial(n + 3))
     return real, imaginary

@@ -92,13 +92,13 @@ class FrequencyGrid:
         """
         n = self.count
         h = self.half
-        others = (slice(None, self.count),) * (self.dimension - 1)
         values = np.asarray(values).reshape(*[2 * h + 1] * (self.dimension - 1), h + 1)
+        opposite = np.flip(values).conj()  # F(-q) = conj F(q)
+        # With an even count, the last frequency of each axis is no place of the grid.
+        in_grid = (slice(n),) * (self.dimension - 1)
         full = np.empty((n,) * self.dimension, np.complex128)
-        full[..., h:] = values[others + (slice(None, n - h),)]
-        full[..., :h] = np.flip(values, axis=(*range(self.dimension - 1), -1))[..., :h][
-            others
-        ].conj()
+        full[..., h:] = values[in_grid][..., : n - h]
+        full[..., :h] = opposite[in_grid][..., :h]
         return full.reshape(-1)
 
 
@@ -165,13 +165,14 @@ class GridWaves:
     def __init__(self, grid: FrequencyGrid, scale: float):
         self.side = np.arange(-grid.half, grid.half + 1) * grid.step * scale
         self.depth = self.side[grid.half :]
-        self.rows, self.columns = len(self.side) ** 2, len(self.depth)
+        self.rows = len(self.side) ** 2
+        self.columns = len(self.depth)
 
     def vectors(self, wave_rows: slice) -> Array:
         """Return the (3, m) wave vectors of some rows."""
-        x, y = self.side[
-            np.stack(np.divmod(np.arange(wave_rows.start, wave_rows.stop), len(self.side)))
-        ]
+        i, j = np.divmod(np.arange(wave_rows.start, wave_rows.stop), len(self.side))
+        x = self.side[i]
+        y = self.side[j]
         n = self.columns
         return np.stack([np.repeat(x, n), np.repeat(y, n), np.tile(self.depth, len(x))])
 
@@ -192,15 +193,18 @@ class GridWaves:
         """
         first, x, y = self._tables(part, points)
         z = self.depth[:, None] * points[2]
-        x, y, z = ((np.cos(phase), np.sin(phase)) for phase in (x, y, z))
+        cos_x, sin_x = np.cos(x), np.sin(x)
+        cos_y, sin_y = np.cos(y), np.sin(y)
+        cos_z, sin_z = np.cos(z), np.sin(z)
 
         def phases(wave_rows: slice) -> tuple[Array, Array]:
             i, j = np.divmod(np.arange(wave_rows.start, wave_rows.stop), len(self.side))
-            a, b = (values[i - first] for values in x)
-            p, q = (values[j] for values in y)
-            real = (a * p - b * q)[:, None]
-            imaginary = (a * q + b * p)[:, None]
-            cosine, sine = real * z[0] - imaginary * z[1], real * z[1] + imaginary * z[0]
+            a, b = cos_x[i - first], sin_x[i - first]
+            c, d = cos_y[j], sin_y[j]
+            cos_xy = (a * c - b * d)[:, None]
+            sin_xy = (a * d + b * c)[:, None]
+            cosine = cos_xy * cos_z - sin_xy * sin_z
+            sine = cos_xy * sin_z + sin_xy * cos_z
             return cosine.reshape(-1, points.shape[1]), sine.reshape(-1, points.shape[1])
 
         return phases

@@ -225,7 +225,7 @@ def _numbers(
     power = np.empty((0, *raw.shape[1:]))
     if moments.measure == Measure.VOLUME:
         volume = zernike[0, 0].real[0] * 4.0 * pi / 3.0
-        power = radial_power(zernike, FREQUENCIES)[0] / volume**2
+        power = radial_power(zernike, FREQUENCIES) / volume**2
     scalars = [harmonic[n, 0].real[0] for n in (4, 6)]
     products = [np.add.reduce((harmonic[a].conj() * harmonic[b]).real) for a, b in PAIRS]
     invariants = np.array(scalars + products + _couplings(harmonic, EVEN_TRIPLES))

@@ -75,12 +75,10 @@ def descriptor_error(raw: NDArray, order: int) -> Array:
     """Estimate (…) the descriptors' error: their change if raw moments (K, …) change by a few
     roundings.
     """
-    moved = raw * along_first(
-        1.0 + 8.0 * U * np.random.default_rng(0).uniform(-1.0, 1.0, len(raw)), raw
-    )
-    before, after = (
-        descriptors(zernike_moments(raw_moments, order)) for raw_moments in (raw, moved)
-    )
+    factors = 1.0 + 8.0 * U * np.random.default_rng(0).uniform(-1.0, 1.0, len(raw))
+    rounded = raw * along_first(factors, raw)
+    before = descriptors(zernike_moments(raw, order))
+    after = descriptors(zernike_moments(rounded, order))
     return np.abs(after - before).max(axis=0)
 
 
@@ -126,15 +124,16 @@ def _nodes(size: NDArray, order: int) -> NDArray[np.int64]:
     """Return the number of Gauss points on a line for each triangle, by its size and the
     polynomials' oscillation.
     """
-    exact = ceil((order + 2) / 2)
-    needed = np.full(len(size), exact)
-    # a polynomial of degree n on the ball turns by at most about n radians
+    exact_count = ceil((order + 2) / 2)
+    counts = np.full(len(size), exact_count)
+    # A polynomial of degree n on the ball turns by at most about n radians.
     phase = (order + 2.0) * size / 2.0
-    for g in range(exact - 1, 0, -1):
-        # Gauss's rule: the error of e^(ix) over [-phase/2, phase/2] is (phase/2)^2g / (2g)! in
-        # size.
-        needed[(phase / 2.0) ** (2 * g) / factorial(2 * g) < QUADRATURE_RTOL] = g
-    return needed
+    for points in range(exact_count - 1, 0, -1):
+        # By Gauss's rule, the error of e^(ix) over [-phase/2, phase/2] is (phase/2)^2g / (2g)! in
+        # size, with g points.
+        error = (phase / 2.0) ** (2 * points) / factorial(2 * points)
+        counts[error < QUADRATURE_RTOL] = points
+    return counts
 
 
 def _add_cones(total: Multiplets, x: NDArray, weight: NDArray, order: int) -> None:
@@ -142,69 +141,64 @@ def _add_cones(total: Multiplets, x: NDArray, weight: NDArray, order: int) -> No
     points.
     """
     argument = 2.0 * (x * x).sum(axis=1) - 1.0
-    for l, solid in _solid_at(x, order):
-        solid = solid.conj()
-        lower = 0.0
-        for n, radial in zip(range(l, order + 1, 2), _jacobi(l + 0.5, argument)):
-            along = weight * (radial - lower) / (n + 3)
-            total[n, l] += sqrt(2 * n + 3) * (solid * along).sum(axis=1)
-            lower = ((2 * n + 3) * radial - n * lower) / (n + 3)
+    for l, harmonics in _solid_harmonics(x, order):
+        conjugate = harmonics.conj()
+        # S_k and A_k of the module's recursion, for J_k at x = 1.
+        a = 0.0
+        for n, s in zip(range(l, order + 1, 2), _jacobi(l + 0.5, argument)):
+            along = weight * (s - a) / (n + 3)
+            total[n, l] += sqrt(2 * n + 3) * (conjugate * along).sum(axis=1)
+            a = ((2 * n + 3) * s - n * a) / (n + 3)
 
 
-def _solid_at(x: NDArray, order: int) -> Iterator[tuple[int, NDArray[np.complex128]]]:
+def _solid_harmonics(x: NDArray, order: int) -> Iterator[tuple[int, NDArray[np.complex128]]]:
     """Yield l and (l+1, k) r^l Y_lm at (k, 3) points for m = 0..l, l = 0..order, by recursion
     upward in l.
     """
     r2 = (x * x).sum(axis=1)
-    plus = x[:, 0] + 1j * x[:, 1]
+    x_plus_iy = x[:, 0] + 1j * x[:, 1]
     z = x[:, 2]
-    before = None
-    now = np.full((1, len(x)), 1.0 / sqrt(4.0 * pi), complex)
-    yield 0, now
+    before_last = None
+    last = np.full((1, len(x)), 1.0 / sqrt(4.0 * pi), complex)
+    yield 0, last
     for l in range(1, order + 1):
         m = np.arange(l)
-        a = np.sqrt((4.0 * l * l - 1.0) / (l * l - m * m))[:, None]
-        up = a * z * now
-        if before is not None:
+        a = np.sqrt((4.0 * l * l - 1.0) / (l * l - m * m))
+        below_l = a[:, None] * z * last  # for m < l
+        if before_last is not None:
             m = m[:-1]
-            b = np.sqrt((2 * l + 1) * ((l - 1.0) ** 2 - m * m) / ((2 * l - 3) * (l * l - m * m)))[
-                :, None
-            ]
-            up[:-1] -= b * r2 * before
-        top = -sqrt((2 * l + 1) / (2.0 * l)) * plus * now[-1]
-        before = now
-        now = np.concatenate([up, top[None]])
-        yield l, now
+            b = np.sqrt((2 * l + 1) * ((l - 1.0) ** 2 - m * m) / ((2 * l - 3) * (l * l - m * m)))
+            below_l[:-1] -= b[:, None] * r2 * before_last
+        at_l = -sqrt((2 * l + 1) / (2.0 * l)) * x_plus_iy * last[-1]  # for m = l
+        before_last = last
+        last = np.concatenate([below_l, at_l[None]])
+        yield l, last
 
 
 def _jacobi(beta: float, x: NDArray) -> Iterator[Array]:
     """Yield P_k^(0, beta)(x) for k = 0, 1, and so on."""
-    before, now = np.zeros_like(x), np.ones_like(x)
-    for k in count(1):
-        yield now
-        if k == 1:
-            before = now
-            now = (-beta + (beta + 2.0) * x) / 2.0
-            continue
+    before_last = np.ones_like(x)
+    last = (-beta + (beta + 2.0) * x) / 2.0
+    yield before_last
+    for k in count(2):
+        yield last
         doubled = 2.0 * k + beta
         scale = 2.0 * k * (k + beta) * (doubled - 2.0)
-        first = (doubled - 1.0) * (doubled * (doubled - 2.0) * x - beta * beta)
-        before, now = (
-            now,
-            (first * now - 2.0 * (k - 1.0) * (k + beta - 1.0) * doubled * before) / scale,
-        )
+        factor = (doubled - 1.0) * (doubled * (doubled - 2.0) * x - beta * beta)
+        less = 2.0 * (k - 1.0) * (k + beta - 1.0) * doubled * before_last
+        before_last, last = last, (factor * last - less) / scale
 
 
-def radial_power(moments: Multiplets, wave_numbers: NDArray) -> tuple[Array, Array]:
-    """Return the (k, …) means of |F(q)|² over all directions of q, and a bound of the change by the
-    missing orders.
+def radial_power(moments: Multiplets, wave_numbers: NDArray) -> Array:
+    """Return the (k, …) means of |F(q)|² over all directions of q, without those orders of moments
+    that are missing.
 
     moments: of a body in the unit ball, (2l+1, …). wave_numbers: (k,) |q|, in units of the ball's
     inverse radius.
     """
     order = max(n for n, _ in moments)
     first = moments[0, 0]
-    bessel = _spherical_bessel(np.asarray(wave_numbers, np.float64), order + 40)  # j_{n+1}(q)/q
+    bessel = _spherical_bessel(np.asarray(wave_numbers, np.float64), order)  # j_{n+1}(q)/q
     power = np.zeros((bessel.shape[1], *first.shape[1:]))
     for l in range(order + 1):
         amplitude = sum(
@@ -215,37 +209,33 @@ def radial_power(moments: Multiplets, wave_numbers: NDArray) -> tuple[Array, Arr
             for n in range(l, order + 1, 2)
         )
         power += (np.abs(amplitude) ** 2).sum(axis=0)
-    # Parseval: the sum of all |Ω|² is 3/4π times the volume, and by Cauchy and Schwarz the rest of
-    # each amplitude is at most the norms' product.
-    volume = first.real[0] * 4.0 * pi / 3.0
-    known = sum((np.abs(multiplet) ** 2).sum(axis=0) for multiplet in moments.values())
-    missing = np.maximum(3.0 / (4.0 * pi) * volume - known, 0.0)
-    n = np.arange(order + 1, len(bessel))[:, None]
-    tail = along_first(((2 * n + 3) * bessel[order + 1 :] ** 2).sum(axis=0), first) * missing
-    scale = (4.0 * pi) ** 2 / 3.0
-    return scale * power, scale * (2.0 * np.sqrt(power * tail) + tail)
+    return (4.0 * pi) ** 2 / 3.0 * power
 
 
 def _spherical_bessel(q: NDArray, order: int) -> Array:
     """Return (order+1, k) j_{n+1}(q)/q for n = 0..order, by Miller's recursion downward."""
     q = np.maximum(q, 1e-8)  # j_1(q)/q is 1/3 from there down
-    top = order + 20 + int(2.0 * q.max())
-    table = np.zeros((order + 3, len(q)))
+    # So far above, any start ends in multiples of j_n.
+    start = order + 60 + int(2.0 * q.max())
+    multiples = np.zeros((order + 3, len(q)))
     above = np.zeros_like(q)
-    now = np.full_like(q, 1e-250)
-    for n in range(top, -1, -1):
-        if n < len(table):
-            table[n] = now
+    current = np.full_like(q, 1e-250)
+    for n in range(start, -1, -1):
+        if n < len(multiples):
+            multiples[n] = current
         if n:
-            above, now = now, (2 * n + 1) / q * now - above
-            large = np.abs(now) > 1e200
-            for values in (table, above, now):
-                values[..., large] *= 1e-200
+            below = (2 * n + 1) / q * current - above
+            above = current
+            current = below
+            is_large = np.abs(current) > 1e200
+            for values in (multiples, above, current):
+                values[..., is_large] *= 1e-200
     j0 = np.sin(q) / q
     j1 = np.sin(q) / q**2 - np.cos(q) / q
-    from_zero = np.abs(table[0]) > np.abs(table[1])
-    factor = np.where(from_zero, j0, j1) / np.where(from_zero, table[0], table[1])
-    return (table * factor)[1 : order + 2] / q
+    # The factor comes from the larger of j_0 and j_1, as either may be zero.
+    by_j0 = np.abs(multiples[0]) > np.abs(multiples[1])
+    factor = np.where(by_j0, j0, j1) / np.where(by_j0, multiples[0], multiples[1])
+    return (multiples * factor)[1 : order + 2] / q
 
 
 @lru_cache

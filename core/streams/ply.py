@@ -55,10 +55,10 @@ from .ply_rows import (
     parse_header,
 )
 
-MAX_SPREAD = (
-    4  # Up to so many vertices per corner between a block's first and last, they are not copied.
-)
-# lists that are checked together; rows with longer ones are checked word by word
+# A block of faces takes all vertices between its first and its last one, unless they are more than
+# this times its corners; then it copies those that it uses.
+MAX_SPREAD = 4
+# Lists of these lengths are checked by an expression; rows with longer ones, word by word.
 LENGTHS = range(9)
 # For fewer rows or more properties an expression does not pay.
 FEW_ROWS = 16
@@ -79,25 +79,28 @@ class PlyFile:
         try:
             self._header = header = parse_header(start)
             for element in header.elements:
-                kinds = [one.counter or one.type for one in element.properties]
-                least = sum(int(kind[1:]) for kind in kinds) if header.order else 2 * len(kinds) - 1
-                if element.rows * least > path.stat().st_size:
-                    raise damaged(
-                        self._path,
-                        DAMAGE_INCOMPLETE,
-                        kind="table of numbers",
-                        error="{}, {} rows".format(element.name, element.rows),
-                    )
+                # Lists may be empty, so that their counters are all that a row needs.
+                kinds = [field.counter or field.type for field in element.properties]
+                row_size = 2 * len(kinds) - 1
+                if header.order:
+                    row_size = sum(int(kind[1:]) for kind in kinds)
+                if element.rows * row_size > path.stat().st_size:
+                    raise self._incomplete(element)
             (self._vertices, *_) = (
                 element for element in header.elements if element.name == "vertex"
             )
-            if not {"x", "y", "z"} <= {one.name for one in self._vertices.properties}:
+            if not {"x", "y", "z"} <= self._vertices.names:
                 self._faces  # noqa: B018 - refused for its missing faces, if it has none
             self._axes = [self._vertices.index(axis) for axis in "xyz"]
         except (ValueError, KeyError, IndexError) as error:
             raise FileError(FILE_UNRECOGNIZED, format="PLY") from error
         if not header.order:
             check_ply_text(map_file(path), header)
+
+    def _incomplete(self, element: Element) -> FileError:
+        """Return the refusal of an element that has fewer rows than the header promises."""
+        reason = "{}, {} rows".format(element.name, element.rows)
+        return damaged(self._path, DAMAGE_INCOMPLETE, kind="table of numbers", error=reason)
 
     @property
     def face_count(self) -> int:
@@ -130,16 +133,16 @@ class PlyFile:
 
     def pieces(self) -> Iterator[Surface]:
         """Yield surfaces of the faces: triangles, quads, and those of larger polygons."""
-        faces, column = self._faces
+        faces, list_index = self._faces
         for _, _, columns in self._blocks(faces):
-            if columns[column].shape[1] >= 3:
-                corners, first, last = self._corners(columns[column], len(self._points))
-                points = self._points[first:last]
-                if last - first > MAX_SPREAD * corners.size:
-                    points = self._points[corners.ravel()]
-                    corners = np.arange(corners.size).reshape(corners.shape)
-                    first = 0
-                yield polygon_surface(points, corners - first)
+            if columns[list_index].shape[1] < 3:
+                continue
+            corners, first, stop = self._corners(columns[list_index])
+            if stop - first <= MAX_SPREAD * corners.size:
+                yield polygon_surface(self._points[first:stop], corners - first)
+            else:
+                points = self._points[corners.ravel()]
+                yield polygon_surface(points, np.arange(corners.size).reshape(corners.shape))
 
     def mesh(self) -> FileMesh:
         """Read faces, strips of triangles, edges, and numbers of the vertices, finite or not.
@@ -147,51 +150,48 @@ class PlyFile:
         Raises FileError.
         """
         points = self._empty_points()
-        names = {one.name for one in self._vertices.properties if not one.counter} - {"x", "y", "z"}
-        values = {name: np.empty(len(points), np.float32) for name in names}
+        numbers = {field.name for field in self._vertices.properties if not field.counter}
+        values = {name: np.empty(len(points), np.float32) for name in numbers - {"x", "y", "z"}}
         faces = Polygons()
         edges: list[NDArray[np.integer]] = [np.zeros((0, 2), np.int64)]
         for element, rows, columns in self._blocks():
             if element is self._vertices:
                 self._fill_points(points, rows, columns)
                 with np.errstate(over="ignore", invalid="ignore"):
-                    for name in names:
-                        values[name][rows] = columns[element.index(name)]
+                    for name, of_vertices in values.items():
+                        of_vertices[rows] = columns[element.index(name)]
             elif element.list_of_indices is not None:
                 corners = columns[element.list_of_indices]
                 if element.name == "tristrips":
                     for strip in corners:
-                        faces.add(self._corners(strip_triangles(strip), self._vertices.rows)[0])
+                        faces.add(self._corners(strip_triangles(strip))[0])
                 elif corners.shape[1] >= 3:
-                    faces.add(self._corners(corners, self._vertices.rows)[0], rows)
-            elif element.name == "edge" and {"vertex1", "vertex2"} <= {
-                one.name for one in element.properties
-            }:
-                ends = np.stack(
-                    [columns[element.index(name)] for name in ("vertex1", "vertex2")], axis=1
-                )
-                edges.append(self._corners(ends, self._vertices.rows)[0])
+                    faces.add(self._corners(corners)[0], rows)
+            elif element.name == "edge" and {"vertex1", "vertex2"} <= element.names:
+                ends = [columns[element.index(name)] for name in ("vertex1", "vertex2")]
+                edges.append(self._corners(np.stack(ends, axis=1))[0])
         return FileMesh(
             name_of_file(self._path), points, *faces.join(), np.concatenate(edges), values
         )
 
-    def _corners(self, corners: NDArray, count: int) -> tuple[NDArray[np.integer], int, int]:
+    def _corners(self, numbers: NDArray) -> tuple[NDArray[np.integer], int, int]:
         """Return vertex indices as integers, their least, and their largest plus one.
 
         FileError if one is wrong.
         """
-        given = corners
         with np.errstate(invalid="ignore"):  # a text may have NaN
             corners = np.ascontiguousarray(
-                corners, np.int32 if corners.dtype == np.int32 else np.int64
+                numbers, np.int32 if numbers.dtype == np.int32 else np.int64
             )
-        first, last = (int(corners.min()), int(corners.max()) + 1) if corners.size else (0, 1)
-        whole = given.dtype.kind != "f" or np.array_equal(corners, given)
-        if corners.size and not (whole and 0 <= first < last <= count):
-            raise damaged(
-                self._path, DAMAGE_INCOMPLETE, kind="mesh", error="a vertex beyond {}".format(count)
-            )
-        return corners, first, last
+        if not corners.size:
+            return corners, 0, 1
+        first = int(corners.min())
+        stop = int(corners.max()) + 1
+        is_whole = numbers.dtype.kind != "f" or np.array_equal(corners, numbers)
+        if not (is_whole and 0 <= first < stop <= self._vertices.rows):
+            reason = "a vertex beyond {}".format(self._vertices.rows)
+            raise damaged(self._path, DAMAGE_INCOMPLETE, kind="mesh", error=reason)
+        return corners, first, stop
 
     def _empty_points(self) -> NDArray[np.floating]:
         """Return (n, 3) points to be filled: float32 if the file has them as such, else float64."""
@@ -201,7 +201,9 @@ class PlyFile:
     def _fill_points(
         self, points: NDArray[np.floating], rows: Index, columns: list[NDArray]
     ) -> None:
-        # Such points become infinite, and are refused.
+        """Set points of these rows. Numbers beyond the range become infinite, and are refused
+        later.
+        """
         with np.errstate(over="ignore", invalid="ignore"):
             for axis, column in enumerate(self._axes):
                 points[rows, axis] = columns[column]
@@ -209,7 +211,7 @@ class PlyFile:
     def _blocks(
         self, wanted: Element | None = None
     ) -> Iterator[tuple[Element, Index, list[NDArray]]]:
-        """Yield element, numbers of rows, and columns of the blocks of one element, or of all."""
+        """Yield element, indices of rows, and columns of the blocks of one element, or of all."""
         with open(self._path, "rb") as file:
             file.seek(self._header.start)
             reader = RowReader(file, self._header.order)
@@ -219,12 +221,7 @@ class PlyFile:
                         if wanted in (None, element):
                             yield element, rows, columns
                 except RowsError as error:
-                    raise damaged(
-                        self._path,
-                        DAMAGE_INCOMPLETE,
-                        kind="table of numbers",
-                        error="{}, {} rows".format(element.name, element.rows),
-                    ) from error
+                    raise self._incomplete(element) from error
                 if element is wanted:
                     return
 
@@ -238,30 +235,35 @@ def check_ply_text(data: Data, header: Header) -> None:
     for element in header.elements:
         if element.properties:
             end = _find_end(data, at, element.rows)
-            _Rows(data, element, vertex_count).check(at, end)
+            _RowCheck(data, element, vertex_count).check(at, end)
             at = end
     rest = _REST.search(data, at)
     if rest is not None:
         refuse_line(data, rest.start(), count_fault(_line(data, rest.start(), len(data)).split()))
 
 
-class _Rows:
+class _RowCheck:
+    """The check of the rows of an element: many at a time by an expression, the others word by
+    word.
+    """
+
     def __init__(self, data: Data, element: Element, vertex_count: int) -> None:
         self._data = data
         self._properties = element.properties
         self._vertex_count = vertex_count
         self._is_face = element.name == "face"
-        self._places = element.name == "vertex"
-        is_worth = element.rows > FEW_ROWS and len(element.properties) < MANY_PROPERTIES
-        row = _pattern_of(element) if is_worth else rb"(?!)"
+        self._is_vertex = element.name == "vertex"
+        uses_expression = element.rows > FEW_ROWS and len(element.properties) < MANY_PROPERTIES
+        row = _pattern_of(element) if uses_expression else rb"(?!)"  # which never matches
         self._pattern = re.compile(rb"(?>(?:%b%b[ \t\r]*+(?:\n|\Z))*)" % (_BLANK, row))
-        only_lists = all(_is_whole(one) for one in element.properties)
+        only_lists = all(map(_is_whole, element.properties))
         self._type = np.dtype(np.int64 if only_lists else np.float64)
 
     def check(self, start: int, end: int) -> None:
+        """Raise FileError if a row from byte `start` to byte `end` has a fault."""
         while start < end:
-            matched = self._pattern.match(self._data, start, end)
-            stop = matched.end() if matched else start
+            match = self._pattern.match(self._data, start, end)
+            stop = match.end() if match else start
             if self._is_face:
                 self._check_indices(start, stop)
             if stop < end:
@@ -289,54 +291,62 @@ class _Rows:
         return line
 
     def _find_fault(self, words: list[bytes]) -> Fault | None:
-        left = iter(words)
-        for one in self._properties:
+        """Return the first fault of a row, or None."""
+        start = 0
+        for field in self._properties:
             count = 1
-            if one.counter:
-                word = next(left, b"")
-                fault = find_whole_fault(word) if word else None
+            if field.counter:
+                if start == len(words):
+                    return count_fault(words)
+                fault = find_whole_fault(words[start])
                 if fault is not None:
                     return fault
-                count = int(word or b"-1")
-            fields = [word for _, word in zip(range(count), left)]
-            if not 0 <= count == len(fields):
+                count = int(words[start])
+                start += 1
+            if not 0 <= count <= len(words) - start:
                 return count_fault(words)
-            faults = [self._find_field_fault(one, word) for word in fields]
-            if any(faults):
-                return next(filter(None, faults))
-        return count_fault(words) if next(left, None) is not None else None
+            for word in words[start : start + count]:
+                fault = self._find_field_fault(field, word)
+                if fault is not None:
+                    return fault
+            start += count
+        return count_fault(words) if start < len(words) else None
 
-    def _find_field_fault(self, one: Property, word: bytes) -> Fault | None:
-        if not _is_whole(one):
-            return find_number_fault(word, self._places and one.name in ("x", "y", "z"))
+    def _find_field_fault(self, field: Property, word: bytes) -> Fault | None:
+        """Return the fault of a number, or of an item of a list, or None."""
+        if not _is_whole(field):
+            return find_number_fault(word, self._is_vertex and field.name in ("x", "y", "z"))
         fault = find_whole_fault(word)
-        is_index = self._is_face and one.name in INDICES
+        is_index = self._is_face and field.name in INDICES
         if fault is None and is_index and not 0 <= int(word) < self._vertex_count:
             return shorten(word), VERTEX
         return fault
 
 
-def _is_whole(one: Property) -> bool:
+def _is_whole(field: Property) -> bool:
     """Return whether importers read a property as a list of whole numbers; they read single values
     as numbers.
     """
-    return bool(one.counter) and (one.type[0] in "iu" or one.name in INDICES)
+    return bool(field.counter) and (field.type[0] in "iu" or field.name in INDICES)
 
 
 def _pattern_of(element: Element) -> bytes:
-    fields = []
-    for one in element.properties:
-        number = SHORT if element.name == "vertex" and one.name in ("x", "y", "z") else SHORT_OR_NAN
-        if one.counter:
-            item = SHORT_WHOLE if _is_whole(one) else number
-            number = b"(?:%b)" % b"|".join(
+    """Return an expression for a row without a fault, but for the values of indices."""
+    patterns = []
+    for field in element.properties:
+        is_coordinate = element.name == "vertex" and field.name in ("x", "y", "z")
+        pattern = SHORT if is_coordinate else SHORT_OR_NAN
+        if field.counter:
+            item = SHORT_WHOLE if _is_whole(field) else pattern
+            pattern = b"(?:%b)" % b"|".join(
                 rb"%d(?>(?:[ \t]++%b){%d})" % (n, item, n) for n in LENGTHS
             )
-        fields.append(number)
-    return rb"[ \t]++".join(fields)
+        patterns.append(pattern)
+    return rb"[ \t]++".join(patterns)
 
 
 def _line(data: Data, start: int, end: int) -> bytes:
+    """Return the line that begins at `start`, with its end."""
     return data[start : data.find(b"\n", start, end) + 1 or end]
 
 

@@ -15,15 +15,15 @@ import numpy as np
 from ..numerics import Array, Index, NDArray
 
 BYTES_PER_BLOCK = 1 << 22  # of a text a quarter
-FEW_ROWS = 64  # Rows of equal lengths: after so many, a run of them is looked for.
-WINDOW = 1 << 14  # bytes or numbers among which lengths are looked for
-SINGLE_ROWS = 1 << 14  # rows of unequal lengths that are sorted by them
+FEW_ROWS = 64  # If so many rows have lists of equal lengths, a longer run of such rows is likely.
+WINDOW = 1 << 14  # bytes or numbers among which the lengths of lists are looked for at a time
+SINGLE_ROWS = 1 << 14  # rows with lists of unequal lengths that are grouped by these
 MAX_LIST = 1 << 26  # numbers of a face: a larger count is damage, and would be read into memory
 NUMBERS = np.dtype(np.float64)  # type of the numbers of a text
 # C's forms, unknown to numpy
 _NOT_A_NUMBER = re.compile(rb"(?<!\S)[+-]?(?:nan\(\w*\)|1\.#\w+)", re.IGNORECASE)
 
-# The numbers of rows, and their columns: (n,) numbers or (n, k) lists.
+# The indices of rows, and their columns: (n,) numbers or (n, k) lists.
 Block = tuple[Index, list[NDArray]]
 MAX_HEADER = 1 << 20  # bytes
 INDICES = "vertex_indices", "vertex_index"  # names of the list of vertices of a face
@@ -57,9 +57,10 @@ class RowReader:
     """A reader of one element after another. order: "" for text, "<" or ">" for binary."""
 
     def __init__(self, file: BinaryIO, order: str) -> None:
-        self._file, self._order = file, order
-        self._buffer: NDArray = np.zeros(0)  # bytes or numbers, once there are some
-        self._text = b""
+        self._file = file
+        self._order = order
+        self._buffer: NDArray = np.zeros(0)  # the next bytes of a binary file, or numbers of a text
+        self._cut_word = b""  # the beginning of a number at the end of a block of text
 
     def read_rows(self, element: Element) -> Iterator[Block]:
         """Yield the next element in blocks of rows with lists of the same lengths.
@@ -69,67 +70,79 @@ class RowReader:
         done = 0
         properties = element.properties
         while done < element.rows and properties:
-            left = element.rows - done
-            starts, lengths = self._scan(properties, min(left, FEW_ROWS))
+            rows_left = element.rows - done
+            starts, lengths = self._scan(properties, min(rows_left, FEW_ROWS))
             if (lengths == lengths[0]).all():
-                row = self._row_type(properties, lengths[0])
-                unit = self._buffer.itemsize
-                self._read_ahead(min(left * row.itemsize, BYTES_PER_BLOCK) // unit)
-                table = np.frombuffer(
-                    self._buffer, row, min(left, len(self._buffer) * unit // row.itemsize)
-                )
-                same = np.ones(len(table), bool)
-                for number, length in enumerate(lengths[0]):
-                    same &= table["n{}".format(number)] == length
-                count = len(table) if same.all() else int(np.argmin(same))
+                table = self._equal_rows(properties, lengths[0], rows_left)
+                count = len(table)
                 yield (
                     np.arange(done, done + count),
-                    [table[name][:count] for name in _names(properties)],
+                    [table[name] for name in _names(properties)],
                 )
-                end = count * row.itemsize // unit
+                end = table.nbytes // self._buffer.itemsize
             else:
-                starts, lengths = self._scan(properties, min(left, SINGLE_ROWS))
+                starts, lengths = self._scan(properties, min(rows_left, SINGLE_ROWS))
                 count = len(lengths)
                 end = starts[-1]
                 yield from self._group_rows(properties, starts, lengths, done)
             self._buffer = self._buffer[end:]
             done += count
 
+    def _equal_rows(
+        self, properties: Sequence[Property], lengths: Index, rows_left: int
+    ) -> NDArray[np.void]:
+        """Return a table of the next rows whose lists have these lengths, about BYTES_PER_BLOCK."""
+        row = self._row_type(properties, lengths)
+        unit = self._buffer.itemsize
+        self._read_ahead(min(rows_left * row.itemsize, BYTES_PER_BLOCK) // unit)
+        count = min(rows_left, len(self._buffer) * unit // row.itemsize)
+        table = np.frombuffer(self._buffer, row, count)
+        is_equal = np.ones(count, bool)
+        for number, length in enumerate(lengths):
+            is_equal &= table["n{}".format(number)] == length
+        return table if is_equal.all() else table[: int(np.argmin(is_equal))]
+
     def _scan(self, properties: Sequence[Property], rows: int) -> tuple[Index, Index]:
         """Return (n + 1,) offsets of the next rows in the buffer, and the (n, lists) lengths of
         their lists.
+
+        rows: the largest n. Offsets are in items of the buffer.
         """
+        # Of each list: the numbers between it and the list before, the type and the size of its
+        # counter, and the size of its items; then the numbers behind the last list.
         gap = 0
         lists = []
-        for one in properties:
-            if one.counter:
-                lists.append((gap, one.counter, self._size(one.counter), self._size(one.type)))
-            gap = 0 if one.counter else gap + self._size(one.type)
+        for field in properties:
+            if field.counter:
+                counter_size = self._size(field.counter)
+                lists.append((gap, field.counter, counter_size, self._size(field.type)))
+            gap = 0 if field.counter else gap + self._size(field.type)
         starts: list[int] = [0]
         lengths: list[int] = []
         window = WINDOW
         while len(starts) <= rows and starts[-1] <= BYTES_PER_BLOCK:
             base = starts[-1]
-            before = len(starts)
+            known_rows = len(starts) - 1
             self._read_ahead(base + window)
-            # As lists, for it is a loop over rows: where one begins, the one before it tells.
+            # A row begins where the one before ends, so that this is a loop over rows. It is fast
+            # with plain lists of all numbers that may be counters.
             plan = [
-                (skip, self._numbers_at(kind, base, window), size, step)
-                for skip, kind, size, step in lists
+                (skip, self._numbers_at(kind, base, window), counter_size, item_size)
+                for skip, kind, counter_size, item_size in lists
             ]
             with suppress(IndexError):  # The row goes on behind the window.
                 while len(starts) <= rows:
                     at = starts[-1] - base
-                    for skip, counts, size, step in plan:
+                    for skip, counts, counter_size, item_size in plan:
                         at += skip
                         lengths.append(counts[at])
-                        at += size + step * lengths[-1]
+                        at += counter_size + item_size * lengths[-1]
                     starts.append(base + at + gap)
-            del lengths[len(lists) * (len(starts) - 1) :]
-            new = lengths[len(lists) * (before - 1) :]
-            if new and not 0 <= min(new) <= max(new) <= MAX_LIST:
+            del lengths[len(lists) * (len(starts) - 1) :]  # lengths of a row that is cut
+            new_lengths = lengths[len(lists) * known_rows :]
+            if new_lengths and not 0 <= min(new_lengths) <= max(new_lengths) <= MAX_LIST:
                 raise RowsError
-            if len(starts) == before:
+            if len(starts) - 1 == known_rows:
                 if base + window > len(self._buffer):
                     raise RowsError
                 window *= 4
@@ -140,42 +153,44 @@ class RowReader:
 
     def _numbers_at(self, kind: str, start: int, count: int) -> list[int]:
         """Return the whole numbers of a type at up to `count` offsets of the buffer."""
-        rest = len(self._buffer) + 1 - self._size(kind)
-        view = np.ndarray(
-            max(rest, 0), self._type(kind), self._buffer, strides=self._buffer.strides
-        )
+        offsets = max(len(self._buffer) + 1 - self._size(kind), 0)
+        # Overlapping numbers, one at each offset.
+        view = np.ndarray(offsets, self._type(kind), self._buffer, strides=self._buffer.strides)
         with np.errstate(invalid="ignore"):
             return view[start : start + count].astype(np.int64).tolist()
 
     def _group_rows(
         self, properties: Sequence[Property], starts: NDArray, lengths: NDArray, first: int
     ) -> Iterator[Block]:
-        """Yield rows in blocks of equally long ones. starts, lengths: of `_scan`."""
+        """Yield rows in blocks with lists of equal lengths. starts, lengths: of `_scan`. first:
+        index of the first row.
+        """
         order = np.lexsort(lengths.T)
         changes = np.flatnonzero((lengths[order[1:]] != lengths[order[:-1]]).any(axis=1)) + 1
         for rows in np.split(order, changes):
             row = self._row_type(properties, lengths[rows[0]])
             size = row.itemsize // self._buffer.itemsize
-            first_row = self._buffer[starts[rows[0]] :][:size]
-            parts = (
-                self._buffer[starts[rows][:, None] + np.arange(size)]
-                if len(rows) > 1
-                else first_row
-            )
+            if len(rows) > 1:
+                parts = self._buffer[starts[rows][:, None] + np.arange(size)]
+            else:  # One row may be as large as the file, and indices are larger.
+                parts = self._buffer[starts[rows[0]] :][:size]
             table = np.frombuffer(parts.tobytes(), row)
             yield first + rows, [table[name] for name in _names(properties)]
 
-    def _row_type(self, properties: Sequence[Property], lengths: Sequence[int] | Index) -> np.dtype:
-        fields: list[tuple] = []
-        left = iter(enumerate(lengths))
-        for name, one in zip(_names(properties), properties):
-            if one.counter:
-                number, length = next(left)
-                fields.append(("n{}".format(number), self._type(one.counter)))
-                fields.append((name, self._type(one.type), (length,)))
+    def _row_type(self, properties: Sequence[Property], lengths: Index) -> np.dtype:
+        """Return the type of a row with lists of these lengths: its columns (`_names`), and the
+        counters of its lists, n0, n1, ….
+        """
+        columns: list[tuple] = []
+        numbered_lengths = iter(enumerate(lengths))
+        for name, field in zip(_names(properties), properties):
+            if field.counter:
+                number, length = next(numbered_lengths)
+                columns.append(("n{}".format(number), self._type(field.counter)))
+                columns.append((name, self._type(field.type), (length,)))
             else:
-                fields.append((name, self._type(one.type)))
-        return np.dtype(fields)
+                columns.append((name, self._type(field.type)))
+        return np.dtype(columns)
 
     def _size(self, kind: str) -> int:
         """Return the size of a number in items of the buffer: bytes of a binary file, numbers of a
@@ -189,11 +204,10 @@ class RowReader:
     def _read_ahead(self, count: int) -> None:
         """Fill the buffer to `count` bytes or numbers, or with the rest of the file."""
         while len(self._buffer) < count:
-            more = (
-                np.frombuffer(self._file.read(BYTES_PER_BLOCK), np.uint8)
-                if self._order
-                else self._numbers()
-            )
+            if self._order:
+                more = np.frombuffer(self._file.read(BYTES_PER_BLOCK), np.uint8)
+            else:
+                more = self._numbers()
             if not len(more):
                 return
             self._buffer = np.concatenate([self._buffer, more]) if len(self._buffer) else more
@@ -202,11 +216,12 @@ class RowReader:
         """Return the next (n,) numbers of a text, n = 0 at its end. Raises RowsError."""
         while True:
             chunk = self._file.read(BYTES_PER_BLOCK // 4)
-            text = self._text + chunk
-            self._text = b""
+            text = self._cut_word + chunk
+            self._cut_word = b""
             if chunk:
                 end = max(text.rfind(space) for space in (b" ", b"\n", b"\t", b"\r")) + 1
-                text, self._text = text[:end], text[end:]
+                self._cut_word = text[end:]
+                text = text[:end]
             if text.strip():
                 break
             if not chunk:
@@ -247,12 +262,17 @@ class Element:
         """The index of the property that lists the vertices of a face or strip, or None if there is
         none.
         """
-        names = [one.name if one.counter else "" for one in self.properties]
+        names = [field.name if field.counter else "" for field in self.properties]
         return next((names.index(name) for name in INDICES if name in names), None)
+
+    @property
+    def names(self) -> set[str]:
+        """The names of the properties."""
+        return {field.name for field in self.properties}
 
     def index(self, name: str) -> int:
         """Return the index of a property. Raises ValueError."""
-        return [one.name for one in self.properties].index(name)
+        return [field.name for field in self.properties].index(name)
 
 
 @dataclass(frozen=True)

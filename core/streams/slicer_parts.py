@@ -12,13 +12,16 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from ..files import parse_number, parse_whole, parse_xml, xml_parser
 
-PRUSA, PRUSA_PROJECT = "/metadata/slic3r_pe_model.config", "/metadata/slic3r_pe.config"
-BAMBU, BAMBU_PROJECT = "/metadata/model_settings.config", "/metadata/project_settings.config"
+# Entries with parts, and with settings of the whole project.
+PRUSA = "/metadata/slic3r_pe_model.config"
+PRUSA_PROJECT = "/metadata/slic3r_pe.config"
+BAMBU = "/metadata/model_settings.config"
+BAMBU_PROJECT = "/metadata/project_settings.config"
 NEGATIVE = "negative"
 # Kinds of parts besides those that are printed: what cuts, and why the others are left out.
 _KINDS = {
@@ -86,12 +89,14 @@ class SlicerProject:
                 if equals:
                     project.settings[name] = value.strip()
         if text := text_of(BAMBU_PROJECT):
-            found = json.loads(text)
-            project.settings |= found if isinstance(found, dict) else {}
+            settings = json.loads(text)
+            project.settings |= settings if isinstance(settings, dict) else {}
         return project
 
     def _read_parts(self, text: bytes) -> None:
-        stack: list[tuple[dict[str, str], dict[str, str]]] = []  # of elements and their settings
+        """Add the objects and parts of an XML text, with their settings."""
+        # The attributes and the settings of the elements that are open.
+        stack: list[tuple[dict[str, str], dict[str, str]]] = []
 
         def start(tag: str, values: dict[str, str]) -> None:
             if tag in _ELEMENTS:
@@ -102,20 +107,20 @@ class SlicerProject:
         def end(tag: str) -> None:
             if tag not in _ELEMENTS:
                 return
-            values, own = stack.pop()
+            values, settings = stack.pop()
             if tag == "object":
-                self.objects[values["id"]] = own
+                self.objects[values["id"]] = settings
                 return
             parent = stack[0][0]["id"]
-            kind = own.get("volume_type", values.get("subtype", "")).lower()
-            if own.get("modifier") == "1":
+            kind = settings.get("volume_type", values.get("subtype", "")).lower()
+            if settings.get("modifier") == "1":
                 kind = "parametermodifier"
-            triangles = None
+            part = SlicerPart(
+                kind=_KINDS.get(kind, ""), name=settings.get("name", ""), settings=settings
+            )
             if tag == "volume":
                 triangles = parse_whole(values["firstid"]), parse_whole(values["lastid"])
-            part = SlicerPart(triangles, _KINDS.get(kind, ""), own.get("name", ""), own)
-            if tag == "volume":
-                self.parts.setdefault(parent, []).append(part)
+                self.parts.setdefault(parent, []).append(replace(part, triangles=triangles))
             else:
                 self.components[parent, values["id"]] = part
 
@@ -130,10 +135,11 @@ class SlicerProject:
 
         Empty if there is no infill. Raises ValueError.
         """
-        known = {**self.settings, **settings}
+        stated = {**self.settings, **settings}
 
         def number(name: str, percent: bool = False) -> float | None:
-            value = next((known[key] for key in _NAMES[name] if key in known), "")
+            """Return a setting by our name, None if it is not stated or a percentage of another."""
+            value = next((stated[key] for key in _NAMES[name] if key in stated), "")
             if isinstance(value, list):  # a value for each variant of the printer
                 value = value[0] if value else ""
             text = str(value)
@@ -144,28 +150,41 @@ class SlicerProject:
         infill = number("infill", percent=True)
         if infill is None:
             return {}
-        made = {name: number(name) for name in ("walls", "top", "bottom", "layer_height")}
-        made = {name: value for name, value in made.items() if value is not None}
-        made |= {"infill": infill} | (_VASE if number("vase") else {})
-        outer, inner = number("outer") or USUAL_LINE, number("inner") or USUAL_LINE
-        walls = made.get("walls", 1.0)
-        height = made.get("layer_height", math.inf)
+        print_settings = {"infill": infill}
+        for name in ("walls", "top", "bottom", "layer_height"):
+            value = number(name)
+            if value is not None:
+                print_settings[name] = value
+        if number("vase"):
+            print_settings |= _VASE
+        outer = number("outer") or USUAL_LINE
+        inner = number("inner") or USUAL_LINE
+        walls = print_settings.get("walls", 1.0)
+        height = print_settings.get("layer_height", math.inf)
         if not (walls >= 0.0 and height > 0.0 and 0.0 <= infill <= 100.0):
             raise ValueError("a print setting is out of its range")
         for side in ("top", "bottom"):
             least = math.ceil((number(side + "_least") or 0.0) / height - LEAST_LAYER)
-            if made.get(side):
-                made[side] = max(made[side], least)
-        if "layer_height" in made:
-            made["layer_height"] *= 1e-3
+            if print_settings.get(side):
+                print_settings[side] = max(print_settings[side], least)
+        if "layer_height" in print_settings:
+            print_settings["layer_height"] *= 1e-3
         count = max(walls, 1.0)
-        made["line_width"] = 1e-3 * (outer + (count - 1.0) * inner) / count
-        extruder = max(0, parse_whole(str(known.get("extruder", "1"))) - 1)
-        densities = known.get("filament_density", ())
-        if isinstance(densities, str):
-            densities = densities.split(",")
-        if extruder < len(densities) and parse_number(str(densities[extruder]).strip()) > 0.0:
-            made["density"] = 1e3 * parse_number(str(densities[extruder]).strip())
-        if not all(map(math.isfinite, made.values())):
+        print_settings["line_width"] = 1e-3 * (outer + (count - 1.0) * inner) / count
+        density = _filament_density(stated)
+        if density > 0.0:
+            print_settings["density"] = density
+        if not all(map(math.isfinite, print_settings.values())):
             raise ValueError("a print setting is not finite")
-        return made
+        return print_settings
+
+
+def _filament_density(settings: Mapping[str, Any]) -> float:
+    """Return the density of the filament in a part's extruder, kg/m³, 0 if it is not stated."""
+    extruder = max(0, parse_whole(str(settings.get("extruder", "1"))) - 1)
+    densities = settings.get("filament_density", ())  # g/cm³
+    if isinstance(densities, str):
+        densities = densities.split(",")
+    if extruder >= len(densities):
+        return 0.0
+    return 1e3 * parse_number(str(densities[extruder]).strip())

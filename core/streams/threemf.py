@@ -145,22 +145,25 @@ class _Package:
                 yield piece
 
     def model(self, part: str) -> _Model:
+        """Return the model in a part of the archive, which is read once."""
         if part not in self._models:
             self._models[part] = _Model(part, self.pieces(part))
         return self._models[part]
 
     def build(self) -> tuple[list[Placed], float]:
+        """Return the meshes of the build, and its unit in meters."""
         model = self.model(self._root())
         self._project = SlicerProject.read(self._entry)
         placed: list[Placed] = []
         for number, item in enumerate(model.items):
-            for one in self._placed(*item):
-                placed.append(replace(one, item=number))
+            for mesh in self._placed(*item):
+                placed.append(replace(mesh, item=number))
                 if len(placed) > MAX_INSTANCES:
                     raise FileError(FILE_TOO_LARGE, limit=MAX_INSTANCES, content="placed meshes")
         return placed, UNITS[model.unit]
 
     def _entry(self, name: str) -> bytes | None:
+        """Return the bytes of an entry, or None if there is none."""
         return b"".join(self.pieces(name)) if name in self._names else None
 
     def _root(self) -> str:
@@ -188,67 +191,73 @@ class _Package:
         above: tuple[tuple[str, str], ...] = (),
         name: str = "",
     ) -> Iterator[Placed]:
+        """Yield the meshes of an object and of its components.
+
+        hidden: as in `Placed`. above: the keys of the objects whose component it is, the item's
+        object first. name: the component's name, which replaces the object's.
+        """
         key = (part, identifier)
         if key in above:
             raise ValueError("an object is a component of itself")
         if len(above) > MAX_DEPTH:
             raise FileError(FILE_TOO_LARGE, limit=MAX_DEPTH, content="nested components")
-        found = self.model(part).objects[identifier]
-        name = name or found.name
+        model_object = self.model(part).objects[identifier]
+        name = name or model_object.name
         top = above[0][1] if above else identifier
-        own = self._project.components.get((top, identifier))
-        if found.type != MODEL and own is None:
-            hidden = hidden or "its type is {}".format(found.type)
-        if len(found.triangles):
-            yield from self._parts(
-                key,
-                top,
-                Placed(
-                    name or "Object " + identifier, key, *self._mesh(key, found), matrix, hidden
-                ),
-            )
-        for part, identifier, local in found.components:
+        if model_object.type != MODEL and (top, identifier) not in self._project.components:
+            hidden = hidden or "its type is {}".format(model_object.type)
+        if len(model_object.triangles):
+            points, triangles = self._mesh(key, model_object)
+            whole = Placed(name or "Object " + identifier, key, points, triangles, matrix, hidden)
+            yield from self._parts(key, top, whole)
+        for component_part, component_id, local in model_object.components:
             yield from self._placed(
-                part, identifier, matrix @ local, hidden, (*above, key), found.name or name
+                component_part,
+                component_id,
+                matrix @ local,
+                hidden,
+                (*above, key),
+                model_object.name or name,
             )
 
     def _parts(self, key: tuple[str, str], top: str, whole: Placed) -> Iterator[Placed]:
         """Yield the parts of a mesh in the slicer's project. top: the id of the item's object."""
         project = self._project
-        own = project.components.get((top, key[1]))
-        parts = project.parts.get(key[1]) or [own or SlicerPart()]
+        component = project.components.get((top, key[1]))
+        parts = project.parts.get(key[1]) or [component or SlicerPart()]
         for part in parts:
-            one = replace(whole, key=(key, top))
+            mesh = replace(whole, key=(key, top))
             if part.triangles is not None and len(parts) > 1:
                 first, last = part.triangles
                 if not 0 <= first <= last < len(whole.triangles):
                     raise ValueError("a part has triangles that its object has not")
-                used, chosen = np.unique(whole.triangles[first : last + 1], return_inverse=True)
-                one = replace(
-                    one,
+                used, corners = np.unique(whole.triangles[first : last + 1], return_inverse=True)
+                mesh = replace(
+                    mesh,
                     key=(key, first),
                     points=whole.points[used],
-                    triangles=chosen.reshape(-1, 3),
+                    triangles=corners.reshape(-1, 3),
                 )
-            if part.name and (own or len(parts) > 1):
-                one = replace(one, name=part.name)
+            if part.name and (component or len(parts) > 1):
+                mesh = replace(mesh, name=part.name)
             is_negative = part.kind == NEGATIVE
             settings = {**project.objects.get(top, {}), **part.settings}
             try:
-                printed = project.print_settings(settings)
+                print_settings = project.print_settings(settings)
             except (ValueError, TypeError, OverflowError):
-                printed = None
+                print_settings = None
             yield replace(
-                one,
-                hidden=one.hidden or ("" if is_negative else part.kind),
+                mesh,
+                hidden=mesh.hidden or ("" if is_negative else part.kind),
                 is_negative=is_negative,
-                print_settings=printed,
+                print_settings=print_settings,
             )
 
-    def _mesh(self, key: tuple[str, str], found: _Object) -> tuple[NDArray, NDArray]:
+    def _mesh(self, key: tuple[str, str], model_object: _Object) -> tuple[NDArray, NDArray]:
+        """Return (n, 3) points and (m, 3) triangles of an object, the same arrays at each call."""
         if key not in self._arrays:
-            points = np.frombuffer(found.points, np.float64).reshape(-1, 3)
-            triangles = np.frombuffer(found.triangles, np.int64).reshape(-1, 3)
+            points = np.frombuffer(model_object.points, np.float64).reshape(-1, 3)
+            triangles = np.frombuffer(model_object.triangles, np.int64).reshape(-1, 3)
             if triangles.size and not (triangles.min() >= 0 and triangles.max() < len(points)):
                 raise damaged(
                     self._path,
@@ -267,11 +276,12 @@ class _Model:
 
     def __init__(self, part: str, pieces: Iterator[bytes]) -> None:
         self._part = part
-        self.unit, self._tag = "millimeter", ""
+        self._tag = ""  # the last element of the core specification that began
+        self.unit = "millimeter"
         self.objects: dict[str, _Object] = {}
         self.items: list[tuple[str, str, Array, str]] = []
-        self._object = _Object("")
-        self._spaces: dict[str, str] = {}
+        self._object = _Object("")  # the last one that began
+        self._spaces: dict[str, str] = {}  # URIs of namespaces by prefix
         parser = xml_parser(" ")
         parser.StartNamespaceDeclHandler = lambda prefix, uri: self._spaces.__setitem__(
             prefix or "", uri or ""
@@ -280,13 +290,15 @@ class _Model:
         try:
             parse_xml(parser, pieces)
         except ValueError as error:  # with the text of a field
-            place = {
-                "line": parser.CurrentLineNumber,
-                "expected": "a value of a 3MF <{}>".format(self._tag),
-            }
-            raise FileError(LINE_MISREAD, **place, text=str(error)[:MAX_TEXT]) from error
+            raise FileError(
+                LINE_MISREAD,
+                line=parser.CurrentLineNumber,
+                expected="a value of a 3MF <{}>".format(self._tag),
+                text=str(error)[:MAX_TEXT],
+            ) from error
 
     def _start(self, name: str, values: dict[str, str]) -> None:
+        """Take an element. name: its namespace and tag."""
         space, _, tag = name.rpartition(" ")
         if not space.endswith("core/2015/02"):
             if tag in _SHAPING:
@@ -320,6 +332,7 @@ class _Model:
                     raise FileError(THREEMF_EXTENSION, name=self._spaces.get(prefix, prefix))
 
     def _reference(self, values: dict[str, str]) -> tuple[str, str, Array]:
+        """Return the part and the id of an item's or component's object, and its (4, 4) matrix."""
         path = next(
             (value for name, value in values.items() if name.endswith("production/2015/06 path")),
             self._part,

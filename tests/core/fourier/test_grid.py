@@ -62,7 +62,7 @@ def test_the_area_and_an_open_surface_are_right_to_the_tolerance():
         found = transform.result()
         # spread points are collected in one sum
         assert np.count_nonzero(np.abs(shares - 1.0 + fourier_grid.CHECKING_TIME) < 1e-12) == 1 + 1
-        assert transform.fine
+        assert transform.point_groups
         assert np.abs(found.values - exact.values).max() <= tolerance * total
 
 
@@ -73,7 +73,7 @@ def test_large_and_small_triangles_go_together():
     found = run_to_completion(transform)
     assert (
         len(transform.direct.triangles) == 12
-        and sum(len(rows) for _, rows in transform.fine) == 512
+        and sum(len(rows) for _, rows in transform.point_groups) == 512
     )
     exact = solid_transform(bodies.surface(part), grid)
     assert np.abs(found.values - exact.values).max() <= 1e-4

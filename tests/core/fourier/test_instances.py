@@ -56,7 +56,7 @@ def test_copies_under_any_map_are_the_mapped_bodies(of, alone, q):
             true = true + alone(bodies.surface(image), q).values
     # rounding of mapped corners, 70 from the origin, times the surface's area
     assert np.abs(found.values - true).max() <= 150.0 * 4 * 2.0**-47
-    assert len(transform.jobs) == 6 and found.method == "exact"
+    assert len(transform.images) == 6 and found.method == "exact"
 
 
 def test_a_map_of_the_body_is_a_map_of_the_frequencies():
