@@ -163,7 +163,8 @@ class GridWaves:
     """
 
     def __init__(self, grid: FrequencyGrid, scale: float):
-        self.side = np.arange(-grid.half, grid.half + 1) * grid.step * scale
+        steps = np.arange(-grid.half, grid.half + 1, dtype=np.float64)
+        self.side: Array = np.asarray(steps * grid.step * scale, np.float64)
         self.depth = self.side[grid.half :]
         self.rows = len(self.side) ** 2
         self.columns = len(self.depth)

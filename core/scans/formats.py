@@ -143,20 +143,18 @@ def sample_matrix(
     check_type("scan", scan, Scan)
     findings = []
     matrix = float_array("scan.matrix", scan.matrix, 4, 4).copy()
-    meters_per_unit = scan.unit or unit_scale or scan.usual_unit or 1.0
+    matrix[:3] *= scan.unit or unit_scale or scan.usual_unit or 1.0
     if scan.unit is not None and unit_scale is not None:
         findings.append(finding(SCAN_OWN_UNIT))
-    given = unit_scale or 1.0
-    matrix[:3] *= meters_per_unit
+    replaced = []
     if spacing is not None:
-        matrix[:3, :3] = np.diag(float_array("spacing", spacing, 3)) * given
+        matrix[:3, :3] = np.diag(float_array("spacing", spacing, 3)) * (unit_scale or 1.0)
+        replaced.append("spacing")
     if origin is not None:
-        matrix[:3, 3] = float_array("origin", origin, 3) * given
-    if scan.is_placed and (spacing is not None or origin is not None):
-        fields = [
-            name for name, value in (("spacing", spacing), ("origin", origin)) if value is not None
-        ]
-        findings.append(finding(SCAN_PLACEMENT_OVERRIDDEN, fields=fields))
+        matrix[:3, 3] = float_array("origin", origin, 3) * (unit_scale or 1.0)
+        replaced.append("origin")
+    if scan.is_placed and replaced:
+        findings.append(finding(SCAN_PLACEMENT_OVERRIDDEN, fields=replaced))
     if not scan.is_placed and spacing is None:
         findings.append(finding(SCAN_UNSTATED, part="spacing", option="spacing"))
     elif scan.unit is None and unit_scale is None and spacing is None:
@@ -174,20 +172,19 @@ def read_positions(path: str | Path, axis: str, count: int) -> Array:
     Raises FileError, OSError.
     """
     path = Path(path)
-    whose = {"file": path.name, "axis": axis}
+    subject = {"file": path.name, "axis": axis}
     if not path.is_file():
         raise FileError(NAMED_FILE_MISSING, file=path.name, content=CONTENTS[axis])
     array = map_array(path)
     if array.shape != (count,) or count < 2 or array.dtype.kind not in "iuf":
         size = " x ".join(map(str, array.shape))
-        raise FileError(
-            POSITIONS_COUNT, **whose, samples=count, array="{} {}".format(size, array.dtype).strip()
-        )
-    row = np.array(array, np.float64)
-    is_right = np.isfinite(row) & np.append(True, row[1:] > row[:-1])
+        description = "{} {}".format(size, array.dtype).strip()
+        raise FileError(POSITIONS_COUNT, **subject, samples=count, array=description)
+    positions = np.array(array, np.float64)
+    is_right = np.isfinite(positions) & np.append(True, positions[1:] > positions[:-1])
     if not is_right.all():
-        raise FileError(POSITIONS_NOT_ASCENDING, **whose, place=int(np.argmin(is_right)))
-    return row
+        raise FileError(POSITIONS_NOT_ASCENDING, **subject, place=int(np.argmin(is_right)))
+    return positions
 
 
 def read_all_positions(files: Mapping[str, str | Path], shape: Sequence[int]) -> Positions:
@@ -212,16 +209,16 @@ def place_samples(matrix: NDArray, positions: Positions, unit: float) -> tuple[A
     keep all digits: sample k stands at matrix @ (…, positions[k], 1).
     """
     matrix = matrix.copy()
-    if not any(row is not None for row in positions):
+    if all(row is None for row in positions):
         return matrix, positions
     directions = matrix[:3, :3] / np.linalg.norm(matrix[:3, :3], axis=0)
-    origin = np.linalg.solve(directions, matrix[:3, 3])
-    relative = []
+    origin = np.linalg.solve(directions, matrix[:3, 3])  # along the directions
+    relative: list[Array | None] = [None, None, None]
     for axis, row in enumerate(positions):
         if row is not None:
             matrix[:3, axis] = directions[:, axis] * unit
             origin[axis] = row[0] * unit
-        relative.append(None if row is None else row - row[0])
+            relative[axis] = row - row[0]
     matrix[:3, 3] = directions @ origin
     x, y, z = relative
     return matrix, (x, y, z)

@@ -10,6 +10,7 @@ import csv
 import re
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -54,17 +55,19 @@ def read_label_table(path: Path, limits: Limits) -> dict[int, Label]:
     check_regular(path)
     limits.check(path, "text_bytes", path.stat().st_size)
     lines = path.read_bytes().decode("utf-8-sig", "replace").splitlines()
-    rows = [
+    numbered_lines = [
         (number, line.strip())
         for number, line in enumerate(lines, 1)
         if line.strip() and not line.lstrip().startswith("#")
     ]
-    is_table = path.suffix.lower() == ".csv"
-    columns, delimiter = _columns(*rows[0]) if is_table and rows else ({}, ",")
+    parse_row = _text_row
+    if path.suffix.lower() == ".csv" and numbered_lines:
+        columns, delimiter = _columns(*numbered_lines.pop(0))
+        parse_row = partial(_csv_row, columns=columns, delimiter=delimiter)
     labels = {}
-    for number, line in rows[1 if is_table else 0 :]:
+    for number, line in numbered_lines:
         try:
-            label, entry = _csv_row(line, columns, delimiter) if is_table else _text_row(line)
+            label, entry = parse_row(line)
         except (ValueError, IndexError, csv.Error) as error:
             raise _misread(number, line) from error
         if label in labels:
@@ -76,6 +79,7 @@ def read_label_table(path: Path, limits: Limits) -> dict[int, Label]:
 
 
 def _misread(number: int, line: str, expected: str = _TABLE) -> FileError:
+    """Return the refusal of a line. number: from 1."""
     return FileError(LINE_MISREAD, line=number, text=line[:MAX_TEXT], expected=expected)
 
 
@@ -89,20 +93,22 @@ def _columns(number: int, line: str) -> tuple[dict[str, int], str]:
     names = [re.sub(r"[^a-z0-9]", "", word.lower().replace("³", "3")) for word in words]
     places: dict[str, int] = {}
     for column, known in _COLUMNS.items():
-        for name in known:
-            if name in names and names.index(name) not in places.values():
-                places[column] = names.index(name)
-                break
+        free = [names.index(name) for name in known if name in names]
+        free = [place for place in free if place not in places.values()]
+        if free:
+            places[column] = free[0]
     if "label" not in places or not places.keys() & {"name", "density"}:
         raise _misread(number, line)
     return places, delimiter
 
 
 def _split(line: str, delimiter: str) -> list[str]:
+    """Return the words of a line of a .csv file."""
     return [word.strip() for word in next(csv.reader([line], delimiter=delimiter))]
 
 
 def _csv_row(line: str, columns: Mapping[str, int], delimiter: str) -> tuple[int, Label]:
+    """Return a label and its entry. Raises ValueError, IndexError and csv.Error."""
     words = _split(line, delimiter)
     texts = {column: words[place] for column, place in columns.items()}
     colors = [texts[name] for name in ("red", "green", "blue") if texts.get(name)]
@@ -115,6 +121,7 @@ def _csv_row(line: str, columns: Mapping[str, int], delimiter: str) -> tuple[int
 
 
 def _text_row(line: str) -> tuple[int, Label]:
+    """Return a label and its entry. Raises ValueError."""
     for pattern, group in ((_ITK_SNAP, 2), (_FREESURFER, 3)):
         if found := pattern.fullmatch(line):
             color = read_color(map(float, found.group(group).split()))
@@ -137,13 +144,13 @@ def segment_labels(fields: Mapping[str, str]) -> dict[int, Label]:
     labels = {}
     for key, text in fields.items():
         if found := re.fullmatch(r"=(Segment\d+_)LabelValue", key):
-            name, color = (fields.get("={}{}".format(found[1], of), "") for of in ("Name", "Color"))
-            known = None
+            name = fields.get("={}Name".format(found[1]), "")
+            color = None
             with suppress(ValueError):  # a remark in the header, without effect on sums
-                r, g, b = map(parse_number, color.split())
-                known = read_color((r, g, b))
+                r, g, b = map(parse_number, fields.get("={}Color".format(found[1]), "").split())
+                color = read_color((r, g, b))
             with suppress(ValueError):
-                labels[parse_whole(text)] = Label(name, known)
+                labels[parse_whole(text)] = Label(name, color)
     return labels
 
 
@@ -152,15 +159,16 @@ def count_labels(values: NDArray) -> int:
 
     Labels are three or more whole numbers in regions; the background is the first sample's.
     """
-    found = np.zeros(0)
-    inside = changing = 0
+    labels = np.zeros(0)
+    neighbors = changes = 0
     for slab in values:
         numbers = np.unique(slab)
-        found = np.union1d(found, numbers)
-        if len(found) > MOST_LABELS or not (numbers == np.rint(numbers)).all():
+        labels = np.union1d(labels, numbers)
+        if len(labels) > MOST_LABELS or not (numbers == np.rint(numbers)).all():
             return 0
-        before, after = slab[:, :-1], slab[:, 1:]
+        before = slab[:, :-1]
+        after = slab[:, 1:]
         background = values[0, 0, 0]
-        inside += np.count_nonzero((before != background) | (after != background))
-        changing += np.count_nonzero(before != after)
-    return len(found) if len(found) > 2 and changing <= MAX_CHANGING * inside else 0
+        neighbors += np.count_nonzero((before != background) | (after != background))
+        changes += np.count_nonzero(before != after)
+    return len(labels) if len(labels) > 2 and changes <= MAX_CHANGING * neighbors else 0

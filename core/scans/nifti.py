@@ -64,13 +64,13 @@ _FIELDS = {
     "srow": ((3, 4), "f4", 280, "f8", 400),
 }
 _ATTRIBUTE = re.compile(r"""(\w+)=["']([^"']*)["']""")
-_SIZES = {348: 1, 540: 3}  # bytes of the header, and the place of its types in `_FIELDS`
+_SIZES = {348: 1, 540: 3}  # bytes of a version's header: the place of its types in `_FIELDS`
 
 
 def read_nifti(path: Path, limits: Limits) -> Scan:
     """Read the scan as a memory map, or unpacked if it is gzipped."""
-    packed = path.name.lower().endswith(".gz")
-    header = _read_header(path, packed)
+    is_packed = path.name.lower().endswith(".gz")
+    header = _read_header(path, is_packed)
     if header["magic"][:2] == b"ni":
         raise FileError(SCAN_IN_SEVERAL_FILES, suffix=".nii")
     dim = header["dim"].tolist()
@@ -85,68 +85,73 @@ def read_nifti(path: Path, limits: Limits) -> Scan:
     code = int(header["datatype"])
     if code not in TYPES:
         raise FileError(SCAN_SAMPLE_TYPE, type="NIfTI {}".format(code))
-    dtype = np.dtype(TYPES[code]).newbyteorder(header.dtype["dim"].base.byteorder)
+    byte_order = header.dtype["dim"].base.byteorder
+    dtype = np.dtype(TYPES[code]).newbyteorder(byte_order)
     if header["bitpix"] not in (0, 8 * dtype.itemsize):
         raise wrong_field("NIfTI", "bitpix", "the size of its data type", header["bitpix"])
     offset = float(header["vox_offset"])
     if not header.dtype.itemsize <= offset < 1 << 40 or offset != int(offset):
         raise wrong_field("NIfTI", "vox_offset", "a whole number behind the header", offset)
-    matrix, placed = _sample_matrix(header)
-    if packed:
+    matrix, is_placed = _sample_matrix(header)
+    if is_packed:
         samples = unpack_samples(path, 0, dtype, shape, int(offset), limits)
     else:
         samples = map_samples(path, dtype, shape, int(offset))
-    slope, intercept = float(header["scl_slope"]), float(header["scl_inter"])
+    slope = float(header["scl_slope"])
+    intercept = float(header["scl_inter"])
     if slope == 0.0 or math.isnan(slope):  # by the standard, and by its libraries: not scaled
-        slope, intercept = 1.0, 0.0
+        slope = 1.0
+        intercept = 0.0
     unit = UNITS.get(int(header["xyzt_units"]) & 7)
-    is_big = header.dtype["dim"].base.byteorder == ">"
-    head = b""
+    labels = {}
     if offset <= limits.header_bytes:
-        head = _first_bytes(path, packed, int(offset))[header.dtype.itemsize + 4 :]
-    labels = _extension_labels(head, "big" if is_big else "little")
-    return Scan(samples, matrix, unit, placed, slope, intercept, usual_unit=1e-3, labels=labels)
+        extensions = _first_bytes(path, is_packed, int(offset))[header.dtype.itemsize + 4 :]
+        labels = _extension_labels(extensions, "big" if byte_order == ">" else "little")
+    return Scan(samples, matrix, unit, is_placed, slope, intercept, usual_unit=1e-3, labels=labels)
 
 
-def _extension_labels(text: bytes, order: Literal["little", "big"]) -> dict[int, Label]:
+def _extension_labels(extensions: bytes, order: Literal["little", "big"]) -> dict[int, Label]:
     """Return the labels of a table in the XML of one of a header's extensions.
 
     They are remarks, without effect on sums: a label that cannot be read is left out.
     """
     labels: dict[int, Label] = {}
-    while len(text) > 8 and (size := int.from_bytes(text[:4], order)) >= 8:
-        for element in text[8:size].decode("utf-8", "replace").split("<Label ")[1:]:
-            head, _, content = element.partition(">")
-            values = dict(_ATTRIBUTE.findall(head))
+    # Each extension begins with its size and its kind, of four bytes each.
+    while len(extensions) > 8 and (size := int.from_bytes(extensions[:4], order)) >= 8:
+        for element in extensions[8:size].decode("utf-8", "replace").split("<Label ")[1:]:
+            attributes, _, content = element.partition(">")
+            values = dict(_ATTRIBUTE.findall(attributes))
             name = content.partition("</Label>")[0].strip()
             name = name.removeprefix("<![CDATA[").removesuffix("]]>")
             with suppress(ValueError, KeyError):
                 color = read_color(parse_number(values[key]) for key in ("Red", "Green", "Blue"))
                 labels[parse_whole(values["Key"])] = Label(html.unescape(name).strip(), color)
-        text = text[size:]
+        extensions = extensions[size:]
     return labels
 
 
-def _first_bytes(path: Path, packed: bool, count: int) -> bytes:
+def _first_bytes(path: Path, is_packed: bool, count: int) -> bytes:
     """Return the first bytes of a file, unpacked; fewer if it ends before."""
-    with open(path, "rb") as file:
-        blocks = unpacked_blocks(path, 0, "gzip") if packed else iter([file.read(count)])
-        head = b""
-        while len(head) < count and (block := next(blocks, b"")):
-            head += block
+    if not is_packed:
+        with open(path, "rb") as file:
+            return file.read(count)
+    head = b""
+    for block in unpacked_blocks(path, 0, "gzip"):
+        head += block
+        if len(head) >= count:
+            break
     return head[:count]
 
 
-def _read_header(path: Path, packed: bool) -> np.void:
+def _read_header(path: Path, is_packed: bool) -> np.void:
     """Return the fields of a header of either version and byte order. Raises FileError."""
-    head = _first_bytes(path, packed, max(_SIZES))
+    head = _first_bytes(path, is_packed, max(_SIZES))
     if len(head) < min(_SIZES):
         raise damaged(path, DAMAGE_CUT_SHORT, part="header")
-    for order in "<>":
-        size = int.from_bytes(head[:4], "little" if order == "<" else "big")
-        if size in _SIZES:
-            break
-    else:
+    # The first number is the size of the header, which tells the byte order.
+    order = "<" if int.from_bytes(head[:4], "little") in _SIZES else ">"
+    size = int.from_bytes(head[:4], "little" if order == "<" else "big")
+    if size not in _SIZES:
         raise FileError(FILE_UNRECOGNIZED, format="NIfTI")
     if len(head) < size:
         raise damaged(path, DAMAGE_CUT_SHORT, part="header")
@@ -188,8 +193,9 @@ def _sample_matrix(header: np.void) -> tuple[Array, bool]:
     b, c, d, *offset = header["quatern"].tolist()
     if not all(map(math.isfinite, (b, c, d, *offset))) or b * b + c * c + d * d > 1.0 + 1e-5:
         raise wrong_field("NIfTI", "quatern", "a rotation", b, c, d, *offset)
-    turn = rotation_matrix((math.sqrt(max(0.0, 1.0 - (b * b + c * c + d * d))), b, c, d))
-    turn[:, 2] *= -1.0 if pixdim[0] < 0.0 else 1.0
-    matrix[:3, :3] = turn * spacing
+    axes = rotation_matrix((math.sqrt(max(0.0, 1.0 - (b * b + c * c + d * d))), b, c, d))
+    if pixdim[0] < 0.0:
+        axes[:, 2] *= -1.0
+    matrix[:3, :3] = axes * spacing
     matrix[:3, 3] = offset
     return matrix, True

@@ -81,9 +81,9 @@ SPACE_KINDS = {
     "none",
     "???",
 }
-SAME_EXTENT_RTOL = (
-    1e-3  # of a spacing times the count of samples, and the difference of axis maximum and minimum
-)
+# Allowed difference of an axis' maximum and minimum from the spacing times the count of samples,
+# relative to it.
+SAME_EXTENT_RTOL = 1e-3
 TYPES = {
     name: dtype
     for dtype, names in {
@@ -131,20 +131,20 @@ _WORD = re.compile(r'"([^"]*)"|([^\s"]+)')
 
 
 def read_header(path: Path, limits: Limits) -> tuple[dict[str, str], int | None]:
-    """Return the fields by lower-case names and the keys after “=”, and the samples' offset, None
-    if the file ends before.
+    """Return the fields by lower-case names, and keys with “=” before their names; and the samples'
+    offset, None if the file ends before them.
 
-    FileError.
+    Raises FileError.
     """
     head = bytearray()
     end = None
     with open(path, "rb") as file:
         while not end and (block := file.read(HEADER_BLOCK)):
-            seen = max(0, len(head) - 3)
+            unsearched = max(0, len(head) - 3)  # The end may be cut by the last block's.
             head += block
             if not re.match(rb"NRRD000[1-5]\r?\n", head):
                 raise FileError(FILE_UNRECOGNIZED, format="NRRD")
-            end = _HEADER_END.search(head, seen)
+            end = _HEADER_END.search(head, unsearched)
             limits.check(path, "header_bytes", end.end() if end else len(head))
     if not head:
         raise FileError(FILE_UNRECOGNIZED, format="NRRD")
@@ -165,40 +165,20 @@ def read_header(path: Path, limits: Limits) -> tuple[dict[str, str], int | None]
 
 
 def read_nrrd(path: Path, limits: Limits) -> Scan:
-    """Read the scan as a memory map, or unpacked if it is gzipped."""
+    """Read the scan as a memory map, or unpacked if it is packed."""
     fields, start = read_header(path, limits)
-    sizes = _numbers(fields, "sizes", parse_whole)
-    if not sizes:
-        raise _field(fields, "sizes", "three numbers")
-    if _numbers(fields, "dimension", parse_whole) != [len(sizes)]:
-        raise _field(fields, "dimension", "the count of “sizes”")
-    axes = space_axes(sizes)
-    for name in _PER_AXIS & fields.keys() if len(sizes) > 3 else ():
-        words = re.findall(r'"[^"]*"|\([^()]*\)|[^\s"()]+', fields[name])
-        if len(words) == len(sizes):
-            fields[name] = " ".join(words[axis] for axis in axes)
-    shape = shape_of(sizes)
-    kind = TYPES.get(fields.get("type", "").lower())
-    if kind is None:
-        raise FileError(SCAN_SAMPLE_TYPE, type=fields.get("type", "“”"))
-    dtype = np.dtype(kind)
-    endian = fields.get("endian", "").lower()
-    encoding = ENCODINGS.get(fields.get("encoding", "").lower())
-    if encoding is None:
-        raise _field(fields, "encoding", "raw, gzip, bzip2 or text")
-    if encoding != "text" and dtype.itemsize > 1 and endian not in ("little", "big"):
-        raise _field(fields, "endian", "little or big")
-    dtype = dtype.newbyteorder(">" if endian == "big" else "<")
+    shape = _take_shape(fields)
+    dtype, encoding = _sample_type(fields)
     kinds = fields.get("kinds", "").lower().split()
     if kinds and not (len(kinds) == 3 and SPACE_KINDS.issuperset(kinds)):
-        raise _field(fields, "kinds", "three axes in space")
-    matrix, placed, unit = _sample_matrix(fields, shape)
+        raise _wrong(fields, "kinds", "three axes in space")
+    matrix, is_placed, unit = _sample_matrix(fields, shape)
     space = fields.get("space", "").lower().removesuffix("-time")
     is_anatomical = space in _TO_RAS
     if is_anatomical and "space directions" in fields:
         matrix[:3] *= np.array(_TO_RAS[space])[:, None]
     elif space and not is_anatomical and space not in _OTHER_SPACES:
-        raise _field(fields, "space", "a space of NRRD, such as left-posterior-superior")
+        raise _wrong(fields, "space", "a space of NRRD, such as left-posterior-superior")
     line_skip = _skip(fields, "line skip", 0)
     # The samples are the last bytes of a file if the skip is -1; compressed ones are counted from
     # their start.
@@ -214,8 +194,39 @@ def read_nrrd(path: Path, limits: Limits) -> Scan:
         samples = parse_samples(source, start + byte_skip, dtype, shape, limits)
     else:
         samples = unpack_samples(source, start, dtype, shape, byte_skip, limits, encoding)
-    usual = 1e-3 if is_anatomical else None
-    return Scan(samples, matrix, unit, placed, usual_unit=usual, labels=segment_labels(fields))
+    usual_unit = 1e-3 if is_anatomical else None
+    labels = segment_labels(fields)
+    return Scan(samples, matrix, unit, is_placed, usual_unit=usual_unit, labels=labels)
+
+
+def _take_shape(fields: dict[str, str]) -> tuple[int, int, int]:
+    """Return the sizes of the three axes in space, and drop other axes from all fields."""
+    sizes = _numbers(fields, "sizes", parse_whole)
+    if not sizes:
+        raise _wrong(fields, "sizes", "three numbers")
+    if _numbers(fields, "dimension", parse_whole) != [len(sizes)]:
+        raise _wrong(fields, "dimension", "the count of “sizes”")
+    axes = space_axes(sizes)
+    for name in _PER_AXIS & fields.keys() if len(sizes) > 3 else ():
+        words = re.findall(r'"[^"]*"|\([^()]*\)|[^\s"()]+', fields[name])
+        if len(words) == len(sizes):
+            fields[name] = " ".join(words[axis] for axis in axes)
+    return shape_of(sizes)
+
+
+def _sample_type(fields: dict[str, str]) -> tuple[np.dtype, str]:
+    """Return the type of the samples, and one of the values of ENCODINGS."""
+    kind = TYPES.get(fields.get("type", "").lower())
+    if kind is None:
+        raise FileError(SCAN_SAMPLE_TYPE, type=fields.get("type", "“”"))
+    dtype = np.dtype(kind)
+    endian = fields.get("endian", "").lower()
+    encoding = ENCODINGS.get(fields.get("encoding", "").lower())
+    if encoding is None:
+        raise _wrong(fields, "encoding", "raw, gzip, bzip2 or text")
+    if encoding != "text" and dtype.itemsize > 1 and endian not in ("little", "big"):
+        raise _wrong(fields, "endian", "little or big")
+    return dtype.newbyteorder(">" if endian == "big" else "<"), encoding
 
 
 def _samples_start(
@@ -238,7 +249,8 @@ def _samples_start(
     return source, 0
 
 
-def _field(fields: dict[str, str], name: str, wanted: str) -> FileError:
+def _wrong(fields: dict[str, str], name: str, wanted: str) -> FileError:
+    """Return the refusal of a field. wanted: what it should be."""
     return FileError(
         HEADER_FIELD, format="NRRD", field=name, wanted=wanted, text=fields.get(name, "")
     )
@@ -247,16 +259,18 @@ def _field(fields: dict[str, str], name: str, wanted: str) -> FileError:
 def _numbers(
     fields: dict[str, str], name: str, parse: Callable[[str], Any], default: str = ""
 ) -> list:
+    """Return the numbers in a field. default: the text if there is no such field."""
     try:
         return [parse(word) for word in fields.get(name, default).split()]
     except (ValueError, OverflowError):
-        raise _field(fields, name, "a list of numbers") from None
+        raise _wrong(fields, name, "a list of numbers") from None
 
 
 def _skip(fields: dict[str, str], name: str, least: int) -> int:
+    """Return the number of lines or bytes to skip, 0 by default, at least `least`."""
     values = _numbers(fields, name, parse_whole, "0")
     if len(values) != 1 or values[0] < least:
-        raise _field(fields, name, "one number, not negative")
+        raise _wrong(fields, name, "one number, not negative")
     return values[0]
 
 
@@ -276,49 +290,43 @@ def _sample_matrix(
     matrix's unit.
     """
     matrix = np.eye(4)
-    field = "space units" if "space units" in fields else "units"
-    units, unit = _units(fields, field)
+    name = "space units" if "space units" in fields else "units"
+    units = _units(fields, name)
     if "space directions" in fields:
         words = re.findall(r"none|\([^()]*\)|\S", fields["space directions"])
         directions = [_vector(word, "space directions") for word in words[:MAX_AXES]]
-        vectors = [row for row in directions if row is not None]
+        vectors = [vector for vector in directions if vector is not None]
         if len(vectors) != 3 or len(words) > MAX_AXES:
-            raise _field(fields, "space directions", "three vectors")
+            raise _wrong(fields, "space directions", "three vectors")
         matrix[:3, :3] = np.array(vectors).T
         if "space origin" in fields:
             origin = _vector(fields["space origin"], "space origin")
             matrix[:3, 3] = np.zeros(3) if origin is None else origin
-        placed = True
+        is_placed = True
     else:
         spacings, matrix[:3, 3] = _even_axes(fields, shape)
-        placed = spacings is not None
+        is_placed = spacings is not None
         matrix[:3, :3] = np.diag([1.0, 1.0, 1.0] if spacings is None else spacings)
-    if units is not None and unit is None:
-        if "space directions" in fields and field == "units":
-            # Units of the axes do not tell those of their directions' coordinates.
-            return (
-                matrix,
-                placed,
-                None,
-            )
-        matrix[:3] = matrix[:3] * units[:, None]
-        unit = 1.0
-    return matrix, placed, unit
+    if units is None:
+        return matrix, is_placed, None
+    if len(set(units)) == 1:
+        return matrix, is_placed, units[0]
+    if "space directions" in fields and name == "units":
+        # Different units of the axes do not tell those of their directions' coordinates.
+        return matrix, is_placed, None
+    matrix[:3] = matrix[:3] * np.array(units)[:, None]
+    return matrix, is_placed, 1.0
 
 
-def _units(fields: dict[str, str], field: str) -> tuple[Array | None, float | None]:
-    """Return the (3,) units of three axes in meters, None if one is unknown; and the one unit if
-    they are equal.
-    """
+def _units(fields: dict[str, str], name: str) -> list[float] | None:
+    """Return the units of three axes in meters, or None if one is unknown."""
     words = [
-        (quoted or word).strip() for quoted, word in _WORD.findall(fields.get(field, "").lower())
+        (quoted or word).strip() for quoted, word in _WORD.findall(fields.get(name, "").lower())
     ]
-    if field == "units" and TIMES.intersection(words[:3]) or set(words[:3]) - KNOWN_WORDS:
-        raise _field(fields, field, "units of length")
-    units = [UNITS.get(word) for word in words[:3]]
-    if len(units) < 3 or None in units:
-        return None, None
-    return np.array(units, np.float64), units[0] if len(set(units)) == 1 else None
+    if name == "units" and TIMES.intersection(words[:3]) or set(words[:3]) - KNOWN_WORDS:
+        raise _wrong(fields, name, "units of length")
+    units = [UNITS[word] for word in words[:3] if word in UNITS]
+    return units if len(units) == 3 else None
 
 
 def _even_axes(
@@ -332,62 +340,64 @@ def _even_axes(
     neither is stated, the distance of the minimum and maximum tells them apart; without spacing,
     cells are assumed, as by the format's own library. The last resort is the thickness.
     """
-    names = "spacings", "axis mins", "axis maxs", "thicknesses"
-    rows = [_numbers(fields, name, parse_number) for name in names]
     stated, lows, highs, thicknesses = (
-        row[:3] if len(row) >= 3 else [math.nan] * 3 for row in rows
+        _three_numbers(fields, name)
+        for name in ("spacings", "axis mins", "axis maxs", "thicknesses")
     )
     centers = [*fields.get("centers", "").lower().split(), *["???"] * 3][:3]
     if not {"cell", "node", "none", "???"}.issuperset(centers):
-        raise _field(fields, "centers", "cell or node for each axis")
-    unfit = _field(fields, "spacings", "three spacings that are not zero")
-    if (
-        0.0 in stated
-        or any(map(math.isinf, stated))
-        or fields.get("spacings")
-        and len(fields["spacings"].split()) < 3
-    ):
+        raise _wrong(fields, "centers", "cell or node for each axis")
+    unfit = _wrong(fields, "spacings", "three spacings that are not zero")
+    has_few = 0 < len(fields.get("spacings", "").split()) < 3
+    if has_few or 0.0 in stated or any(map(math.isinf, stated)):
         raise unfit
     spacings = []
     origin = []
     are_stated = "spacings" in fields
-    for spacing, low, high, thickness, center, count in zip(
-        stated, lows, highs, thicknesses, centers, shape
-    ):
-        steps = count - (center == "node")
+    for axis, (spacing, low, high) in enumerate(zip(stated, lows, highs)):
+        count = shape[axis]
+        # Steps from the minimum to the maximum: between outer faces as many as samples, between
+        # outer centers one less.
+        steps = count - (centers[axis] == "node")
         if math.isnan(spacing):
             spacing = (high - low) / steps if steps else math.nan
         else:
-            across = (high - low) / spacing
-            if center not in ("cell", "node"):
-                steps = count if across > count - 0.5 else count - 1
-            if abs(across - steps) > SAME_EXTENT_RTOL * count:
-                raise _field(fields, "axis maxs", "in agreement with “spacings”")
+            stated_steps = (high - low) / spacing
+            if centers[axis] not in ("cell", "node"):
+                steps = count if stated_steps > count - 0.5 else count - 1
+            if abs(stated_steps - steps) > SAME_EXTENT_RTOL * count:
+                raise _wrong(fields, "axis maxs", "in agreement with “spacings”")
         are_stated = are_stated or _is_spacing(spacing)
-        spacings.append(spacing if _is_spacing(spacing) else thickness)
+        spacings.append(spacing if _is_spacing(spacing) else thicknesses[axis])
         origin.append(low + spacings[-1] / 2.0 if steps == count else low)
     if not all(map(_is_spacing, spacings)):
         if are_stated:
             raise unfit
-        spacings, origin = None, lows
+        spacings = None
+        origin = lows
     return spacings, origin if np.isfinite(origin).all() else [0.0] * 3
 
 
+def _three_numbers(fields: dict[str, str], name: str) -> list[float]:
+    """Return the first three numbers of a field, NaN if there are fewer."""
+    numbers = _numbers(fields, name, parse_number)
+    return numbers[:3] if len(numbers) >= 3 else [math.nan] * 3
+
+
 def _is_spacing(number: float) -> bool:
+    """Return whether a number is finite and not zero."""
     return 0.0 < abs(number) < math.inf
 
 
 def _vector(text: str, name: str) -> list[float] | None:
+    """Return the vector “(x,y,z)” of a field, or None for “none”."""
     if text == "none":
         return None
+    words = text[1:-1].split(",", 3) if text[0] + text[-1] == "()" else []
     try:
-        row = (
-            [parse_number(word.strip()) for word in text[1:-1].split(",", 3)]
-            if text[0] + text[-1] == "()"
-            else []
-        )
+        vector = [parse_number(word.strip()) for word in words]
     except ValueError:
-        row = []
-    if len(row) != 3 or not np.isfinite(row).all():
-        raise _field({name: text}, name, "vectors of three numbers")
-    return row
+        vector = []
+    if len(vector) != 3 or not np.isfinite(vector).all():
+        raise _wrong({name: text}, name, "vectors of three numbers")
+    return vector

@@ -69,13 +69,12 @@ def read_npz(path: Path, limits: Limits) -> Scan:
         if not volumes:
             raise FileError(SCAN_SIZE, samples=next(map(list, shapes.values()), []))
         name = "density" if "density" in volumes else volumes[0]
+        findings = ()
         others = [volume for volume in volumes if volume != name]
-        findings = (
-            (finding(OTHERS_LEFT_OUT, kind="array", name=name, others=others),) if others else ()
-        )
-        return Scan(
-            real_samples(_unpack(archive, path, name, limits)), np.eye(4), findings=findings
-        )
+        if others:
+            findings = (finding(OTHERS_LEFT_OUT, kind="array", name=name, others=others),)
+        samples = real_samples(_unpack(archive, path, name, limits))
+        return Scan(samples, np.eye(4), findings=findings)
 
 
 def _is_volume(shape: Sequence[int]) -> bool:
@@ -123,11 +122,9 @@ def _damage(path: Path, kind: str) -> Iterator[None]:
     except (MemoryError, FileError):
         raise
     except Exception as error:  # NumPy evaluates a damaged header, which may raise anything
-        reason = (
-            str(error).rstrip(".")
-            if isinstance(error, zipfile.BadZipFile)
-            else type(error).__name__
-        )
+        reason = type(error).__name__
+        if isinstance(error, zipfile.BadZipFile):
+            reason = str(error).rstrip(".")
         raise damaged(path, DAMAGE_INCOMPLETE, kind=kind, error=reason) from error
 
 
@@ -161,10 +158,8 @@ def _npz_header(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> tuple[int, 
             else np.lib.format.read_array_header_2_0
         )
         shape, _, dtype = read(file)
-        if (
-            not dtype.hasobject
-            and file.tell() + dtype.itemsize * math.prod(shape) != entry.file_size
-        ):
+        size = file.tell() + dtype.itemsize * math.prod(shape)
+        if not dtype.hasobject and size != entry.file_size:
             raise ValueError("length of entry")
     return shape
 

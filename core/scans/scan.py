@@ -78,8 +78,8 @@ def space_axes(sizes: Sequence[int]) -> list[int]:
     axes = list(range(len(sizes)))
     while len(axes) > 3 and 1 in (sizes[axes[-1]], sizes[axes[0]]):
         del axes[-1 if sizes[axes[-1]] == 1 else 0]
-    kept = [int(sizes[axis]) for axis in axes]
-    if len(axes) != 3 or min(kept) < 1 or max(kept) > 1 << 40 or math.prod(kept) > 1 << 48:
+    space = [int(sizes[axis]) for axis in axes]
+    if len(axes) != 3 or min(space) < 1 or max(space) > 1 << 40 or math.prod(space) > 1 << 48:
         raise FileError(SCAN_SIZE, samples=list(sizes))
     return axes
 
@@ -125,9 +125,9 @@ def unpack_samples(
     """
     byte_count = dtype.itemsize * math.prod(shape)
     total = skip + byte_count
-    room = MAX_RATIOS[packing] * path.stat().st_size
-    if total > room:
-        raise damaged(path, DAMAGE_SIZE, bytes=max(0, room - skip), total=byte_count)
+    largest = MAX_RATIOS[packing] * path.stat().st_size
+    if total > largest:
+        raise damaged(path, DAMAGE_SIZE, bytes=max(0, largest - skip), total=byte_count)
     limits.check(path, "unpacked_bytes", total)
     unpacked = np.empty(total, np.uint8)
     done = 0

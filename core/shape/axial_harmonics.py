@@ -30,9 +30,8 @@ from .canonical_frame import EquivalentFrames, lexicographic_maximum
 
 MAX_AXIAL_ORDER = 30
 MAX_TILT = 1e-2  # rad; harmonics about an axis with a larger tilt say nothing about the body
-LEAST_HEIGHT = (
-    1e-2  # relative to the radius: least unit of height, as float32 makes flat bodies uneven
-)
+# Relative to the radius: the least unit of height, as float32 makes flat bodies uneven.
+LEAST_HEIGHT = 1e-2
 TRIANGLES_PER_BLOCK = 1 << 13
 
 
@@ -55,7 +54,8 @@ class AxialHarmonics:
 
     def in_frame(self, frame: Array) -> AxialHarmonics:
         """Return the harmonics in another frame with the same or the opposite axis."""
-        values, base = self.values, self.frame
+        values = self.values
+        base = self.frame
         if frame[:, 2] @ base[:, 2] < 0.0:  # half a turn about x
             base = base * (1.0, -1.0, -1.0)
             values = values.conj() * [[1.0], [-1.0]]
@@ -90,14 +90,15 @@ def axial_harmonics(
     total = 0.0
     for points, triangles in pieces:
         for start in range(0, len(triangles), TRIANGLES_PER_BLOCK):
-            # (3, 3, k)
-            corners = points[triangles[start : start + TRIANGLES_PER_BLOCK]].transpose(1, 2, 0)
+            block = triangles[start : start + TRIANGLES_PER_BLOCK]
+            corners = points[block].transpose(1, 2, 0)  # (corner, axis, k)
             normal = np.array(cross(corners[1] - corners[0], corners[2] - corners[0]))
             weight = np.sqrt(dot(normal, normal)) if area else dot(corners[0], normal)
             total += float(weight.sum())
             sums += _means(corners / scale[:, None], order) @ weight
-    # a cone over a triangle, of a function of degree n, is its mean over the triangle by 2n + 6
     if not area:
+        # The mean of a function of degree n over the cone on a triangle is 3 / (n + 3) times that
+        # over the triangle.
         degree = np.arange(order + 1) + np.array([[0], [1]])
         sums *= 3.0 / (degree + 3.0)
     return AxialHarmonics(np.asarray(frame, np.float64), sums / total)
@@ -109,16 +110,18 @@ def _means(corners: Array, order: int) -> NDArray[np.complex128]:
     """
     w = corners[:, 0] + 1j * corners[:, 1]
     z = corners[:, 2]
+    # h_m of the first corner, of two and of three, and their derivatives by ε.
     power = [np.ones(w.shape[1], np.complex128)] * 3
     slope = [np.zeros(w.shape[1], np.complex128)] * 3
     means = np.empty((2, order + 1, w.shape[1]), np.complex128)
     means[0, 0] = 1.0
     for m in range(1, order + 2):
-        lower_power = lower_slope = 0.0
-        for i in range(3):  # adds the first corner, the second, the third
-            lower_slope = lower_slope + z[i] * power[i] + w[i] * slope[i]
-            lower_power = lower_power + w[i] * power[i]
-            power[i], slope[i] = lower_power, lower_slope
+        fewer_power = fewer_slope = 0.0  # those of one corner less
+        for i in range(3):  # h_m(.., w_i) = h_m(..) + w_i h_{m-1}(.., w_i)
+            fewer_slope = fewer_slope + z[i] * power[i] + w[i] * slope[i]
+            fewer_power = fewer_power + w[i] * power[i]
+            power[i] = fewer_power
+            slope[i] = fewer_slope
         if m <= order:
             means[0, m] = power[2] * (2.0 / ((m + 1.0) * (m + 2.0)))
         means[1, m - 1] = slope[2] * (2.0 / ((m + 1.0) * (m + 2.0) * m))
@@ -142,20 +145,23 @@ def turn_by_harmonics(
         return alike
     order = np.roll([0, 1, 2], 2 - axis)
     bases = [harmonics.in_frame(frame[:, order]) for frame in alike.frames]
-    m, k = np.meshgrid(np.arange(harmonics.order + 1), [0, 1])  # to second order none is left
-    noise = max(noise, float(alike.noise.min(initial=np.inf))) if len(alike.noise) else noise
-    candidates = np.argwhere((np.abs(harmonics.values) > 2.0 * noise) & (m > 0) & (m + k > 2))
-    if not len(candidates):
+    if len(alike.noise):
+        noise = max(noise, float(alike.noise.min()))
+    # Second moments of such a body have no harmonic.
+    m, k = np.meshgrid(np.arange(harmonics.order + 1), [0, 1])
+    clear = np.argwhere((np.abs(harmonics.values) > 2.0 * noise) & (m > 0) & (m + k > 2))
+    if not len(clear):
         return alike
-    k, m = candidates[np.argmin(candidates.sum(axis=1))]
-    frames, values = [], []
+    k, m = clear[np.argmin(clear.sum(axis=1))]  # the clear harmonic of the lowest degree
+    frames = []
+    values = []
     for base in bases:
         angles = (np.angle(base.values[k, m]) + 2.0 * np.pi * np.arange(m)) / m
         for angle in angles:
-            cos, sin = np.cos(angle), np.sin(angle)
-            turned = base.in_frame(
-                base.frame @ np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
-            )
+            cos = np.cos(angle)
+            sin = np.sin(angle)
+            turn = np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
+            turned = base.in_frame(base.frame @ turn)
             frames.append(turned.frame[:, np.argsort(order)])
             values.append(np.concatenate([turned.values.real.ravel(), turned.values.imag.ravel()]))
     least = np.full(len(values[0]), 2.0 * noise)

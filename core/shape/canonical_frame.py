@@ -17,6 +17,7 @@ that differ by noise are equal. In all remaining frames the body is the same.
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import product
 
 import numpy as np
 
@@ -28,20 +29,18 @@ from ..verdict import MeasureError
 MAX_ORDER = 6  # enough for the axes of prisms up to hexagonal, of a cube and of an icosahedron
 # Growth of the noise with the degree: as the moments of a normal distribution grow.
 NOISE_GROWTH = (1.0, 1.0, 1.0, 1.0, 3.0, 8.0, 15.0)
-# a harmonic above this fixes a direction well; weaker ones are used only without a better one
+# A harmonic above this fixes a direction well; weaker ones are used only without a better one.
 CLEAR_HARMONIC = 1e-2
-# relative to the largest extent: with less along an axis, a body is a lamina without skewness
+# Relative to the largest extent: with less along an axis, a body is a lamina without skewness.
 FLAT_EXTENT_RTOL = 1e-6
-MAX_EQUAL_SHARE = (
-    0.25  # share of the range over all directions: larger differences never count as equal
-)
+# Share of the range over all directions: larger differences never count as equal.
+MAX_EQUAL_SHARE = 0.25
 START_DIRECTIONS = 240  # directions at which the search for extreme ones starts
 MAX_START_GAP = 0.18  # largest angle between any direction and the nearest start
 ASCENT_STEPS = 16  # steps from a start to a maximum; flat maxima need most of them
+# Directions that are closer than this after these steps go to one maximum, and are merged.
 STEPS_BEFORE_MERGE = 3
-MERGED_DIRECTIONS = (
-    1e-4  # directions closer than this after these steps go to one maximum and are merged
-)
+MERGED_DIRECTIONS = 1e-4
 ARRIVED = 1e-15  # shorter steps end the search
 DISTINCT_DIRECTIONS = 1e-2  # extreme directions closer than this are one
 
@@ -96,43 +95,46 @@ def _candidates(
         return starts, (), spread.tilt
     if len(spread.undetermined_axes) == 2:
         axis = 3 - sum(spread.undetermined_axes)
-        starts = starts[
-            np.unique(starts[:, :, axis] @ spread.axes[:, axis] > 0.0, return_index=True)[1]
-        ]
-        frames, harmonic, turn = _fix_rotation_about_axis(central, spread, starts, axis)
-        return frames, () if harmonic else (axis,), spread.tilt + turn
-    for clear in (CLEAR_HARMONIC, 0.0):
-        for degree in range(3, central.order + 1):
-            directions, sign, tilt = _extreme_directions(central, spread, degree, clear)
-            if not len(directions):
-                continue
-            bases = np.array(
-                [frame_about(direction) for direction in directions.tolist()]
-            ).transpose(0, 2, 1)
-            fourfold = sign if degree == 4 else -1.0
-            frames, harmonic, turn = _fix_rotation_about_axis(central, spread, bases, 2, fourfold)
-            return frames, () if harmonic else (2,), tilt + turn
+        # One start for each direction of the axis; the turns about it are searched for here.
+        points_along = starts[:, :, axis] @ spread.axes[:, axis] > 0.0
+        bases = starts[np.unique(points_along, return_index=True)[1]]
+        return _fix_rotation_about_axis(central, spread, bases, axis, spread.tilt)
+    for clear, degree in product((CLEAR_HARMONIC, 0.0), range(3, central.order + 1)):
+        directions, sign, tilt = _extreme_directions(central, spread, degree, clear)
+        if len(directions):
+            bases = np.array([frame_about(direction) for direction in directions.tolist()])
+            quarter_sign = sign if degree == 4 else -1.0
+            return _fix_rotation_about_axis(
+                central, spread, bases.transpose(0, 2, 1), 2, tilt, quarter_sign
+            )
     return spread.axes[None], (0, 1, 2), 0.0
 
 
 def _fix_rotation_about_axis(
-    central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int, fourfold: float = -1.0
-) -> tuple[NDArray, bool, float]:
-    """Turn bases about an axis so that the first clear harmonic is real, with the sign `fourfold`
-    if it repeats at quarter turns.
+    central: Moments,
+    spread: SecondMomentAxes,
+    bases: NDArray,
+    axis: int,
+    tilt: float,
+    quarter_sign: float = -1.0,
+) -> tuple[NDArray, tuple[int, ...], float]:
+    """Turn bases about an axis so that the first clear harmonic is real, with the sign
+    `quarter_sign` if it repeats at quarter turns.
 
-    Return the frames, whether there is such a harmonic, and the angular uncertainty of the frames.
+    tilt: the uncertainty of the axis, rad. Return candidate frames, and `revolution_axes` and
+    `tilt` as in `EquivalentFrames`.
     """
     harmonic = _clear_harmonic(central, spread, bases, axis)
     if harmonic is None:
-        return bases, False, 0.0
+        return bases, (axis,), tilt
     m, c, least = harmonic
     if m == 4:
-        c = fourfold * c
+        c = quarter_sign * c
     angles = (np.angle(c)[:, None] + 2.0 * np.pi * np.arange(m)) / m
     cos = np.cos(angles)[..., None]
     sin = np.sin(angles)[..., None]
-    first, second = (axis + 1) % 3, (axis + 2) % 3
+    first = (axis + 1) % 3
+    second = (axis + 2) % 3
     a = bases[:, None, :, first]
     b = bases[:, None, :, second]
     frames = np.repeat(bases[:, None], m, axis=1)
@@ -141,39 +143,41 @@ def _fix_rotation_about_axis(
     # Among several directions keep the ones with the same harmonic.
     noise = spread.noise / NOISE_LEVEL * least
     largest = np.abs(c).max()
-    alike = np.abs(c) > largest - min(2.0 * noise, MAX_EQUAL_SHARE * largest)
-    return frames[alike].reshape(-1, 3, 3), True, noise / (m * largest)
+    is_alike = np.abs(c) > largest - min(2.0 * noise, MAX_EQUAL_SHARE * largest)
+    return frames[is_alike].reshape(-1, 3, 3), (), tilt + noise / (m * largest)
 
 
 def _clear_harmonic(
     central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int
 ) -> tuple[int, NDArray[np.complex128], float] | None:
-    """Return m, (n,) values and noise of the first clear harmonic about an axis, else of the first
-    one.
+    """Return m, (n,) values in n bases, and the noise of the first clear harmonic about an axis,
+    else of the first one above the noise, else None.
     """
-    first, second = (axis + 1) % 3, (axis + 2) % 3
-    order = [first, second, axis]
+    first = (axis + 1) % 3
+    order = [first, (axis + 2) % 3, axis]
     size = extents_of(spread.size)
     weaker = None
     for degree in range(3, central.order + 1):
         tensor = _rotate_tensor(central.raw[tensor_index(degree)], bases[:, :, order])
         noise = _normalization(central, replace(spread, noise=NOISE_LEVEL), degree)[1]
-        for m in range(1, degree + 1):
-            for k in range((degree - m) % 2, degree - m + 1, 2):
-                c = _harmonic(tensor, degree, m, k) / (
-                    size[first] ** (degree - k) * size[axis] ** k
-                )
-                # a harmonic is a sum of moments with this total weight
-                weight = 2.0 ** (degree - k)
-                powers = [0, 0, 0]
-                powers[first] = degree - k
-                powers[axis] = k
-                least = weight * noise[monomial_index(*powers) - monomial_index(degree, 0, 0)]
-                largest = np.abs(c).max()
-                if largest > max(least, CLEAR_HARMONIC):
-                    return m, c, least
-                if weaker is None and largest > least:
-                    weaker = m, c, least
+        # (x+iy)^m (x²+y²)^j z^k with m + 2j + k equal to the degree
+        exponents = [
+            (m, k) for m in range(1, degree + 1) for k in range((degree - m) % 2, degree - m + 1, 2)
+        ]
+        for m, k in exponents:
+            unit = size[first] ** (degree - k) * size[axis] ** k
+            c = _harmonic(tensor, degree, m, k) / unit
+            powers = [0, 0, 0]
+            powers[first] = degree - k
+            powers[axis] = k
+            place = monomial_index(*powers) - monomial_index(degree, 0, 0)
+            # A harmonic is a sum of moments with weights that add up to 2^(degree - k).
+            least = 2.0 ** (degree - k) * noise[place]
+            largest = np.abs(c).max()
+            if largest > max(least, CLEAR_HARMONIC):
+                return m, c, least
+            if weaker is None and largest > least:
+                weaker = m, c, least
     return weaker
 
 
@@ -204,19 +208,18 @@ def _extreme_directions(
     """
     tensor = central.raw[tensor_index(degree)] / spread.size.max() ** degree
     noise = 2.0 * _normalization(central, spread, degree)[1].max()
-    least = max(
-        2.0 * _normalization(central, replace(spread, noise=NOISE_LEVEL), degree)[1].max(), clear
-    )
-    everywhere = spread_directions(START_DIRECTIONS)
-    span = np.ptp(_contract(tensor, degree, everywhere))
+    usual_noise = _normalization(central, replace(spread, noise=NOISE_LEVEL), degree)[1].max()
+    least = max(2.0 * usual_noise, clear)
+    sphere = spread_directions(START_DIRECTIONS)
+    span = np.ptp(_contract(tensor, degree, sphere))
     if span <= least / 2.0:
         return np.empty((0, 3)), 1.0, 0.0
+    within = min(noise, MAX_EQUAL_SHARE * span)
     extremes = []
-    for sign in (1.0, -1.0) if degree % 2 == 0 else (1.0,):
-        within = min(noise, MAX_EQUAL_SHARE * span)
+    for sign in (1.0, -1.0) if degree % 2 == 0 else (1.0,):  # else the least are the opposite ones
         points = _maximize_on_sphere(sign * tensor, degree, span, within)
         height = _contract(sign * tensor, degree, points)
-        if height.max() - _contract(sign * tensor, degree, everywhere).min() <= least:
+        if height.max() - _contract(sign * tensor, degree, sphere).min() <= least:
             return np.empty((0, 3)), sign, 0.0
         top = points[height > height.max() - within]
         extremes.append((distinct_arrays(top, DISTINCT_DIRECTIONS), sign))
@@ -224,9 +227,9 @@ def _extreme_directions(
     tilt = noise / span
     # If extreme directions form a circle, the moment is the same all around the circle: no slope
     # leads along it.
-    around = np.cross(everywhere, _contract(tensor, degree - 1, everywhere))
-    pole = np.linalg.eigh(around.T @ around)[1][:, 0]
-    is_round = np.abs(around @ pole).max() <= min(noise, MAX_EQUAL_SHARE * span)
+    slope = np.cross(sphere, _contract(tensor, degree - 1, sphere))
+    pole = np.linalg.eigh(slope.T @ slope)[1][:, 0]
+    is_round = np.abs(slope @ pole).max() <= within
     if is_round and np.linalg.norm(np.cross(directions, pole), axis=1).max() > DISTINCT_DIRECTIONS:
         return np.array([pole, -pole]), sign, tilt
     return directions, sign, tilt
@@ -251,11 +254,12 @@ def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float
             points = distinct_arrays(points, MERGED_DIRECTIONS)
         contracted_twice = _contract(tensor, degree - 2, points)
         contracted_once = degree * np.einsum("nij,nj->ni", contracted_twice, points)
-        along = (contracted_once * points).sum(axis=1)[:, None]
-        uphill = contracted_once - along * points
-        flat = np.eye(3) - points[:, :, None] * points[:, None, :]
+        radial = (contracted_once * points).sum(axis=1)[:, None]
+        uphill = contracted_once - radial * points  # the gradient along the sphere
+        tangential = np.eye(3) - points[:, :, None] * points[:, None, :]
+        second_derivative = degree * (degree - 1) * contracted_twice
         values, vectors = np.linalg.eigh(
-            flat @ (degree * (degree - 1) * contracted_twice) @ flat - along[:, None] * flat
+            tangential @ second_derivative @ tangential - radial[:, None] * tangential
         )
         move = np.einsum("nji,nj->ni", vectors, uphill) / np.maximum(np.abs(values), 1e-3 * scale)
         move /= np.maximum(np.linalg.norm(move, axis=1) / MAX_START_GAP, 1.0)[:, None]
@@ -272,7 +276,8 @@ def _normalized_moments(
     central: Moments, spread: SecondMomentAxes, frames: NDArray
 ) -> tuple[NDArray, NDArray]:
     """Return the (k, n) normalized moments in the frames, and (n,) their noise."""
-    values, noises = [], []
+    values = []
+    noises = []
     for degree in range(3, central.order + 1):
         unit, noise = _normalization(central, spread, degree)
         tensors = _rotate_tensor(central.raw[tensor_index(degree)], frames).reshape(len(frames), -1)

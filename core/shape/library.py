@@ -43,6 +43,8 @@ UNDECIDED_HANDEDNESS = (Similarity.COPY_OR_MIRROR, Similarity.SCALED_COPY_OR_MIR
 
 @dataclass(frozen=True, eq=False)
 class Entry:
+    """A body of a library: its name and the name of its file, "" if there is none."""
+
     name: str
     file: str
     signature: Signature
@@ -54,6 +56,7 @@ class Entry:
 
 
 def _label(file: str, name: str) -> str:
+    """Return FILE:NAME, or the name alone without a file."""
     return "{:s}:{:s}".format(file, name) if file else name
 
 
@@ -88,7 +91,8 @@ def read_library(path: Path) -> tuple[list[Entry], list[Finding]]:
     >>> entries, findings[0].code
     ([], 'record_without_signature')
     """
-    entries, missing = [], []
+    entries = []
+    missing = []
     for number, line in enumerate(_lines(path), 1):
         if not line.strip():
             continue
@@ -101,22 +105,20 @@ def read_library(path: Path) -> tuple[list[Entry], list[Finding]]:
             name = str(record.get("name"))
             file = str(document.get("file") or "")
             try:
-                entries.append(
-                    Entry(name, file, Signature.from_record(record.get("signature") or {}))
-                )
+                signature = Signature.from_record(record.get("signature") or {})
             except FileError:
-                shapeless = "signature" in record and record["signature"] is None
+                has_no_shape = "signature" in record and record["signature"] is None
+                remedy = NO_SHAPE if has_no_shape else "Measure with --signature"
                 missing.append(
-                    finding(
-                        RECORD_WITHOUT_SIGNATURE,
-                        name=_label(file, name),
-                        remedy=NO_SHAPE if shapeless else "Measure with --signature",
-                    )
+                    finding(RECORD_WITHOUT_SIGNATURE, name=_label(file, name), remedy=remedy)
                 )
+            else:
+                entries.append(Entry(name, file, signature))
     return entries, missing
 
 
 def _lines(path: Path) -> Iterator[bytes]:
+    """Yield the lines of a file; FileError for one that is too long to be read."""
     with open(path, "rb") as file:
         for number, line in enumerate(iter(lambda: file.readline(MAX_LINE_BYTES + 1), b""), 1):
             if len(line) > MAX_LINE_BYTES:

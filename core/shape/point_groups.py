@@ -31,7 +31,7 @@ FIRST_IMAGES = 12  # images of so many corners refute most candidates
 FIRST_SAMPLES = 64  # so many corners refute most of the other candidates
 SAMPLES = 128  # corners, farthest corners and triangles that are compared if the tolerance is large
 MAX_BETWEEN = 2048  # triangles between other corners that are compared; of more, evenly many
-# weights of corners that give points between
+# Weights of a triangle's corners that give points between them.
 BETWEEN = np.array([[0.5, 0.5, 0.0], [0.7, 0.3, 0.0], [0.3, 0.3, 0.4]])
 CLEAR_PRODUCT = 2e-3  # 3 - trace: a product of operations is the operation nearest to it
 
@@ -46,31 +46,41 @@ class PlacedTriangles:
 
     def __init__(self, points: NDArray, triangles: NDArray, near: float, far: float):
         self.points, self.triangles = keep_used(points, triangles)
-        self.near, self.far = near, far
+        self.near = near
+        self.far = far
+        # Corners by their height along SKEW, in which `_match` searches.
         height = self.points @ SKEW
         self._order = np.argsort(height, kind="stable")
         self._height = height[self._order]
+        # Corners that are compared first: a sample, and the last ones that refuted an operation.
         self._witnesses = np.arange(0, len(self.points), 1 + len(self.points) // FIRST_SAMPLES)
 
     @cached_property
     def _first(self) -> Index:
+        """(n,) indices of the first corner at the place of each corner."""
         return self._match(self.points)
 
     @cached_property
     def _tree(self) -> Bvh:
+        """The triangles, for distances."""
         return tree_of_all(self.points, self.triangles)
 
     def _distances(self, points: NDArray, within: float) -> Array:
+        """Return the distances of (k, 3) points from the surface, infinity beyond `within`."""
         return self._tree.distances(
             points - self._tree.origin, np.zeros(len(points), np.intp), within
         )
 
     @cached_property
     def _samples(self) -> Array:
-        n, m = len(self.points), len(self.triangles)
+        """(k, 3) points of the surface: the farthest corners, other corners, middles of
+        triangles.
+        """
         farthest = np.argsort(lengths(self.points)[:, 0], kind="stable")[-SAMPLES:]
-        middles = self.points[self.triangles[:: 1 + m // SAMPLES]].mean(axis=1)
-        return np.concatenate([self.points[farthest], self.points[:: 1 + n // SAMPLES], middles])
+        corners = self.points[:: 1 + len(self.points) // SAMPLES]
+        triangles = self.triangles[:: 1 + len(self.triangles) // SAMPLES]
+        middles = self.points[triangles].mean(axis=1)
+        return np.concatenate([self.points[farthest], corners, middles])
 
     def holds(self, operation: NDArray, tolerance: float) -> bool:
         """Return whether images of a sample of the surface are within a tolerance of it."""
@@ -88,31 +98,32 @@ class PlacedTriangles:
         operations = self._candidates()
         if operations is None:
             return None
-        levels = np.full(len(operations), np.nan)
-        held = np.zeros(len(operations), bool)
-        held[0] = True
+        misfits = np.full(len(operations), np.nan)  # NaN if not measured
+        in_group = np.zeros(len(operations), bool)
+        in_group[0] = True
         generators = []
         for i in range(1, len(operations)):
-            if held[i] or not np.isnan(levels[i]):
+            if in_group[i] or not np.isnan(misfits[i]):
                 continue
-            levels[i] = self._misfit(operations[i])
-            if levels[i] <= self.near:
-                trial = _closed(operations, held, [*generators, i], levels == np.inf)
-                held, generators = (
-                    (held, generators) if trial is None else (trial, [*generators, i])
-                )
-            elif levels[i] == np.inf:
-                own = operations[held]
-                alike = _nearest((own[:, None] @ operations[i] @ own).reshape(-1, 3, 3), operations)
-                levels[alike[alike >= 0]] = np.inf
-        found = [(held, generators)]
-        for i in np.argsort(levels, kind="stable"):
-            if levels[i] < np.inf and not found[-1][0][i]:
-                generators = [*found[-1][1], i]
-                trial = _closed(operations, found[-1][0], generators, levels == np.inf)
-                if trial is not None:
-                    found.append((trial, generators))
-        return [operations[mask] for mask, _ in found]
+            misfits[i] = self._misfit(operations[i])
+            if misfits[i] <= self.near:
+                larger = _closed(operations, in_group, [*generators, i], misfits == np.inf)
+                if larger is not None:
+                    in_group = larger
+                    generators.append(i)
+            elif misfits[i] == np.inf:  # Then its products with the group do not hold either.
+                own = operations[in_group]
+                products = (own[:, None] @ operations[i] @ own).reshape(-1, 3, 3)
+                refuted = _nearest(products, operations)
+                misfits[refuted[refuted >= 0]] = np.inf
+        groups = [in_group]
+        for i in np.argsort(misfits, kind="stable"):
+            if misfits[i] < np.inf and not groups[-1][i]:
+                larger = _closed(operations, groups[-1], [*generators, i], misfits == np.inf)
+                if larger is not None:
+                    groups.append(larger)
+                    generators.append(i)
+        return [operations[mask] for mask in groups]
 
     def turn_order(self, axis: NDArray) -> int:
         """Return the number of corners on the outermost ring about an axis if turns by one corner
@@ -145,27 +156,29 @@ class PlacedTriangles:
         if len(outer) > MAX_CORNERS:
             return None
         first = outer[0] / np.linalg.norm(outer[0])
+        # An operation takes the first corner to an outer one, and a second corner, as far as
+        # possible from the line through the first, to one at the same distances.
         partners = outer
-        across = lengths(partners - np.outer(partners @ first, first))[:, 0]
-        if across.max() <= 0.1 * radius.max():  # all on one line
+        from_line = lengths(partners - np.outer(partners @ first, first))[:, 0]
+        if from_line.max() <= 0.1 * radius.max():  # All outer corners are on one line.
             partners = self.points
-            across = lengths(partners - np.outer(partners @ first, first))[:, 0]
-        second = partners[across.argmax()]
+            from_line = lengths(partners - np.outer(partners @ first, first))[:, 0]
+        second = partners[from_line.argmax()]
         along = second @ first
-        across = across.max()
+        across = from_line.max()
         images = [np.eye(3)[None]]
         start = _frames(first[None], second[None])[0]
         step = max(1, PAIRS_PER_BLOCK // len(partners))
         squares = (partners**2).sum(axis=1)
         for begin in range(0, len(outer), step):
-            ways = outer[begin : begin + step] / lengths(outer[begin : begin + step])
-            height = ways @ partners.T
+            directions = outer[begin : begin + step] / lengths(outer[begin : begin + step])
+            height = directions @ partners.T
             apart = np.sqrt(np.maximum(squares - height**2, 0.0))
-            way, partner = np.nonzero(
+            direction, partner = np.nonzero(
                 (np.abs(height - along) <= 4.0 * self.far)
                 & (np.abs(apart - across) <= 4.0 * self.far)
             )
-            frames = _frames(ways[way], partners[partner])
+            frames = _frames(directions[direction], partners[partner])
             images += [frames @ start.T, frames * [1.0, 1.0, -1.0] @ start.T]
             if sum(map(len, images)) > MAX_CANDIDATES:
                 return None
@@ -175,19 +188,21 @@ class PlacedTriangles:
             worst = np.maximum(worst, self._distances(operations @ self.points[i], self.far))
             operations = operations[np.isfinite(worst)]
             worst = worst[np.isfinite(worst)]
-        worst[0] = -1.0  # the identity
-        proper = np.linalg.det(operations) > 0.0
-        order = np.lexsort([-operations.trace(axis1=1, axis2=2), ~proper])
+        worst[0] = -1.0  # the identity, which is kept
+        is_proper = np.linalg.det(operations) > 0.0
+        order = np.lexsort([-operations.trace(axis1=1, axis2=2), ~is_proper])
         operations = operations[order]
         worst = worst[order]
-        kept = []
-        left = np.arange(len(order))
-        while len(left):
-            products = np.einsum("nij,ij->n", operations[left], operations[left[0]])
-            alike = products > 3.0 - CLEAR_PRODUCT
-            kept.append(left[alike][worst[left[alike]].argmin()])
-            left = left[~alike]
-        return operations[kept]
+        # Of operations that are equal up to noise, the one that fits best.
+        best = []
+        remaining = np.arange(len(order))
+        while len(remaining):
+            products = np.einsum("nij,ij->n", operations[remaining], operations[remaining[0]])
+            is_alike = products > 3.0 - CLEAR_PRODUCT
+            alike = remaining[is_alike]
+            best.append(alike[worst[alike].argmin()])
+            remaining = remaining[~is_alike]
+        return operations[best]
 
     def _distinct(self, rows: Index) -> Array:
         """Return the points of these rows, one for each set of coincident points."""
@@ -200,10 +215,10 @@ class PlacedTriangles:
         for rows in (self._witnesses, None):
             images = (self.points if rows is None else self.points[rows]) @ operation.T
             match = self._match(images)
-            left = np.flatnonzero(match < 0)
-            distances = self._distances(images[left], self.far)
+            unmatched = np.flatnonzero(match < 0)
+            distances = self._distances(images[unmatched], self.far)
             if not np.isfinite(distances).all():
-                worst = left[np.argmax(distances)]
+                worst = unmatched[np.argmax(distances)]
                 self._witnesses = np.append(
                     self._witnesses[-FIRST_SAMPLES:], worst if rows is None else rows[worst]
                 )
@@ -211,40 +226,46 @@ class PlacedTriangles:
         level = float(distances.max(initial=0.0))
         if level > self.near:
             return level
+        # If all corners fall on corners and all creases on creases, so do the triangles. Of the
+        # others, points between the corners are compared.
         creases, codes = self._creases
-        code = self._edge_codes(np.where(match < 0, -1, self._first[match])[creases[:, :2]])
-        new = creases[codes.take(np.searchsorted(codes, code), mode="clip") != code]
-        new = np.concatenate([new, self.triangles[(match[self.triangles] < 0).any(axis=1)]])
+        image_codes = self._edge_codes(np.where(match < 0, -1, self._first[match])[creases[:, :2]])
+        is_crease = codes.take(np.searchsorted(codes, image_codes), mode="clip") == image_codes
+        has_other_corner = (match[self.triangles] < 0).any(axis=1)
+        new = np.concatenate([creases[~is_crease], self.triangles[has_other_corner]])
         between = (BETWEEN @ images[new[:: 1 + len(new) // MAX_BETWEEN]]).reshape(-1, 3)
         return max(level, float(self._distances(between, self.far).max(initial=0.0)))
 
     def _match(self, images: NDArray) -> Index:
         """Return (n,) the first corner near each of (n, 3) points, -1 if there is none."""
-        found = np.full(len(images), -1)
+        match = np.full(len(images), -1)
         height = images @ SKEW
-        at = np.searchsorted(self._height, height - self.near)
-        left = np.arange(len(images))
+        # For each image, the next corner in the order of heights that may be near.
+        place = np.searchsorted(self._height, height - self.near)
+        unmatched = np.arange(len(images))
         for _ in range(MAX_TRIES):
-            left = left[at[left] < len(self._order)]
-            left = left[self._height[at[left]] <= height[left] + self.near]
-            if not len(left):
+            unmatched = unmatched[place[unmatched] < len(self._order)]
+            is_level = self._height[place[unmatched]] <= height[unmatched] + self.near
+            unmatched = unmatched[is_level]
+            if not len(unmatched):
                 break
-            corner = self._order[at[left]]
-            is_near = lengths(self.points[corner] - images[left])[:, 0] <= self.near
-            found[left[is_near]] = corner[is_near]
-            left = left[~is_near]
-            at[left] += 1
-        return found
+            corner = self._order[place[unmatched]]
+            is_near = lengths(self.points[corner] - images[unmatched])[:, 0] <= self.near
+            match[unmatched[is_near]] = corner[is_near]
+            unmatched = unmatched[~is_near]
+            place[unmatched] += 1
+        return match
 
     @cached_property
     def _creases(self) -> tuple[Index, NDArray[np.int64]]:
         """(k, 3) corners of triangles with a crease at the first two corners, and the creases'
         sorted codes.
         """
-        place = self._first[self.triangles]
+        first_corners = self._first[self.triangles]
         count = len(self.triangles)
-        code = np.concatenate([self._edge_codes(place[:, [i, i - 1]]) for i in range(3)])
+        code = np.concatenate([self._edge_codes(first_corners[:, [i, i - 1]]) for i in range(3)])
         order = np.argsort(code, kind="stable")
+        # In the order of codes: edges that exactly two triangles share.
         starts = np.flatnonzero(np.diff(code[order], prepend=-1))
         pair = starts[np.diff(starts, append=len(code)) == 2]
         (side, triangle), (other_side, other) = (
@@ -255,6 +276,7 @@ class PlacedTriangles:
         normal /= np.maximum(lengths(normal), np.finfo(float).tiny)
         apex = self.points[self.triangles[other, (other_side + 1) % 3]]
         is_crease = np.ones(len(code), bool)
+        # The edge from a to c is no crease if both triangles are in its plane, on either side.
         across = cross_rows(normal, c - a)
         is_flat = np.abs(((apex - a) * normal).sum(axis=1)) <= self.near / 4.0
         is_flat &= ((apex - a) * across).sum(axis=1) * ((b - a) * across).sum(axis=1) <= 0.0
@@ -285,14 +307,15 @@ def _nearest(products: NDArray, operations: NDArray) -> Index:
     """Return (k,) indices of the first operation that each product equals up to noise, -1 if there
     is none.
     """
-    found = np.empty(len(products), np.intp)
-    flat = operations.reshape(-1, 9).T
+    nearest = np.empty(len(products), np.intp)
+    columns = operations.reshape(-1, 9).T
     step = max(1, PAIRS_PER_BLOCK // max(1, len(operations)))
     for begin in range(0, len(products), step):
-        alike = products[begin : begin + step].reshape(-1, 9) @ flat
-        best = alike.argmax(axis=1)
-        found[begin : begin + step] = np.where(alike.max(axis=1) > 3.0 - CLEAR_PRODUCT, best, -1)
-    return found
+        # The trace of AᵀB is 3 if and only if the orthogonal A and B are equal.
+        traces = products[begin : begin + step].reshape(-1, 9) @ columns
+        is_equal = traces.max(axis=1) > 3.0 - CLEAR_PRODUCT
+        nearest[begin : begin + step] = np.where(is_equal, traces.argmax(axis=1), -1)
+    return nearest
 
 
 def _closed(operations: NDArray, mask: Mask, generators: list[int], refuted: Mask) -> Mask | None:

@@ -70,14 +70,15 @@ def match(source: Moments, target: Moments, residual: Residual, size: float) -> 
     distances that an orthogonal (3, 3) map of the source leaves: of all points if count is None,
     otherwise of about `count` points. size: the target's.
     """
-    first = equivalent_frames(source).frames[0]
+    source_frame = equivalent_frames(source).frames[0]
 
     def maps(mirrored: bool) -> Array:
+        """Return (k, 3, 3) rotations, or reflections, that may lay one body onto the other."""
         alike = equivalent_frames(invert_through_point(target) if mirrored else target)
         turned = (alike.frames[:, None] * HALF_TURN_SIGNS[:, None, :]).reshape(-1, 3, 3)
         free = undetermined_axes(alike.revolution_axes)
-        frames = np.array([complete_free_axes(frame, free, first) for frame in turned])
-        return distinct_arrays(frames @ first.T, 1e-9) * (-1.0 if mirrored else 1.0)
+        frames = np.array([complete_free_axes(frame, free, source_frame) for frame in turned])
+        return distinct_arrays(frames @ source_frame.T, 1e-9) * (-1.0 if mirrored else 1.0)
 
     return _best_match(maps, residual, size)
 
@@ -88,26 +89,28 @@ def _best_match(maps: Callable[[bool], NDArray], residual: Residual, size: float
     """
     rotation, distances = _best_map(maps(False), residual, size)
     largest = float(distances.max())
-    mirrored = largest > MAX_FIT_RTOL * size and bool(
-        _best_map(maps(True), residual, size)[1].max() < MIRROR_SHARE * largest
-    )
-    return RigidMatch(rotation, largest, float(distances.mean()), mirrored)
+    is_mirror_image = False
+    if largest > MAX_FIT_RTOL * size:
+        _, mirrored_distances = _best_map(maps(True), residual, size)
+        is_mirror_image = bool(mirrored_distances.max() < MIRROR_SHARE * largest)
+    return RigidMatch(rotation, largest, float(distances.mean()), is_mirror_image)
 
 
 def _best_map(candidates: NDArray, residual: Residual, size: float) -> tuple[NDArray, NDArray]:
-    """Return that of (k, 3, 3) maps with the least residual, else the smallest turn, and its
-    distances.
+    """Return the map with the least residual among (k, 3, 3) maps, and its distances; of equal
+    residuals, the smallest turn.
     """
-    least = np.array([residual(way, FIRST_COMPARED).max() for way in candidates])
-    worst = np.full(len(candidates), np.inf)
+    # A few points give a lower bound of each residual. The others are measured in its order.
+    bounds = np.array([residual(candidate, FIRST_COMPARED).max() for candidate in candidates])
+    residuals = np.full(len(candidates), np.inf)
     distances = {}
-    for i in np.argsort(least, kind="stable"):
-        if least[i] > worst.min() + EQUAL_RESIDUAL_RTOL * size:
+    for i in np.argsort(bounds, kind="stable"):
+        if bounds[i] > residuals.min() + EQUAL_RESIDUAL_RTOL * size:
             break
         distances[i] = residual(candidates[i], None)
-        worst[i] = distances[i].max()
-    near = np.flatnonzero(worst <= worst.min() + EQUAL_RESIDUAL_RTOL * size)
-    best = max(near, key=lambda i: np.trace(candidates[i]))
+        residuals[i] = distances[i].max()
+    equal = np.flatnonzero(residuals <= residuals.min() + EQUAL_RESIDUAL_RTOL * size)
+    best = max(equal, key=lambda i: np.trace(candidates[i]))
     return candidates[best], distances[best]
 
 
@@ -121,11 +124,12 @@ def match_flat(
     `axes` those of their planes: x, y and the normal as columns. `residual` is as for `match`;
     `size` is the target's.
     """
-    start, end = axes
+    source_axes, target_axes = axes
 
     def maps(mirrored: bool) -> Array:
+        """Return (k, 3, 3) maps that may lay one shape, or its mirror image, onto the other."""
         turns = turns_about_normal(_best_angles(source.conj() if mirrored else source, target))
-        return end @ turns @ (MIRROR if mirrored else np.eye(3)) @ start.T
+        return target_axes @ turns @ (MIRROR if mirrored else np.eye(3)) @ source_axes.T
 
     return _best_match(maps, residual, size)
 
@@ -140,9 +144,9 @@ def flat_symmetry(
     to `order`, `points` are the (n, 2) outlines, both about the centroid. `axes` are the plane's x,
     y and normal as columns. `holds` returns True if a map of these axes takes the shape to itself.
     """
-    everything = np.array([np.eye(3), MIRROR])
     if all(holds(turn) for turn in turns_about_normal(np.array(ROUND_ANGLES))):
-        return Symmetry(axes @ everything @ axes.T, axes[:, 2][None], order)
+        operations = np.array([np.eye(3), MIRROR])
+        return Symmetry(axes @ operations @ axes.T, axes[:, 2][None], order)
     # The tolerance may let a turn by about the right angle pass, but not turns by several times
     # that.
     fold = next(
@@ -163,10 +167,10 @@ def holds_by_outline(points: NDArray, distance: Distance, tolerance: float) -> H
     """Return a test that images of (n, 3) points, about the centroid, are within the tolerance of
     the outline.
     """
-    some = points[:: 1 + len(points) // FIRST_SAMPLES]
+    sample = points[:: 1 + len(points) // FIRST_SAMPLES]
 
     def holds(operation: NDArray) -> bool:
-        return all((distance(part @ operation.T) <= tolerance).all() for part in (some, points))
+        return all((distance(part @ operation.T) <= tolerance).all() for part in (sample, points))
 
     return holds
 

@@ -268,26 +268,28 @@ def similarity(a: Signature, b: Signature) -> Likeness:
     if a.dimension != b.dimension:
         return Likeness(1.0, b.size / a.size, 0.0, None)
     n = min(len(a.zernike), len(b.zernike))
-    of_zernike = _relative_difference(a.zernike[:n], b.zernike[:n])
-    of_invariants = _relative_difference(a.invariants, b.invariants)
-    shape = sqrt((of_zernike**2 + of_invariants**2) / 2.0)
-    same = np.linalg.norm(a.chirality - b.chirality)
-    opposite = np.linalg.norm(a.chirality + b.chirality)
+    zernike_difference = _relative_difference(a.zernike[:n], b.zernike[:n])
+    invariant_difference = _relative_difference(a.invariants, b.invariants)
+    shape = sqrt((zernike_difference**2 + invariant_difference**2) / 2.0)
+    difference = np.linalg.norm(a.chirality - b.chirality)
+    sum_of_both = np.linalg.norm(a.chirality + b.chirality)  # 0 for mirror images
     hand = max(np.linalg.norm(a.chirality), np.linalg.norm(b.chirality))
-    mirrored = False if hand <= MIN_CHIRALITY else None
-    if hand > MIN_CHIRALITY + shape * CHIRALITY_NOISE_FACTOR and min(
-        same, opposite
-    ) < CLEAR_CHIRALITY_SHARE * max(same, opposite):
-        mirrored = bool(opposite < same)
-    return Likeness(float(shape), b.size / a.size, float(same), mirrored)
+    is_mirror_image = False if hand <= MIN_CHIRALITY else None
+    smaller, larger = sorted((difference, sum_of_both))
+    is_clear = smaller < CLEAR_CHIRALITY_SHARE * larger
+    if is_clear and hand > MIN_CHIRALITY + shape * CHIRALITY_NOISE_FACTOR:
+        is_mirror_image = bool(sum_of_both < difference)
+    return Likeness(float(shape), b.size / a.size, float(difference), is_mirror_image)
 
 
 def _relative_difference(a: NDArray, b: NDArray) -> float:
+    """Return the norm of the difference over the larger norm."""
     scale = max(np.linalg.norm(a), np.linalg.norm(b))
     return float(np.linalg.norm(a - b) / scale) if scale else 0.0
 
 
 def _couplings(harmonic: Multiplets, triples: list[tuple[Key, Key, Key]]) -> list[Array]:
+    """Return the scalars of three multiplets each."""
     return [couple(*(harmonic[key] for key in triple)) for triple in triples]
 
 

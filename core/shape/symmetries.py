@@ -55,9 +55,8 @@ class Symmetry:
         if len(self.revolution_axes) == 3:
             return "K"
         if len(self.revolution_axes):
-            return (
-                "D∞h" if _reverses_axis(self.operations, self.revolution_axes[0]).any() else "C∞v"
-            )
+            is_reversed = _reverses_axis(self.operations, self.revolution_axes[0]).any()
+            return "D∞h" if is_reversed else "C∞v"
         return _schoenflies(self)
 
     @property
@@ -66,21 +65,22 @@ class Symmetry:
         proper = self.operations[np.linalg.det(self.operations) > 0.0]
         turns = proper[np.trace(proper, axis1=1, axis2=2) < 3.0 - EQUAL_OPERATION_ATOL]
         lines = np.linalg.eigh(turns + turns.swapaxes(1, 2))[1][:, :, 2]
-        same = np.abs(lines @ lines.T) > 1.0 - EQUAL_OPERATION_ATOL
-        first = [i for i in range(len(lines)) if np.argmax(same[i]) == i]
-        return sorted(
-            ((lines[i], 1 + int(same[i].sum())) for i in first), key=lambda pair: -pair[1]
-        )
+        is_same = np.abs(lines @ lines.T) > 1.0 - EQUAL_OPERATION_ATOL
+        # Each axis once, at its first turn; its order is the number of its turns plus the identity.
+        axes = [
+            (lines[i], 1 + int(row.sum())) for i, row in enumerate(is_same) if np.argmax(row) == i
+        ]
+        return sorted(axes, key=lambda pair: -pair[1])
 
     @property
     def planes(self) -> list[NDArray]:
         """The normals of the reflection planes."""
-        flips = (np.linalg.det(self.operations) < 0.0) & (
+        is_reflection = (np.linalg.det(self.operations) < 0.0) & (
             np.abs(np.trace(self.operations, axis1=1, axis2=2) - 1.0) < EQUAL_OPERATION_ATOL
         )
         return [
             np.linalg.eigh(reflection + reflection.T)[1][:, 0]
-            for reflection in self.operations[flips]
+            for reflection in self.operations[is_reflection]
         ]
 
     @property
@@ -141,7 +141,7 @@ def symmetry(
     axes = first.T[list(alike.revolution_axes)]
     operations = np.array(operations)
     if len(axes) == 1:
-        # the finite operations, for all others: the identity and perhaps a reflection
+        # Turns about the axis are symmetries too, so that these operations stand for all.
         reflection = np.eye(3) - 2.0 * np.outer(axes[0], axes[0])
         is_reversed = _reverses_axis(operations, axes[0]).any()
         operations = np.array([np.eye(3), reflection] if is_reversed else [np.eye(3)])
@@ -151,26 +151,31 @@ def symmetry(
 
 
 def _reverses_axis(operations: NDArray, axis: NDArray) -> Mask:
+    """Return which operations turn the axis around."""
     return (operations @ axis) @ axis < 0.0
 
 
-def _schoenflies(symmetry_found: Symmetry) -> str:
-    axes = symmetry_found.axes
-    planes = symmetry_found.planes
-    center = symmetry_found.has_center
-    proper = int((np.linalg.det(symmetry_found.operations) > 0.0).sum())
-    improper = len(symmetry_found.operations) - proper
+def _schoenflies(finite: Symmetry) -> str:
+    """Return the symbol of a group without axes of revolution."""
+    axes = finite.axes
+    planes = finite.planes
+    proper = int((np.linalg.det(finite.operations) > 0.0).sum())
+    has_improper = len(finite.operations) > proper
     if not axes:
-        return ("Cs" if planes else "Ci") if improper else "C1"
+        return ("Cs" if planes else "Ci") if has_improper else "C1"
     axis, n = axes[0]
-    is_flat = any(abs(normal @ axis) > 1.0 - EQUAL_OPERATION_ATOL for normal in planes)
+    has_horizontal_plane = any(abs(normal @ axis) > 1.0 - EQUAL_OPERATION_ATOL for normal in planes)
     is_cubic = sum(order == n for _, order in axes) > 1 and n > 2
     if proper == n:
-        if improper and not planes:
+        if has_improper and not planes:
             return "S{:d}".format(2 * n)
-        name, mirrors = "C{:d}".format(n), "h" if is_flat else "v"
+        name = "C{:d}".format(n)
+        mirrors = "h" if has_horizontal_plane else "v"
     elif is_cubic:
-        name, mirrors = {3: "T", 4: "O", 5: "I"}[n], "h" if center else "d"
+        name = {3: "T", 4: "O", 5: "I"}[n]
+        mirrors = "h" if finite.has_center else "d"
     else:
-        name, mirrors = "D{:d}".format(n), "h" if (center if n == 2 else is_flat) else "d"
-    return name + mirrors if improper else name
+        name = "D{:d}".format(n)
+        is_horizontal = finite.has_center if n == 2 else has_horizontal_plane
+        mirrors = "h" if is_horizontal else "d"
+    return name + mirrors if has_improper else name
