@@ -29,7 +29,6 @@ from ..numerics import (
 
 NO_PAIRS = np.empty((0, 2), np.intp)
 NO_LENGTHS = np.empty(0)
-NO_INDICES = np.empty(0, np.intp)
 MAX_COMPONENT_PAIRS = 100_000
 # Points under the skin of a component of few faces, tested for being surrounded twice.
 MAX_OVERLAP_SAMPLES = 4096
@@ -85,16 +84,16 @@ def classify_pairs(
     Points nearer than `tolerance` touch.
     """
     chosen = np.flatnonzero(candidates)
-    i, j, skipped = overlapping_box_pairs(
+    i, j, untested_count = overlapping_box_pairs(
         components.low[chosen], components.high[chosen], tolerance, MAX_COMPONENT_PAIRS
     )
     if not len(i):
-        return ComponentRelations(NO_PAIRS, NO_PAIRS, skipped)
+        return ComponentRelations(NO_PAIRS, NO_PAIRS, untested_count)
     i, j = chosen[i], chosen[j]
     size = np.abs(components.volume)
-    swap = (size[i] > size[j]) | ((size[i] == size[j]) & (i < j))
-    small = np.where(swap, j, i)
-    large = np.where(swap, i, j)
+    i_is_larger = (size[i] > size[j]) | ((size[i] == size[j]) & (i < j))
+    small = np.where(i_is_larger, j, i)
+    large = np.where(i_is_larger, i, j)
 
     selected = np.zeros(len(size), bool)
     selected[small] = selected[large] = True
@@ -102,57 +101,57 @@ def classify_pairs(
     inside_count, outside_count = _classify_by_samples(
         points, components, tree, small, large, tolerance
     )
-    within, without = inside_count > 0, outside_count > 0
-    same = within & ~without & (size[large] - size[small] <= 1e-9 * size[large])
-    through = (within & without) | same
-    open_question = ~through
-    pierced, unfinished = intersecting_pairs(
-        tree, small[open_question], large[open_question], tolerance
-    )
-    through[open_question] = pierced
-    unsure = ~(within | without)
-    unsure[open_question] |= unfinished
-    inside = within & ~through & ~unsure
+    is_inside, is_outside = inside_count > 0, outside_count > 0
+    is_same = is_inside & ~is_outside & (size[large] - size[small] <= 1e-9 * size[large])
+    intersects = (is_inside & is_outside) | is_same
+    rest = ~intersects  # their edges decide
+    pierced, unfinished = intersecting_pairs(tree, small[rest], large[rest], tolerance)
+    is_unsure = ~(is_inside | is_outside)
+    is_unsure[rest] |= unfinished
+    intersects[rest] = pierced
     pair = np.stack([small, large], axis=1)
     opposite = components.volume[small] * components.volume[large] < 0.0
-    mostly_in = pair[through & ~same & opposite & (inside_count > outside_count)]
+    mostly_in = pair[intersects & ~is_same & opposite & (inside_count > outside_count)]
     return ComponentRelations(
-        pair[inside],
-        pair[through],
-        skipped + int(np.count_nonzero(unsure & ~through)),
-        mostly_in,
-        _breakthrough(components, tree, mostly_in, tolerance),
+        contained_in=pair[is_inside & ~intersects & ~is_unsure],
+        intersecting=pair[intersects],
+        undecided_pairs=untested_count + int(np.count_nonzero(is_unsure & ~intersects)),
+        mostly_in=mostly_in,
+        breakthrough=_breakthrough(components, tree, mostly_in, tolerance),
     )
 
 
 def _breakthrough(components: SortedComponents, tree: Bvh, pairs: Index, tolerance: float) -> Array:
-    """Return (k,) how far inner and outer component reach out of each other, at least
-    `tolerance`.
+    """Return (k,) how far inner and outer component reach out of each other, at least `tolerance`:
+    the depth of points on edges of the inner one outside, and of the outer one inside.
     """
     depth = np.full(len(pairs), tolerance)
     if not len(pairs):
         return depth
     most, least, together = BREAKTHROUGH_TRIANGLES
     share = max(together // len(pairs), least)
-    for (of, other), within in ((pairs.T, False), (pairs.T[::-1], True)):
-        size = components.start[of + 1] - components.start[of]
+    for (component, other), reaches_inside in ((pairs.T, False), (pairs.T[::-1], True)):
+        size = components.start[component + 1] - components.start[component]
         number = np.minimum(size, min(share, most))
         pair = np.repeat(np.arange(len(pairs)), number)
-        triangle = components.start[of][pair] + segment_ranges(number) * size[pair] // number[pair]
+        # `number` triangles, spread evenly over all
+        step = segment_ranges(number) * size[pair] // number[pair]
+        triangle = components.start[component][pair] + step
         corners = [tree.vertex_columns[:, vertex].T for vertex in components.triangles[triangle].T]
         # few triangles may be long
-        steps = int(np.clip(together // len(pair), 1, MAX_STEPS_PER_EDGE))
+        parts = int(np.clip(together // len(pair), 1, MAX_STEPS_PER_EDGE))
         place = np.concatenate(
             [
-                corners[i] + k / steps * (corners[i - 1] - corners[i])
+                corners[i] + k / parts * (corners[i - 1] - corners[i])
                 for i in range(3)
-                for k in range(steps)
+                for k in range(parts)
             ]
         )
-        pair = np.tile(pair, 3 * steps)
+        pair = np.tile(pair, 3 * parts)
         winding, sure = tree.winding_numbers(place, other[pair], 0.0)
-        reaches = np.flatnonzero(sure & ((winding != 0) == within))
-        np.maximum.at(depth, pair[reaches], tree.distances(place[reaches], other[pair[reaches]]))
+        reaches = np.flatnonzero(sure & ((winding != 0) == reaches_inside))
+        distances = tree.distances(place[reaches], other[pair[reaches]])
+        np.maximum.at(depth, pair[reaches], distances)
     return depth
 
 
@@ -223,16 +222,20 @@ def orient_nested_components(
     parent = _innermost_container(relations, number)
     order = np.argsort(depth[inner], kind="stable")
     inner, outer = inner[order], outer[order]
-    around = np.zeros(number)
+    layers_around = np.zeros(number)  # of material, cavities subtracted
     for level in np.unique(depth[candidates]):
-        at = np.flatnonzero(candidates & (depth == level))
+        at_level = np.flatnonzero(candidates & (depth == level))
         if level:
-            at_level = slice(*np.searchsorted(depth[inner], [level, level + 1]))
-            follows = (sign[parent[at]] != given[parent[at]]) & (given[at] == -given[parent[at]])
-            sign[at[follows]] *= -1.0
-            around += np.bincount(inner[at_level], sign[outer[at_level]], minlength=number)
-        sign[at[(sign[at] < 0.0) & (around[at] <= 0.0)]] = 1.0
-    return sign != given, (sign > 0.0) & (around >= 1.0), (sign < 0.0) & (around >= 1.0)
+            parents = parent[at_level]
+            follows = sign[parents] != given[parents]
+            follows &= given[at_level] == -given[parents]
+            sign[at_level[follows]] *= -1.0
+            pairs = slice(*np.searchsorted(depth[inner], [level, level + 1]))
+            layers_around += np.bincount(inner[pairs], sign[outer[pairs]], minlength=number)
+        is_inside_out = (sign[at_level] < 0.0) & (layers_around[at_level] <= 0.0)
+        sign[at_level[is_inside_out]] = 1.0
+    in_material = layers_around >= 1.0
+    return sign != given, (sign > 0.0) & in_material, (sign < 0.0) & in_material
 
 
 def cavity_host(relations: ComponentRelations, cavity: Mask) -> Index:
@@ -242,15 +245,16 @@ def cavity_host(relations: ComponentRelations, cavity: Mask) -> Index:
     host = np.arange(len(cavity))
     parent = _innermost_container(relations, len(cavity))
     pending = np.flatnonzero(cavity)
-    at = parent[pending]
-    layers = np.ones(len(pending), np.intp)
+    container = parent[pending]
+    # On the way outward a cavity opens a hole, and a body closes one.
+    holes = np.ones(len(pending), np.intp)
     while len(pending):
-        layers = layers + np.where(cavity[at], 1, -1)
-        resolved = (layers == 0) | (parent[at] < 0)
-        host[pending[resolved]] = at[resolved]
+        holes = holes + np.where(cavity[container], 1, -1)
+        resolved = (holes == 0) | (parent[container] < 0)
+        host[pending[resolved]] = container[resolved]
         pending = pending[~resolved]
-        at = parent[at[~resolved]]
-        layers = layers[~resolved]
+        container = parent[container[~resolved]]
+        holes = holes[~resolved]
     return host
 
 
@@ -286,20 +290,17 @@ def _classify_by_samples(
         # Pairs with samples inside and outside intersect, whatever further samples say.
         open_pairs = np.flatnonzero(needs_all | ~counts.all(axis=0))
         pair = open_pairs.repeat(len(chosen))
-        k = np.concatenate([chosen] * len(open_pairs) or [NO_INDICES])
         if not len(pair):
             continue
+        k = np.tile(chosen, len(open_pairs))
         sampled = small[pair]
         place = _interior_samples(points, components, tree, sampled, k, number, tolerance)
         self_winding, self_sure = tree.winding_numbers(place, sampled, tolerance)
-        keep = self_sure & (self_winding != 0)
-        place, pair = place[keep], pair[keep]
+        is_interior = self_sure & (self_winding != 0)
+        place, pair = place[is_interior], pair[is_interior]
         winding, sure = tree.winding_numbers(place, large[pair], tolerance)
-        pair = pair[sure]
-        inside = winding[sure] != 0
-        counts += [
-            np.bincount(pair[is_chosen], minlength=len(small)) for is_chosen in (inside, ~inside)
-        ]
+        for count, is_counted in zip(counts, (sure & (winding != 0), sure & (winding == 0))):
+            count += np.bincount(pair[is_counted], minlength=len(small))
     return counts[0], counts[1]
 
 

@@ -48,14 +48,13 @@ class ComponentComparison:
         """Decide which components to turn, from the relations between the solid ones."""
         flipped, nested, cavities = orient_nested_components(components, relations, solid)
         intersecting, breaking = np.zeros((2, len(solid)), bool)
-        through = cavities[relations.mostly_in[:, 0]] & ~cavities[relations.mostly_in[:, 1]]
-        breaking[relations.mostly_in[through, 0]] = True
-        pairs = relations.intersecting
-        if through.any():
-            pairs = pairs[
-                ~np.isin(pairs @ [len(solid), 1], relations.mostly_in[through] @ [len(solid), 1])
-            ]
-        intersecting[pairs] = True
+        inner, outer = relations.mostly_in.T
+        breaks_through = cavities[inner] & ~cavities[outer]
+        breaking[inner[breaks_through]] = True
+        # Pairs as one number; those that break through do not count as intersecting.
+        keys = relations.intersecting @ [len(solid), 1]
+        breaking_keys = relations.mostly_in[breaks_through] @ [len(solid), 1]
+        intersecting[relations.intersecting[~np.isin(keys, breaking_keys)]] = True
         return cls(
             flipped,
             solid,
@@ -63,9 +62,9 @@ class ComponentComparison:
             cavities,
             intersecting,
             breaking,
-            float(relations.breakthrough[through].max(initial=0.0)),
-            cavity_host(relations, cavities),
-            relations.undecided_pairs,
+            breakthrough=float(relations.breakthrough[breaks_through].max(initial=0.0)),
+            host=cavity_host(relations, cavities),
+            undecided_pairs=relations.undecided_pairs,
         )
 
     def add_to(self, report: MeshHealth) -> MeshHealth:
@@ -164,12 +163,13 @@ def orient_components(
     is_proven = mesh is given.proven
     comparison = None
     flipped = np.zeros(mesh.number, bool)
-    surface, volume = checked.surface, given.volume
+    counted = np.ones(mesh.number, bool)
     if mesh.number > 1:
         comparison = compare_components(mesh, checked.tolerance, checked.error)
         flipped = comparison.flipped
+        counted = comparison.solid
+    surface, volume = checked.surface, given.volume
     if comparison is not None or not is_proven:
-        counted = np.ones(1, bool) if comparison is None else comparison.solid
         surface = _oriented_surface(surface, mesh, flipped, counted, is_proven)
     if surface is not checked.surface:
         volume = _integrate_oriented(given, mesh, flipped, surface, threads)
@@ -184,7 +184,7 @@ def orient_components(
     else:
         solid = comparison.solid
         turned = flipped
-        is_solid = bool(solid.any()) or is_solid and has_open
+        is_solid = bool(solid.any()) or (is_solid and has_open)
     inside_out = total < 0.0 and (is_solid or has_open)
     if inside_out:
         volume = replace(volume, raw=-volume.raw)
@@ -231,30 +231,31 @@ def _oriented_surface(
     solid: Mask,
     proven: bool,
 ) -> Surface:
-    """Return the surface with the signed sum of the body."""
+    """Return the surface with the signed sum of the body; `surface` itself if it is that.
+
+    flip, solid: (c,) components to turn, and components with a volume. proven: True if `mesh` has
+    the faces of `surface`.
+    """
     flipped = mesh.flipped ^ flip[mesh.component]
     included = (mesh.open | solid)[mesh.component]  # Flat parts would only add rounding.
-    if not (mesh.topology_changed or flipped.any() or (mesh.face < 0).any()) and (
-        included.all() or not included.any()
-    ):
+    is_changed = mesh.topology_changed or flipped.any() or (mesh.face < 0).any()
+    if not is_changed and (included.all() or not included.any()):
         return surface
     if proven:
         quads = surface.quads.copy()
         triangles = surface.triangles.copy()
-        flipped_rows = flipped[len(triangles) :: 2]
+        flipped_triangles = flipped[: len(triangles)]
+        triangles[flipped_triangles] = triangles[flipped_triangles][:, ::-1]
+        flipped_quads = flipped[len(triangles) :: 2]  # by their first halves
         # the first corner stays, and with it the diagonal
-        quads[flipped_rows] = quads[flipped_rows][:, [0, 3, 2, 1]]
-        flipped_rows = flipped[: len(triangles)]
-        triangles[flipped_rows] = triangles[flipped_rows][:, ::-1]
+        quads[flipped_quads] = quads[flipped_quads][:, [0, 3, 2, 1]]
         return replace(surface, quads=quads, triangles=triangles)
     triangles = mesh.triangles
     if flip.any():
         triangles = np.where(flip[mesh.component][:, None], triangles[:, ::-1], triangles)
-    displacement = (
-        surface.coordinate_error + mesh.max_displacement
-        if mesh.max_displacement
-        else surface.displacement
-    )
+    displacement = surface.displacement
+    if mesh.max_displacement:
+        displacement = surface.coordinate_error + mesh.max_displacement
     return Surface(
         mesh.points, triangles if included.all() else triangles[included], displacement=displacement
     )
@@ -271,14 +272,10 @@ def _integrate_oriented(
     is as given.
     """
     integrate = partial(polyhedron_moments, area_order=0, threads=threads, allow_open=True)
-    caps = mesh.face < 0
+    is_cap = mesh.face < 0
     is_turned = mesh.flipped.any() or flip.any()
-    if (
-        mesh.topology_changed
-        or is_turned
-        or not caps.any()
-        or len(measured.triangles) < len(mesh.triangles)
-    ):
+    is_complete = len(measured.triangles) == len(mesh.triangles)
+    if mesh.topology_changed or is_turned or not is_complete or not is_cap.any():
         return integrate(measured)[0]
-    surface = replace(measured, triangles=measured.triangles[caps])
-    return sum_moments([given.volume, integrate(surface, about=given.volume.about)[0]])
+    caps = replace(measured, triangles=measured.triangles[is_cap])
+    return sum_moments([given.volume, integrate(caps, about=given.volume.about)[0]])

@@ -132,9 +132,8 @@ class SolidIntegrals:
             threads=threads,
             allow_open=True,
         )
-        if not self.volume.raw.any():  # Rounding noise of a flat body has no moments.
-            error = volume.rounding_error + np.abs(volume.raw)
-            volume = replace(volume, raw=np.zeros_like(volume.raw), rounding_error=error)
+        if not self.volume.raw.any():
+            volume = _without_noise(volume)
         if area_order is not None:
             area = polyhedron_moments(
                 self.given_surface,
@@ -173,43 +172,31 @@ def judge(
     mesh, volume = oriented.mesh, oriented.volume
     has_open = bool(mesh.open.any())
     if not oriented.is_solid and not has_open:  # Rounding noise would pass for a tiny body.
-        volume = replace(
-            volume,
-            raw=np.zeros_like(volume.raw),
-            rounding_error=volume.rounding_error + np.abs(volume.raw),
-        )
-    flipped = NO_INDICES
+        volume = _without_noise(volume)
+    flipped_faces = NO_INDICES
     inverted = np.flatnonzero(oriented.turned)
     if mesh.flipped.any():
-        flipped, inverted = _flipped_faces(mesh, oriented.turned)
-    self_intersecting = oriented.is_solid and not has_open and volume.total > 0.0
-    if self_intersecting:
+        flipped_faces, inverted = _flipped_faces(mesh, oriented.turned)
+    is_impossible = False
+    if oriented.is_solid and not has_open and volume.total > 0.0:
         low, high = checked.surface.box
-        self_intersecting = not are_physical(volume.at(None), low[None], high[None], checked.size)[
-            0
-        ]
+        is_impossible = not are_physical(volume.at(None), low[None], high[None], checked.size)[0]
     caps = mesh.caps[oriented.solid].sum(axis=0)
-    cap_share = float(caps[2] / given.area.total) if given.area.total > 0.0 else 0.0
-    if has_open or not oriented.is_solid or self_intersecting:
+    if has_open or not oriented.is_solid or is_impossible:
         procedure = Procedure.OPEN
     elif caps.any():
         procedure = Procedure.CAPPED
+    elif len(flipped_faces) or len(inverted):
+        procedure = Procedure.REORIENTED
     else:
-        procedure = Procedure.REORIENTED if len(flipped) or len(inverted) else Procedure.EXACT
-    findings: list[Finding] = []
-    # one ulp of float32
-    step = 2.0 * float(np.linalg.norm(half_ulp(np.abs(checked.surface.box).max(axis=0))))
-    if mesh.max_displacement > step:  # less is how the same place is written twice
-        slight = mesh.max_displacement * given.area.total < NEGLIGIBLE * abs(volume.total)
-        findings.append(
-            finding(
-                VERTICES_WELDED, slight=slight, share=float(mesh.max_displacement / checked.size)
-            )
-        )
-    findings += [_of_input(item, checked.vertices) for item in mesh.findings]
-    if len(flipped):
-        slight = _is_slight(mesh, np.isin(mesh.face, flipped), checked.size, volume.total)
-        findings.append(finding(FLIPPED_FACES, flipped, slight=slight, count=len(flipped)))
+        procedure = Procedure.EXACT
+    cap_share = float(caps[2] / given.area.total) if given.area.total > 0.0 else 0.0
+    findings = _repair_findings(checked, given, mesh, volume.total)
+    if len(flipped_faces):
+        rows = np.isin(mesh.face, flipped_faces)
+        slight = _is_slight(mesh, rows, checked.size, volume.total)
+        count = len(flipped_faces)
+        findings.append(finding(FLIPPED_FACES, flipped_faces, slight=slight, count=count))
     if len(inverted):
         findings.append(_inverted_finding(mesh, inverted, checked.size, volume.total))
     if caps[:2].any():
@@ -218,21 +205,48 @@ def judge(
         findings.append(cap_finding(edges, caps, cap_share, checked.size, volume.total))
     if oriented.comparison is not None:
         findings += _component_findings(mesh, oriented.comparison, checked.size, volume.total)
-    if self_intersecting:
+    if is_impossible:
         findings.append(finding(SELF_INTERSECTING))
     elif intersection is not None and procedure is not Procedure.OPEN:
         findings += _intersection_findings(intersection, volume.total)
-    flat = given.planarity
+    planarity = given.planarity
     findings += (
-        planarity_findings(flat.non_planar_count, flat.volume_spread, volume.total)
+        planarity_findings(planarity.non_planar_count, planarity.volume_spread, volume.total)
         if oriented.is_solid
         else [finding(FLAT_SURFACE)]
     )
     state = Intersection.NOT_CHECKED if intersection is None else intersection.state
-    health = _health(checked, given.planarity, oriented, flipped, len(inverted), cap_share, state)
+    health = _health(checked, planarity, oriented, flipped_faces, len(inverted), cap_share, state)
     return SolidIntegrals(
         volume, given.area, health, procedure, tuple(findings), oriented, checked.surface
     )
+
+
+def _without_noise(volume: Moments) -> Moments:
+    """Return zero moments of a flat body, with its rounding noise as their error."""
+    return replace(
+        volume,
+        raw=np.zeros_like(volume.raw),
+        rounding_error=volume.rounding_error + np.abs(volume.raw),
+    )
+
+
+def _repair_findings(
+    checked: CheckedSurface, given: GivenIntegrals, mesh: RepairedMesh, volume: float
+) -> list[Finding]:
+    """Return the findings of a repair, in the input's vertices, after one about welding."""
+    findings = []
+    ulp = 2.0 * float(np.linalg.norm(half_ulp(np.abs(checked.surface.box).max(axis=0))))
+    if mesh.max_displacement > ulp:  # less is how the same place is written twice
+        slight = mesh.max_displacement * given.area.total < NEGLIGIBLE * abs(volume)
+        share = float(mesh.max_displacement / checked.size)
+        findings.append(finding(VERTICES_WELDED, slight=slight, share=share))
+    for item in mesh.findings:
+        elements = np.asarray(item.elements)
+        if elements.ndim == 2 and checked.vertices is not None:  # edges
+            item = replace(item, elements=checked.vertices[elements])
+        findings.append(item)
+    return findings
 
 
 def _flipped_faces(mesh: RepairedMesh, turned: Mask) -> tuple[Integers, Index]:
@@ -281,18 +295,6 @@ def _health(
     )
 
 
-def _of_input(item: Finding, vertices: Index | None) -> Finding:
-    """Return the finding with edges in the input's vertices, if unused vertices were left out
-    before.
-    """
-    elements = np.asarray(item.elements)
-    return (
-        replace(item, elements=vertices[elements])
-        if elements.ndim == 2 and vertices is not None
-        else item
-    )
-
-
 def _is_slight(mesh: RepairedMesh, rows: Mask, size: float, volume: float) -> bool:
     """Return whether triangles are too small to matter, by their area times the body's size. rows:
     (t,).
@@ -303,12 +305,16 @@ def _is_slight(mesh: RepairedMesh, rows: Mask, size: float, volume: float) -> bo
 
 
 def _inverted_finding(mesh: RepairedMesh, inverted: Index, size: float, volume: float) -> Finding:
-    which = np.zeros(mesh.number, bool)
-    which[inverted] = True
-    faces = () if which.all() else mesh.faces_of(which)
-    slight = not which.all() and _is_slight(mesh, which[mesh.component], size, volume)
+    """Return a finding about components, by their numbers, that are inside out."""
+    is_inverted = np.zeros(mesh.number, bool)
+    is_inverted[inverted] = True
+    is_whole = bool(is_inverted.all())
     return finding(
-        INVERTED_COMPONENTS, faces, slight=slight, count=len(inverted), total=int(mesh.number)
+        INVERTED_COMPONENTS,
+        () if is_whole else mesh.faces_of(is_inverted),
+        slight=not is_whole and _is_slight(mesh, is_inverted[mesh.component], size, volume),
+        count=len(inverted),
+        total=int(mesh.number),
     )
 
 
@@ -345,9 +351,9 @@ def _component_findings(
         (FLAT_COMPONENTS, flat, {"total": int(mesh.number)}),
     ):
         if which.any():
-            decided = _all_but_largest(mesh, which) if code == COMPONENTS_OVERLAP else which
+            in_question = _all_but_largest(mesh, which) if code == COMPONENTS_OVERLAP else which
             slight = code != CAVITIES_SUBTRACTED and _is_slight(
-                mesh, decided[mesh.component], size, volume
+                mesh, in_question[mesh.component], size, volume
             )
             findings.append(
                 finding(code, mesh.faces_of(which), slight=slight, count=int(which.sum()), **values)

@@ -55,41 +55,51 @@ def weld_patches(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     parts = mesh.state.open_parts
     if parts is None or parts.are_all:
         return mesh
-    given = mesh.triangles[parts.rows]
-    loose = _unique_sorted(given, len(mesh.points))
-    low, high = mesh.points[loose].min(axis=0), mesh.points[loose].max(axis=0)
-    is_near = ((mesh.points >= low - tolerance) & (mesh.points <= high + tolerance)).all(axis=1)
-    is_candidate = is_near[mesh.triangles].all(axis=1) & has_distinct_vertices(mesh.triangles)
-    is_candidate[parts.rows] = False
-    closed = np.flatnonzero(is_candidate)
+    open_triangles = mesh.triangles[parts.rows]
+    open_vertices = _unique_sorted(open_triangles, len(mesh.points))
+    closed = _closed_near(mesh, parts, open_vertices, tolerance)
     if not len(closed):
         return mesh
-    fixed = np.setdiff1d(mesh.triangles[closed], loose)
-    vertices = np.concatenate([fixed, loose])  # so that the first of a cluster is a fixed one
+    fixed = np.setdiff1d(mesh.triangles[closed], open_vertices)
+    vertices = np.concatenate([fixed, open_vertices])  # the first of a cluster is a fixed one
     rows = np.concatenate([closed, parts.rows])
     reach = vertex_tolerance(mesh.points, mesh.triangles[rows], vertices, tolerance)
     onto = np.arange(len(mesh.points))
     onto[vertices] = vertices[first_at_near_position(mesh.points[vertices], reach)]
     onto[fixed] = fixed
-    triangles = np.concatenate([mesh.triangles[closed], onto[given]])
+    triangles = np.concatenate([mesh.triangles[closed], onto[open_triangles]])
     group = same_vertices_groups(triangles, mesh.face[rows])
     is_copy = np.isin(group[len(closed) :], group[: len(closed)])
-    part, number = connected_components(len(given), *find_edges(given).adjacency())
+    part, number = connected_components(
+        len(open_triangles), *find_edges(open_triangles).adjacency()
+    )
     is_patch = np.bincount(part, ~is_copy, number)[part] == 0.0
     if not is_patch.any():
         return mesh
-    patch = given[is_patch]
+    patch = open_triangles[is_patch]
     moved = mesh.points[patch].astype(np.float64) - mesh.points[onto[patch]]
     size = np.linalg.norm(np.ptp(mesh.points, axis=0))
     share = float(np.linalg.norm(moved, axis=2).max() / size)
     welded = mesh.triangles.copy()
     welded[parts.rows[is_patch]] = onto[patch]
     mesh = copy_with(mesh, triangles=welded).with_findings(finding(VERTICES_WELDED, share=share))
-    left = np.intersect1d(parts.vertices, given[~is_patch])
-    open_parts = copy_with(parts, rows=parts.rows[~is_patch], vertices=left)
-    return mesh.with_report(welded=True).with_state(
-        edges=UNKNOWN, open_parts=None if is_patch.all() else open_parts
-    )
+    open_parts = None
+    if not is_patch.all():
+        vertices = np.intersect1d(parts.vertices, open_triangles[~is_patch])
+        open_parts = copy_with(parts, rows=parts.rows[~is_patch], vertices=vertices)
+    return mesh.with_report(welded=True).with_state(edges=UNKNOWN, open_parts=open_parts)
+
+
+def _closed_near(
+    mesh: RepairedMesh, parts: OpenParts, open_vertices: Index, tolerance: float
+) -> Index:
+    """Return the proper triangles of closed parts within the box of the open vertices."""
+    places = mesh.points[open_vertices]
+    low, high = places.min(axis=0), places.max(axis=0)
+    is_near = ((mesh.points >= low - tolerance) & (mesh.points <= high + tolerance)).all(axis=1)
+    is_candidate = is_near[mesh.triangles].all(axis=1) & has_distinct_vertices(mesh.triangles)
+    is_candidate[parts.rows] = False
+    return np.flatnonzero(is_candidate)
 
 
 def weld_equal_positions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
@@ -104,12 +114,12 @@ def weld_equal_positions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     mesh, onto = _weld(mesh, parts.rows, vertices, same)
     rows = parts.rows[has_distinct_vertices(mesh.triangles[parts.rows])]
     edges = find_edges(mesh.triangles[rows])
-    vertices = _unique_sorted(onto[parts.vertices], len(mesh.points))
+    open_parts = None
+    if np.any(edges.count % 2):
+        vertices = _unique_sorted(onto[parts.vertices], len(mesh.points))
+        open_parts = copy_with(parts, rows=rows, vertices=vertices)
     return mesh.with_state(
-        edges=edges if parts.are_all and len(rows) else UNKNOWN,
-        open_parts=copy_with(parts, rows=rows, vertices=vertices)
-        if np.any(edges.count % 2)
-        else None,
+        edges=edges if parts.are_all and len(rows) else UNKNOWN, open_parts=open_parts
     )
 
 
@@ -219,23 +229,21 @@ def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
         elements={"non_manifold_edges": distinct_vertex_pairs(mesh.state.given, sides)},
     )
     group = same_vertices_groups(mesh.triangles, face)
-    later = group != face
-    if not later.any():
+    is_copy = group != face
+    if not is_copy.any():
         return mesh
-    copies = np.unique(face[later])
+    copies = np.unique(face[is_copy])
     mesh = mesh.with_report(duplicate_faces=len(copies), elements={"duplicate_faces": copies})
 
     vector = normals(mesh.points, mesh.triangles)
-    # Sum over each face.
-    vector = np.stack([np.bincount(face, vector[:, k]) for k in range(3)], axis=1)
-    agree = np.sign(np.einsum("ij,ij->i", vector[face], vector[group])) * np.linalg.norm(
-        vector[face], axis=1
-    )
-    reduced = _regions_of_one_layer(edges, later, is_duplicated(group, face), agree)
-    left_out = later & reduced
-    ignored = np.unique(face[left_out])
-    counted = np.unique(face[later & ~reduced & (agree > 0.0)])
+    vector = np.stack([np.bincount(face, vector[:, k]) for k in range(3)], axis=1)  # by face
     area = np.linalg.norm(vector, axis=1)
+    # Areas, negative for copies that run against the first of their faces.
+    agreement = np.sign(np.einsum("ij,ij->i", vector[face], vector[group])) * area[face]
+    reduced = _regions_of_one_layer(edges, is_copy, is_duplicated(group, face), agreement)
+    left_out = is_copy & reduced
+    ignored = np.unique(face[left_out])
+    counted = np.unique(face[is_copy & ~reduced & (agreement > 0.0)])
     for code, copies in ((DUPLICATE_FACES_IGNORED, ignored), (DUPLICATE_FACES_COUNTED, counted)):
         if len(copies):
             slight = bool(area[copies].sum() < NEGLIGIBLE * area.sum())
@@ -287,21 +295,25 @@ def is_duplicated(group: Integers, face: Integers) -> Mask:
     return copied[group]
 
 
-def _regions_of_one_layer(edges: Edges, later: Mask, copied: Mask, agree: Array) -> Mask:
-    """Return an (m,) mask of triangles in regions to be reduced to one layer; later, copied: masks;
-    agree: signs.
+def _regions_of_one_layer(edges: Edges, is_copy: Mask, copied: Mask, agreement: Array) -> Mask:
+    """Return an (m,) mask of triangles in regions to be reduced to one layer.
+
+    is_copy: (m,) triangles of copies. copied: (m,) those, and those of the faces that they copy.
+    agreement: (m,) areas, negative for copies that run against the first.
     """
     side = np.flatnonzero(np.repeat(copied, 3))
     edge = edges.of_side[side]
-    owner = side // 3
-    meet = np.empty(len(edges.count), np.intp)
-    meet[edge] = owner  # any triangle at the edge, the last write
-    region, number = connected_components(len(copied), owner, meet[edge])
-    single_count = np.bincount(edges.of_side, np.repeat(~copied, 3))[edge]
-    vote = np.where(single_count % 2 == 1, 1, -1) * (single_count > 0)
-    votes = np.bincount(region[owner], vote, minlength=number)
-    has_neighbors = np.bincount(region[owner], single_count > 0, minlength=number) > 0
-    parallel = np.bincount(region, agree * later)
-    single = np.bincount(edges.of_side, np.repeat(copied & ~later, 3))[edge] % 2 == 1
-    closed = np.bincount(region[owner], single, minlength=number) == 0
-    return np.where(has_neighbors, votes > 0, (parallel > 0) | closed)[region]
+    triangle = side // 3
+    any_triangle = np.empty(len(edges.count), np.intp)
+    any_triangle[edge] = triangle  # of several at an edge the last one written
+    region, number = connected_components(len(copied), triangle, any_triangle[edge])
+    region_of_side = region[triangle]
+    other_count = np.bincount(edges.of_side, np.repeat(~copied, 3))[edge]
+    vote = np.where(other_count % 2 == 1, 1, -1) * (other_count > 0)
+    votes = np.bincount(region_of_side, vote, minlength=number)
+    has_neighbors = np.bincount(region_of_side, other_count > 0, minlength=number) > 0
+    is_parallel = np.bincount(region, agreement * is_copy) > 0
+    first_layer = copied & ~is_copy
+    is_open_side = np.bincount(edges.of_side, np.repeat(first_layer, 3))[edge] % 2 == 1
+    is_closed = np.bincount(region_of_side, is_open_side, minlength=number) == 0
+    return np.where(has_neighbors, votes > 0, is_parallel | is_closed)[region]
