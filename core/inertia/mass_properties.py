@@ -307,25 +307,28 @@ def _propagate_errors(
 ) -> tuple[dict[str, PerBody], dict[str, PerBody]]:
     """Return bounds of mass, center, inertia by rounding and by `input_error`; infinite if nothing
     bounds them.
+
+    The arrays have a leading axis for the two: rounding, input.
     """
-    delta = np.array([moments.rounding_error, moments.input_error])
+    error = np.array([moments.rounding_error, moments.input_error])
     raw = moments.raw
-    total, off = raw[..., 0], delta[..., 0]
-    is_bounded = total > 2.0 * off
+    total, total_error = raw[..., 0], error[..., 0]
+    is_bounded = total > 2.0 * total_error
+    least = np.where(is_bounded, total - total_error, 1.0)[..., None]
     total = np.where(is_bounded, total, 1.0)[..., None]
-    least = np.where(is_bounded, total[..., 0] - off, 1.0)[..., None]
     first = np.abs(raw[..., 1:4])
-    off_first = delta[..., 1:4]
+    first_error = error[..., 1:4]
     shift = first / total
-    center = _lengths((off_first + shift * off[..., None]) / least)
-    cross = off_first[..., :, None] * shift[..., None, :]
+    center = _lengths((first_error + shift * total_error[..., None]) / least)
+    cross = first_error[..., :, None] * shift[..., None, :]
     cross = (
         cross
         + cross.swapaxes(-1, -2)
-        + shift[..., :, None] * shift[..., None, :] * off[..., None, None]
+        + shift[..., :, None] * shift[..., None, :] * total_error[..., None, None]
     )
-    second = delta[..., SECOND_MOMENT_INDEX] + cross * (total / least)[..., None]
-    second = second + off_first[..., :, None] * (off_first / least)[..., None, :]
+    second = error[..., SECOND_MOMENT_INDEX] + cross * (total / least)[..., None]
+    second = second + first_error[..., :, None] * (first_error / least)[..., None, :]
+    # the rounding of the results themselves
     center[0] += 2.0 * U * _lengths(np.abs(moments.about) + 2.0 * shift[0])
     second[0] += (
         6.0
@@ -334,17 +337,17 @@ def _propagate_errors(
     )
     tensor = second.trace(axis1=-2, axis2=-1)[..., None, None] * IDENTITY_3 + second
     inertia = np.abs(density) * _lengths(tensor.reshape(*tensor.shape[:-2], 9))
-    off[0] += U * raw[..., 0]
+    total_error[0] += U * raw[..., 0]
     bounds = (
-        np.abs(density) * off,
+        np.abs(density) * total_error,
         np.where(is_bounded, center, np.inf),
         np.where(is_bounded, inertia, np.inf),
     )
     columns = bounds if raw.ndim > 1 else [bound.tolist() for bound in bounds]
-    rounding, moved = (
+    rounding, inputs = (
         dict[str, PerBody](zip(("mass", "center", "inertia"), each)) for each in zip(*columns)
     )
-    return rounding, moved
+    return rounding, inputs
 
 
 def _lengths(vectors: NDArray) -> Array:

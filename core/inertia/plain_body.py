@@ -150,26 +150,24 @@ def _bound_of_sum(
     """Return the bound of a sum of bodies, from the bound of each, and its distance from the
     center.
     """
-    # a shell without thickness has its mass by area
-    shares = [
-        bound["volume"] / part.volume
-        if part.volume > 0.0
-        else bound["area"] / max(part.area, float_info.min)
-        for part, bound in zip(parts, bounds)
-    ]
-    bodies = [
-        (part.mass, share, arm, bound["center_of_mass"])
-        for part, share, arm, bound in zip(parts, shares, arms, bounds)
-    ]
-    mass = sum([part.mass for part in parts])
-    center = (
-        sum([own * ((1.0 + share) * error + share * arm) for own, share, arm, error in bodies])
-        / mass
-    )
+    total_mass = sum([part.mass for part in parts])
+    center = 0.0
     inertia = sum([bound["inertia"] for bound in bounds])
-    for own, share, arm, error in bodies:
-        reach = arm + error + center
-        inertia += own * ((1.0 + share) * (reach * reach - arm * arm) + share * arm * arm)
+    shares = []  # bounds of the masses, relative to them
+    for part, arm, bound in zip(parts, arms, bounds):
+        # a shell without thickness has its mass by area
+        share = (
+            bound["volume"] / part.volume
+            if part.volume > 0.0
+            else bound["area"] / max(part.area, float_info.min)
+        )
+        shares.append(share)
+        center += part.mass * ((1.0 + share) * bound["center_of_mass"] + share * arm)
+    center /= total_mass
+    for part, share, arm, bound in zip(parts, shares, arms, bounds):
+        reach = arm + bound["center_of_mass"] + center
+        growth = reach * reach - arm * arm
+        inertia += part.mass * ((1.0 + share) * growth + share * arm * arm)
     values = (
         sum([bound["volume"] for bound in bounds]),
         sum([bound["area"] for bound in bounds]),
@@ -280,9 +278,10 @@ def _nearest_frame(first: Vector, second: Vector, free: tuple[int, ...]) -> Axes
         frame = [a, b, cross(a, b)]
         if free:
             fixed = frame[3 - sum(free)]
-            wish = [u + v for u, v in zip(IDENTITY[free[0]], cross(IDENTITY[free[1]], fixed))]
+            # as in `complete_free_axes`
+            direction = [u + v for u, v in zip(IDENTITY[free[0]], cross(IDENTITY[free[1]], fixed))]
             # half a turn away any direction is as near: the one along a coordinate axis is taken
-            frame[free[0]] = _across(wish, fixed) or frame_about(fixed)[0]
+            frame[free[0]] = _across(direction, fixed) or frame_about(fixed)[0]
             frame[free[1]] = cross(fixed, frame[free[0]])
         frames.append(tuple(frame))
     traces = [sum(axis[i] for i, axis in enumerate(frame)) for frame in frames]

@@ -164,84 +164,90 @@ def third_moment_frames(
     `second`: the bodies' `second_moments`, if they are known.
     """
     second = second or second_moments(moments)
-    total, shift, scale = second.total, second.shift, second.scale
-    spread, axes, rounding = second.spread, second.axes, second.rounding
+    total, scale, spread, axes = second.total, second.scale, second.spread, second.axes
     # a lamina has no extent along an axis, and no skewness
-    size = np.sqrt(np.maximum(spread, 1e-30 * spread[:, :1]))
+    unit_size = np.sqrt(np.maximum(spread, 1e-30 * spread[:, :1]))
     # Shift of the points by float32: the share of the volume that this moves, times the thinnest
     # extent.
-    step = moments.input_error[:, 0] / total * size[:, 2]
-    gaps = spread[:, :2] - spread[:, 1:]
-    doubtful = (2.0 * step)[:, None] * size[:, :2] + rounding[:, None]
+    step = moments.input_error[:, 0] / total * unit_size[:, 2]
+    gaps = spread[:, :2] - spread[:, 1:]  # between axes 1 and 2, and 2 and 3
+    doubtful = (2.0 * step)[:, None] * unit_size[:, :2] + second.rounding[:, None]
     equal = gaps <= noise_factor * EQUAL_MOMENTS_RTOL * spread[:, :2] + doubtful
-    # between axes 1 and 2, and 2 and 3
     tilts = np.where(equal, 0.0, doubtful / np.where(equal, 1.0, gaps))
     symmetry = 2 * equal[:, 0] + equal[:, 1]
 
     noise = noise_factor * NOISE_LEVEL + (4.0 * step)[:, None, None] / np.minimum(
-        size[:, :, None], size[:, PARTNER_AXES]
+        unit_size[:, :, None], unit_size[:, PARTNER_AXES]
     )
-    real = size * np.sqrt(scale)[:, None]
-    skewness, skewness_error = _third_scores(moments, shift, real, axes, symmetry)
+    size = unit_size * np.sqrt(scale)[:, None]
+    skewness, skewness_error = _third_scores(moments, second.shift, size, axes, symmetry)
     # Two axes that noise may have turned about the third one mix the third moments along them.
     tilt_between = np.zeros((len(total), 3, 3))
     tilt_between[:, 0, 1] = tilt_between[:, 1, 0] = tilts[:, 0]
     tilt_between[:, 1, 2] = tilt_between[:, 2, 1] = tilts[:, 1]
     span = gaps.sum(axis=1)
-    both = np.where(symmetry == 3, 0.0, doubtful.max(axis=1) / np.where(span > 0.0, span, 1.0))
-    tilt_between[:, 0, 2] = tilt_between[:, 2, 0] = both
+    outer_tilt = np.where(
+        symmetry == 3, 0.0, doubtful.max(axis=1) / np.where(span > 0.0, span, 1.0)
+    )
+    tilt_between[:, 0, 2] = tilt_between[:, 2, 0] = outer_tilt
     mixed = (tilt_between * (np.abs(skewness) + skewness_error).max(axis=2)[:, None]).sum(axis=2)
     noise += 3.0 * mixed[:, :, None]
-    fixed = IS_FIXED[symmetry]
+    is_fixed = IS_FIXED[symmetry]
     third, error = skewness, skewness_error
     if refine is not None:
-        undecided = np.flatnonzero(~_are_decided(np.abs(skewness), skewness_error, noise, fixed))
+        undecided = np.flatnonzero(~_are_decided(np.abs(skewness), skewness_error, noise, is_fixed))
         if len(undecided):
             third, error = third.copy(), error.copy()
             third[undecided], error[undecided] = _third_scores(
                 refine(undecided),
-                shift[undecided],
-                real[undecided],
+                second.shift[undecided],
+                size[undecided],
                 axes[undecided],
                 symmetry[undecided],
             )
+    # The score of an axis is its first third moment that is more than noise, else 0.
     is_clear = np.abs(third) > noise + error
-    first = is_clear.argmax(axis=2)  # zero if none is more than noise
-    is_scored = fixed & is_clear.any(axis=2)
+    first_clear = is_clear.argmax(axis=2)
+    is_scored = is_fixed & is_clear.any(axis=2)
     body = np.arange(len(third))[:, None]
     scores, unsure = [
-        np.where(is_scored, values[body, AXES, first], 0.0) for values in (third, noise + error)
+        np.where(is_scored, values[body, AXES, first_clear], 0.0)
+        for values in (third, noise + error)
     ]
     return ThirdMomentFrames(
-        second.is_body,
-        second.inertia,
-        axes,
-        real,
-        symmetry,
-        step * np.sqrt(scale),
-        tilts.max(axis=1),
-        noise_factor * NOISE_LEVEL,
-        _allowed_signs(scores, unsure.max(axis=1)),
-        skewness[:, :, 0],
-        noise[:, :, 0] + skewness_error[:, :, 0],
+        is_body=second.is_body,
+        moments=second.inertia,
+        axes=axes,
+        size=size,
+        symmetry=symmetry,
+        step=step * np.sqrt(scale),
+        tilt=tilts.max(axis=1),
+        noise=noise_factor * NOISE_LEVEL,
+        allowed=_allowed_signs(scores, unsure.max(axis=1)),
+        skewness=skewness[:, :, 0],
+        skewness_error=noise[:, :, 0] + skewness_error[:, :, 0],
     )
 
 
 def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: Mask) -> Mask:
-    """Return an (n,) mask of bodies with frames that more exact third moments could not change."""
+    """Return an (n,) mask of bodies with frames that more exact third moments could not change.
+
+    size, error, noise: (n, 3, 3) absolute third moments of each axis. fixed: (n, 3) mask of axes.
+    """
     clear = size - error > noise
     below = size + error <= noise
-    decided = (clear[:, :, 0] | (clear | below).all(axis=2) | ~fixed).all(axis=1)
+    has_score = (clear[:, :, 0] | (clear | below).all(axis=2) | ~fixed).all(axis=1)
     body = np.arange(len(size))[:, None]
-    first = clear.argmax(axis=2)
-    size = size[body, AXES, first]
-    error = error[body, AXES, first]
-    noise = noise[body, AXES, first]
+    first_clear = clear.argmax(axis=2)
+    size = size[body, AXES, first_clear]
+    error = error[body, AXES, first_clear]
+    noise = noise[body, AXES, first_clear]
     # the least of three scores: both others have to be clear of it
     least = size[body, size.argmin(axis=1)[:, None]]
     unsure = (noise + error).max(axis=1, keepdims=True)
-    apart = (size - least > EQUAL_SCORES_RTOL * least + 2.0 * (error + unsure)).sum(axis=1) == 2
-    return decided & (apart | ~(fixed & clear.any(axis=2)).all(axis=1))
+    is_above = size - least > EQUAL_SCORES_RTOL * least + 2.0 * (error + unsure)
+    has_three_scores = (fixed & clear.any(axis=2)).all(axis=1)
+    return has_score & ((is_above.sum(axis=1) == 2) | ~has_three_scores)
 
 
 def _third_scores(
@@ -311,18 +317,17 @@ def complete_free_axes(frames: NDArray, free: tuple[int, ...], preferred_axes: N
     fixed = completed[..., 3 - first - second]
     # (first, second, fixed) is right-handed for both pairs: maximize first·p1 + (fixed x first)·p2
     # over the plane.
-    wish = _across(
+    direction = _across(
         preferred_axes[..., first] + cross_rows(preferred_axes[..., second], fixed), fixed
     )
     # half a turn away any direction is as near: the one along a preferred axis is taken
-    opposite = np.linalg.norm(wish, axis=-1) < 1e-6
-    if opposite.any():
+    is_opposite = np.linalg.norm(direction, axis=-1) < 1e-6
+    if is_opposite.any():
         cosines = np.abs(np.einsum("...a,...ai->...i", fixed, preferred_axes))
-        nearest = np.take_along_axis(preferred_axes, cosines.argmin(axis=-1)[..., None, None], -1)[
-            ..., 0
-        ]
-        wish = np.where(opposite[..., None], _across(nearest, fixed), wish)
-    completed[..., first] = wish / lengths(wish)
+        perpendicular = cosines.argmin(axis=-1)[..., None, None]
+        nearest = np.take_along_axis(preferred_axes, perpendicular, -1)[..., 0]
+        direction = np.where(is_opposite[..., None], _across(nearest, fixed), direction)
+    completed[..., first] = direction / lengths(direction)
     completed[..., second] = cross_rows(fixed, completed[..., first])
     return completed
 
@@ -346,16 +351,17 @@ def nearest_frames(candidates: NDArray, preferred_axes: NDArray, tilt: ArrayLike
     equal = EQUAL_TRACE_ATOL + np.minimum(
         4.0 * np.asarray(tilt).reshape(-1, 1), MAX_TRACE_AMBIGUITY
     )
-    turns = local.trace(axis1=2, axis2=3)
-    near = turns > turns.max(axis=1, keepdims=True) - equal
+    traces = local.trace(axis1=2, axis2=3)
+    is_left = traces > traces.max(axis=1, keepdims=True) - equal
     size = np.abs(local)
+    # the preferred axis nearest to each axis
     row = (size > size.max(axis=2, keepdims=True) - equal[..., None, None]).argmax(axis=2)
     body = np.arange(len(local))[:, None, None]
     is_along = local[body, np.arange(local.shape[1])[:, None], row, AXES] > 0.0
-    rank = np.where(near, is_along @ AXIS_RANK, -1)
-    near = rank == rank.max(axis=1, keepdims=True)
-    # several frames may still be left
-    for entry in local.reshape(*local.shape[:2], 9).transpose(2, 0, 1):
-        entry = np.where(near, entry, -np.inf)
-        near = entry > entry.max(axis=1, keepdims=True) - equal
-    return candidates[body[:, 0, 0], near.argmax(axis=1)] + 0.0  # no negative zeros
+    rank = np.where(is_left, is_along @ AXIS_RANK, -1)
+    is_left = rank == rank.max(axis=1, keepdims=True)
+    # If several frames are still left, their first entries that differ decide.
+    for entries in local.reshape(*local.shape[:2], 9).transpose(2, 0, 1):
+        entries = np.where(is_left, entries, -np.inf)
+        is_left = entries > entries.max(axis=1, keepdims=True) - equal
+    return candidates[body[:, 0, 0], is_left.argmax(axis=1)] + 0.0  # no negative zeros

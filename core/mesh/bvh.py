@@ -13,7 +13,17 @@ from functools import cached_property
 
 import numpy as np
 
-from ..numerics import Array, Index, Mask, NDArray, cross, dot, segment_ranges, spread_bits
+from ..numerics import (
+    Array,
+    Index,
+    Mask,
+    NDArray,
+    cross,
+    dot,
+    run_starts,
+    segment_ranges,
+    spread_bits,
+)
 from .point_triangle import triangle_distances
 
 RAY_SLOPES = (0.08173, 0.05311)  # the ray is (0.08173, 0.05311, 1)
@@ -61,7 +71,7 @@ def sort_components(
     volume, area = np.zeros((2, number))
     for begin in range(0, len(triangles), TRIANGLES_PER_BLOCK):
         owner = component[begin : begin + TRIANGLES_PER_BLOCK]
-        first = np.flatnonzero(np.concatenate([[True], owner[1:] != owner[:-1]]))
+        first = run_starts(owner)
         present = owner[first]  # the components in this block, each once
         index = triangles[begin : begin + TRIANGLES_PER_BLOCK].T.astype(np.intp, order="C")
         corners = [column.take(index) for column in columns]

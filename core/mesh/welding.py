@@ -23,6 +23,7 @@ from ..numerics import (
     first_occurrence,
     hash_uint64,
     lengths,
+    run_starts,
     sorted_distinct,
 )
 
@@ -133,7 +134,7 @@ def same_vertices_groups(triangles: NDArray[np.integer], faces: NDArray[np.integ
             + triangles[~is_triangle].ravel()
         )
         face = keys // vertex_count
-        begin = np.flatnonzero(np.concatenate([[True], face[1:] != face[:-1]]))
+        begin = run_starts(face)
         hashes = _vertex_hashes(keys % vertex_count)
         sums[:, face[begin]] = np.add.reduceat(hashes, begin, axis=1)
     present = np.flatnonzero(triangle_counts)

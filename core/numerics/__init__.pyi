@@ -38,6 +38,7 @@ from .arrays import indices_in_range as indices_in_range
 from .arrays import inertia_of_second as inertia_of_second
 from .arrays import lengths as lengths
 from .arrays import power_table as power_table
+from .arrays import run_starts as run_starts
 from .arrays import second_of_inertia as second_of_inertia
 from .arrays import segment_ranges as segment_ranges
 from .arrays import segment_starts as segment_starts

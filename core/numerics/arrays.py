@@ -73,6 +73,11 @@ def segment_starts(counts: NDArray) -> Index:
     return counts.cumsum() - counts
 
 
+def run_starts(values: Integers) -> Index:
+    """Return the (k,) index of the first of each run of equal values, one after the other."""
+    return np.flatnonzero(np.diff(values, prepend=values[:1] - 1))
+
+
 def sums_by_index(indices: Integers, weights: NDArray, count: int = 0) -> Array:
     """Return (count or more,) sums of the weights of each index: `bincount`, typed."""
     return cast("Array", np.bincount(indices, weights, count))
@@ -160,7 +165,7 @@ def hash_uint64(values: NDArray[np.uint64]) -> NDArray[np.uint64]:
 def sorted_distinct(values: Integers) -> Integers:
     """Return (k,) ascending integers, each once: as `np.unique`, whose hash table is slower."""
     values = np.sort(values)
-    return values[np.diff(values, prepend=values[:1] - 1) != 0]
+    return values[run_starts(values)]
 
 
 def unique_pairs(pairs: Integers) -> Index:

@@ -4,6 +4,7 @@
 from typing import Any
 
 from .any_order import extend_small_moments as extend_small_moments
+from .faces import box_center as box_center
 from .findings import BOUNDARY_OPEN as BOUNDARY_OPEN
 from .integration import area_of_images as area_of_images
 from .integration import polyhedron_moments as polyhedron_moments
@@ -18,7 +19,6 @@ from .n_dimensions import outer_facets as outer_facets
 from .third_order import MAX_SMALL_TRIANGLES as MAX_SMALL_TRIANGLES
 from .third_order import MAX_TRIANGLES_EXACT_THIRD as MAX_TRIANGLES_EXACT_THIRD
 from .third_order import MAX_UNSCALED_REACH as MAX_UNSCALED_REACH
-from .third_order import box_center as box_center
 from .third_order import integrate as integrate
 from .third_order import nothing as nothing
 from .third_order import small_moments as small_moments

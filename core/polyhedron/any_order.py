@@ -44,7 +44,8 @@ from ..moments import (
 from ..numerics import Array, NDArray, batches, cross, dot, indices_in_range
 from ..verdict import MeasureError, check_size
 from .any_order_kernel import SLICES, UNDERFLOW_BOUND, absolute_sums, coefficient_sums
-from .third_order import NO_VERTEX, Faces, box_center, finite_box, nothing, paired_corners
+from .faces import NO_VERTEX, Faces, box_center, face_blocks, finite_box
+from .third_order import nothing
 
 NUMBERS_PER_BLOCK = 1 << 17  # numbers of one level: longer arrays would leave the cache
 MAX_FACES_PER_BLOCK = 4096
@@ -156,10 +157,8 @@ class StreamIntegrator:
             self.half_ulp = np.maximum(self.half_ulp, half_ulp)
             size = min(NUMBERS_PER_BLOCK // count_of_degree(self.order), MAX_FACES_PER_BLOCK)
             size = max(size // SLICES, 1) * SLICES
-            pairs = 1 if paired_corners(surface.triangles[:2]) is None else 2
-            for faces, rows in ((surface.triangles, pairs * size), (surface.quads, size)):
-                for start in range(0, len(faces), rows):
-                    yield _Block(coordinates, faces[start : start + rows], half_ulp)
+            for _, rows in face_blocks(surface, size):
+                yield _Block(coordinates, rows, half_ulp)
 
     def _choose_frame(self, surface: Surface) -> None:
         """Set the reference point and the scale by the first piece, unless they are given."""
@@ -178,15 +177,9 @@ class StreamIntegrator:
 
     def _run(self, block: _Block) -> tuple[int, Array, Array]:
         """Return the number of faces of a block, its sums and the sums for their bounds."""
-        coordinates = block.coordinates
-        if not indices_in_range(block.faces, coordinates.shape[1]):
+        if not indices_in_range(block.faces, block.coordinates.shape[1]):
             raise ValueError(NO_VERTEX)
-        is_quad = block.faces.shape[1] == 4
-        halves = None if is_quad else paired_corners(block.faces)
-        index = block.faces.T if halves is None else np.array(halves)
-        faces = Faces(coordinates.take(index, axis=1).astype(np.float64, copy=False))
-        if is_quad:
-            faces.turn_quads(coordinates.dtype)
+        faces = Faces.gather(block.coordinates, block.faces)
         scale = 2.0**-self.exponent
         if scale != 1.0:
             faces = Faces(faces.corners * scale)

@@ -32,8 +32,9 @@ from ..numerics import (
 from ..verdict import MeasureError
 from . import third_order
 from .any_order import StreamIntegrator
+from .faces import NO_VERTEX, box_center, finite_box
 from .findings import BOUNDARY_OPEN
-from .third_order import NO_VERTEX, box_center, finite_box, nothing
+from .third_order import nothing
 
 THIRD = 3  # orders up to this one have their own kernel
 FACES_PER_BLOCK = 1 << 13  # faces whose intermediate arrays stay in the cache

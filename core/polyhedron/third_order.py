@@ -30,11 +30,10 @@ u = v + w, Z = u q + 2 (v b + w d) and H = u (a a' + c c') + 2 (v b b' + w d d')
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
-from math import isfinite
 
 import numpy as np
 
-from ..mesh import PlanarityAccumulator, Surface, has_flipped_corners
+from ..mesh import PlanarityAccumulator, Surface
 from ..moments import (
     PAIRWISE_SUM_ROUNDINGS,
     Measure,
@@ -46,14 +45,12 @@ from ..moments import (
 )
 from ..numerics import NEXT_AXIS, PREVIOUS_AXIS, Array, Index, NDArray, batches, indices_in_range
 from ..verdict import check_size
+from .faces import NO_VERTEX, Faces, box_center, face_blocks, finite_box
 
 # Up to this number of triangles the third order is always exact, which takes half as long again.
 MAX_TRIANGLES_EXACT_THIRD = 100_000
 MAX_SMALL_TRIANGLES = 1024  # triangles of a body in a stack
 FACES_PER_BLOCK = 5120  # faces whose products stay in the cache
-MIN_FLIP_COSINE = 1e-6  # float32 may choose a quad's other diagonal if the cosine is below this
-FLOAT32_OVERFLOW = 1e9  # edges from which the fourth powers in that decision leave its range
-FLOAT32_UNDERFLOW = 1e-36  # products below this may have underflowed there
 FACES_PER_PART = 1024  # faces of a block with one bound of their edges
 SLICES = 32  # slices of a block, whose products are added up
 # Triangles that are worth a thread: with fewer, calls are short, and wait for the interpreter.
@@ -61,7 +58,6 @@ MIN_TRIANGLES_PER_THREAD = 250_000
 # Reaches beyond this, or below its inverse, are scaled, so that a product of six does not overflow
 # or vanish.
 MAX_UNSCALED_REACH = 2.0**100
-NO_VERTEX = "no such vertex"
 EXPONENTS = monomials(3)
 DEGREE = EXPONENTS.sum(axis=1)
 # Factors of each monomial, as indices of 1, x, y, z.
@@ -140,35 +136,23 @@ def integrate(
     coordinates = np.ascontiguousarray(points.T)
 
     def sum_block(block: tuple[int, NDArray]) -> _Sums:
-        start, faces = block
-        is_quad = faces.shape[1] == 4
-        halves = None if is_quad else paired_corners(faces)
-        corners = coordinates.take(faces.T if halves is None else halves, axis=1, mode="wrap")
-        sides = Faces(corners.astype(np.float64, copy=False))
-        if is_quad:
-            sides.turn_quads(points.dtype)
-        lengths = sides.lengths() if area else None
-        if is_quad and planarity is not None:
-            normal = np.add.reduce(sides.normals, axis=1)
-            tetrahedra = np.abs(np.einsum("it,it->t", sides.normals[:, 0], sides.edges[:, 2]))
-            planarity.add_quads(start, np.sqrt(np.einsum("it,it->t", normal, normal)), tetrahedra)
-        elif planarity is not None and lengths is not None:
-            planarity.add_triangles(start, lengths.T.ravel())
-        starts = np.arange(0, corners.shape[2], FACES_PER_PART)
-        counts = np.minimum(corners.shape[2] - starts, FACES_PER_PART)
+        """Return the sums of a block of faces, and report their planarity."""
+        start, rows = block
+        faces = Faces.gather(coordinates, rows)
+        lengths = faces.lengths() if area else None
+        if planarity is not None:
+            if rows.shape[1] == 4:
+                _report_quads(planarity, start, faces)
+            elif lengths is not None:
+                planarity.add_triangles(start, lengths.T.ravel())
+        face_count = faces.corners.shape[2]
+        starts = np.arange(0, face_count, FACES_PER_PART)
+        counts = np.minimum(face_count - starts, FACES_PER_PART)
         return _face_sums(
-            sides, lengths, center[:, None], starts, counts, True, area_moments, exact
+            faces, lengths, center[:, None], starts, counts, True, area_moments, exact
         )
 
-    rows = 1 if paired_corners(surface.triangles[:2]) is None else 2
-    blocks = [
-        (start, faces[start : start + size])
-        for faces, size in (
-            (surface.triangles, rows * FACES_PER_BLOCK),
-            (surface.quads, FACES_PER_BLOCK),
-        )
-        for start in range(0, len(faces), size)
-    ]
+    blocks = list(face_blocks(surface, FACES_PER_BLOCK))
     threads = min(threads, count // MIN_TRIANGLES_PER_THREAD)
     if threads > 1:
         with ThreadPoolExecutor(threads) as pool:
@@ -186,6 +170,13 @@ def integrate(
         exact=exact,
     )
     return volume.at(0), areas.at(0)
+
+
+def _report_quads(planarity: PlanarityAccumulator, start: int, quads: Faces) -> None:
+    """Report the normals and the tetrahedra of quads, which are the rows from `start` on."""
+    normal = np.add.reduce(quads.normals, axis=1)
+    tetrahedra = np.abs(np.einsum("it,it->t", quads.normals[:, 0], quads.edges[:, 2]))
+    planarity.add_quads(start, np.sqrt(np.einsum("it,it->t", normal, normal)), tetrahedra)
 
 
 def small_moments(
@@ -229,64 +220,6 @@ def small_moments(
     )
 
 
-def paired_corners(triangles: NDArray) -> list[NDArray] | None:
-    """Return (k/2,) corners of quads, if triangles 2i and 2i+1 are always halves of a quad; else
-    None.
-    """
-    first = triangles[0::2]
-    second = triangles[1::2]
-    if not len(second) or len(first) != len(second):
-        return None
-    for i in range(3):
-        for j in range(3):
-            ends = ((i, j), (i - 1, (j + 1) % 3))
-            if all(
-                first[0, a] == second[0, b] and np.array_equal(first[:, a], second[:, b])
-                for a, b in ends
-            ):
-                return [first[:, i], first[:, (i + 1) % 3], first[:, i - 1], second[:, (j + 2) % 3]]
-    return None
-
-
-class Faces:
-    """Rows of t faces: triangles a, b, c, perhaps a, c, d.
-
-    corners: (3, c, t). edges: (3, c-1, t) from a. normals: (3, c-2, t), doubled areas long.
-    """
-
-    def __init__(self, corners: Array):
-        self.corners = corners
-        self.edges = corners[:, 1:] - corners[:, :1]
-        first = self.edges[:, :-1]
-        second = self.edges[:, 1:]
-        self.normals = np.empty(first.shape)
-        for x, y, z in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
-            np.multiply(first[y], second[z], self.normals[x])
-            self.normals[x] -= first[z] * second[y]
-
-    def lengths(self) -> Array:
-        """Return the (c-2, t) doubled areas."""
-        return np.sqrt(np.einsum("ift,ift->ft", self.normals, self.normals))
-
-    def turn_quads(self, dtype: np.dtype) -> None:
-        """Turn quads so that a, c is the diagonal that Blender, in float32, draws."""
-        suspects = np.arange(self.corners.shape[2])
-        if dtype == np.float32:
-            cosine = np.einsum("it,it->t", self.normals[:, 0], self.normals[:, 1])
-            squares = np.einsum("ict,ict->ct", self.edges, self.edges)
-            limit = squares[1] * np.sqrt(squares[0] * squares[2])
-            np.maximum(MIN_FLIP_COSINE * limit, FLOAT32_UNDERFLOW, out=limit)
-            limit[np.maximum.reduce(squares) > FLOAT32_OVERFLOW**2] = np.inf
-            suspects = suspects[cosine <= limit]
-        if not len(suspects):
-            return
-        flipped = suspects[has_flipped_corners(*self.corners[:, :, suspects].swapaxes(0, 1))]
-        turned = Faces(np.roll(self.corners[:, :, flipped], -1, axis=1))
-        self.corners[:, :, flipped] = turned.corners
-        self.edges[:, :, flipped] = turned.edges
-        self.normals[:, :, flipped] = turned.normals
-
-
 def _face_sums(
     faces: Faces,
     lengths: Array | None,
@@ -300,24 +233,25 @@ def _face_sums(
     """Return the sums of faces, whose corners are overwritten. lengths: doubled areas, (f, t).
 
     middle: (3, 1 or t) reference points. starts, counts: (s,) first face and number of faces of the
-    parts, of one body if `is_joint`, else of a body each.
+    parts, of one body if `is_joint`, else of a body each. The names are those of the module's
+    formulas.
     """
     edges = faces.edges
-    nodes = np.subtract(faces.corners, middle[:, None], faces.corners)
+    nodes = np.subtract(faces.corners, middle[:, None], faces.corners)  # a, b, c, perhaps d
     det = np.einsum("ift,it->ft", faces.normals, nodes[:, 0])
     lengths = np.zeros(det.shape) if lengths is None else lengths
-    apexes = nodes[:, 1::2]
+    apexes = nodes[:, 1::2]  # b, perhaps d
     q = nodes[:, 0] + nodes[:, 2]
-    tips = local = np.empty(0)
+    f = f_and_e = np.empty(0)
     if exact:
-        tips = 2.0 * apexes - q[:, None]
-        base = edges[:, 1]
-        local = np.empty((6, *det.shape))  # f f' + e e'
+        f = 2.0 * apexes - q[:, None]
+        e = edges[:, 1]
+        f_and_e = np.empty((6, *det.shape))  # f f' + e e', as xx, xy, xz, yy, yz, zz
         row = 0
         for i in range(3):
             for j in range(i, 3):
-                np.multiply(tips[i], tips[j], local[row])
-                local[row] += base[i] * base[j]
+                np.multiply(f[i], f[j], f_and_e[row])
+                f_and_e[row] += e[i] * e[j]
                 row += 1
     body_starts = starts[:1] if is_joint else starts
 
@@ -333,29 +267,30 @@ def _face_sums(
         return np.add.reduceat(products, body_starts, axis=1)
 
     def weighted_sums(weight: Array) -> Array:
-        both = np.add.reduce(weight)
-        heavy = np.empty_like(nodes)
-        np.multiply(nodes[:, ::2], both, heavy[:, ::2])
-        np.multiply(apexes, 2.0 * weight, heavy[:, 1::2])
-        table = np.empty((9, len(both)))  # H and Z
+        """Return the (bodies, 20) sums Σ w f, with (f, t) determinants or doubled areas as w."""
+        u = np.add.reduce(weight)
+        weighted = np.empty_like(nodes)  # u a, 2 v b, u c, perhaps 2 w d
+        np.multiply(nodes[:, ::2], u, weighted[:, ::2])
+        np.multiply(apexes, 2.0 * weight, weighted[:, 1::2])
+        table = np.empty((9, len(u)))  # H, as xx, xy, xz, yy, yz, zz, and Z
         row = 0
         for axis in range(3):
             rows = table[row : row + 3 - axis]
             row += len(rows)
-            np.einsum("ct,dct->dt", heavy[axis], nodes[axis:], out=rows)
-        of_q = heavy[:, 0] + heavy[:, 2]
-        np.add(of_q, heavy[:, 1], table[6:])
+            np.einsum("ct,dct->dt", weighted[axis], nodes[axis:], out=rows)
+        u_q = weighted[:, 0] + weighted[:, 2]
+        np.add(u_q, weighted[:, 1], table[6:])
         if len(weight) == 2:
-            table[6:] += heavy[:, 3]
+            table[6:] += weighted[:, 3]
         products = scalar_products(q, table)
         third = np.add.reduce(products.take(CUBE, 0))
         if exact:
-            of_tips = scalar_products((tips * weight).reshape(3, -1), local.reshape(6, -1))
-            third += 0.1 * np.add.reduce(of_tips.take(LOCAL_CUBE, 0))
+            about_middles = scalar_products((f * weight).reshape(3, -1), f_and_e.reshape(6, -1))
+            third += 0.1 * np.add.reduce(about_middles.take(LOCAL_CUBE, 0))
         sums = np.add.reduceat(table, body_starts, axis=1)
-        first = 0.5 * (np.add.reduceat(of_q, body_starts, axis=1) + sums[6:])
+        first = 0.5 * (np.add.reduceat(u_q, body_starts, axis=1) + sums[6:])
         second = sums[:6] + 0.5 * np.add.reduce(products.take(SQUARE, 0))
-        total = np.add.reduceat(both, body_starts)[None]
+        total = np.add.reduceat(u, body_starts)[None]
         return np.concatenate([total, first, second, third]).T
 
     largest = np.maximum.reduceat(np.abs(edges), starts, axis=2)
@@ -443,22 +378,6 @@ def nothing(order: int, about: NDArray | None) -> tuple[Moments, Moments]:
     zeros = np.zeros(monomial_count(order))
     about = np.zeros(3) if about is None else about
     return Moments(zeros, about, Measure.VOLUME), Moments(zeros, about, Measure.AREA)
-
-
-def finite_box(surface: Surface) -> tuple[Array, Array]:
-    """Return the least and the largest coordinates. ValueError if they are not finite."""
-    low, high = surface.box
-    if not all(map(isfinite, low.tolist() + high.tolist())):
-        raise ValueError("coordinates must be finite")
-    return low, high
-
-
-def box_center(low: NDArray, high: NDArray, dtype: np.dtype) -> Array:
-    """Return the center of a box of points, rounded for float32 ones so that subtracting it is
-    exact.
-    """
-    center = low / 2.0 + high / 2.0
-    return center.astype(np.float32).astype(np.float64) if dtype == np.float32 else center
 
 
 def _measure_rescaled(

@@ -25,6 +25,7 @@ from ..numerics import (
     connected_components,
     cross_rows,
     lengths,
+    run_starts,
     segment_ranges,
     unique_pairs,
 )
@@ -74,10 +75,8 @@ def join_sides(
     direction = np.divide(direction, length, out=np.zeros_like(direction), where=length > 0.0)
     direction = np.concatenate([direction, -direction])  # both seen from the vertex
     order = np.argsort(vertex, kind="stable")
-    in_order = vertex[order]
-    stops = np.flatnonzero(np.concatenate([in_order[1:] != in_order[:-1], [True]])) + 1
-    first = np.concatenate([[0], stops[:-1]])
-    degree = stops - first
+    first = run_starts(vertex[order])
+    degree = np.diff(first, append=len(order))
 
     simple = first[degree == 2]
     left = [order[simple]]

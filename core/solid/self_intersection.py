@@ -30,7 +30,7 @@ from ..mesh import (
     turned_quads,
 )
 from ..moments import SECOND_MOMENT_INDEX
-from ..numerics import Array, Integers, Mask, NDArray, sums_by_index
+from ..numerics import Array, Integers, Mask, NDArray, run_starts, sums_by_index
 from ..verdict import Intersection
 from .closedness import CheckedSurface
 from .orientation import OrientedSolid
@@ -167,8 +167,8 @@ def measure_excess(
     body = crossings.body[order]
     sign = crossings.sign[order]
     along = crossings.along[order]
-    first = np.flatnonzero(np.concatenate([[True], chord[1:] != chord[:-1]]))
-    last = np.concatenate([first[1:], [len(chord)]]) - 1
+    first = run_starts(chord)
+    last = np.append(first[1:], len(chord)) - 1
     chord = np.repeat(np.arange(len(first)), last + 1 - first)
     # How often the part counts the piece of the line after each crossing.
     depth = np.cumsum(sign)
