@@ -91,30 +91,28 @@ def measure_body(
     """Return the measurement of a body, with moments to an order; fields: name, type, frame,
     fingerprint.
     """
-    shell = settings.kind == "shell"
-    wire = settings.kind == "wire"
-    thin = _is_thin(body, settings)
-    solid = body.wall or body.volume
-    measured = find_extent(body, settings)
-    moments, factor, density = _weigh(body, measured, settings)
+    is_shell = settings.kind == "shell"
+    is_wire = settings.kind == "wire"
+    extent = find_extent(body, settings)
+    moments, factor, density = _weigh(body, extent, settings)
     # small bodies have exact third moments already
-    is_exact = 2 * body.face_count <= MAX_TRIANGLES_EXACT_THIRD and not wire
-    refine = None if shell or is_exact or body.mass is not None else body.third_order
+    is_exact = 2 * body.face_count <= MAX_TRIANGLES_EXACT_THIRD and not is_wire
+    refine = None if is_shell or is_exact or body.mass is not None else body.third_order
     properties = MassProperties.of_body(moments, factor, fields["rotation"], refine)
-    volume_moments = None if thin else solid
+    volume_moments = None if _is_thin(body, settings) else body.wall or body.volume
     area_moments = body.area
     if settings.order is not None:
         volume_moments, area_moments = _to_order(body, settings, settings.order) or (
             volume_moments,
             area_moments,
         )
-    given = DENSITY_FROM_VALUE if settings.mass is None else DENSITY_FROM_MASS
+    uniform = DENSITY_FROM_VALUE if settings.mass is None else DENSITY_FROM_MASS
     return build_measurement(
         kind=settings.kind,
-        method=Method(Procedure.SHELL, body.method.source) if shell else body.method,
-        density=0.0 if wire else density,
-        thickness=settings.thickness if shell else 0.0,
-        volume=body.volume if wire else measured,
+        method=Method(Procedure.SHELL, body.method.source) if is_shell else body.method,
+        density=0.0 if is_wire else density,
+        thickness=settings.thickness if is_shell else 0.0,
+        volume=body.volume if is_wire else extent,
         area=body.area,
         mass_properties=properties,
         volume_moments=volume_moments,
@@ -125,12 +123,12 @@ def measure_body(
         findings=(
             *findings,
             *body.findings,
-            *find_large_bounds(measured.at(None), body.area.at(None), properties)[0],
+            *find_large_bounds(extent.at(None), body.area.at(None), properties)[0],
         ),
-        length=float(measured.raw[0]) if wire else None,
+        length=float(extent.raw[0]) if is_wire else None,
         display_volume=body.display_volume,
         estimated=body.estimated,
-        density_from=body.density_from or given,
+        density_from=body.density_from or uniform,
         materials=body.materials,
         printed=body.printed,
         **fields,
@@ -182,6 +180,7 @@ def find_large_bounds(
     inertia, center = (
         sum([np.atleast_1d(bounds[name]) for bounds in errors]) for name in ("inertia", "center")
     )
+    # Shares and limits are in the order of BOUNDED.
     with np.errstate(divide="ignore", invalid="ignore"):
         shares = [
             (each.rounding_error + each.input_error)[:, 0] / each.raw[:, 0]
@@ -191,13 +190,13 @@ def find_large_bounds(
     # A sheet's volume is as uncertain as its area; a straight wire has no moment about its axis.
     limits = [1.0 if volume.measure == Measure.VOLUME else np.inf, 1.0]
     limits += [np.inf if volume.measure == Measure.LENGTH else 1.0, MAX_CENTER_BOUND]
-    found: list[tuple[Finding, ...]] = [()] * len(volume.raw)
+    findings: list[tuple[Finding, ...]] = [()] * len(volume.raw)
     for body, i in np.argwhere(np.greater(np.transpose(shares), limits)).tolist():
         quantity, whole = BOUNDED[i]
-        found[body] += (
+        findings[body] += (
             finding(LARGE_BOUND, quantity=quantity, whole=whole, share=float(shares[i][body])),
         )
-    return found
+    return findings
 
 
 def _total_moments(extent: Extent, about: Array, measure: Measure) -> Moments:
@@ -244,18 +243,22 @@ def _is_thin(body: Body, settings: Settings) -> bool:
     return settings.kind == "shell" and body.wall is None
 
 
-def _weigh(body: Body, measured: Moments, settings: Settings) -> tuple[Moments, float, float]:
-    """Return the moments that carry the mass, the mass in kg per unit of them, and the density."""
+def _weigh(body: Body, extent: Moments, settings: Settings) -> tuple[Moments, float, float]:
+    """Return the moments that carry the mass, the mass in kg per unit of them, and the density.
+
+    extent: the result of `find_extent`.
+    """
     if body.mass is not None:
         moments = body.mass
         factor = 1.0 if settings.mass is None else settings.mass / body.mass.total
-        density = body.mass.total * factor / measured.total
+        density = body.mass.total * factor / extent.total
     else:
-        density = (
-            settings.density or 0.0 if settings.mass is None else settings.mass / measured.total
-        )
-        thin = _is_thin(body, settings)
-        moments, factor = (body.area, density * settings.thickness) if thin else (measured, density)
+        density = settings.density or 0.0
+        if settings.mass is not None:
+            density = settings.mass / extent.total
+        moments, factor = extent, density
+        if _is_thin(body, settings):
+            moments, factor = body.area, density * settings.thickness
     if not density > 0.0:
         raise ReadError(ZERO_QUANTITY, quantity="density" if settings.mass is None else "mass")
     return moments, factor, density
@@ -284,10 +287,15 @@ def _to_order(body: Body, settings: Settings, order: int) -> tuple[Moments | Non
 
 
 def _bounds(volume: NDArray, area: NDArray, of_mass: dict[str, PerBody]) -> dict[str, PerBody]:
-    totals = [each[:, 0] if each.ndim > 1 else float(each[0]) for each in (volume, area)]
+    """Return the entries of an error bound. volume, area: (..., K) bounds of moments; of_mass:
+    bounds of mass properties.
+    """
+    volume_bound, area_bound = (
+        bounds[:, 0] if bounds.ndim > 1 else float(bounds[0]) for bounds in (volume, area)
+    )
     return {
-        "volume": totals[0],
-        "area": totals[1],
+        "volume": volume_bound,
+        "area": area_bound,
         "center_of_mass": of_mass["center"],
         "inertia": of_mass["inertia"],
     }

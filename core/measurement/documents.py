@@ -123,39 +123,40 @@ def bound_of(record: dict[str, Any], name: str) -> float | None:
     """Return the error bound of a record's number, rounding plus input, or None if neither is
     known.
     """
-    bounds = record["error_bound"] or {}
-    known = [
-        one for one in (bounds.get(name), (bounds.get("input") or {}).get(name)) if one is not None
-    ]
+    rounding = record["error_bound"] or {}
+    inputs = rounding.get("input") or {}
+    known = [bounds[name] for bounds in (rounding, inputs) if bounds.get(name) is not None]
     return sum(known) if known else None
 
 
 def count_findings(document: dict[str, Any]) -> Counter[tuple[str, str]]:
     """Return the counts of the records with a finding, and of the total, by severity and code."""
-    records = [*document["objects"], *document.get("flat", ()), document.get("total", {})]
-    return Counter(
-        pair
-        for one in records
-        for pair in {(f["severity"], f["code"]) for f in one.get("findings", ())}
-    )
+    counts: Counter[tuple[str, str]] = Counter()
+    for record in (*document["objects"], *document.get("flat", ()), document.get("total", {})):
+        findings = record.get("findings", ())
+        counts.update({(finding["severity"], finding["code"]) for finding in findings})
+    return counts
 
 
 def to_json(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
     """Yield the text of one document, or of an array of several, indented, with each row of numbers
     on one line.
     """
-    waiting, several = "", False
-    for number, entry in enumerate(documents):
+    # A text waits until it is known whether it is the only one, or the last one.
+    waiting = ""
+    count = 0
+    for entry in documents:
+        if count:
+            yield ("[\n" if count == 1 else "") + _indented(waiting) + ",\n"
         text = json.dumps(entry, indent=2, ensure_ascii=False, allow_nan=False)
-        text = re.sub(_NUMBER_ROWS, lambda match: "[" + re.sub(r"\s+", " ", match[1]) + "]", text)
-        if number:
-            yield ("[\n" if number == 1 else "") + _indented(waiting) + ",\n"
-        waiting = text
-        several = number > 0
-    if not waiting:
+        waiting = re.sub(
+            _NUMBER_ROWS, lambda match: "[" + re.sub(r"\s+", " ", match[1]) + "]", text
+        )
+        count += 1
+    if not count:
         yield "[]\n"
     else:
-        yield _indented(waiting) + "\n]\n" if several else waiting + "\n"
+        yield _indented(waiting) + "\n]\n" if count > 1 else waiting + "\n"
 
 
 def _indented(text: str) -> str:
@@ -256,8 +257,9 @@ def _columns(entry: dict[str, Any]) -> dict[str, Any]:
             f"principal_axis_{number + 1}_{axis}": entry["principal_axes"][i][number]
             for i, axis in enumerate("xyz")
         }
-    row |= _nested("label", entry.get("label", {})) | _nested("print", entry.get("print", {}))
-    row |= _nested("display_mesh", entry.get("display_mesh", {}))
+    for name in ("label", "print", "display_mesh"):
+        row |= _nested(name, entry.get(name, {}))
+    # Tables and matrices have no columns.
     below = dict(entry.get("below") or {})
     below["contents"] = dict(below.get("contents") or {})
     below["contents"].pop("table", None)

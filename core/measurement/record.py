@@ -87,18 +87,7 @@ def record(
     if about is not None:
         entry["inertia_about"] = {"point": point, "inertia": properties.inertia_about(point)}
     if order is not None:
-        volume = measurement.volume_moments
-        if volume is None:
-            volume = measurement.area_moments * measurement.thickness
-        domains = {"volume": volume.truncate(order)}
-        length = None if measurement.length is None else measurement.mass_moments[0]
-        if length is not None:
-            domains["length"] = length.truncate(min(order, length.order))
-        if surface is not None:
-            domains["surface"] = surface.truncate(order)
-        mass = measurement.moments_of_mass(order if length is None else min(order, length.order))
-        if mass is not None:
-            domains["mass"] = mass
+        domains = _moments_by_domain(measurement, order, surface)
         if frame == "object":
             axes = measurement.rotation
             origin = measurement.location + measurement.rotation @ point
@@ -125,6 +114,27 @@ def record(
         bound = bound | {"input": inputs | {"center_of_mass": center}}
     entry["error_bound"] = bound
     return plain(entry) | described(measurement.findings)
+
+
+def _moments_by_domain(
+    measurement: Measurement, order: int, surface: Moments | None
+) -> dict[str, Moments]:
+    """Return the moments to an order, or as far as they are known, by the names of a record."""
+    volume = measurement.volume_moments
+    if volume is None:
+        volume = measurement.area_moments * measurement.thickness
+    domains = {"volume": volume.truncate(order)}
+    mass_order = order
+    if measurement.length is not None:
+        length, _ = measurement.mass_moments
+        mass_order = min(order, length.order)
+        domains["length"] = length.truncate(mass_order)
+    if surface is not None:
+        domains["surface"] = surface.truncate(order)
+    mass = measurement.moments_of_mass(mass_order)
+    if mass is not None:
+        domains["mass"] = mass
+    return domains
 
 
 def described(findings: Iterable[Finding]) -> dict[str, list]:
@@ -160,15 +170,12 @@ def total(measurements: Sequence[Measurement], findings: Iterable[Finding] = ())
     """
     entry: dict[str, Any] = dict.fromkeys(TOTAL)
     if measurements:
-        entry["mass"] = math.fsum(one.mass_properties.mass for one in measurements)
-        entry["volume"] = math.fsum(one.volume for one in measurements)
-        entry["area"] = math.fsum(one.area for one in measurements)
+        entry["mass"] = math.fsum(member.mass_properties.mass for member in measurements)
+        entry["volume"] = math.fsum(member.volume for member in measurements)
+        entry["area"] = math.fsum(member.area for member in measurements)
         with suppress(MeasureError):  # together they have no mass, and so no center
-            entry.update(
-                _inertial(
-                    inertia.combine([measurement.mass_moments for measurement in measurements])
-                )
-            )
+            whole = inertia.combine([member.mass_moments for member in measurements])
+            entry.update(_inertial(whole))
     return plain(entry) | described(findings)
 
 
@@ -209,13 +216,14 @@ def _displaced(moments: Moments, distance: float) -> Moments:
     if distance == 0.0:
         return moments
     size = moments.order + 1
-    steps = np.array(
+    # (|x| + distance)^p = Σ_a binomial(p, a) distance^(p-a) |x|^a, for each axis
+    binomials = np.array(
         [[math.comb(p, a) * distance ** max(p - a, 0) for a in range(size)] for p in range(size)]
     )
     index = tuple(monomials(moments.order).T)
     largest = np.zeros((size, size, size))
     largest[index] = np.abs(moments.raw) + moments.input_error
-    spread = np.einsum("pa,qb,rc,abc->pqr", steps, steps, steps, largest, optimize=True)
+    spread = np.einsum("pa,qb,rc,abc->pqr", binomials, binomials, binomials, largest, optimize=True)
     return replace(moments, input_error=moments.input_error + (spread - largest)[index])
 
 
@@ -323,13 +331,16 @@ def _plane_point(
     centroid: NDArray,
     axes: NDArray,
     location: NDArray,
-    own: NDArray,
+    origin: NDArray,
 ) -> Array:
-    """Return the (3,) world position of the point `about`, not yet on the plane. own: the object's
-    origin.
+    """Return the (3,) world position of the point `about`, not yet on the plane.
+
+    axes, location: of the frame. origin: the object's, in the world.
     """
     if about == "center":
         return centroid
-    if about in ("origin", "world"):
-        return own if about == "origin" else np.zeros(3)
+    if about == "origin":
+        return origin
+    if about == "world":
+        return np.zeros(3)
     return location + axes @ (np.zeros(3) if about is None else np.asarray(about, np.float64))
