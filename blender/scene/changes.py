@@ -108,7 +108,8 @@ def dependents(objects: Iterable[Object]) -> dict[Object, set[Object]]:
     users = users_of(objects, {"OBJECT", *LINKING_TYPES})
 
     def reached(obj: Object) -> set[Object]:
-        reachable, front = {obj}, {obj}
+        reachable: set[ID] = {obj}
+        front: set[ID] = {obj}
         while front:
             front = {user for data in front for user in users[data]} - reachable
             reachable |= front
@@ -173,11 +174,12 @@ def _include(context: Context, collection: Collection) -> None:
     """Include a collection in the view layer, as Blender adds rigid bodies and joints only to
     objects in it.
     """
-    layers = [context.view_layer.layer_collection]
-    found = []
-    for layer in layers:
-        layers += layer.children
+    waiting = [context.view_layer.layer_collection]
+    layers = []  # a collection that is linked in several places has several
+    while waiting:
+        layer = waiting.pop(0)
+        waiting += layer.children
         if layer.collection == collection:
-            found.append(layer)
-    if all(layer.exclude for layer in found):
-        found[0].exclude = False
+            layers.append(layer)
+    if all(layer.exclude for layer in layers):
+        layers[0].exclude = False

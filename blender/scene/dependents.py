@@ -27,6 +27,7 @@ SAMPLES = 64
 # a direction along which hardly anything is symmetric
 SORT_DIRECTION = np.array([1.0, 0.7548776662, 0.5698402910])
 
+# of each surface, the (n, 3) points of the first instance, and (k, s, 3) samples of the k others
 Shape = list[tuple[Array, Array]]
 
 
@@ -71,9 +72,10 @@ def transform_shape(before: Shape | None, was: Matrix4, now: Matrix4) -> Shape |
     """Return the shape after a rigid move of its object from one (4, 4) matrix to another."""
     if before is None:
         return None
-    way = now @ np.linalg.pinv(was)
-    linear = way[:3, :3].T
-    return [(first @ linear + way[:3, 3], rest @ linear + way[:3, 3]) for first, rest in before]
+    motion = now @ np.linalg.pinv(was)
+    linear = motion[:3, :3].T
+    offset = motion[:3, 3]
+    return [(first @ linear + offset, rest @ linear + offset) for first, rest in before]
 
 
 def same_shape(before: Shape | None, after: Shape | None, size: float) -> bool:
@@ -101,11 +103,11 @@ def _sample_instances(shape: Shape) -> dict[int, Array]:
         by_count.setdefault(len(first), []).append(
             np.concatenate([first[sample_index][None], rest])
         )
-    every = {count: np.concatenate(instance_points) for count, instance_points in by_count.items()}
-    return {
-        count: instance_points[np.argsort(instance_points.mean(axis=1) @ SORT_DIRECTION)]
-        for count, instance_points in every.items()
-    }
+    sorted_samples = {}
+    for count, points_of_parts in by_count.items():
+        samples = np.concatenate(points_of_parts)
+        sorted_samples[count] = samples[np.argsort(samples.mean(axis=1) @ SORT_DIRECTION)]
+    return sorted_samples
 
 
 def _nearly_equal(first: NDArray, second: NDArray, size: float) -> bool:
@@ -189,6 +191,7 @@ class DependentsGuard:
                 raise EditRefusedError(DEPENDENT_SHAPE_CHANGES, object=dependent.name)
 
     def _moved(self, before: NDArray, now: NDArray, size: float) -> bool:
+        """Return whether two (4, 4) matrices differ by more than rounding."""
         changed = [np.abs(was[:3, 3]).max() for was in self.changed.values()]
         reach = max(np.abs(before[:3, 3]).max(), *changed)
         off = np.abs(now - before)

@@ -51,13 +51,13 @@ def place_empties(
     failures: dict[Object, Exception] = {}
     count = 0
 
-    def add(obj: Object) -> SceneChange:
+    def add(obj: Object, measure: Callable[[Object], SnapTarget]) -> SceneChange:
         nonlocal count
         yield
         try:
             if is_parent and abs(np.linalg.det(world(obj)[:3, :3])) == 0.0:
                 raise EditRefusedError(SCALE_ZERO_AXIS)
-            body = target_in_turn(obj)
+            body = measure(obj)
             count += 1
             progress(count)
             yield  # all are measured before the scene changes
@@ -68,11 +68,11 @@ def place_empties(
 
     # objects that move with an empty are measured after it
     followers = dependents(existing.values())
-    for several in independent_rounds(
+    for independent in independent_rounds(
         (obj, {obj, *followers.get(existing.get(obj), ())}) for obj in objects
     ):
-        target_in_turn = targets_in_turn(context, several)
-        run_change(context, run_together(map(add, several)))
+        measure = targets_in_turn(context, independent)
+        run_change(context, run_together(add(obj, measure) for obj in independent))
     return placed, failures
 
 
@@ -142,10 +142,12 @@ def _moved(
         empty.empty_display_size = size * body.size
         empty.matrix_world = Matrix(frame)
         yield
-        # a curve also lays its children along its path
+        # A curve also lays its children along its path, so that the parent inverse does not undo
+        # the whole effect of the parent.
         if parent is not None and not _is_there(empty, body):
-            outer = np.linalg.solve(basis(empty).T, world(empty).T).T
-            inverse = np.array(empty.matrix_parent_inverse, np.float64) @ np.linalg.inv(outer)
+            parent_effect = np.linalg.solve(basis(empty).T, world(empty).T).T
+            inverse = np.array(empty.matrix_parent_inverse, np.float64)
+            inverse = inverse @ np.linalg.inv(parent_effect)
             empty.matrix_parent_inverse = Matrix(inverse)
             empty.matrix_basis = Matrix(frame)
             yield

@@ -30,7 +30,8 @@ MARKER_SHARE = 0.04  # radius of the marker relative to the object's largest sid
 class _Builder(NamedTuple):
     """A builder of nodes and links, which places nodes by column and row.
 
-    Inputs are sockets to link, or values, by the name or number of a node's input.
+    Inputs are sockets to link, or values, by the name or number of a node's input. `math`, `vector`
+    and `sum` take the inputs of an operation, and return the socket of its result.
     """
 
     tree: GeometryNodeTree
@@ -105,6 +106,7 @@ def center_of_mass_group() -> GeometryNodeTree:
 
 
 def _build(make: _Builder) -> None:
+    """Make the nodes of the formulas at the top of this module, from left to right."""
     inputs = make.node("NodeGroupInput", 0).outputs
     realized = make.node("GeometryNodeRealizeInstances", 1, 0.0, {"Geometry": inputs["Geometry"]})
     triangles = make.node("GeometryNodeTriangulate", 2, 0.0, {"Mesh": realized.outputs["Geometry"]})
@@ -114,27 +116,28 @@ def _build(make: _Builder) -> None:
         triangles.inputs["Quad Method"].default_value = "Fixed"
     faces = triangles.outputs["Mesh"]
     box = make.node("GeometryNodeBoundBox", 3, 1, {"Geometry": faces}).outputs
-    both = make.vector("ADD", 4, 1, box["Min"], box["Max"])
-    middle = make.vector("SCALE", 5, 1, both, Scale=0.5)
+    box_sum = make.vector("ADD", 4, 1, box["Min"], box["Max"])
+    middle = make.vector("SCALE", 5, 1, box_sum, Scale=0.5)
     position = make.node("GeometryNodeInputPosition", 3, 2).outputs["Position"]
-    corners = [_corner(make, index, position, middle) for index in range(3)]
-    cross = make.vector("CROSS_PRODUCT", 7, 2, *corners[1:])
-    determinant = make.vector("DOT_PRODUCT", 8, 2, corners[0], cross)
-    pair = make.vector("ADD", 7, 3, *corners[:2])
-    three = make.vector("ADD", 8, 3, pair, corners[2])
-    weighed = make.vector("SCALE", 9, 3, three, Scale=determinant)
-    sixfold = make.sum("FLOAT", 10, 1, faces, determinant)
-    moment = make.sum("FLOAT_VECTOR", 10, 2.5, faces, weighed)
-    inverse = make.math("DIVIDE", 10.5, 1, 0.25, sixfold)
-    relative = make.vector("SCALE", 11, 2, moment, Scale=inverse)
-    magnitude = make.math("ABSOLUTE", 10.5, 0.5, sixfold)
+    a, b, c = (_corner(make, index, position, middle) for index in range(3))
+    # a·(b×c) of each triangle, and a·(b×c) (a + b + c)
+    cross = make.vector("CROSS_PRODUCT", 7, 2, b, c)
+    determinant = make.vector("DOT_PRODUCT", 8, 2, a, cross)
+    two_corners = make.vector("ADD", 7, 3, a, b)
+    three_corners = make.vector("ADD", 8, 3, two_corners, c)
+    weighed = make.vector("SCALE", 9, 3, three_corners, Scale=determinant)
+    sixfold_volume = make.sum("FLOAT", 10, 1, faces, determinant)
+    weighed_sum = make.sum("FLOAT_VECTOR", 10, 2.5, faces, weighed)
+    quarter_inverse = make.math("DIVIDE", 10.5, 1, 0.25, sixfold_volume)
+    center = make.vector("SCALE", 11, 2, weighed_sum, Scale=quarter_inverse)  # from the middle
+    magnitude = make.math("ABSOLUTE", 10.5, 0.5, sixfold_volume)
     volume = make.math("DIVIDE", 11, 0.5, magnitude, 6.0)
     make.node(
         "NodeGroupOutput",
         12,
         0.0,
         {
-            "Center": make.vector("ADD", 11.5, 2, relative, middle),
+            "Center": make.vector("ADD", 11.5, 2, center, middle),
             "Volume": volume,
             "Mass": make.math("MULTIPLY", 11.5, 0.5, volume, inputs["Density"]),
         },
@@ -148,7 +151,7 @@ def _corner(make: _Builder, index: int, position: NodeSocket, middle: NodeSocket
     vertex = make.node(
         "GeometryNodeVertexOfCorner", 5, row, {"Corner Index": corner.outputs["Corner Index"]}
     )
-    there = make.node(
+    corner_position = make.node(
         "GeometryNodeFieldAtIndex",
         5.5,
         row,
@@ -156,7 +159,7 @@ def _corner(make: _Builder, index: int, position: NodeSocket, middle: NodeSocket
         domain="POINT",
         data_type="FLOAT_VECTOR",
     )
-    return make.vector("SUBTRACT", 6, row, there.outputs["Value"], middle)
+    return make.vector("SUBTRACT", 6, row, corner_position.outputs["Value"], middle)
 
 
 def add_marker(context: Context, obj: Object, group: GeometryNodeTree) -> Object:
@@ -192,11 +195,11 @@ def add_marker(context: Context, obj: Object, group: GeometryNodeTree) -> Object
         {"Geometry": ball.outputs["Mesh"], "Translation": measured.outputs["Center"]},
     )
     make.node("NodeGroupOutput", 5, 0.0, {"Geometry": placed.outputs["Geometry"]})
-    made = bpy.data.objects.new(
+    marker = bpy.data.objects.new(
         "{:s} {:s}".format(obj.name, GROUP_NAME), bpy.data.meshes.new(MARKER_NAME)
     )
-    made.modifiers.new(MARKER_NAME, "NODES").node_group = tree
-    made.show_in_front = True
-    made.hide_render = True
-    context.collection.objects.link(made)
-    return made
+    marker.modifiers.new(MARKER_NAME, "NODES").node_group = tree
+    marker.show_in_front = True
+    marker.hide_render = True
+    context.collection.objects.link(marker)
+    return marker

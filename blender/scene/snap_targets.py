@@ -93,17 +93,17 @@ class SnapTarget:
         """
         tensor = frame.T @ self.inertia @ frame
         limit = DIAGONAL_RTOL * np.trace(tensor)
-        diagonal = np.diag(tensor)
-        off = np.abs(tensor - np.diag(diagonal)).max()
-        along = (frame * self.axes).sum(axis=0)
+        moments = np.diag(tensor)
+        largest_product = np.abs(tensor - np.diag(moments)).max()
+        own_cosines = (frame * self.axes).sum(axis=0)  # of each column with the axis of its number
         # Axes of equal moments lie as the shape requires; a cube's may be swapped or reversed.
         cosines = (frame.T @ self.axes)[:, self.shape_axes]
         expected = np.eye(3)[:, self.shape_axes] if self.is_unique else np.round(cosines)
         return bool(
-            off <= limit
-            and (np.diff(diagonal) >= -limit).all()
+            largest_product <= limit
+            and (np.diff(moments) >= -limit).all()
             and (np.abs(cosines - expected) <= MAX_DIRECTION_NOISE).all()
-            and (self.shape_axes or (along > -0.5).all())
+            and (self.shape_axes or (own_cosines > -0.5).all())
         )
 
 
@@ -141,18 +141,18 @@ def target_of(
     principal = body.principal
     if strict or (by_shape and not principal.is_unique and EQUAL_AXES[principal.symmetry]):
         # Measured alone, a body gets exact third moments if they are doubtful.
-        own = (
+        alone = (
             measured
             if measured.index is None
             else measure_body(obj, context.evaluated_depsgraph_get())
         )
         if strict:
-            moments, _ = own.measurement.mass_moments
-            is_varying = own.measurement.kind == "shell" or own.body.mass is not None
-            principal = zhang_chen_frame(moments, None if is_varying else own.body.third_order)
+            moments, _ = alone.measurement.mass_moments
+            is_varying = alone.measurement.kind == "shell" or alone.body.mass is not None
+            principal = zhang_chen_frame(moments, None if is_varying else alone.body.third_order)
         else:
             with suppress(NoShapeError):
-                principal = shape_of_measured(own, 1).principal_frame()
+                principal = shape_of_measured(alone, 1).principal_frame()
     return SnapTarget.of_body(obj, body, principal, unit)
 
 
@@ -191,15 +191,16 @@ def matrix_for_bullet(obj: Object, body: SnapTarget) -> NDArray | None:
     linear = world(obj)[:3, :3]
     products = linear.T @ linear
     has_colliders = any(COLLIDER in child for child in obj.children)
-    wanted = np.eye(3) if has_colliders else np.diag(np.diag(products))
-    off = np.abs(products - wanted).max()
-    if np.linalg.det(linear) > 0.0 and off <= UNIT_SCALE * products.max():
+    allowed = np.eye(3) if has_colliders else np.diag(np.diag(products))
+    off = np.abs(products - allowed).max()
+    determinant = np.linalg.det(linear)
+    if determinant > 0.0 and off <= UNIT_SCALE * products.max():
         return matrix_at_center(obj, body)
-    turn = np.array([obj.matrix_world.to_quaternion().to_matrix()])
+    rotation = np.array(obj.matrix_world.to_quaternion().to_matrix())
     signs = np.sign(obj.scale)
-    if np.linalg.det(linear) < 0.0 and signs.prod() < 0.0:
-        turn *= -signs  # the quaternion reverses all axes, and the scale mirrors some
-    return affine_matrices(polar_rotation(turn)[0][0], body.center)
+    if determinant < 0.0 and signs.prod() < 0.0:
+        rotation *= -signs  # the quaternion reverses all axes, and the scale mirrors some
+    return affine_matrices(polar_rotation(rotation[None])[0][0], body.center)
 
 
 def align_to_world(
@@ -216,10 +217,10 @@ def align_to_world(
     aligned = body.is_principal(frame)
     if aligned and np.abs(body.center - goal).max() <= reframe.location_tolerance(obj, body.size):
         return False
-    turn = np.eye(3) if aligned else frame @ body.axes.T
+    rotation = np.eye(3) if aligned else frame @ body.axes.T
     target = world(obj)
-    target[:3, :3] = turn @ target[:3, :3]
-    target[:3, 3] = goal + turn @ (target[:3, 3] - body.center)
+    target[:3, :3] = rotation @ target[:3, :3]
+    target[:3, 3] = goal + rotation @ (target[:3, 3] - body.center)
     reframe.move(context, reframe.Plan(obj, target, body.size, move_only=aligned))
     return True
 

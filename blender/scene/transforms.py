@@ -43,6 +43,7 @@ def solve(matrix: Matrix4, right_side: Matrix4) -> Matrix4:
 
 
 def _turn(axis: int, angle: NDArray) -> Array:
+    """Return the (..., 3, 3) rotations by (...,) angles about a coordinate axis."""
     matrix = np.zeros((*np.shape(angle), 3, 3))
     j, k = (axis + 1) % 3, (axis + 2) % 3
     matrix[..., axis, axis] = 1.0
@@ -53,6 +54,7 @@ def _turn(axis: int, angle: NDArray) -> Array:
 
 
 def _order(mode: str) -> tuple[int, int, int, float]:
+    """Return the axes in the order of their turns, and 1 if it is cyclic, otherwise -1."""
     i, j, k = ("XYZ".index(letter) for letter in mode)
     return i, j, k, 1.0 if (j - i) % 3 == 1 else -1.0
 
@@ -70,18 +72,20 @@ def euler_angles(rotation: NDArray, mode: str, near: NDArray) -> Array:
     nearest to `near`.
     """
     i, j, k, s = _order(mode)
-    locked = np.hypot(rotation[..., k, j], rotation[..., k, k]) < 1e-7
-    first = np.where(locked, near[..., i], np.arctan2(s * rotation[..., k, j], rotation[..., k, k]))
-    both = []
-    for a in (first, first + pi):
-        rest = rotation @ _turn(i, a).swapaxes(-1, -2)
+    # In gimbal lock the first angle is free.
+    is_locked = np.hypot(rotation[..., k, j], rotation[..., k, k]) < 1e-7
+    first = np.arctan2(s * rotation[..., k, j], rotation[..., k, k])
+    first = np.where(is_locked, near[..., i], first)
+    solutions = []
+    for angle in (first, first + pi):
+        rest = rotation @ _turn(i, angle).swapaxes(-1, -2)
         angles = np.empty(near.shape)
-        angles[..., i] = a
+        angles[..., i] = angle
         angles[..., j] = np.arctan2(-s * rest[..., k, i], rest[..., k, k])
         angles[..., k] = np.arctan2(-s * rest[..., i, j], rest[..., j, j])
-        both.append(angles - 2.0 * pi * np.round((angles - near) / (2.0 * pi)))
-    ahead, behind = (np.abs(angles - near).sum(axis=-1, keepdims=True) for angles in both)
-    return np.where(behind < ahead - 1e-9, both[1], both[0])
+        solutions.append(angles - 2.0 * pi * np.round((angles - near) / (2.0 * pi)))
+    distances = [np.abs(angles - near).sum(axis=-1, keepdims=True) for angles in solutions]
+    return np.where(distances[1] < distances[0] - 1e-9, solutions[1], solutions[0])
 
 
 def _rotation(obj: Object) -> Matrix3:
@@ -131,18 +135,19 @@ def rotation_and_scale(linear: NDArray, scale: NDArray) -> tuple[Array, NDArray,
     """
     length = np.linalg.norm(linear, axis=-2)
     sign = np.where(scale < 0.0, -1.0, 1.0)
-    side = np.linalg.det(linear)
-    is_other = np.prod(sign, axis=-1) * side < 0.0
-    sign = np.where(is_other[..., None], 1.0, sign)
-    sign[..., 0] *= np.where(is_other & (side < 0.0), -1.0, 1.0)
-    is_scaled = length.min(axis=-1) > 0.0
+    determinant = np.linalg.det(linear)
+    has_other_hand = np.prod(sign, axis=-1) * determinant < 0.0
+    # The signs of a scale of the other handedness are all positive, but for x of a mirror.
+    sign = np.where(has_other_hand[..., None], 1.0, sign)
+    sign[..., 0] *= np.where(has_other_hand & (determinant < 0.0), -1.0, 1.0)
+    has_scale = length.min(axis=-1) > 0.0
     with np.errstate(divide="ignore", invalid="ignore"):
         unscaled = np.where(
-            is_scaled[..., None, None], linear / (length * sign)[..., None, :], np.eye(3)
+            has_scale[..., None, None], linear / (length * sign)[..., None, :], np.eye(3)
         )
     u, _, vt = np.linalg.svd(unscaled)
-    off = np.abs(unscaled.swapaxes(-1, -2) @ unscaled - np.eye(3)).max(axis=(-2, -1))
-    return u @ vt, length * sign, is_scaled & (off <= MAX_SHEAR)
+    shear = np.abs(unscaled.swapaxes(-1, -2) @ unscaled - np.eye(3)).max(axis=(-2, -1))
+    return u @ vt, length * sign, has_scale & (shear <= MAX_SHEAR)
 
 
 def set_rotation_and_scale(obj: Object, linear: Matrix3) -> None:
@@ -152,38 +157,39 @@ def set_rotation_and_scale(obj: Object, linear: Matrix3) -> None:
     delta_scale = np.array(obj.delta_scale, np.float64)
     if np.linalg.norm(linear, axis=0).min() <= 0.0 or np.abs(delta_scale).min() == 0.0:
         raise EditRefusedError(SCALE_ZERO_AXIS)
-    turn, scale, is_even = rotation_and_scale(linear, np.array(obj.scale, np.float64) * delta_scale)
-    if not is_even:
+    previous_scale = np.array(obj.scale, np.float64) * delta_scale
+    whole_rotation, scale, is_unsheared = rotation_and_scale(linear, previous_scale)
+    if not is_unsheared:
         raise EditRefusedError(PARENT_SHEARS)
     _assign(obj, "scale", scale / delta_scale, obj.lock_scale)
-    rotation = _delta_rotation(obj).T @ turn
+    rotation = _delta_rotation(obj).T @ whole_rotation
     mode = obj.rotation_mode
-    if mode in {"QUATERNION", "AXIS_ANGLE"}:
-        q = quaternion(rotation)
-        locks = [obj.lock_rotation_w, *obj.lock_rotation]
-        if mode == "QUATERNION":
-            if np.dot(q, obj.rotation_quaternion) < 0.0:
-                q = -q
-            _assign(obj, "rotation_quaternion", q, locks)
-            return
-        angle = 2.0 * atan2(np.linalg.norm(q[1:]), q[0])
-        axis = (
-            q[1:] / np.linalg.norm(q[1:])
-            if angle > 1e-12
-            else np.array(obj.rotation_axis_angle[1:])
-        )
-        _assign(obj, "rotation_axis_angle", np.array([angle, *axis]), locks)
+    if mode not in {"QUATERNION", "AXIS_ANGLE"}:
+        near = np.array(obj.rotation_euler, np.float64)
+        _assign(obj, "rotation_euler", euler_angles(rotation, mode, near), obj.lock_rotation)
         return
-    near = np.array(obj.rotation_euler, np.float64)
-    _assign(obj, "rotation_euler", euler_angles(rotation, mode, near), obj.lock_rotation)
+    q = quaternion(rotation)
+    locks = [obj.lock_rotation_w, *obj.lock_rotation]
+    if mode == "QUATERNION":
+        if np.dot(q, obj.rotation_quaternion) < 0.0:
+            q = -q
+        _assign(obj, "rotation_quaternion", q, locks)
+        return
+    length = np.linalg.norm(q[1:])
+    angle = 2.0 * atan2(length, q[0])
+    axis = q[1:] / length if angle > 1e-12 else np.array(obj.rotation_axis_angle[1:])
+    _assign(obj, "rotation_axis_angle", np.array([angle, *axis]), locks)
 
 
 def _assign(
     obj: Object, channel: str, value: NDArray, locks: Sequence[bool], tolerance: float = 1e-6
 ) -> None:
+    """Set a channel; EditRefusedError if a locked component, or an animated channel, moves by more
+    than the tolerance.
+    """
     before = np.array(getattr(obj, channel), np.float64)
-    moved = np.abs(value - before) > max(tolerance, 1e-6 * np.abs(before).max())
-    if np.any(moved & np.array(locks, bool)) or (np.any(moved) and channel in driven_channels(obj)):
+    moves = np.abs(value - before) > max(tolerance, 1e-6 * np.abs(before).max())
+    if np.any(moves & np.array(locks, bool)) or (np.any(moves) and channel in driven_channels(obj)):
         raise EditRefusedError(CHANNEL_LOCKED, channel=channel.split("_")[0])
     setattr(obj, channel, value)
 
