@@ -127,7 +127,12 @@ def structure_hash(root: Member) -> str:
 
 
 class _Walk:
-    """A walk through an assembly in the scene, or through the members of an instance."""
+    """A walk through an assembly in the scene, or with `inside` through the members of an
+    instance.
+
+    counted: each object that counts, with the name of its assembly. given: empties with children
+    whose mass is given; replaced: all objects below these.
+    """
 
     def __init__(self, objects: Collection[Object], depsgraph: Depsgraph, inside: bool = False):
         self.depsgraph = depsgraph
@@ -135,9 +140,9 @@ class _Walk:
         self.operands = operands_of(objects) if inside else {}
         self.reasons = {} if inside else left_out_reasons(depsgraph.scene, depsgraph.view_layer)
         self.counted: dict[Object, str] = {}
-        self.of_parent: dict[Object | None, list[Object]] = {}  # `children` searches all objects
+        self.children_of: dict[Object | None, list[Object]] = {}  # `children` searches all objects
         for obj in bpy.data.objects:
-            self.of_parent.setdefault(obj.parent, []).append(obj)
+            self.children_of.setdefault(obj.parent, []).append(obj)
         self.given = [
             obj for obj in objects if is_assembly(obj) and settings_of(obj).mass_from == "MASS"
         ]
@@ -162,20 +167,24 @@ class _Walk:
         """Return an empty as a member, with its own point mass, if it is one, and the members of
         its children.
         """
-        own = self.object(obj, obj.name, depth) if is_point_mass(obj) else []
-        return Member(obj, MemberKind.EMPTY, (*own, *self.children(obj, depth)))
+        point = self.object(obj, obj.name, depth) if is_point_mass(obj) else []
+        return Member(obj, MemberKind.EMPTY, (*point, *self.children(obj, depth)))
 
     def children(self, parent: Object, depth: int) -> list[Member]:
+        """Return the children as members, each with its own children; those of a child that is no
+        body stand in its place.
+        """
         members: list[Member] = []
-        for child in sorted(self.of_parent.get(parent, ()), key=by_name):
-            if child.type == "EMPTY" and not shows_collection(child) and child in self.of_parent:
+        for child in sorted(self.children_of.get(parent, ()), key=by_name):
+            if child.type == "EMPTY" and not shows_collection(child) and child in self.children_of:
                 members.append(self.empty(child, depth))
                 continue
-            of_child = self.object(child, parent.name, depth)
+            child_members = self.object(child, parent.name, depth)
             below = self.children(child, depth)
-            members += [
-                replace(member, members=(*member.members, *below)) for member in of_child
-            ] or below
+            for member in child_members:
+                members.append(replace(member, members=(*member.members, *below)))
+            if not child_members:
+                members += below
         return members
 
     def object(self, obj: Object, place: str, depth: int) -> list[Member]:
@@ -193,22 +202,23 @@ class _Walk:
         if reason is not None and not (kind == MemberKind.POINT and reason.code == NOT_RENDERED):
             return [Member(obj, kind, left_out=reason)]
         settings = obj.body_moments
-        has_usual_density = (settings.mass_from, settings.density_from, settings.kind) == (
-            "DENSITY",
-            "VALUE",
-            "SOLID",
-        ) and not settings.is_property_set("density")
-        if shows_collection(obj) and has_usual_density and depth < MAX_DEPTH:
-            source = obj.instance_collection
-            x, y, z = source.instance_offset
-            inside = _Walk(source.all_objects, self.depsgraph, inside=True).collection(
-                source, depth + 1
-            )
-            matrix = tuple(
-                (a, b, c, d - (a * x + b * y + c * z)) for a, b, c, d in obj.matrix_world
-            )
-            return [Member(obj, MemberKind.INSTANCE, (inside,), matrix)]
+        is_unset = (
+            settings.kind == "SOLID"
+            and settings.mass_from == "DENSITY"
+            and settings.density_from == "VALUE"
+            and not settings.is_property_set("density")
+        )
+        if shows_collection(obj) and is_unset and depth < MAX_DEPTH:
+            return [self._instance(obj, depth)]
         return [Member(obj, kind)]
+
+    def _instance(self, obj: Object, depth: int) -> Member:
+        """Return a collection instance as an assembly of its own."""
+        source = obj.instance_collection
+        walk = _Walk(source.all_objects, self.depsgraph, inside=True)
+        x, y, z = source.instance_offset
+        matrix = tuple((a, b, c, d - (a * x + b * y + c * z)) for a, b, c, d in obj.matrix_world)
+        return Member(obj, MemberKind.INSTANCE, (walk.collection(source, depth + 1),), matrix)
 
     def _left_out(self, obj: Object) -> Finding | None:
         """Return the reason why an object does not count, or why Blender cannot tell whether it
@@ -298,13 +308,14 @@ def copies_in_place(objects: Iterable[Object]) -> list[str]:
         for obj in objects
         if shows_collection(obj) or obj.data is not None and obj.instance_type == "NONE"
     ]
-    numbers = Counter(place for _, place in shown)
+    counts = Counter(place for _, place in shown)
     seen: set[tuple] = set()
     copies = []
     for obj, place in shown:
-        if numbers[place] > 1:
+        if counts[place] > 1:  # the geometry of others need not be read
             shape = place, _shape(obj)
-            copies += [obj.name] * (shape in seen)
+            if shape in seen:
+                copies.append(obj.name)
             seen.add(shape)
     return copies
 

@@ -58,16 +58,16 @@ def vertex_weights(
     """Return the weights of the deforming bones on an object's own vertices; none if the mesh has
     others.
     """
-    number = {name: k for k, name in enumerate(bones.deforming)}
-    groups = [number.get(group.name) for group in obj.vertex_groups]
+    bone_numbers = {name: k for k, name in enumerate(bones.deforming)}
+    bone_of_group = [bone_numbers.get(group.name) for group in obj.vertex_groups]
     geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
     vertices = [] if geometry.mesh is None else geometry.mesh.vertices
     is_own = part.source_object_name in ("", obj.name) and len(vertices) == len(part.surface.points)
     entries = [
-        (index, groups[entry.group], entry.weight)
-        for index, one in enumerate(vertices if is_own else [])
-        for entry in one.groups
-        if groups[entry.group] is not None
+        (index, bone_of_group[entry.group], entry.weight)
+        for index, mesh_vertex in enumerate(vertices if is_own else [])
+        for entry in mesh_vertex.groups
+        if bone_of_group[entry.group] is not None
     ]
     vertex, bone, weight = np.array(entries, np.float64).reshape(-1, 3).T
     return VertexWeights(vertex.astype(np.intp), bone.astype(np.intp), weight)

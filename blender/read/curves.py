@@ -71,10 +71,10 @@ def text_curves(obj, depsgraph) -> list[Curve]:
         ]
     finally:
         obj.to_curve_clear()
-    known = [curve for curve in curves if curve is not None]
-    if not known or len(known) < len(curves):
+    usable = [curve for curve in curves if curve is not None]
+    if not usable or len(usable) < len(curves):
         raise ReadError(NOTHING_TO_MEASURE, cause=NO_SPLINE_LENGTH, subject=obj.name)
-    return known
+    return usable
 
 
 def is_round(obj) -> bool:
@@ -93,15 +93,16 @@ def is_round(obj) -> bool:
 
 
 def _is_straight(spline) -> bool:
+    """Return whether all pieces of a spline are straight lines, as far as control points tell."""
     if spline.type == "POLY" or (spline.type == "NURBS" and spline.order_u == 2):
         return True
     pieces = _control_points(spline)[None]
     if spline.type == "BEZIER":
+        # from each point and its right handle to the left handle of the next point and this point
         knots = pieces.reshape(-1, 3, 3)
-        after = np.roll(knots, -1, axis=0)
-        pieces = np.concatenate([knots[:, 1:], after[:, :2]], axis=1)[
-            : None if spline.use_cyclic_u else -1
-        ]
+        following = np.roll(knots, -1, axis=0)
+        pieces = np.concatenate([knots[:, 1:], following[:, :2]], axis=1)
+        pieces = pieces if spline.use_cyclic_u else pieces[:-1]
     arms = pieces - pieces[:, :1]
     lengths = np.linalg.norm(arms, axis=2)
     if not lengths.any():
@@ -112,6 +113,7 @@ def _is_straight(spline) -> bool:
 
 
 def _kind(spline) -> tuple[str, bool, int, bool, bool]:
+    """Return the first arguments of `_curve`."""
     return (
         spline.type,
         spline.use_cyclic_u,
@@ -146,15 +148,15 @@ def _spline_curves(evaluated, depsgraph) -> Iterator[Curve | None]:
     if is_deformed(evaluated):
         points = deform(evaluated, points, depsgraph)
     _require_finite(points, name)
-    ends = np.cumsum([len(row) for row in control_points])
-    for spline, row, moved in zip(splines, control_points, np.split(points, ends[:-1])):
+    ends = np.cumsum([len(stored) for stored in control_points])
+    for spline, stored, deformed in zip(splines, control_points, np.split(points, ends[:-1])):
         # Bézier splines have none and need none
         weights = weighted_points(spline)[:, 3].astype(np.float64)
-        if spline.type == "NURBS" and not _has_known_knots(
-            spline, _curve(*_kind(spline), row, weights)
-        ):
-            raise ReadError(UNKNOWN_KNOTS, subject=name)
-        yield _curve(*_kind(spline), moved, weights)
+        if spline.type == "NURBS":
+            stored_curve = _curve(*_kind(spline), stored, weights)
+            if not _has_known_knots(spline, stored_curve):
+                raise ReadError(UNKNOWN_KNOTS, subject=name)
+        yield _curve(*_kind(spline), deformed, weights)
 
 
 def _has_known_knots(spline, curve: Curve | None) -> bool:
@@ -177,23 +179,22 @@ def _has_known_knots(spline, curve: Curve | None) -> bool:
 
 def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
     """Yield the curves of a geometry set; None for each curve that is too short."""
-    count = len(curves.points)
-    positions, left, right = (
-        _values(curves, attribute, "vector", (count, 3))
-        for attribute in ("position", "handle_left", "handle_right")
-    )
-    weights = _values(curves, "nurbs_weight", "value", (count, 1), 1.0)[:, 0]
-    types, cyclic, orders, knots = (
-        _values(curves, attribute, "value", (len(curves.curves), 1), *default)[:, 0]
-        .astype(int)
-        .tolist()
-        for attribute, *default in (
-            ("curve_type",),
-            ("cyclic",),
-            ("nurbs_order", 4.0),
-            ("knots_mode",),
-        )
-    )
+
+    def point_vectors(attribute: str) -> Array:
+        return _values(curves, attribute, "vector", (len(curves.points), 3))
+
+    def curve_numbers(attribute: str, default: float = 0.0) -> list[int]:
+        values = _values(curves, attribute, "value", (len(curves.curves), 1), default)
+        return values[:, 0].astype(int).tolist()
+
+    positions = point_vectors("position")
+    left = point_vectors("handle_left")
+    right = point_vectors("handle_right")
+    weights = _values(curves, "nurbs_weight", "value", (len(curves.points), 1), 1.0)[:, 0]
+    types = curve_numbers("curve_type")
+    cyclic = curve_numbers("cyclic")
+    orders = curve_numbers("nurbs_order", 4.0)
+    knots = curve_numbers("knots_mode")
     _require_finite(positions, name)
     for number, curve in enumerate(curves.curves):
         of_curve = slice(curve.first_point_index, curve.first_point_index + curve.points_length)
@@ -202,8 +203,8 @@ def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
         if kind == "NURBS" and knots[number] == CUSTOM_KNOTS_MODE:
             raise ReadError(UNKNOWN_KNOTS, subject=name)
         if kind == "CATMULL_ROM":
-            around = np.pad(points, ((1, 1), (0, 0)), "wrap" if cyclic[number] else "edge")
-            arms = (around[2:] - around[:-2]) / 6.0
+            padded = np.pad(points, ((1, 1), (0, 0)), "wrap" if cyclic[number] else "edge")
+            arms = (padded[2:] - padded[:-2]) / 6.0  # to the handles of the same cubic
             kind = "BEZIER"
             points = np.stack([points - arms, points, points + arms], axis=1).reshape(-1, 3)
         elif kind == "BEZIER":

@@ -26,9 +26,8 @@ from ..settings.given import COLLIDER
 if TYPE_CHECKING:
     from ...core.measurement import Settings
 
-SAME_SCALE_RTOL = (
-    2e-6  # relative to an axis' length: float32 matrices change as much as the object turns
-)
+# relative to an axis' length: float32 matrices change as much as the object turns
+SAME_SCALE_RTOL = 2e-6
 MAX_LENGTH = 3e38  # largest length of an axis that float32 can store
 
 
@@ -95,24 +94,23 @@ def _scale(obj: bpy.types.Object) -> tuple[str, list[float]] | None:
     (a, b, c), (d, e, f), (g, h, i) = [
         [entry / length for entry in axis] for axis, length in zip(axes, lengths)
     ]
-    if (
-        max(abs(a * d + b * e + c * f), abs(d * g + e * h + f * i), abs(g * a + h * b + i * c))
-        > SAME_SCALE_RTOL
-    ):
+    cosines = (a * d + b * e + c * f, d * g + e * h + f * i, g * a + h * b + i * c)
+    if max(map(abs, cosines)) > SAME_SCALE_RTOL:
         return None
-    return "-" if a * (e * i - f * h) + b * (f * g - d * i) + c * (
-        d * h - e * g
-    ) < 0.0 else "+", lengths
+    determinant = a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g)
+    return "-" if determinant < 0.0 else "+", lengths
 
 
 def _moves_along(obj: bpy.types.Object) -> bool:
     """Return whether the body in the object's frame is independent of the object's place."""
     if obj.type == "META" or len(obj.particle_systems):
         return False
-    chosen = obj.body_moments
-    is_own = chosen.density_from == "POLYNOMIAL" and chosen.density_frame == "OBJECT"
-    varies = chosen.density_from in {"POLYNOMIAL", "VOLUME"} and not is_own
-    return chosen.mass_from != "DENSITY" or not varies
+    properties = obj.body_moments
+    if properties.mass_from != "DENSITY":
+        return True
+    if properties.density_from == "POLYNOMIAL":
+        return properties.density_frame == "OBJECT"
+    return properties.density_from != "VOLUME"
 
 
 def scale_hash(obj: bpy.types.Object) -> str:
@@ -121,9 +119,9 @@ def scale_hash(obj: bpy.types.Object) -> str:
     """
     products = scale_products(obj)
     largest = max(map(abs, products)) or 1.0
-    return measurement.settings.digest(
-        struct.pack("<9d", *[round(product / largest * 1e5) / 1e5 + 0.0 for product in products])
-    )
+    # Rounded, because turning changes float32 matrices; 0.0 turns -0.0 into 0.0.
+    rounded = [round(product / largest * 1e5) / 1e5 + 0.0 for product in products]
+    return measurement.settings.digest(struct.pack("<9d", *rounded))
 
 
 def scale_products(obj: bpy.types.Object) -> list[float]:

@@ -101,10 +101,10 @@ class InstanceCollector:
                 continue
             matrices = np.concatenate(matrix_blocks)
             total = len(matrices)
-            count = total - int(np.isfinite(matrices).all(axis=(1, 2)).sum())
-            if count:
+            non_finite = total - int(np.isfinite(matrices).all(axis=(1, 2)).sum())
+            if non_finite:
                 raise ReadError(
-                    NON_FINITE_INSTANCES, subject=self.root.name, count=count, total=total
+                    NON_FINITE_INSTANCES, subject=self.root.name, count=non_finite, total=total
                 )
             if total > 1:
                 matrices = matrices[matrices[:, :3, :3].any(axis=(1, 2))]
@@ -118,12 +118,15 @@ class InstanceCollector:
         original = evaluated.original
         if original in self._path or len(self._path) > MAX_DEPTH:
             return
-        kinds = {
+        particle_kinds = {
             modifier.particle_system.settings.render_type
             for modifier in original.modifiers
             if modifier.type == "PARTICLE_SYSTEM" and modifier.show_viewport
         }
-        if original.instance_type in {"VERTS", "FACES"} or kinds & {"OBJECT", "COLLECTION"}:
+        if original.instance_type in {"VERTS", "FACES"} or particle_kinds & {
+            "OBJECT",
+            "COLLECTION",
+        }:
             raise _NeedsInstanceList
         if self._path and original.type == "META":
             self.left_out["metaballs, which Blender cannot instance"] += len(matrices)
@@ -172,17 +175,17 @@ class InstanceCollector:
         values = cloud.attributes
         columns = read_array(values["instance_transform"].data, "value", (count, 4, 4), np.float32)
         transforms = columns.transpose(0, 2, 1).astype(np.float64)
-        chosen = read_array(values[".reference_index"].data, "value", (count,), np.int32)
+        reference_index = read_array(values[".reference_index"].data, "value", (count,), np.int32)
         references = geometry.instance_references()
-        order = np.argsort(chosen, kind="stable")
-        bounds = np.searchsorted(chosen[order], np.arange(len(references) + 1))
+        # Instances of the same reference are a segment of the sorted ones.
+        order = np.argsort(reference_index, kind="stable")
+        bounds = np.searchsorted(reference_index[order], np.arange(len(references) + 1))
         for reference, start, end in zip(references, bounds[:-1], bounds[1:], strict=True):
             if start < end and reference is not None:
-                # parts() counts what is not finite
+                # `parts` refuses matrices that are not finite.
                 with np.errstate(invalid="ignore", over="ignore"):
-                    placed = (matrices[:, None] @ transforms[order[start:end]][None]).reshape(
-                        -1, 4, 4
-                    )
+                    placed = matrices[:, None] @ transforms[order[start:end]][None]
+                placed = placed.reshape(-1, 4, 4)
                 if isinstance(reference, bpy.types.Object):
                     self._add_object(reference.evaluated_get(self.depsgraph), placed)
                 elif isinstance(reference, bpy.types.Collection):
@@ -256,25 +259,26 @@ class InstanceCollector:
         if not len(mesh.polygons):
             vertices, edges = self.faceless
             self.faceless = (vertices + len(mesh.vertices), edges + len(mesh.edges))
-        wanted = self.materials or self.attribute is not None
-        attributes = self._read_attributes(mesh, owner) if wanted else FaceAttributes()
+        attributes = FaceAttributes()
+        if self.materials or self.attribute is not None:
+            attributes = self._read_attributes(mesh, owner)
         return mesh_surface(mesh, edges=self.edges), attributes
 
     def _read_attributes(self, mesh, owner) -> FaceAttributes:
-        vertices = NO_VALUES
+        values = NO_VALUES
         if self.attribute is not None and len(mesh.polygons):
             with name_subject(self.root.name):
-                vertices = vertex_values(mesh, self.attribute)
+                values = vertex_values(mesh, self.attribute)
         if not self.materials:
-            return FaceAttributes(vertex_values=vertices)
+            return FaceAttributes(vertex_values=values)
         slots = _slots(mesh, owner)
         # Blender shows a face that names a slot beyond the last one with the last one's material.
-        faces = (
+        slot_of_face = (
             np.clip(face_slots(mesh), 0, len(slots) - 1)
             if slots
             else np.full(len(mesh.polygons), -1)
         )
-        return FaceAttributes(slots, faces, vertices)
+        return FaceAttributes(slots, slot_of_face, values)
 
     def _edit_mode_surface(self, evaluated) -> tuple[Surface, FaceAttributes]:
         """Return the surface of an object in Edit Mode of its mesh, with the modifiers that act
@@ -308,13 +312,13 @@ class InstanceCollector:
         self._parts[key][1].append(matrices)
 
     def _count_surfaceless(self, geometry, count: int) -> None:
-        curves, cloud = geometry.curves, geometry.pointcloud
-        numbers = {
-            "curves without thickness": 0 if curves is None else len(curves.curves),
-            "points": 0 if cloud is None else len(cloud.points),
-            "volumes": int(geometry.volume is not None),
-        }
-        self.left_out.update({kind: count * number for kind, number in numbers.items() if number})
+        """Count the elements without surface in a geometry set, which is shown `count` times."""
+        if geometry.curves is not None and len(geometry.curves.curves):
+            self.left_out["curves without thickness"] += count * len(geometry.curves.curves)
+        if geometry.pointcloud is not None and len(geometry.pointcloud.points):
+            self.left_out["points"] += count * len(geometry.pointcloud.points)
+        if geometry.volume is not None:
+            self.left_out["volumes"] += count
 
 
 def _object_slots(owner) -> tuple:
@@ -332,16 +336,15 @@ def _slots(mesh, owner) -> tuple:
     """Return the original materials of an evaluated mesh in the order of slots, None for empty
     slots.
     """
-    if owner is None:
-        own = {}
-        slots = list(mesh.materials)
-    else:
-        own = dict(_object_slots(owner))
-        # a copy of an edit mesh has no slots of its own
-        slots = list(mesh.materials) or list(owner.original.data.materials)
-    slots += [None] * (max(own, default=-1) + 1 - len(slots))
-    shown = [own.get(i, material) for i, material in enumerate(slots)]
-    return tuple(material.original if material else None for material in shown)
+    slots = list(mesh.materials)
+    if owner is not None:
+        # A copy of an edit mesh has no slots of its own.
+        slots = slots or list(owner.original.data.materials)
+        object_slots = dict(_object_slots(owner))
+        slots += [None] * (max(object_slots, default=-1) + 1 - len(slots))
+        for i, material in object_slots.items():
+            slots[i] = material
+    return tuple(material.original if material else None for material in slots)
 
 
 def shows_itself(obj, instanced: bool) -> bool:
@@ -356,11 +359,11 @@ def visible_objects(collection, switch: str = "hide_viewport") -> Iterator:
     """Yield the objects of a collection and its children, each once, unless the property `switch`
     disables them.
     """
-    found = {}
+    objects = {}
     pending = [collection]
     while pending:
         current = pending.pop()
         if not getattr(current, switch):
-            found |= {obj: None for obj in current.objects if not getattr(obj, switch)}
+            objects |= {obj: None for obj in current.objects if not getattr(obj, switch)}
             pending.extend(reversed(current.children))
-    yield from found
+    yield from objects

@@ -76,14 +76,15 @@ def constraint_connections(
         connections.append(
             Connection(holder.name_full, names[0], names[1], _pose(holder, unit), free, mimic)
         )
-    connections.sort(key=lambda one: one.name)
+    connections.sort(key=lambda connection: connection.name)
     return connections, [bases[name] for name in sorted(bases)], findings
 
 
 def _pose(obj: Object, unit: float) -> Pose:
     matrix = float64_matrix(obj.matrix_world)
-    turn = polar_rotation(matrix[None])[0][0]
-    return Pose(matrix[:3, 3] * unit, turn * np.sign(np.linalg.det(turn)))
+    rotation_or_mirror = polar_rotation(matrix[None])[0][0]
+    rotation = rotation_or_mirror * np.sign(np.linalg.det(rotation_or_mirror))
+    return Pose(matrix[:3, 3] * unit, rotation)
 
 
 def _freedom(
@@ -93,28 +94,27 @@ def _freedom(
     them.
     """
     free = []
+    # Springs of the other type have a damping without a unit.
+    has_springs = constraint.type == "GENERIC_SPRING" and constraint.spring_type == "SPRING2"
     for kind, index, sign in CONSTRAINTS[constraint.type]:
         turns = kind == "rotate"
         axis = "xyz"[index]
         lower = -inf
         upper = inf
-        name = ("ang_" if turns else "lin_") + axis
-        length = 1.0 if turns else unit
-        if constraint.type != "POINT" and getattr(constraint, "use_limit_" + name):
-            lower, upper = (
-                getattr(constraint, "limit_{}_{}".format(name, end)) for end in ("lower", "upper")
-            )
-            if lower == upper:
+        limit = ("ang_" if turns else "lin_") + axis
+        if constraint.type != "POINT" and getattr(constraint, "use_limit_" + limit):
+            first = getattr(constraint, f"limit_{limit}_lower")
+            last = getattr(constraint, f"limit_{limit}_upper")
+            if first == last:
                 continue
             # Bullet takes a lower limit above the upper one as none.
-            ends = sorted((sign * lower * length, sign * upper * length))
-            lower, upper = ends if lower < upper else (-inf, inf)
+            if first < last:
+                length = 1.0 if turns else unit
+                lower, upper = sorted((sign * first * length, sign * last * length))
         spring = {}
         name = ("ang_" if turns else "") + axis
-        torque = unit**2 if turns else 1.0
-        # Springs of the other type have a damping without a unit.
-        is_spring = constraint.type == "GENERIC_SPRING" and constraint.spring_type == "SPRING2"
-        if is_spring and getattr(constraint, "use_spring_" + name):
+        if has_springs and getattr(constraint, "use_spring_" + name):
+            torque = unit**2 if turns else 1.0
             spring["stiffness"] = getattr(constraint, "spring_stiffness_" + name) * torque
             spring["damping"] = getattr(constraint, "spring_damping_" + name) * torque
         free.append(FreeAxis(kind, np.eye(3)[index], lower, upper, {**spring, **values}))
@@ -131,21 +131,17 @@ def joint_values(
     findings: list[Finding] = []
     for name in (*VALUES, "mimic_multiplier", "mimic_offset"):
         value: Any = owner.get("joint_" + name)
-        is_number = isinstance(value, (int, float)) and isfinite(value)
-        # A motor without effort or velocity would not move.
-        if is_number and (
-            name.startswith("mimic")
-            or value > 0
-            or value == 0
-            and name not in ("effort", "velocity")
-        ):
+        if value is None:
+            continue
+        is_usable = isinstance(value, (int, float)) and isfinite(value)
+        if is_usable and not name.startswith("mimic"):
+            # A motor without effort or velocity would not move.
+            is_usable = value > 0 if name in ("effort", "velocity") else value >= 0
+        if is_usable:
             values[name] = float(value)
-        elif value is not None:
-            findings.append(
-                finding(
-                    JOINT_VALUE_UNUSABLE, joint=owner.name, key="joint_" + name, value=str(value)
-                )
-            )
+        else:
+            unusable = {"joint": owner.name, "key": "joint_" + name, "value": str(value)}
+            findings.append(finding(JOINT_VALUE_UNUSABLE, **unusable))
     factors = values.pop("mimic_multiplier", 1.0), values.pop("mimic_offset", 0.0)
     leader = owner.get("joint_mimic")
     return values, None if leader is None else Mimic(str(leader), *factors), findings
@@ -157,30 +153,31 @@ def bone_freedom(
     """Return a bone's unlocked axes of movement and of rotation with limits, in m, by constraints
     and IK.
     """
-    turns = {
+    rotation_limits = {
         axis: (getattr(bone, "ik_min_" + axis), getattr(bone, "ik_max_" + axis))
         for axis in "xyz"
         if getattr(bone, "use_ik_limit_" + axis)
     } | _bone_limits(bone, "LIMIT_ROTATION", "use_limit_")
-    is_connected = bone.parent is not None and bone.bone.use_connect
-    slides = {} if is_connected else _bone_limits(bone, "LIMIT_LOCATION", "use_min_", "use_max_")
-    rest = (
+    location_limits = {}
+    if bone.parent is None or not bone.bone.use_connect:
+        location_limits = _bone_limits(bone, "LIMIT_LOCATION", "use_min_", "use_max_")
+    world_axes = (
         float64_matrix(bone.id_data.matrix_world)[:3, :3]
         @ float64_matrix(bone.bone.matrix_local)[:3, :3]
     )
-    lengths = (unit * np.linalg.norm(rest, axis=0)).tolist()
-    axes = [
-        ("translate", index, *(lengths[index] * end for end in slides[axis]))
-        for index, axis in enumerate("xyz")
-        if axis in slides and not bone.lock_location[index]
-    ] + [
-        ("rotate", index, *turns.get("xyz"[index], (-inf, inf)))
-        for index in (2, 1, 0)
-        if not bone.lock_rotation[index] and not getattr(bone, "lock_ik_" + "xyz"[index])
-    ]
+    lengths = (unit * np.linalg.norm(world_axes, axis=0)).tolist()  # m per unit of the bone
+    free = []
+    for index, axis in enumerate("xyz"):
+        if axis in location_limits and not bone.lock_location[index]:
+            lower, upper = (lengths[index] * end for end in location_limits[axis])
+            free.append(("translate", index, lower, upper))
+    for index in (2, 1, 0):  # a bone turns about z first
+        axis = "xyz"[index]
+        if not bone.lock_rotation[index] and not getattr(bone, "lock_ik_" + axis):
+            free.append(("rotate", index, *rotation_limits.get(axis, (-inf, inf))))
     return tuple(
         FreeAxis(kind, np.eye(3)[index], lower, upper, values)
-        for kind, index, lower, upper in axes
+        for kind, index, lower, upper in free
         if lower < upper
     )
 

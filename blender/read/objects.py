@@ -35,9 +35,8 @@ def read_object(
     obj = obj.original
     require_kind(obj)
     reading = locate(obj, depsgraph)
-    gathered = InstanceCollector(
-        obj.evaluated_get(depsgraph), depsgraph, materials, attribute, edges
-    )
+    evaluated = obj.evaluated_get(depsgraph)
+    gathered = InstanceCollector(evaluated, depsgraph, materials, attribute, edges)
     gathered.collect()
     parts = gathered.parts()
     if not parts:
@@ -112,5 +111,5 @@ def require_finite(obj, points: NDArray, source: str = "") -> None:
     """
     misplaced = np.flatnonzero(~np.isfinite(points).all(axis=1))
     if len(misplaced):
-        found = finding(NON_FINITE_VERTICES, misplaced, count=len(misplaced), total=len(points))
-        raise ReadError(attribute_to_source(found, source, obj.name), subject=obj.name)
+        fault = finding(NON_FINITE_VERTICES, misplaced, count=len(misplaced), total=len(points))
+        raise ReadError(attribute_to_source(fault, source, obj.name), subject=obj.name)

@@ -58,12 +58,12 @@ def member_error(member: Member) -> tuple[float, float]:
     """Return how far rounding may have moved the center of an assembly, at most as far as any of
     its objects, and how far they are from the origin, in Blender units.
     """
-    found = [(0.0, 0.0), *map(member_error, member.members)]
+    errors_and_reaches = [(0.0, 0.0), *map(member_error, member.members)]
     if isinstance(member.data, Object) and member.is_measured:
         world = float64_matrix(member.data.matrix_world)
         reach = _length(world) + _norm(world) * _reach(member.data)
-        found.append((place_error(member.data), reach))
-    error, reach = map(max, zip(*found))
+        errors_and_reaches.append((place_error(member.data), reach))
+    error, reach = map(max, zip(*errors_and_reaches))
     if member.matrix is None:
         return error, reach
     place = np.array(member.matrix)
@@ -76,13 +76,13 @@ def member_error(member: Member) -> tuple[float, float]:
 def _object_error(obj: Object, reach: float, followers: tuple[Object, ...]) -> float:
     """Bound the move of points within `reach`; followers: objects whose places depend on this."""
     basis = float64_matrix(obj.matrix_basis)
-    turns = sum(map(abs, (*obj.rotation_euler, *obj.delta_rotation_euler)))
+    angles = sum(map(abs, (*obj.rotation_euler, *obj.delta_rotation_euler)))
     if obj.rotation_mode == "AXIS_ANGLE":
-        turns += abs(obj.rotation_axis_angle[0])
-    moved = obj.location.length + obj.delta_location.length
+        angles += abs(obj.rotation_axis_angle[0])
+    distance = obj.location.length + obj.delta_location.length
     stretched = _norm(basis) * reach
     is_turned = not np.array_equal(basis[:3, :3], np.eye(3))
-    error = _HALF_STEP * (is_turned * (_ROUNDINGS + turns) * stretched + moved)
+    error = _HALF_STEP * (is_turned * (_ROUNDINGS + angles) * stretched + distance)
     if obj.parent is not None:
         inverse = float64_matrix(obj.matrix_parent_inverse)
         stretch = _norm(inverse)
@@ -93,8 +93,8 @@ def _object_error(obj: Object, reach: float, followers: tuple[Object, ...]) -> f
         bone = obj.parent.pose and obj.parent.pose.bones.get(obj.parent_bone)
         if obj.parent_type == "BONE" and bone:
             # the bone's tail is the origin
-            radius, own = _bone_radius_and_error(bone, radius + bone.bone.length)
-            error += _norm(above) * own
+            radius, bone_error = _bone_radius_and_error(bone, radius + bone.bone.length)
+            error += _norm(above) * bone_error
         elif obj.parent_type != "OBJECT":
             radius = max(radius, _reach(obj.parent))
         error += _object_error(obj.parent, radius, followers)
@@ -114,9 +114,9 @@ def _bone_radius_and_error(bone: PoseBone, reach: float) -> tuple[float, float]:
     matrix = float64_matrix(bone.matrix)
     radius = _norm(matrix) * reach + _length(matrix)
     error = 0.0
-    for one in (bone, *bone.parent_recursive):
-        size = radius + _length(float64_matrix(one.matrix)) + one.bone.head_local.length
-        error += _HALF_STEP * (2.0 * _ROUNDINGS + sum(map(abs, one.rotation_euler))) * size
+    for link in (bone, *bone.parent_recursive):
+        size = radius + _length(float64_matrix(link.matrix)) + link.bone.head_local.length
+        error += _HALF_STEP * (2.0 * _ROUNDINGS + sum(map(abs, link.rotation_euler))) * size
     return radius, error
 
 

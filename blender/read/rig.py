@@ -18,12 +18,7 @@ from .tracking import tracking_paused
 from .visibility import measurable
 
 # constraints that put objects into a hand
-HOLDING = {
-    "CHILD_OF",
-    "COPY_TRANSFORMS",
-    "COPY_LOCATION",
-    "ARMATURE",
-}
+HOLDING = {"CHILD_OF", "COPY_TRANSFORMS", "COPY_LOCATION", "ARMATURE"}
 
 
 @contextmanager
@@ -76,26 +71,25 @@ def held_objects(armature: Object, depsgraph: Depsgraph) -> list[tuple[Object, s
     Objects that the armature deforms, and those parented to its bones, are parts of the character
     already.
     """
-    found: dict[Object, str] = {}
+    bones: dict[Object, str] = {}
     for obj in depsgraph.view_layer.objects:
         bone = _holding_bone(obj, armature, depsgraph) if len(obj.constraints) else ""
         if bone and not obj.hide_render:
-            found.update((one, bone) for one in (obj, *obj.children_recursive) if measurable(one))
-    own = rig_objects(armature, depsgraph.view_layer.objects) if found else ()
-    return [(obj, bone) for obj, bone in found.items() if obj not in own]
+            held = [each for each in (obj, *obj.children_recursive) if measurable(each)]
+            bones.update(dict.fromkeys(held, bone))
+    parts = rig_objects(armature, depsgraph.view_layer.objects) if bones else ()
+    return [(obj, bone) for obj, bone in bones.items() if obj not in parts]
 
 
 def _holding_bone(obj: Object, armature: Object, depsgraph: Depsgraph) -> str:
     """Return the bone that a constraint holds an object to, or "" if there is none."""
     for constraint in obj.evaluated_get(depsgraph).constraints:
-        if constraint.type in HOLDING and not constraint.mute and constraint.influence > 0.0:
-            for target in constraint.targets if constraint.type == "ARMATURE" else (constraint,):
-                if (
-                    target.target is not None
-                    and target.target.original == armature
-                    and target.subtarget
-                ):
-                    return target.subtarget
+        if constraint.type not in HOLDING or constraint.mute or not constraint.influence > 0.0:
+            continue
+        for target in constraint.targets if constraint.type == "ARMATURE" else (constraint,):
+            holder = target.target
+            if holder is not None and holder.original == armature and target.subtarget:
+                return target.subtarget
     return ""
 
 

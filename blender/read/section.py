@@ -127,13 +127,12 @@ def _section(
 
 
 def _selected_faces(obj, depsgraph) -> SectionReading:
-    def selected(copy: bpy.types.Mesh) -> tuple[Mask, Surface]:
-        return read_array(copy.polygons, "select", (len(copy.polygons),), bool), mesh_surface(
-            copy, edges=False
-        )
+    def read_copy(copy: bpy.types.Mesh) -> tuple[Mask, Surface]:
+        is_selected = read_array(copy.polygons, "select", (len(copy.polygons),), bool)
+        return is_selected, mesh_surface(copy, edges=False)
 
-    chosen, surface = from_edit_mesh(obj.data, selected)
-    if not chosen.any():
+    is_selected, surface = from_edit_mesh(obj.data, read_copy)
+    if not is_selected.any():
         raise ReadError(
             NO_SECTION_AREA,
             fault="no face is selected. Select the faces of the section",
@@ -142,14 +141,20 @@ def _selected_faces(obj, depsgraph) -> SectionReading:
     place = locate(obj, depsgraph)
     surface = surface.transform(place.matrix[:3, :3], place.matrix[:3, 3])
     triangles, faces = surface.all_triangles()
-    inside = chosen[faces]
-    triangles = triangles[inside]
+    is_of_section = is_selected[faces]
     require_finite(obj, surface.points)  # all points bound the effect of float32 on any
     acting = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
     findings = [finding(MODIFIERS_LEFT_OUT, modifiers=acting)] if acting else []
-    count = int(np.count_nonzero(chosen))
-    description = "1 Selected Face" if count == 1 else "{:d} Selected Faces".format(count)
-    return _section(description, surface, triangles, faces[inside], place, findings=findings)
+    count = int(np.count_nonzero(is_selected))
+    description = "1 Selected Face" if count == 1 else f"{count} Selected Faces"
+    return _section(
+        description,
+        surface,
+        triangles[is_of_section],
+        faces[is_of_section],
+        place,
+        findings=findings,
+    )
 
 
 def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
@@ -176,7 +181,7 @@ def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
     mesh = evaluated.to_mesh()
     filled = mesh_surface(mesh, edges=False) if mesh is not None and len(mesh.polygons) else None
     evaluated.to_mesh_clear()
-    drawn = None
+    drawn_area = None
     if obj.type == "FONT" and obj.data.follow_curve is not None:
         # Only the evaluated text follows its curve, and only its fill is there to be read.
         if filled is None:
@@ -193,6 +198,7 @@ def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
         triangles, faces = surface.all_triangles()
     else:
         surface = Surface(local).transform(linear, place.matrix[:3, 3])
+        # triangles between the first point of a loop and each of its other edges
         fans = [
             np.stack([np.full(len(loop) - 2, loop[0]), loop[1:-1], loop[2:]], axis=1)
             for loop in loops
@@ -201,7 +207,7 @@ def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
         faces = np.arange(len(triangles))
         if filled is not None:
             areas = triangle_areas(filled.points.astype(np.float64), filled.all_triangles()[0])
-            drawn = float(areas.sum() * np.sqrt(facing @ facing))
+            drawn_area = float(areas.sum() * np.sqrt(facing @ facing))
     require_finite(obj, surface.points)
     return _section(
         "Text" if obj.type == "FONT" else "Curve",
@@ -211,7 +217,7 @@ def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
         place,
         loops=loops,
         facing=facing,
-        drawn_area=drawn,
+        drawn_area=drawn_area,
         findings=list(_outline_findings(obj, open_splines)),
     )
 
@@ -238,7 +244,8 @@ def _spline_outlines(obj, resolution: int | None) -> tuple[NDArray[np.float32], 
     open splines.
     """
     data = obj.data.copy()
-    data.dimensions, data.fill_mode = "2D", "NONE"
+    data.dimensions = "2D"
+    data.fill_mode = "NONE"
     if resolution is not None:
         for curved in (data, *data.splines):
             curved.resolution_u = resolution
@@ -256,9 +263,11 @@ def _spline_outlines(obj, resolution: int | None) -> tuple[NDArray[np.float32], 
     # first.
     closing = edges[edges[:, 1] < edges[:, 0]].tolist()
     loops = [np.arange(first, last + 1) for last, first in closing if last - first >= 2]
-    inside = np.zeros(len(points), bool)
+    is_closed = np.zeros(len(points), bool)
     for last, first in closing:
-        inside[first : last + 1] = True
+        is_closed[first : last + 1] = True
+    # An open spline has one point more than edges.
     steps = edges[edges[:, 1] == edges[:, 0] + 1]
-    loose = int(np.count_nonzero(~inside)) - int(np.count_nonzero(~inside[steps[:, 0]]))
-    return points, loops, loose
+    open_points = int(np.count_nonzero(~is_closed))
+    open_edges = int(np.count_nonzero(~is_closed[steps[:, 0]]))
+    return points, loops, open_points - open_edges

@@ -111,64 +111,78 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
     must be measured.
     """
     original = evaluated.original
-    kept = _kept_faces(original)
-    if kept is not None:
-        return kept
+    faces_of_file = _kept_faces(original)
+    if faces_of_file is not None:
+        return faces_of_file
     if spline_modifiers(original)[1]:
         return None
     splines = [spline for spline in evaluated.data.splines if spline.type == "NURBS"]
     if not splines or len(splines) < len(evaluated.data.splines):
         return None
-    control_points = [weighted_points(spline) for spline in splines]
-    coordinates = np.concatenate(control_points)
-    points = coordinates[:, :3].astype(np.float64)
+    control_points = np.concatenate([weighted_points(spline) for spline in splines])
+    points = control_points[:, :3].astype(np.float64)
     if is_deformed(evaluated):
         try:
             points = deform(evaluated, points, depsgraph)
         except ReadError:
             return None
-    if (
-        nonpositive_weights(splines)
-        or not np.isfinite(coordinates).all()
-        or not np.isfinite(points).all()
-    ):
+    is_finite = np.isfinite(control_points).all() and np.isfinite(points).all()
+    if nonpositive_weights(splines) or not is_finite:
         return None
-    ends = np.cumsum([len(row) for row in control_points])[:-1]
-    patches = []
-    samples = []
-    for spline, moved, row in zip(splines, np.split(points, ends), control_points):
-        # with v first, a patch's normal points as Blender's faces do
-        v, u = (blender_space(*(getattr(spline, name + axis) for name in SPACE)) for axis in "vu")
-        if v is not None and u is not None:
-            shape = (spline.point_count_v, spline.point_count_u)
-            weights = row[:, 3].astype(np.float64).reshape(shape)
-            patches.append(Patch((v, u), moved.reshape(*shape, 3), weights))
-            samples.append(
-                (
-                    display_table(v, display_parameters(v, spline.resolution_v)),
-                    display_table(u, display_parameters(u, spline.resolution_u)),
-                )
-            )
+    patches, samples = _patches_and_samples(splines, points, control_points[:, 3])
     if not patches:
         return None
     largest = float(np.abs(points).max())
     size = float(np.ptp(points, axis=0).max())
-    stored = FLOAT32_HALF_ULP * (
-        1.8 * largest + (2.0 * size if any(patch.weights is not None for patch in patches) else 0.0)
-    )
+    has_weights = any(patch.weights is not None for patch in patches)
+    stored = FLOAT32_HALF_ULP * (1.8 * largest + (2.0 * size if has_weights else 0.0))
     findings = []
     left_out = len(splines) - len(patches)
     if left_out:
         findings.append(finding(SPLINES_LEFT_OUT, count=left_out, total=len(splines)))
-    proved: list[Patch] | None = patches
     if mesh is not None:
-        proved = _verified(patches, samples, vertex_points(mesh), AGREEMENT_RTOL * largest)
-    if proved is None:
-        return None
-    if proved is not patches:
-        stored = stored + RECOVERY_RTOL * size
-        findings.append(finding(CONTROL_POINTS_RECOVERED))
-    return SplineReading(tuple(proved), stored, tuple(findings))
+        tolerance = AGREEMENT_RTOL * largest
+        verified = _verified(patches, samples, vertex_points(mesh), tolerance)
+        if verified is None:
+            return None
+        if verified is not patches:
+            patches = verified
+            stored = stored + RECOVERY_RTOL * size
+            findings.append(finding(CONTROL_POINTS_RECOVERED))
+    return SplineReading(tuple(patches), stored, tuple(findings))
+
+
+def _patches_and_samples(
+    splines, points: Array, weights: NDArray
+) -> tuple[list[Patch], list[tuple[NDArray, NDArray]]]:
+    """Return a patch of each spline that is long enough, and the tables (v, u) that sample it where
+    Blender draws vertices. points, weights: (n, 3), (n,) of all splines in turn.
+    """
+    patches = []
+    samples = []
+    ends = np.cumsum([len(spline.points) for spline in splines])[:-1]
+    for spline, spline_points, spline_weights in zip(
+        splines, np.split(points, ends), np.split(weights, ends)
+    ):
+        # with v first, a patch's normal points as Blender's faces do
+        v, u = (blender_space(*(getattr(spline, name + axis) for name in SPACE)) for axis in "vu")
+        if v is None or u is None:
+            continue
+        shape = (spline.point_count_v, spline.point_count_u)
+        patches.append(
+            Patch(
+                (v, u),
+                spline_points.reshape(*shape, 3),
+                spline_weights.astype(np.float64).reshape(shape),
+            )
+        )
+        samples.append(
+            (
+                display_table(v, display_parameters(v, spline.resolution_v)),
+                display_table(u, display_parameters(u, spline.resolution_u)),
+            )
+        )
+    return patches, samples
 
 
 def nonpositive_weights(splines) -> int:
@@ -195,42 +209,45 @@ def _verified(
     if sum(counts) != len(shown):
         return None
     # Vertices run along v within each step of u.
-    pieces = [
-        piece.reshape(len(u), len(v), 3).swapaxes(0, 1).astype(np.float64)
-        for piece, (v, u) in zip(np.split(shown, np.cumsum(counts)[:-1]), samples)
+    vertex_grids = [
+        vertices.reshape(len(u), len(v), 3).swapaxes(0, 1).astype(np.float64)
+        for vertices, (v, u) in zip(np.split(shown, np.cumsum(counts)[:-1]), samples)
     ]
 
     def agree(candidates: list[Patch]) -> bool:
-        return len(candidates) == len(patches) and all(
-            np.abs(patch.apply_weights(*sample) - piece).max() <= tolerance
-            for patch, sample, piece in zip(candidates, samples, pieces)
+        return all(
+            np.abs(patch.apply_weights(*sample) - grid).max() <= tolerance
+            for patch, sample, grid in zip(candidates, samples, vertex_grids)
         )
 
     if agree(patches):
         return patches
-    attempts = map(_interpolating_patch, patches, samples, pieces)
-    solved = [patch for patch in attempts if patch is not None]
-    return solved if agree(solved) else None
+    solutions = map(_interpolating_patch, patches, samples, vertex_grids)
+    recovered = [patch for patch in solutions if patch is not None]
+    return recovered if len(recovered) == len(patches) and agree(recovered) else None
 
 
 def _interpolating_patch(
-    patch: Patch, sample: tuple[NDArray, NDArray], piece: NDArray
+    patch: Patch, sample: tuple[NDArray, NDArray], vertex_grid: NDArray
 ) -> Patch | None:
     """Return the patch with the same spaces and weights that interpolates the samples; None if
     singular.
     """
     inverses = []
     for table in sample:
-        acting = table.any(axis=0)
-        if np.linalg.cond(table[:, acting]) > MAX_CONDITION:
+        has_effect = table.any(axis=0)
+        if np.linalg.cond(table[:, has_effect]) > MAX_CONDITION:
             return None
         inverses.append(np.linalg.pinv(table))
-    if patch.weights is not None:
-        piece = piece * np.einsum("ai,ij,bj->ab", sample[0], patch.weights, sample[1])[..., None]
-    points = np.einsum("ia,abd,jb->ijd", inverses[0], piece, inverses[1])
-    return replace(
-        patch, points=points if patch.weights is None else points / patch.weights[..., None]
+    if patch.weights is None:
+        points = np.einsum("ia,abd,jb->ijd", inverses[0], vertex_grid, inverses[1])
+        return replace(patch, points=points)
+    # Homogeneous coordinates are interpolated, and then divided by the weights.
+    weights = np.einsum("ai,ij,bj->ab", sample[0], patch.weights, sample[1])
+    homogeneous = np.einsum(
+        "ia,abd,jb->ijd", inverses[0], vertex_grid * weights[..., None], inverses[1]
     )
+    return replace(patch, points=homogeneous / patch.weights[..., None])
 
 
 def spline_modifiers(obj) -> tuple[list, list]:
@@ -242,14 +259,14 @@ def spline_modifiers(obj) -> tuple[list, list]:
         for modifier in obj.modifiers
         if modifier.show_viewport and (obj.mode != "EDIT" or modifier.show_in_editmode)
     ]
-    first = takewhile(lambda modifier: modifier.type not in CONSTRUCTIVE, shown)
+    before_mesh = takewhile(lambda modifier: modifier.type not in CONSTRUCTIVE, shown)
     moving = [
         number
-        for number, modifier in enumerate(first, 1)
+        for number, modifier in enumerate(before_mesh, 1)
         if modifier.type in ALWAYS_ON_SPLINE or modifier.use_apply_on_spline
     ]
-    last = max(moving, default=0)
-    return shown[:last], shown[last:]
+    count = max(moving, default=0)
+    return shown[:count], shown[count:]
 
 
 def is_deformed(evaluated) -> bool:
@@ -313,14 +330,12 @@ def _apply_hook(evaluated, modifier, points: NDArray, depsgraph) -> Array:
     before = points[indices]
     share = np.full(len(indices), float(modifier.strength))
     if modifier.falloff_type in FALLOFFS and modifier.falloff_radius != 0.0:
-        center = np.array(modifier.center[:], np.float64)
-        arms = before - center
+        arms = before - np.array(modifier.center[:], np.float64)
         if modifier.use_falloff_uniform:
             arms = arms @ float64_matrix(modifier.matrix_inverse)[:3, :3].T
         distance = np.linalg.norm(arms, axis=1) / modifier.falloff_radius
-        share = np.where(
-            distance <= 1.0, share * FALLOFFS[modifier.falloff_type](np.minimum(distance, 1.0)), 0.0
-        )
+        falloff = FALLOFFS[modifier.falloff_type](np.minimum(distance, 1.0))
+        share = np.where(distance <= 1.0, share * falloff, 0.0)
     after = before @ matrix[:3, :3].T + matrix[:3, 3]
     result = points.copy()
     result[indices] = before + share[:, None] * (after - before)

@@ -96,35 +96,35 @@ class VdbGrid:
     def blocks(self) -> Iterator[tuple[tuple[int, int, int], NDArray]]:
         """Yield the stored voxels, as blocks, each with its offset in the box."""
         values = self._grid.getConstAccessor()
+        background = self._grid.background
+
+        def is_empty(corner: tuple[int, int, int], depth: int) -> bool:
+            """Return whether no node of the tree at this depth begins at a corner."""
+            is_stored = values.getValueDepth(corner) >= depth
+            return not is_stored and values.getValue(corner) == background
+
         end = self.low + self.shape
-        for first in _cells(self.low, end, ROOT_VOXELS):
-            depth = values.getValueDepth(first)
-            if depth < 1 and values.getValue(first) == self._grid.background:
+        for root in _cells(self.low, end, ROOT_VOXELS):
+            if is_empty(root, 1):
                 continue
-            start = np.array(first)
-            for corner in _cells(
-                np.maximum(start, self.low), np.minimum(start + ROOT_VOXELS, end), NODE_VOXELS
-            ):
-                if (
-                    values.getValueDepth(corner) < 2
-                    and values.getValue(corner) == self._grid.background
-                ):
+            root_low = np.maximum(root, self.low)
+            root_end = np.minimum(np.array(root) + ROOT_VOXELS, end)
+            for node in _cells(root_low, root_end, NODE_VOXELS):
+                if is_empty(node, 2):
                     continue
-                begin = np.maximum(corner, self.low)
-                array = np.zeros(
-                    np.minimum(np.array(corner) + NODE_VOXELS, end) - begin, self._dtype
-                )
-                self._grid.copyToArray(array, ijk=tuple(begin.tolist()))
-                used = array != self._dtype(self._grid.background)
-                if used.any():  # a node may be empty but for a corner
-                    along = [
-                        np.flatnonzero(used.any(axis=others)) for others in ((1, 2), (0, 2), (0, 1))
+                first = np.maximum(node, self.low)
+                node_end = np.minimum(np.array(node) + NODE_VOXELS, end)
+                array = np.zeros(node_end - first, self._dtype)
+                self._grid.copyToArray(array, ijk=tuple(first.tolist()))
+                is_used = array != self._dtype(background)
+                if is_used.any():  # a node may be empty but for a corner
+                    used = [
+                        np.flatnonzero(is_used.any(axis=other_axes))
+                        for other_axes in ((1, 2), (0, 2), (0, 1))
                     ]
-                    offset = begin - self.low + [where[0] for where in along]
-                    yield (
-                        tuple(offset.tolist()),
-                        array[tuple(slice(where[0], where[-1] + 1) for where in along)],
-                    )
+                    offset = first - self.low + [indices[0] for indices in used]
+                    box = tuple(slice(indices[0], indices[-1] + 1) for indices in used)
+                    yield tuple(offset.tolist()), array[box]
 
     def polygons(self) -> Surface:
         """Return the zero surface of a level set, in the object's coordinates, facing outward."""

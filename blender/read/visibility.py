@@ -34,18 +34,14 @@ def measurable(obj) -> bool:
     if obj.type == "EMPTY":
         return is_point_mass(obj)
     if obj.type == "CURVE":
-        # A wire needs no surface, and closed curves bound one for a shell.
         curve = obj.data
-        filled = curve.dimensions == "2D" and curve.fill_mode != "NONE"
-        beveled = curve.bevel_depth or (curve.bevel_mode == "OBJECT" and curve.bevel_object)
+        is_filled = curve.dimensions == "2D" and curve.fill_mode != "NONE"
+        is_beveled = curve.bevel_depth or (curve.bevel_mode == "OBJECT" and curve.bevel_object)
+        if is_filled or is_beveled or curve.extrude or obj.modifiers:
+            return True
+        # A wire needs no surface, and closed curves bound one for a shell.
         settings = getattr(obj, "body_moments", None)
-        return bool(
-            filled
-            or curve.extrude
-            or beveled
-            or obj.modifiers
-            or (settings is not None and settings.kind != "SOLID")
-        )
+        return settings is not None and settings.kind != "SOLID"
     return obj.type in {*SURFACE_TYPES, "VOLUME"} or any(
         modifier.type == "NODES" for modifier in obj.modifiers
     )
@@ -122,15 +118,14 @@ def evaluated_geometry(obj, depsgraph, reader):
     object `reader`.
     """
     reason = None
-    if obj.mode == "SCULPT" and (
-        obj.use_dynamic_topology_sculpting
-        or any(
+    if obj.mode == "SCULPT":
+        has_sculpted_levels = any(
             modifier.sculpt_levels
             for modifier in obj.modifiers
             if modifier.type == "MULTIRES" and modifier.show_viewport
         )
-    ):  # the viewport shows something else than the evaluated mesh
-        reason = finding(SCULPTED_MESH)
+        if has_sculpted_levels or obj.use_dynamic_topology_sculpting:
+            reason = finding(SCULPTED_MESH)  # the viewport shows something else
     if obj.type in {"CURVE", "SURFACE"} and obj.data.shape_keys and not obj.data.is_editmode:
         splines = obj.data.splines
         count = sum(len(spline.bezier_points) + len(spline.points) for spline in splines)
@@ -171,24 +166,27 @@ def hidden_reason(obj, depsgraph) -> Finding | None:
     if obj.hide_viewport:
         return finding(HIDDEN_IN_VIEWPORT, name=obj.name, switch="monitor icon")
     reasons = []
-    barred = set()
-    for blocks, switch in (
+    hidden_branches: set[int] = set()
+    for is_off, switch in (
         (lambda layer: layer.exclude, "check box"),
         (lambda layer: layer.collection.hide_viewport, "monitor icon"),
         (lambda layer: layer.hide_viewport, "eye icon"),
     ):
-        blocking = {
-            k: layer for k, path in enumerate(branches) for layer in islice(filter(blocks, path), 1)
+        # the outermost collection of each branch that this switch hides
+        hiding = {
+            number: layer
+            for number, branch in enumerate(branches)
+            for layer in islice(filter(is_off, branch), 1)
         }
-        named = [
+        switch_reasons = [
             finding(HIDDEN_IN_VIEWPORT, name=layer.collection.name, switch=switch)
-            for layer in blocking.values()
+            for layer in hiding.values()
         ]
-        if len(blocking) == len(branches):
-            return named[0]
-        reasons += named
-        barred |= blocking.keys()
-    if len(barred) == len(branches):
+        if len(hiding) == len(branches):
+            return switch_reasons[0]
+        reasons += switch_reasons
+        hidden_branches |= hiding.keys()
+    if len(hidden_branches) == len(branches):
         return reasons[-1]  # each of its collections has another reason; the mildest
     is_hidden = obj.hide_get(view_layer=depsgraph.view_layer)
     return finding(HIDDEN_IN_VIEWPORT, name=obj.name, switch="eye icon") if is_hidden else None

@@ -69,40 +69,43 @@ def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | N
     are shown.
     """
     obj = obj.original
-    shown = _volume(obj, depsgraph)
-    if shown is None:
+    evaluated = _volume_and_geometry(obj, depsgraph)
+    if evaluated is None:
         yield None
         return
-    volume, geometry = shown  # the set of geometry may own the volume
-    place = locate(obj, depsgraph)
-    findings = place.findings
-    chosen = _choose_grid(obj, volume, grid, findings)
-    hidden = hidden_reason(obj, depsgraph)
-    if hidden:
-        findings.append(finding(HIDDEN_OBJECT_MEASURED, cause=hidden.as_record()))
-    findings.extend(modifier_findings(obj, depsgraph.scene))
-    if geometry.instances_pointcloud() is not None:
-        count = len(geometry.instances_pointcloud().points)
-        kinds = [finding(KIND_COUNT, kind="instances beside the volume", count=count).as_record()]
-        findings.append(finding(SURFACELESS_LEFT_OUT, kinds=kinds))
-    with (
-        name_subject(obj.name),
-        _open_grid(obj, volume, chosen.name, depsgraph, findings) as source,
-    ):
+    volume, geometry = evaluated  # the set of geometry may own the volume
+    located = locate(obj, depsgraph)
+    findings = located.findings
+    name = _choose_grid(obj, volume, grid, findings)
+    findings.extend(_volume_findings(obj, geometry, depsgraph))
+    with name_subject(obj.name), _open_grid(obj, volume, name, depsgraph, findings) as vdb_grid:
         yield VolumeReading(
-            **vars(place),
-            grid=chosen.name,
-            level_set=source.level_set,
-            to_object=source.to_object,
-            low=source.low,
-            shape=tuple(source.shape.tolist()),
-            background=source.background,
-            blocks=source.blocks,
-            polygons=source.polygons,
+            **vars(located),
+            grid=name,
+            level_set=vdb_grid.level_set,
+            to_object=vdb_grid.to_object,
+            low=vdb_grid.low,
+            shape=tuple(vdb_grid.shape.tolist()),
+            background=vdb_grid.background,
+            blocks=vdb_grid.blocks,
+            polygons=vdb_grid.polygons,
         )
 
 
-def _volume(obj, depsgraph) -> tuple[bpy.types.Volume, bpy.types.GeometrySet] | None:
+def _volume_findings(obj, geometry: bpy.types.GeometrySet, depsgraph) -> Iterator[Finding]:
+    """Yield the findings about an object that shows a volume, and perhaps instances beside it."""
+    hidden = hidden_reason(obj, depsgraph)
+    if hidden:
+        yield finding(HIDDEN_OBJECT_MEASURED, cause=hidden.as_record())
+    yield from modifier_findings(obj, depsgraph.scene)
+    instances = geometry.instances_pointcloud()
+    if instances is not None:
+        count = len(instances.points)
+        kinds = [finding(KIND_COUNT, kind="instances beside the volume", count=count).as_record()]
+        yield finding(SURFACELESS_LEFT_OUT, kinds=kinds)
+
+
+def _volume_and_geometry(obj, depsgraph) -> tuple[bpy.types.Volume, bpy.types.GeometrySet] | None:
     """Return the evaluated volume, its grids loaded, and its geometry set; None if polygons or no
     volume are shown.
     """
@@ -116,8 +119,8 @@ def _volume(obj, depsgraph) -> tuple[bpy.types.Volume, bpy.types.GeometrySet] | 
     if has_faces or volume is None:
         return None
     # A saved file turns an empty path into that of a folder.
-    folder = os.path.isdir(bpy.path.abspath(volume.filepath, library=obj.data.library))
-    if not volume.grids.load() and not folder:
+    is_folder = os.path.isdir(bpy.path.abspath(volume.filepath, library=obj.data.library))
+    if not volume.grids.load() and not is_folder:
         error = volume.grids.error_message.rstrip(".") or bpy.path.basename(volume.filepath)
         raise ReadError(GRID_UNREADABLE, subject=obj.name, grid=volume.name, error=error)
     if not len(volume.grids):
@@ -127,26 +130,26 @@ def _volume(obj, depsgraph) -> tuple[bpy.types.Volume, bpy.types.GeometrySet] | 
     return volume, geometry
 
 
-def _choose_grid(obj, volume: bpy.types.Volume, name: str, findings: list[Finding]):
-    """Return the grid of that name, or if the name is empty “density”, else the first scalar
-    grid.
+def _choose_grid(obj, volume: bpy.types.Volume, name: str, findings: list[Finding]) -> str:
+    """Return the name of the scalar grid to read: `name`, or if it is empty “density”, else the
+    first one.
     """
-    grids = {grid.name: grid for grid in volume.grids}
-    if len(grids) < len(volume.grids):
+    types = {grid.name: grid.data_type for grid in volume.grids}
+    if len(types) < len(volume.grids):
         findings.append(finding(GRID_NAMES_REPEATED))
-    if name and name not in grids:
-        raise ReadError(GRID_MISSING, subject=obj.name, grid=name, grids=list(grids))
-    scalars = {grid_name: grid for grid_name, grid in grids.items() if grid.data_type in SCALARS}
-    if name and name not in scalars:
-        raise ReadError(GRID_UNSUPPORTED, fault=NO_SCALARS, subject=obj.name, grid=name)
+    scalars = [grid for grid, data_type in types.items() if data_type in SCALARS]
     if name:
-        return scalars[name]
+        if name not in types:
+            raise ReadError(GRID_MISSING, subject=obj.name, grid=name, grids=list(types))
+        if name not in scalars:
+            raise ReadError(GRID_UNSUPPORTED, fault=NO_SCALARS, subject=obj.name, grid=name)
+        return name
     if not scalars:
-        raise ReadError(NO_SCALAR_GRID, subject=obj.name, grids=list(grids))
-    chosen = scalars.get(PREFERRED) or next(iter(scalars.values()))
-    if len(grids) > 1:
-        left_out = [other for other in grids if other != chosen.name]
-        findings.append(finding(OTHERS_LEFT_OUT, kind="grid", name=chosen.name, others=left_out))
+        raise ReadError(NO_SCALAR_GRID, subject=obj.name, grids=list(types))
+    chosen = PREFERRED if PREFERRED in scalars else scalars[0]
+    left_out = [other for other in types if other != chosen]
+    if left_out:
+        findings.append(finding(OTHERS_LEFT_OUT, kind="grid", name=chosen, others=left_out))
     return chosen
 
 

@@ -48,13 +48,11 @@ NAMES = {
 
 def colliders_by_body(objects: Iterable[Object]) -> dict[Object, list[Object]]:
     """Return the colliders of each body that has any, by name."""
-    found: dict[Object, list[Object]] = {}
-    for obj in sorted(
-        (obj for obj in objects if COLLIDER in obj and obj.parent is not None),
-        key=lambda obj: obj.name,
-    ):
-        found.setdefault(obj.parent, []).append(obj)
-    return found
+    by_body: dict[Object, list[Object]] = {}
+    for obj in sorted(objects, key=lambda obj: obj.name):
+        if COLLIDER in obj and obj.parent is not None:
+            by_body.setdefault(obj.parent, []).append(obj)
+    return by_body
 
 
 def stretch_of(obj: Object, rotation: Array) -> Array:
@@ -113,17 +111,17 @@ def place_colliders(
     them.
     """
     collection = made_collection(context, COLLECTION, True, "Colliders")
-    kept = list(old[: len(shapes)])
-    for collider in kept:
+    colliders = list(old[: len(shapes)])
+    for collider in colliders:
         collider.name = "Collider"  # no name stands in the way of another
     replaced = {collider.data for collider in old}
     bpy.data.batch_remove(old[len(shapes) :])
     undo_scale = Matrix(np.linalg.inv(stretch).tolist()).to_4x4()
     for index, (shape, mesh) in enumerate(zip(shapes, meshes)):
-        if index == len(kept):
-            kept.append(bpy.data.objects.new("Collider", mesh))
-            collection.objects.link(kept[index])
-        collider = kept[index]
+        if index == len(colliders):
+            colliders.append(bpy.data.objects.new("Collider", mesh))
+            collection.objects.link(colliders[index])
+        collider = colliders[index]
         collider.data = mesh
         collider.display_type = "WIRE"
         collider.hide_render = True
@@ -143,13 +141,13 @@ def place_colliders(
         }
         collider.body_moments.mass_from = "MASS"
         collider.body_moments.mass = shape.mass
-    for number, (collider, shape) in enumerate(zip(kept, shapes), 1):
+    for number, (collider, shape) in enumerate(zip(colliders, shapes), 1):
         names = {"name": obj.name, "number": number, "prefix": PREFIXES.get(shape.kind, "UCX")}
         collider.name = collider.data.name = NAMES[engine].format(**names)
     bpy.data.batch_remove([mesh for mesh in replaced if not mesh.users])
     if obj.type == "CURVE":
-        _undo_path(context, obj, kept)
-    return kept
+        _undo_path(context, obj, colliders)
+    return colliders
 
 
 def _undo_path(context: Context, curve: Object, colliders: Sequence[Object]) -> None:
@@ -162,10 +160,12 @@ def _undo_path(context: Context, curve: Object, colliders: Sequence[Object]) -> 
     wanted = []
     for collider in colliders:
         inverse = float64_matrix(collider.matrix_parent_inverse)
-        own = inverse @ float64_matrix(collider.matrix_basis)
-        laid = float64_matrix(collider.matrix_world) @ np.linalg.inv(own)
-        collider.matrix_parent_inverse = Matrix(np.linalg.solve(laid, place @ inverse).tolist())
-        wanted.append(place @ own)
+        in_curve = inverse @ float64_matrix(collider.matrix_basis)
+        # the curve's own place times the place along its path
+        path_place = float64_matrix(collider.matrix_world) @ np.linalg.inv(in_curve)
+        undone = np.linalg.solve(path_place, place @ inverse)
+        collider.matrix_parent_inverse = Matrix(undone.tolist())
+        wanted.append(place @ in_curve)
     context.view_layer.update()
     off = np.array([float64_matrix(collider.matrix_world) for collider in colliders]) - wanted
     if not np.abs(off).max(initial=0.0) <= PLACE_RTOL * np.abs(wanted).max(initial=1.0):
@@ -186,13 +186,13 @@ def apply_for_bullet(collider: Object) -> None:
     Bullet knows place and rotation of a child in its body, but no scale of the child, and applies
     the body's scale to its mesh.
     """
-    own = Matrix(_in_body(collider).tolist())
-    linear = own.to_3x3()
-    turn = own.to_quaternion().to_matrix()
+    in_body = Matrix(_in_body(collider).tolist())
+    linear = in_body.to_3x3()
+    rotation = in_body.to_quaternion().to_matrix()
     is_scaled = (
         max(abs(size - 1.0) for size in collider.parent.matrix_world.to_scale()) > PLACE_RTOL
     )
-    off = max(abs((linear - turn)[i][j]) for i in range(3) for j in range(3))
+    off = max(abs((linear - rotation)[i][j]) for i in range(3) for j in range(3))
     if off <= PLACE_RTOL and not is_scaled:
         return
     if collider.data.users > 1:
@@ -201,7 +201,7 @@ def apply_for_bullet(collider: Object) -> None:
     if linear.determinant() < 0.0:
         collider.data.flip_normals()
     collider.matrix_parent_inverse = Matrix()
-    collider.matrix_basis = Matrix.Translation(own.translation)
+    collider.matrix_basis = Matrix.Translation(in_body.translation)
     collider[COLLIDER] = {"kind": HULL, "size": [], "mass": collider[COLLIDER]["mass"]}
 
 
@@ -218,7 +218,7 @@ def remove_colliders(colliders: Sequence[Object]) -> None:
 
 def read_colliders(colliders: Iterable[Object], rotation: Array, unit: float) -> list[Shape]:
     """Return colliders as shapes in the frame of their body, in m; `rotation` is that of the
-    frame.
+    frame. Primitives that a map skews become the nearest ones.
     """
     shapes = []
     for collider in colliders:
@@ -233,19 +233,13 @@ def read_colliders(colliders: Iterable[Object], rotation: Array, unit: float) ->
             surface = mesh_surface(collider.data, edges=False).transform(to_frame, place)
             shapes.append(Shape(kind, surface=surface, mass=mass))
             continue
-        turn = polar_rotation(to_frame[None])[0][0]
+        rotation_or_mirror = polar_rotation(to_frame[None])[0][0]
+        pose = Pose(place, rotation_or_mirror * np.sign(np.linalg.det(rotation_or_mirror)))
         scale = np.linalg.norm(to_frame, axis=0) / unit
         if len(size) < 3:  # radius across, and length along z
             scale = np.array([(scale[0] * scale[1]) ** 0.5, scale[2]])[: len(size)]
-        pose = Pose(place, turn * np.sign(np.linalg.det(turn)))
-        shapes.append(
-            Shape(
-                kind,
-                tuple((size * np.where(np.abs(scale - 1.0) < 1e-6, 1.0, scale)).tolist()),
-                pose,
-                mass=mass,
-            )
-        )
+        scale = np.where(np.abs(scale - 1.0) < 1e-6, 1.0, scale)  # rounding is no scale
+        shapes.append(Shape(kind, tuple((size * scale).tolist()), pose, mass=mass))
     return shapes
 
 

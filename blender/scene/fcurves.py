@@ -107,13 +107,13 @@ def sharing(obj: Object) -> list[str]:
     if animation is None or animation.action is None or animation.action.library is not None:
         return []
     # ActionSlot.users() can crash Blender 5.2.
-    animated = animation.action, animation.action_slot
+    action_and_slot = animation.action, animation.action_slot
     return sorted(
         user.name
         for user in bpy.data.user_map(subset=[animation.action])[animation.action]
         if user != obj
         and (other := getattr(user, "animation_data", None)) is not None
-        and any((keyed.action, keyed.action_slot) == animated for keyed in _keyed(other))
+        and any((keyed.action, keyed.action_slot) == action_and_slot for keyed in _keyed(other))
     )
 
 
@@ -182,17 +182,18 @@ def write(curve: FCurve, keys: NDArray) -> None:
     points.add(len(keys))
     keys = keys.copy()
     tolerance = MOVED * max(float(np.ptp(keys["co"][:, 1])), np.finfo(np.float32).tiny)
-    curved = np.concatenate([[False], keys["interpolation"] == BEZIER])
+    # A handle bends the curve if the segment on its side is a Bézier one.
+    is_bezier = np.concatenate([[False], keys["interpolation"] == BEZIER])
     while True:
         _put(points, keys, FIELDS)
         curve.update()
-        freed = False
-        for name, bends in zip(HANDLES, (curved[:-1], curved[1:])):
+        has_freed = False
+        for name, bends in zip(HANDLES, (is_bezier[:-1], is_bezier[1:])):
             moved = np.abs(read(curve)[name] - keys[name])[:, 1] > tolerance
             rows = moved & bends & (keys[name + "_type"] != FREE)
             keys[name + "_type"][rows] = FREE
-            freed |= bool(rows.any())
-        if not freed:
+            has_freed |= bool(rows.any())
+        if not has_freed:
             _put(points, keys, HANDLES)
             curve.id_data.update_tag()
             return
@@ -209,18 +210,18 @@ def backup(obj: Object) -> Callable[[], None]:
     if animation is None:
         return obj.animation_data_clear
     action, slot = animation.action, animation.action_slot
-    kept = {(one.data_path, one.array_index): read(one) for one in _curves_of(animation)}
-    tracks = len(animation.nla_tracks)
+    saved = {(curve.data_path, curve.array_index): read(curve) for curve in _curves_of(animation)}
+    track_count = len(animation.nla_tracks)
 
     def restore() -> None:
-        for track in reversed(animation.nla_tracks[tracks:]):
+        for track in reversed(animation.nla_tracks[track_count:]):
             animation.nla_tracks.remove(track)
         animation.action = action
         if slot is not None:
             animation.action_slot = slot
             curves = slot_curves(action, slot)
             for curve in [*curves]:
-                keys = kept.get((curve.data_path, curve.array_index))
+                keys = saved.get((curve.data_path, curve.array_index))
                 if keys is None:
                     curves.remove(curve)
                 elif len(keys):
@@ -255,7 +256,7 @@ def replace_section(curve: FCurve, times: NDArray, values: NDArray) -> None:
     new = section_keys(times, values)
     before = keys[keys["co"][:, 0] <= times[0] + SAME_TIME]
     after = keys[keys["co"][:, 0] >= times[-1] - SAME_TIME]
-    start, end = before[-1:], after[:1]
+    start, end = before[-1:], after[:1]  # views: the ends of the section
     _hold_slopes(curve, keys, start, end)
     slope = np.diff(old["co"][-2:], axis=0)
     is_line = curve.extrapolation == "LINEAR" and keys["interpolation"][-1] == LINEAR
@@ -264,32 +265,45 @@ def replace_section(curve: FCurve, times: NDArray, values: NDArray) -> None:
         after["handle_right"][-1] = after["co"][-1] + slope[0]
         after["handle_right_type"][-1] = FREE
         after["interpolation"][-1] = BEZIER
-    # Where the section has another turn of the same rotation, a key beside the end takes it up.
-    jumps = [np.zeros(0, KEY)] * 2
-    for row, (old, inward) in enumerate(((start, JUMP), (end, -JUMP))):
-        if abs(float(old["co"][0, 1] - new["co"][-row, 1])) > SAME_VALUE:
-            jumps[row] = new[[-row]]
-            for name in ("co", *HANDLES):
-                jumps[row][name][:, 0] += inward
-    start["interpolation"] = CONSTANT if len(jumps[0]) else BEZIER
+    start_jump = _jump_keys(start, new[:1], JUMP)
+    end_jump = _jump_keys(end, new[-1:], -JUMP)
+    start["interpolation"] = CONSTANT if len(start_jump) else BEZIER
     start["handle_right"] = new["handle_right"][0]
     start["handle_left_type"] = start["handle_right_type"] = FREE
     end["handle_left"] = new["handle_left"][-1]
     end["handle_left_type"] = end["handle_right_type"] = FREE
-    jumps[1]["interpolation"] = CONSTANT
-    write(curve, np.concatenate([before, jumps[0], new[1:-1], jumps[1], after]))
+    end_jump["interpolation"] = CONSTANT
+    write(curve, np.concatenate([before, start_jump, new[1:-1], end_jump, after]))
+
+
+def _jump_keys(outside: NDArray, inside: NDArray, inward: float) -> NDArray:
+    """Return the key of a section's end, moved inward, if it differs from the curve's own key there
+    as another turn of the same rotation; otherwise no key.
+    """
+    if abs(float(outside["co"][0, 1] - inside["co"][0, 1])) <= SAME_VALUE:
+        return np.zeros(0, KEY)
+    moved = inside.copy()
+    for name in ("co", *HANDLES):
+        moved[name][:, 0] += inward
+    return moved
 
 
 def _hold_slopes(curve: FCurve, keys: NDArray, start: NDArray, end: NDArray) -> None:
     """Keep the extrapolation of a curve whose first or last key ends a section, by its handle."""
-    for key, row, neighbor, side in ((start, 0, 1, HANDLES[0]), (end, -1, -2, HANDLES[1])):
-        kind = key["interpolation"][0]
-        if curve.extrapolation == "LINEAR" and key["co"][0, 0] == keys["co"][row, 0]:
-            if kind == LINEAR and len(keys) > 1:
-                key[side] = 2.0 * key["co"][0] - keys["co"][neighbor]
-            elif kind <= LINEAR:
-                key[side] = key["co"][0] + (-1.0 - 2.0 * row, 0.0)
-            key["interpolation"] = BEZIER
+    if curve.extrapolation != "LINEAR":
+        return
+    for key, row, neighbor, handle, outward in (
+        (start, 0, 1, "handle_left", -1.0),
+        (end, -1, -2, "handle_right", 1.0),
+    ):
+        if key["co"][0, 0] != keys["co"][row, 0]:
+            continue
+        interpolation = key["interpolation"][0]
+        if interpolation == LINEAR and len(keys) > 1:
+            key[handle] = 2.0 * key["co"][0] - keys["co"][neighbor]
+        elif interpolation <= LINEAR:
+            key[handle] = key["co"][0] + (outward, 0.0)
+        key["interpolation"] = BEZIER
 
 
 def cut(curve: FCurve, keys: NDArray, time: float) -> NDArray:
@@ -314,8 +328,8 @@ def cut(curve: FCurve, keys: NDArray, time: float) -> NDArray:
             keys["interpolation"][-1] = new["interpolation"][0]
     else:
         previous, following = keys[row - 1 : row], keys[row : row + 1]
-        kind = previous["interpolation"][0]
-        if kind > BEZIER:
+        interpolation = previous["interpolation"][0]
+        if interpolation > BEZIER:
             raise EditRefusedError(
                 INTERPOLATION_UNCUT,
                 curve=curve.data_path,
@@ -323,8 +337,8 @@ def cut(curve: FCurve, keys: NDArray, time: float) -> NDArray:
                 start=float(times[row - 1]),
                 end=float(times[row]),
             )
-        new["interpolation"] = kind
-        if kind == BEZIER:
+        new["interpolation"] = interpolation
+        if interpolation == BEZIER:
             _split(previous, new, following, time)
     return np.concatenate([keys[:row], new, keys[row:]])
 
@@ -339,9 +353,9 @@ def _split(previous: NDArray, new: NDArray, following: NDArray, time: float) -> 
     span = points[3, 0] - points[0, 0]
     shares = np.minimum(1.0, span / np.maximum(lengths, SAME_TIME))  # Blender shortens long handles
     points[[1, 2]] = points[[0, 3]] + shares[:, None] * (points[[1, 2]] - points[[0, 3]])
-    levels = [points]
+    levels = [points]  # of 4, 3, 2 and 1 points; the last one is on the curve
     low, high = 0.0, 1.0
-    for _ in range(60):
+    for _ in range(60):  # bisection by the time of this point
         share = (low + high) / 2.0
         levels = [points]
         while len(levels[-1]) > 1:
@@ -367,16 +381,19 @@ def stretch(curve: FCurve, first: float, last: float, shift: float) -> None:
             keys = cut(curve, keys, time)
     factor = (last + shift - first) / (last - first)
     times = keys["co"][:, 0].astype(np.float64)
-    inside = (times >= first - SAME_TIME) & (times < last - SAME_TIME)
-    for name, rows in (
-        ("co", inside),
-        ("handle_right", inside),
-        ("handle_left", (times > first + SAME_TIME) & (times <= last + SAME_TIME)),
+    # The segment after a key is stretched with the key, the one before it with the key's left
+    # handle.
+    starts_inside = (times >= first - SAME_TIME) & (times < last - SAME_TIME)
+    ends_inside = (times > first + SAME_TIME) & (times <= last + SAME_TIME)
+    for name, is_stretched in (
+        ("co", starts_inside),
+        ("handle_right", starts_inside),
+        ("handle_left", ends_inside),
     ):
         old = keys[name][:, 0].astype(np.float64)
-        later = ~rows & (times >= last - SAME_TIME)
+        is_shifted = ~is_stretched & (times >= last - SAME_TIME)
         keys[name][:, 0] = np.where(
-            rows, first + factor * (old - first), np.where(later, old + shift, old)
+            is_stretched, first + factor * (old - first), np.where(is_shifted, old + shift, old)
         )
-    keys["period"][inside] *= factor
+    keys["period"][starts_inside] *= factor
     write(curve, keys)

@@ -74,11 +74,13 @@ def surface_data(
     origin = np.zeros(3, np.float32)
     if distance > MAX_DISTANCE * size > 0.0:
         origin = ((low + high) / 2.0).astype(np.float32)
-    stored = [_stored(patch, factor, origin.astype(np.float64)) for patch in patches]
     data = _grids(name, [patch.points.shape[:2] for patch in patches])
-    for spline, patch, (values, _) in zip(data.splines, patches, stored):
+    largest_move = 0.0
+    for spline, patch in zip(data.splines, patches):
+        values, move = _stored(patch, factor, origin.astype(np.float64))
         _fill(spline, patch, values)
-    return data, max(moved for _, moved in stored) / (size or 1.0), origin
+        largest_move = max(largest_move, move)
+    return data, largest_move / (size or 1.0), origin
 
 
 def _stored(patch: Patch, factor: float, origin: NDArray) -> tuple[NDArray[np.float32], float]:
@@ -138,12 +140,15 @@ def _grids(name: str, shapes: Sequence[tuple[int, int]]) -> Curve:
 def _active(scene: Scene, obj: Object, selected: Sequence[Object]) -> Iterator[None]:
     layer = scene.view_layers[0]
     layer.objects.active = obj
-    for one in selected:
-        one.select_set(True, view_layer=layer)
-    names = ("object", "active_object", "edit_object")
-    lists = ("selected_objects", "selected_editable_objects")
+    for each in selected:
+        each.select_set(True, view_layer=layer)
     with bpy.context.temp_override(
-        scene=scene, **dict.fromkeys(names, obj), **dict.fromkeys(lists, list(selected))
+        scene=scene,
+        object=obj,
+        active_object=obj,
+        edit_object=obj,
+        selected_objects=list(selected),
+        selected_editable_objects=list(selected),
     ):
         yield
 
@@ -178,15 +183,13 @@ def import_bodies(
     """Add an object of each body, of patches alone, to a collection; return the pairs of
     `surface_object`.
     """
-    made = [
-        surface_object(
-            body.name, [face for face in body.patches if isinstance(face, Patch)], factor
-        )
-        for body in bodies
-    ]
-    for obj, _ in made:
+    pairs = []
+    for body in bodies:
+        patches = [face for face in body.patches if isinstance(face, Patch)]
+        obj, moved = surface_object(body.name, patches, factor)
         collection.objects.link(obj)
-    return made
+        pairs.append((obj, moved))
+    return pairs
 
 
 def show_bodies(
@@ -220,22 +223,24 @@ def _shown(body: SurfaceBody) -> Iterator[Patch]:
     """Yield patches that Blender can hold and that look like a body: its own, or bands along
     quadrilaterals.
     """
-    rows = []
+    quads_of_faces = []
     for face in body.patches:
         if not isinstance(face, Patch):
-            rows.append(face.quads(SHOWN_SAMPLES))
+            quads_of_faces.append(face.quads(SHOWN_SAMPLES))
         elif not body.source and is_storable(face):
             yield face
         else:
             grid = face.samples(SHOWN_SAMPLES)
             corners = grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]
-            rows.append(np.stack(corners, axis=2).reshape(-1, 4, 3))
-    if not rows:
+            quads_of_faces.append(np.stack(corners, axis=2).reshape(-1, 4, 3))
+    if not quads_of_faces:
         return
-    quads = np.concatenate(rows)
-    # Blender's effort grows with the square of a band's length, so all have the same short length.
-    spare = np.repeat(quads[-1:, :1], 4, axis=1)
-    quads = np.concatenate([quads, np.repeat(spare, -len(quads) % QUADS_PER_BAND, axis=0)])
+    quads = np.concatenate(quads_of_faces)
+    # Blender's effort grows with the square of a band's length, so all have the same short length;
+    # quadrilaterals without area fill up the last one.
+    point_quad = np.repeat(quads[-1:, :1], 4, axis=1)
+    filling = np.repeat(point_quad, -len(quads) % QUADS_PER_BAND, axis=0)
+    quads = np.concatenate([quads, filling])
     yield from map(_band, quads.reshape(-1, QUADS_PER_BAND, 4, 3))
 
 
@@ -250,8 +255,10 @@ def _band(quads: Array) -> Patch:
 
 def _material(color: Sequence[float]) -> bpy.types.Material:
     """Return the material of a color in sRGB, by its name if it was made before."""
-    linear = [one / 12.92 if one <= 0.04045 else ((one + 0.055) / 1.055) ** 2.4 for one in color]
-    name = "#{:02x}{:02x}{:02x}".format(*(round(255.0 * one) for one in color))
+    linear = [
+        value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4 for value in color
+    ]
+    name = "#{:02x}{:02x}{:02x}".format(*(round(255.0 * value) for value in color))
     material = bpy.data.materials.get(name)
     if material is None:
         material = bpy.data.materials.new(name)
@@ -287,13 +294,13 @@ def import_surfaces(path: Path, limits: Limits, unit: float, context: Context) -
     if file.bodies[0].source:
         objects = show_bodies(file.bodies, context.collection, factor)
         return ImportedSurfaces(objects, len(objects), 0, [*file.refused, *file.notes])
-    made = import_bodies(file.bodies, context.collection, factor)
+    pairs = import_bodies(file.bodies, context.collection, factor)
     patches = [face for body in file.bodies for face in body.patches if isinstance(face, Patch)]
     order = max(space.order for patch in patches for space in patch.spaces)
-    moved = max(share for _, share in made)
+    moved = max(share for _, share in pairs)
     rounded = [finding(SURFACES_ROUNDED, share=moved)] if moved else []
     return ImportedSurfaces(
-        [obj for obj, _ in made], len(patches), order, [*rounded, *file.refused, *file.notes]
+        [obj for obj, _ in pairs], len(patches), order, [*rounded, *file.refused, *file.notes]
     )
 
 
@@ -351,15 +358,20 @@ def write_volume(module: ModuleType, placed: PlacedScan, unit: float) -> float:
     matrix = placed.matrix.copy()
     matrix[:3] /= unit
     least = np.inf
-    exact = True
+    fits_float32 = True
     for _, slab in _slabs(scan):
         if not np.isfinite(slab.min()) or not np.isfinite(slab.max()):
             raise FileError(DENSITY_NON_FINITE)
         least = min(least, float(slab.min()))
-        exact = exact and np.array_equal(slab.astype(np.float32), slab)
-    kind, grid_of = (np.float32, module.FloatGrid) if exact else (np.float64, module.DoubleGrid)
-    grid = grid_of(0.0 if least >= 0.0 else float(np.nextafter(kind(least), kind(-np.inf))))
-    grid.name, grid.gridClass = GRID_NAME, "fog volume"
+        fits_float32 = fits_float32 and np.array_equal(slab.astype(np.float32), slab)
+    dtype, grid_type = (
+        (np.float32, module.FloatGrid) if fits_float32 else (np.float64, module.DoubleGrid)
+    )
+    # 0, or just below the least sample if that is negative
+    background = 0.0 if least >= 0.0 else float(np.nextafter(dtype(least), dtype(-np.inf)))
+    grid = grid_type(background)
+    grid.name = GRID_NAME
+    grid.gridClass = "fog volume"
     grid.transform = module.createLinearTransform(matrix.T.tolist())
     for start, slab in _slabs(scan):
         grid.copyFromArray(np.ascontiguousarray(slab), ijk=(start, 0, 0))

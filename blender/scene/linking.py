@@ -120,8 +120,10 @@ def link_copies(
     for obj in linked:
         link = links[obj]
         obj.data = link.shared.mesh
-        if keep_materials:
-            _set_materials(obj, link.materials)
+        for slot, material in zip(obj.material_slots, link.materials):
+            if keep_materials and slot.material != material:
+                slot.link = "OBJECT"
+                slot.material = material
         matrix = world(obj)
         off = link.shared.elements.points @ matrix[:3, :3].T + matrix[:3, 3] - link.places
         farthest = max(farthest, float(np.linalg.norm(off, axis=1).max()))
@@ -130,14 +132,6 @@ def link_copies(
     context.view_layer.update()
     saved = sum(data.bytes for data in unused)
     return Linked(linked, left_out + [*refused.items()], farthest, saved)
-
-
-def _set_materials(obj: Object, materials: list[Material | None]) -> None:
-    """Set the materials of an object's slots, on the object itself if its mesh has others."""
-    for slot, material in zip(obj.material_slots, materials):
-        if slot.material != material:
-            slot.link = "OBJECT"
-            slot.material = material
 
 
 def _is_mere_exchange(correspondence: Correspondence) -> bool:

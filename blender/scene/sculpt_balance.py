@@ -19,6 +19,7 @@ from bpy.types import Context, Object
 
 from ...core.bodies import Part
 from ...core.measurement import Measurement
+from ...core.mesh import Surface
 from ...core.moments import Measure
 from ...core.numerics import Array, NDArray
 from ...core.statics import BALANCE_NO_EFFECT, BALANCE_SHORT, balance
@@ -132,9 +133,8 @@ class _StoredMesh(_Vertices):
         self.mesh.attributes["position"].data.foreach_set(
             "vector", np.ascontiguousarray(points).ravel()
         )
-        self.mesh.vertices[0].co = self.mesh.vertices[
-            0
-        ].co  # makes Blender update normals and bounding box
+        first = self.mesh.vertices[0]
+        first.co = first.co  # makes Blender update normals and bounding box
 
 
 @tracking_paused()  # a trial that is undone is not an edit
@@ -145,92 +145,136 @@ def balance_mesh(
     them in place.
     """
     mesh = _EditedMesh(obj) if obj.mode == "EDIT" else _StoredMesh(obj, group)
-    up = -down(context.scene)
-    unit = meters_per_unit(context.scene)
-    across = np.eye(3) if align == "ALL" else np.linalg.svd(up[None])[2][1:]
-    target = np.array(point, np.float64) * unit
     _require_balanceable(obj)
-    part = _read_surface(context, obj, mesh)
-    before = _measure(context, obj)
-    linear = part.matrices[0, :3, :3] * unit
-    offset = part.matrices[0, :3, 3] * unit
-    start = part.surface.transform(linear, offset)
-    size = float(np.linalg.norm(np.ptp(start.points, axis=0)))
-    tolerance = REACHED_RTOL * size + 4.0 * FLOAT32 * np.abs(start.points).max()
-    limit = longest * unit or size
-    shell = before.kind == "shell"
-    movable = mesh.movable
-    weights = mesh.weights
+    balancing = _Balancing(context, obj, mesh, np.array(point, np.float64), align, longest)
     try:
-        surface = start
-        moves = np.zeros_like(start.points)
-        center = before.mass_properties.center
-        is_union = before.method == Method(Procedure.UNION)
-        aim = target.copy()
-        effect = np.eye(3)  # of a change of the aim on the center
-        step = np.zeros(3)
-        for attempt in range(MAX_UNION_ATTEMPTS if is_union else MAX_ATTEMPTS):
-            if mesh.leans:
-                moves += _lean(
-                    start.points,
-                    before.mass_properties.center,
-                    across.T @ (across @ (target - center)),
-                    up,
-                )
-                far = float(np.linalg.norm(moves, axis=1).max())
-                if far > limit:
-                    short = float(np.linalg.norm(across @ (target - center))) * (1.0 - limit / far)
-                    raise MeasureError(BALANCE_SHORT, distance=short, limit=limit)
-            else:
-                found = balance(
-                    surface,
-                    movable,
-                    aim,
-                    across=across,
-                    weights=weights,
-                    limit=limit,
-                    shell=shell,
-                )
-                moves = found.points - start.points
-            points = mesh.start.copy()  # vertices that are not movable stay to the bit
-            points[movable] = (
-                mesh.start[movable].astype(np.float64) + np.linalg.solve(linear, moves[movable].T).T
-            )
-            mesh.set_points(points)
-            after = _measure(context, obj)
-            last = center
-            center = after.mass_properties.center
-            if np.abs(across @ (target - center)).max() <= tolerance:
-                break
-            if is_union and not mesh.leans:  # Broyden's method
-                if attempt:
-                    effect += np.outer(center - last - effect @ step, step) / (step @ step)
-                step = np.linalg.solve(effect, across.T @ (across @ (target - center)))
-                aim = aim + step
-            else:
-                surface = replace(
-                    _read_surface(context, obj, None).surface.transform(linear, offset),
-                    points=start.points,
-                )
-        else:
-            raise EditRefusedError(
-                BALANCE_IMPOSSIBLE,
-                cause="the triangulation changes with every move. Use Face > Triangulate Faces",
-            )
+        return balancing.run()
     except BaseException:
         if mesh.is_changed:
             mesh.set_points(mesh.start)
             context.view_layer.update()
         raise
-    obj.data.update_tag()  # for other objects with the mesh it is an edit
-    moved = (points[movable].astype(np.float64) - mesh.start[movable]) @ linear.T
-    number = int(np.count_nonzero(moved.any(axis=1)))
-    largest = float(np.linalg.norm(moved, axis=1).max())
-    centers = [
-        np.where(np.abs(center) < ROUNDING * size, 0.0, center).tolist()
-        for center in (before.mass_properties.center, after.mass_properties.center)
-    ]
-    return Balanced(number, largest, centers[0], centers[1])
+
+
+class _Balancing:
+    """The attempts to move one object's center of mass over a target; lengths in m, world axes.
+
+    across: (k, 3) directions along which the center has to meet the target. linear, offset: the map
+    from the mesh's coordinates. start: the surface before the change. limit: of a vertex' move.
+    """
+
+    def __init__(
+        self,
+        context: Context,
+        obj: Object,
+        mesh: _EditedMesh | _StoredMesh,
+        point: Array,
+        align: str,
+        longest: float,
+    ):
+        self.context = context
+        self.obj = obj
+        self.mesh = mesh
+        unit = meters_per_unit(context.scene)
+        self.up = -down(context.scene)
+        self.across = np.eye(3) if align == "ALL" else np.linalg.svd(self.up[None])[2][1:]
+        self.target = point * unit
+        part = _read_surface(context, obj, mesh)
+        self.before = _measure(context, obj)
+        self.linear = part.matrices[0, :3, :3] * unit
+        self.offset = part.matrices[0, :3, 3] * unit
+        self.start = part.surface.transform(self.linear, self.offset)
+        self.size = float(np.linalg.norm(np.ptp(self.start.points, axis=0)))
+        self.tolerance = REACHED_RTOL * self.size + 4.0 * FLOAT32 * np.abs(self.start.points).max()
+        self.limit = longest * unit or self.size
+
+    def run(self) -> Balanced:
+        """Change the mesh until its center is over the target, or raise MeasureError."""
+        mesh = self.mesh
+        is_union = self.before.method == Method(Procedure.UNION)
+        surface = self.start
+        moves = np.zeros_like(self.start.points)
+        center = self.before.mass_properties.center
+        aim = self.target.copy()
+        effect = np.eye(3)  # of a change of the aim on the center
+        step = np.zeros(3)
+        for attempt in range(MAX_UNION_ATTEMPTS if is_union else MAX_ATTEMPTS):
+            if mesh.leans:
+                shift = self.across.T @ (self.across @ (self.target - center))
+                first_center = self.before.mass_properties.center
+                moves += _lean(self.start.points, first_center, shift, self.up)
+                self._require_short(moves, center)
+            else:
+                moves = self._solved_moves(surface, aim)
+            points = self._set_moves(moves)
+            previous_center = center
+            center = _measure(self.context, self.obj).mass_properties.center
+            missing = self.across @ (self.target - center)
+            if np.abs(missing).max() <= self.tolerance:
+                self.obj.data.update_tag()  # for other objects with the mesh it is an edit
+                return self._balanced(points, center)
+            if is_union and not mesh.leans:  # Broyden's method
+                if attempt:
+                    error = center - previous_center - effect @ step
+                    effect += np.outer(error, step) / (step @ step)
+                step = np.linalg.solve(effect, self.across.T @ missing)
+                aim = aim + step
+            else:  # the faces may be cut into other triangles now
+                part = _read_surface(self.context, self.obj, None)
+                surface = replace(
+                    part.surface.transform(self.linear, self.offset), points=self.start.points
+                )
+        raise EditRefusedError(
+            BALANCE_IMPOSSIBLE,
+            cause="the triangulation changes with every move. Use Face > Triangulate Faces",
+        )
+
+    def _require_short(self, moves: NDArray, center: Array) -> None:
+        """Raise MeasureError if a vertex would move by more than the limit."""
+        longest = float(np.linalg.norm(moves, axis=1).max())
+        if longest > self.limit:
+            distance = float(np.linalg.norm(self.across @ (self.target - center)))
+            short = distance * (1.0 - self.limit / longest)
+            raise MeasureError(BALANCE_SHORT, distance=short, limit=self.limit)
+
+    def _solved_moves(self, surface: Surface, aim: Array) -> Array:
+        """Return the smallest (n, 3) moves that bring the center of a surface over the aim."""
+        balanced = balance(
+            surface,
+            self.mesh.movable,
+            aim,
+            across=self.across,
+            weights=self.mesh.weights,
+            limit=self.limit,
+            shell=self.before.kind == "shell",
+        )
+        return balanced.points - self.start.points
+
+    def _set_moves(self, moves: NDArray) -> NDArray[np.float32]:
+        """Move the vertices of the mesh and return their (n, 3) points."""
+        movable = self.mesh.movable
+        points = self.mesh.start.copy()  # vertices that are not movable stay to the bit
+        points[movable] = (
+            self.mesh.start[movable].astype(np.float64)
+            + np.linalg.solve(self.linear, moves[movable].T).T
+        )
+        self.mesh.set_points(points)
+        return points
+
+    def _balanced(self, points: NDArray[np.float32], center: Array) -> Balanced:
+        """Return the numbers of a change that reached the target."""
+        movable = self.mesh.movable
+        moved = (points[movable].astype(np.float64) - self.mesh.start[movable]) @ self.linear.T
+        start, end = (
+            np.where(np.abs(place) < ROUNDING * self.size, 0.0, place).tolist()
+            for place in (self.before.mass_properties.center, center)
+        )
+        return Balanced(
+            int(np.count_nonzero(moved.any(axis=1))),
+            float(np.linalg.norm(moved, axis=1).max()),
+            start,
+            end,
+        )
 
 
 def _lean(points: NDArray, center: NDArray, shift: NDArray, up: NDArray) -> Array:
@@ -239,8 +283,9 @@ def _lean(points: NDArray, center: NDArray, shift: NDArray, up: NDArray) -> Arra
 
     Raise MeasureError if the center is, or would come to be, no higher than the lowest point.
     """
-    heights = points @ up - (points @ up).min()
-    rise = center @ up - (points @ up).min()
+    lowest = (points @ up).min()
+    heights = points @ up - lowest
+    rise = center @ up - lowest
     if min(rise, rise + shift @ up) <= REACHED_RTOL * np.linalg.norm(np.ptp(points, axis=0)):
         raise MeasureError(BALANCE_NO_EFFECT)
     return np.multiply.outer(heights / rise, shift)

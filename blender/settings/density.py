@@ -98,8 +98,8 @@ def unset_density(
 ) -> str | None:
     """Return the density setting that a measurement uses and nobody has set, or None."""
     settings = obj.body_moments
-    used_for_some = any(one.code == OBJECT_DENSITY_USED for one in measurement.findings)
-    if measurement.density_from != DENSITY_FROM_VALUE and not used_for_some:
+    is_used_for_some = any(each.code == OBJECT_DENSITY_USED for each in measurement.findings)
+    if measurement.density_from != DENSITY_FROM_VALUE and not is_used_for_some:
         return None
     if measurement.kind == "wire":
         return None if settings.is_property_set("linear_density") else "linear_density"
@@ -144,11 +144,10 @@ def density_key(obj: bpy.types.Object, used: Iterable[str], scene: bpy.types.Sce
         return ""
     if settings.density_from == "VOLUME":
         source = settings.density_volume
-        place = None if source is None else [tuple(row) for row in source.matrix_world]
-        options = density_engine.grid_options.GridOptions
-        return (
-            "" if source is None else repr((options.from_settings(source.body_moments).key, place))
-        )
+        if source is None:
+            return ""
+        options = density_engine.grid_options.GridOptions.from_settings(source.body_moments)
+        return repr((options.key, [tuple(row) for row in source.matrix_world]))
     if settings.density_from == "POLYNOMIAL":
         return repr((settings.density_frame, settings.density_polynomial.strip()))
     if settings.density_from == "ATTRIBUTE":

@@ -123,23 +123,27 @@ def values_of(measurement: core.measurement.Measurement) -> Iterator[dict[str, A
         "body_principal_moments": body.principal.moments,
         "body_principal_axes": body.principal.quaternion,
     }
+    # lists with one entry for each member of a stack; of one object, single values
     numbers = [
         column.tolist() if hasattr(column, "tolist") else column
         for column in (*columns.values(), *bounds)
     ]
     texts = measurement.method, measurement.findings, measurement.fingerprint
     is_stack = isinstance(measurement.findings, list)
-    known: dict[tuple[str, tuple[int, ...]], dict[str, Any]] = {}
-    for *row, method, found, mark in zip(*numbers, *texts) if is_stack else [(*numbers, *texts)]:
-        key = str(method), tuple(map(id, found))
-        if key not in known:  # most are alike
-            known[key] = {
+    rows = zip(*numbers, *texts) if is_stack else [(*numbers, *texts)]
+    verdicts: dict[tuple[str, tuple[int, ...]], dict[str, Any]] = {}
+    for *row, method, findings, fingerprint in rows:
+        key = str(method), tuple(map(id, findings))
+        if key not in verdicts:  # most members have the same
+            verdicts[key] = {
                 "body_method": key[0],
-                "body_warnings": warning_lines(found),
-                "body_findings": findings_text(found),
+                "body_warnings": warning_lines(findings),
+                "body_findings": findings_text(findings),
             }
-        values = dict(zip(columns, row)) | {"body_error_bound": row[len(columns) :]}
-        values |= known[key] | {"body_fingerprint": mark}
+        values = dict(zip(columns, row))
+        values["body_error_bound"] = row[len(columns) :]
+        values |= verdicts[key]
+        values["body_fingerprint"] = fingerprint
         yield values if is_stack else values | _special_values(measurement)
 
 
@@ -182,10 +186,10 @@ def store_scaled(
     0 for a wire.
     """
     factor = mass / obj["body_mass"]
-    for key in [
-        key for key in DESCRIPTIONS if key.startswith(("body_inertia", "body_principal_moments"))
-    ]:
-        obj[key] = [factor * value for value in obj[key]]
+    for key in DESCRIPTIONS:
+        if key.startswith(("body_inertia", "body_principal_moments")):
+            obj[key] = [factor * value for value in obj[key]]
+    # the bounds of inertia: of rounding, and of float32
     bounds = list(obj["body_error_bound"])
     bounds[3] = factor * bounds[3] + ROUNDING * sum(obj["body_principal_moments"])
     bounds[7] *= factor
@@ -200,9 +204,9 @@ def store_scaled(
 def store_body(obj: Owner, body: PlainBody, fingerprint: str) -> None:
     """Replace the numbers of stored results, in the object frame; method and findings stay."""
     bound = body.error_bound
-    turn = core.numerics.rotations.quaternion([list(axis) for axis in zip(*body.axes)])
+    quaternion = core.numerics.rotations.quaternion([list(axis) for axis in zip(*body.axes)])
     values = {key: getattr(body, field) for key, (field, _) in FIELDS.items()} | {
-        "body_principal_axes": turn.tolist(),
+        "body_principal_axes": quaternion.tolist(),
         "body_error_bound": [
             source[name] for source in (bound, bound["input"]) for name in BOUND_KEYS
         ],
@@ -336,11 +340,12 @@ def is_estimated(obj: bpy.types.Object) -> bool:
     """Return whether the stored bounds are estimates, as for splines and for solids filled with a
     grid.
     """
-    how = method(obj)
-    if how is None:
+    stored_method = method(obj)
+    if stored_method is None:
         return False
-    is_filled = how.source == Source.GRID and obj.type != "VOLUME"
-    return is_filled or how.source == Source.NURBS or how.procedure == Procedure.WIRE
+    is_filled = stored_method.source == Source.GRID and obj.type != "VOLUME"
+    is_smooth = stored_method.source == Source.NURBS or stored_method.procedure == Procedure.WIRE
+    return is_filled or is_smooth
 
 
 def optional(obj: Owner, key: str) -> float | None:
@@ -362,12 +367,13 @@ def stored(obj: Owner) -> PlainBody | None:
     for key, (field, length) in FIELDS.items():
         value = obj.get(key)
         try:
-            row = tuple(map(float, value)) if length else (float(value),)
+            numbers = tuple(map(float, value)) if length else (float(value),)
         except (TypeError, ValueError):  # absent, or overwritten by something else
             return None
-        if len(row) != max(length, 1) or not (key == "body_error_bound" or all(map(isfinite, row))):
+        is_usable = key == "body_error_bound" or all(map(isfinite, numbers))
+        if len(numbers) != max(length, 1) or not is_usable:
             return None
-        values[field] = row if length else row[0]
+        values[field] = numbers if length else numbers[0]
     bounds = values["error_bound"]
     rounding, inputs = (dict(zip(BOUND_KEYS, bounds[i : i + 4])) for i in (0, 4))
     values |= {"axes": rotation_axes(values["axes"]), "error_bound": rounding | {"input": inputs}}

@@ -71,9 +71,7 @@ def remedies_of(code: str, object_type: str) -> tuple[str, ...]:
     """Return the remedies of a finding about an object of this type: keys of REMEDIES, or an
     operator's idname.
     """
-    found = ADVICE.get(code, ())
-    return (
-        found
-        if object_type == "MESH"
-        else tuple(key for key in found if key not in (*EDITS, DEFECTS))
-    )
+    advice = ADVICE.get(code, ())
+    if object_type == "MESH":
+        return advice
+    return tuple(key for key in advice if key not in (*EDITS, DEFECTS))

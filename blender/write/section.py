@@ -35,7 +35,7 @@ LENGTHS = {
     "input": 4,
     "unit": 1,
 }
-SIDE_DESCRIPTIONS = ("what", "named", "findings", "fingerprint")
+TEXTS = ("what", "named", "findings", "fingerprint")
 ABOUT = ("x", "y", "1", "2")
 
 
@@ -52,7 +52,7 @@ class StoredSection(NamedTuple):
 def store(
     obj: bpy.types.Object,
     section: core.flat.Section,
-    what: str,
+    description: str,
     findings: tuple[Finding, ...],
     fingerprint: str,
     unit: float,
@@ -72,7 +72,7 @@ def store(
         "error": [section.rounding_error[name] for name in BOUND_KEYS],
         "input": [section.input_error[name] for name in BOUND_KEYS],
         "unit": [unit],
-        "what": what,
+        "what": description,
         "named": plane.x_axis_name,
         "warnings": warning_lines(findings),
         "findings": findings_text(findings),
@@ -86,26 +86,23 @@ def stored(obj: bpy.types.Object) -> StoredSection | None:
     if not hasattr(group, "get"):
         return None
     try:
-        numbers = tuple(tuple(float(value) for value in group[key]) for key in LENGTHS)
-        words = tuple(
-            str(group.get(key, "") if key == "findings" else group[key])
-            for key in SIDE_DESCRIPTIONS
-        )
+        values = {key: tuple(float(value) for value in group[key]) for key in LENGTHS}
+        texts = {key: str(group.get(key, "") if key == "findings" else group[key]) for key in TEXTS}
     except (KeyError, TypeError, ValueError):
         return None
-    if tuple(map(len, numbers)) != tuple(LENGTHS.values()):
+    if {key: len(numbers) for key, numbers in values.items()} != LENGTHS:
         return None
-    values = dict(zip(LENGTHS, numbers))
     positive = *values["area"], *values["second"][:2], *values["reach"]
     if not all([value > 0.0 for value in positive]):
         return None
-    what, named, findings, fingerprint = words
     axes = values["axes"]
-    (off,) = values["off"]
+    (out_of_plane,) = values["off"]
     (outlines, holes) = values["counts"]
     loaded = core.flat.section_properties  # when there is a section to read
+    # The columns of the axes were stored one after the other.
+    rows = (axes[0::3], axes[1::3], axes[2::3])
     section = loaded.Section(
-        loaded.Plane(values["origin"], (axes[0::3], axes[1::3], axes[2::3]), off, named),
+        loaded.Plane(values["origin"], rows, out_of_plane, texts["named"]),
         values["area"][0],
         values["perimeter"][0],
         values["centroid"],
@@ -116,7 +113,13 @@ def stored(obj: bpy.types.Object) -> StoredSection | None:
         dict(zip(BOUND_KEYS, values["error"])),
         dict(zip(BOUND_KEYS, values["input"])),
     )
-    return StoredSection(section, what, findings_in(findings), fingerprint, values["unit"][0])
+    return StoredSection(
+        section,
+        texts["what"],
+        findings_in(texts["findings"]),
+        texts["fingerprint"],
+        values["unit"][0],
+    )
 
 
 def clear(obj: bpy.types.Object) -> bool:

@@ -13,9 +13,8 @@ from ...core import fourier, measurement
 from ...core.files.whole_file import whole_file
 from ...core.numerics import Complex
 
-IMAGE_MARK = (
-    "body_fourier"  # property of the images that may be overwritten; its value is their name
-)
+# property of the images that may be overwritten; its value is their name
+IMAGE_MARK = "body_fourier"
 DECADES = 6.0  # from white to black
 SLICE_GAP = 2  # pixels between slices
 

@@ -80,7 +80,7 @@ def text(file_document: dict[str, Any]) -> str:
     ):
         lines += ["", heading] if entries else []
         lines += [
-            "{}{}: {}".format(INDENT, one["name"] or "File", one["reason"]) for one in entries
+            "{}{}: {}".format(INDENT, entry["name"] or "File", entry["reason"]) for entry in entries
         ]
     return "".join(measurement.visible(line) + "\n" for line in lines)
 
@@ -88,16 +88,14 @@ def text(file_document: dict[str, Any]) -> str:
 def _report_rows(entry: dict[str, Any], frame: str) -> Iterator[tuple[str, ...]]:
     """Yield the label, value and unit of each line about a record, as far as it has them."""
     if "method" in entry:
-        walled = any(found["code"] == wall.WALL_MEASURED for found in entry.get("findings", ()))
-        _, explanation = verdict.METHODS.get(
-            verdict.method_key(verdict.Method.parse(entry["method"]), walled), ("", "")
-        )
+        has_wall = any(record["code"] == wall.WALL_MEASURED for record in entry.get("findings", ()))
+        method = verdict.method_key(verdict.Method.parse(entry["method"]), has_wall)
+        _, explanation = verdict.METHODS.get(method, ("", ""))
+        yield "Verdict", ": ".join(filter(None, (entry["method"], explanation)))
         counts = ", ".join(_counts(entry.get("health", {})))
-        yield from (
-            ("Verdict", ": ".join(filter(None, (entry["method"], explanation)))),
-            *([("Found", counts)] if counts else []),
-            ("Kind", "{}, {}".format(entry["kind"], entry["type"].lower())),
-        )
+        if counts:
+            yield "Found", counts
+        yield "Kind", "{}, {}".format(entry["kind"], entry["type"].lower())
     for label, name, unit in (
         ("Mass", "mass", "kg"),
         ("Length", "length", "m"),
@@ -108,16 +106,14 @@ def _report_rows(entry: dict[str, Any], frame: str) -> Iterator[tuple[str, ...]]
             yield label, report_number(entry[name]), unit
     if "density_from" in entry:
         yield "Density from", entry["density_from"]
-    yield from (
-        ("Volume", report_number(entry["volume"]), "m³"),
-        ("Surface area", report_number(entry["area"]), "m²"),
-    )
+    yield "Volume", report_number(entry["volume"]), "m³"
+    yield "Surface area", report_number(entry["area"]), "m²"
     if "display_mesh" in entry:
         display = entry["display_mesh"]
         volume = entry["volume"]
         share = 100.0 * display["difference"] / volume if volume else 0.0
-        shown = report_number(display["volume"])
-        yield "Its display mesh", "{} m³, {:+.3g} %".format(shown, share)
+        display_volume = report_number(display["volume"])
+        yield "Its display mesh", "{} m³, {:+.3g} %".format(display_volume, share)
     if entry["center_of_mass"] is None or entry["inertia"] is None:
         return
     size = entry.get("length") or abs(entry["volume"] or 0.0) ** (1.0 / 3.0)
@@ -126,16 +122,18 @@ def _report_rows(entry: dict[str, Any], frame: str) -> Iterator[tuple[str, ...]]
     yield from _principal(entry)
     yield from _tensor(entry["inertia"], frame)
     yield from _bounds(entry.get("error_bound", {}))
-    for label, name in (("Warning", "warnings"), ("Note", "notes")):
-        yield from ((label, message) for message in entry.get(name, []))
+    for message in entry.get("warnings", []):
+        yield "Warning", message
+    for message in entry.get("notes", []):
+        yield "Note", message
 
 
 def _counts(health: dict[str, Any]) -> Iterator[str]:
-    for name, (one, several) in verdict.HEALTH.items():
-        count = health.get(name, 0)
-        count = len(count) if isinstance(count, list) else count
+    for name, (singular, plural) in verdict.HEALTH.items():
+        elements = health.get(name, 0)  # a list of them, or their number
+        count = len(elements) if isinstance(elements, list) else elements
         if count:
-            yield "{} {}".format(count, one if count == 1 else several)
+            yield "{} {}".format(count, singular if count == 1 else plural)
 
 
 def _principal(entry: dict[str, Any]) -> Iterator[tuple[str, ...]]:

@@ -76,35 +76,40 @@ def _covered_pixels(corners: NDArray) -> tuple[NDArray, Array]:
     first = np.ceil(flat.min(axis=1)).astype(int)
     last = np.floor(flat.max(axis=1)).astype(int)
     spans = np.maximum(last - first + 1, 0)
+    # pairs of a triangle and a pixel in its box; the pixels of a box are numbered from 0
     counts = spans.prod(axis=1)
     counts *= counts.sum() <= _MAX_TESTS
     owner = np.repeat(np.arange(len(corners)), counts)
-    place = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
-    points = first[owner] + np.stack(np.divmod(place, np.maximum(spans[owner, 1], 1)), axis=1)
+    number = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+    points = first[owner] + np.stack(np.divmod(number, np.maximum(spans[owner, 1], 1)), axis=1)
     origin = corners[owner, 0]
     sides = (corners[:, 1:] - corners[:, :1])[owner]
     (x, y) = sides[:, :, :2].transpose(1, 0, 2)
-    away = points - origin[:, :2]
-    doubled = x[:, 0] * y[:, 1] - x[:, 1] * y[:, 0]
+    offset = points - origin[:, :2]
+    doubled_area = x[:, 0] * y[:, 1] - x[:, 1] * y[:, 0]
     with np.errstate(all="ignore"):  # triangles seen from their edge
-        a = (away[:, 0] * y[:, 1] - away[:, 1] * y[:, 0]) / doubled
-        b = (x[:, 0] * away[:, 1] - x[:, 1] * away[:, 0]) / doubled
+        # offset = a x + b y, by Cramer's rule
+        a = (offset[:, 0] * y[:, 1] - offset[:, 1] * y[:, 0]) / doubled_area
+        b = (x[:, 0] * offset[:, 1] - x[:, 1] * offset[:, 0]) / doubled_area
         depth = origin[:, 2] + a * sides[:, 0, 2] + b * sides[:, 1, 2]
     inside = (a >= 0.0) & (b >= 0.0) & (a + b <= 1.0)
     return owner[inside], np.column_stack([points, depth])[inside]
 
 
 def _sample(corners: NDArray, areas: NDArray, count: int) -> tuple[NDArray, Array]:
-    """Return points that are spread over the triangles' areas, and the triangle of each."""
+    """Return the (count,) triangles of random points, evenly spread over the surface, and these
+    points.
+    """
     chance = np.random.default_rng(0)
+    # A triangle is chosen as often as its share of the summed area.
     chosen = np.searchsorted(np.cumsum(areas), chance.random(count) * areas.sum())
     chosen = np.minimum(chosen, len(areas) - 1)  # the sums may be rounded differently
     a, b = chance.random((2, count, 1))
-    a, b = np.where(a + b > 1.0, 1.0 - a, a), np.where(a + b > 1.0, 1.0 - b, b)
-    triangles = corners[chosen]
-    return chosen, triangles[:, 0] + a * (triangles[:, 1] - triangles[:, 0]) + b * (
-        triangles[:, 2] - triangles[:, 0]
-    )
+    is_outside = a + b > 1.0  # in the other half of the parallelogram, which is turned over
+    a = np.where(is_outside, 1.0 - a, a)
+    b = np.where(is_outside, 1.0 - b, b)
+    origin, first, second = corners[chosen].swapaxes(0, 1)
+    return chosen, origin + a * (first - origin) + b * (second - origin)
 
 
 def _put(image: NDArray, spots: NDArray, colors: NDArray) -> None:

@@ -105,11 +105,14 @@ class Units(NamedTuple):
             settings.mass_unit,
             shortest_decimal(settings.scale_length),
         )
-        shown = getattr(getattr(settings, "id_data", None), "body_moments", None)
-        return (
-            cls(*units)
-            if shown is None
-            else cls(*units, shown.density_unit, shown.digits, shown.digit_grouping)
+        scene_settings = getattr(getattr(settings, "id_data", None), "body_moments", None)
+        if scene_settings is None:
+            return cls(*units)
+        return cls(
+            *units,
+            scene_settings.density_unit,
+            scene_settings.digits,
+            scene_settings.digit_grouping,
         )
 
     def text(self, quantity: str, value: float) -> str:
@@ -131,13 +134,11 @@ class Units(NamedTuple):
         largest = max((abs(value) for value in values if isfinite(value)), default=0.0)
         noise = max(1e-12 * largest, 1e-7 * size)
         factor, name = self.unit(quantity, 0.0 if largest < noise else largest)
-        # Beside a largest value, what is left of a cancelled one is noise: 1e-17 kg·m² is shown as
+        # The rest of a sum that cancels is noise beside the largest value: 1e-17 kg·m² is shown as
         # 0.
-        shown = [0.0 if abs(value) < noise else value / factor for value in values]
-        return [
-            "{:s} {:s}".format(text, name).rstrip()
-            for text in column(shown, self.digits, self.grouping)
-        ]
+        scaled = [0.0 if abs(value) < noise else value / factor for value in values]
+        texts = column(scaled, self.digits, self.grouping)
+        return ["{:s} {:s}".format(text, name).rstrip() for text in texts]
 
     def bound(self, quantity: str, bound: float, beside: float) -> str:
         """Return an SI error bound, rounded up to two digits, in the unit of its value: "± 4.5e-15
@@ -151,11 +152,9 @@ class Units(NamedTuple):
     def unit(self, quantity: str, value: float) -> tuple[float, str]:
         """Return (SI value of one unit, its name): the unit in which an SI `value` is shown."""
         if self.system == "NONE" and quantity != "density":
-            return (
-                (self.scale ** POWERS[quantity][1], "")
-                if quantity in POWERS
-                else (1.0, SI_UNITS[quantity])
-            )
+            if quantity in POWERS:
+                return self.scale ** POWERS[quantity][1], ""
+            return 1.0, SI_UNITS[quantity]
         if quantity in POWERS:
             sign, power = POWERS[quantity]
             factor, name = self._length(value ** (1.0 / power) if value > 0.0 else 0.0)
@@ -184,10 +183,10 @@ class Units(NamedTuple):
     def _mass(self, value: float) -> tuple[float, str]:
         table = MASSES[self.system]
         if self.shows_grams or self._has_default_mass:
-            small = self.shows_grams or self.length == "ADAPTIVE" and 0.0 < value < 1.0
             if value > HEAVY:
                 return table["TONNES"]
-            return table["GRAMS" if small else "KILOGRAMS"]
+            is_light = self.length == "ADAPTIVE" and 0.0 < value < 1.0
+            return table["GRAMS" if self.shows_grams or is_light else "KILOGRAMS"]
         if self.mass != "ADAPTIVE":
             return table[self.mass]
         base = table[BASES[self.system][1]]

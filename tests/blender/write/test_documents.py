@@ -75,7 +75,7 @@ def test_a_section_that_somebody_else_has_stored_is_none(scene):
             assert section.stored(beam) is None, (name, wrong)
         beam[section.KEY] = {one: value for one, value in kept.items() if one != name}
         assert section.stored(beam) is None
-    for name in section.SIDE_DESCRIPTIONS:
+    for name in section.TEXTS:
         beam[section.KEY] = {one: value for one, value in kept.items() if one != name}
         assert (section.stored(beam) is not None) == (name == "findings")
     beam[section.KEY] = kept
