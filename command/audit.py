@@ -206,9 +206,9 @@ def answer(options: argparse.Namespace) -> tuple[list[str], int]:
     for path, document in zip(options.names, _documents(options)):
         codes = {reason["code"] for reason in document["errors"]}
         internal |= internal_error.CODE in codes
-        others = OTHER_FILES if path.suffix == ".xml" else OTHER_FILES - {XML_ENTITIES}
+        ignored_codes = OTHER_FILES if path.suffix == ".xml" else OTHER_FILES - {XML_ENTITIES}
         is_empty = not codes and not document["links"]
-        if path not in listed and (is_empty or codes & others):
+        if path not in listed and (is_empty or codes & ignored_codes):
             continue  # A folder holds other files of these types, too.
         documents.append(document)
         for reason in document["errors"]:

@@ -22,23 +22,29 @@ Key = tuple[str, str, str]  # file, link and code
 
 def apply(document: dict[str, Any], options: Namespace) -> dict[str, Any]:
     """Return the document of a file after `--ignore`, `--light-links` and `--baseline`."""
-    whole = {"name": "", "mass": None, "findings": document["findings"]}
-    known = {key for key in options.known or () if key[2] != AUDIT_TOTAL}
+    model_entry = {"name": "", "mass": None, "findings": document["findings"]}
+    known_keys = {key for key in options.known or () if key[2] != AUDIT_TOTAL}
     links = []
-    for link in [whole, *document["links"]]:
+    for link in [model_entry, *document["links"]]:
         is_light = (
             options.light_links and link["mass"] is not None and link["mass"] <= options.light_links
         )
         findings = [
-            found
+            record
             | ({"severity": str(Severity.NOTE)} if is_light else {})
-            | ({"known": True} if known and _key(found, link, options.baseline) in known else {})
-            for found in link["findings"]
-            if found["code"] not in options.ignore
+            | (
+                {"known": True}
+                if known_keys and _key(record, link, options.baseline) in known_keys
+                else {}
+            )
+            for record in link["findings"]
+            if record["code"] not in options.ignore
         ]
         links.append(link | {"findings": findings})
-    whole, *links = links
-    return audit_report.with_status(document | {"findings": whole["findings"], "links": links})
+    model_entry, *links = links
+    return audit_report.with_status(
+        document | {"findings": model_entry["findings"], "links": links}
+    )
 
 
 def fails(documents: Iterable[dict[str, Any]], level: str) -> bool:
@@ -47,8 +53,8 @@ def fails(documents: Iterable[dict[str, Any]], level: str) -> bool:
     """
     counted = [str(severity) + "s" for severity in FAILING[level]]
     return any(
-        one["errors"] or any(audit_report.count_findings(one)[name] for name in counted)
-        for one in documents
+        document["errors"] or any(audit_report.count_findings(document)[name] for name in counted)
+        for document in documents
     )
 
 
@@ -58,7 +64,7 @@ def read_baseline(path: Path) -> set[Key]:
     if not isinstance(data, dict) or data.get("schema") != SCHEMA:
         raise ValueError("it is no baseline of this command. Write one with --write-baseline")
     try:
-        return {(one["file"], one["link"], one["code"]) for one in data["findings"]}
+        return {(entry["file"], entry["link"], entry["code"]) for entry in data["findings"]}
     except (KeyError, TypeError) as error:
         raise ValueError("its findings are damaged. Write it anew with --write-baseline") from error
 
@@ -70,28 +76,28 @@ def write_baseline(path: Path, documents: Sequence[dict[str, Any]]) -> None:
     """
     links = [
         link
-        for one in documents
-        for link in [{"name": "", "findings": one["findings"]}, *one["links"]]
+        for document in documents
+        for link in [{"name": "", "findings": document["findings"]}, *document["links"]]
     ]
-    told = [
-        (found, link)
+    counted_findings = [
+        (record, link)
         for link in links
-        for found in link["findings"]
-        if found["severity"] != Severity.NOTE and found["code"] != AUDIT_TOTAL
+        for record in link["findings"]
+        if record["severity"] != Severity.NOTE and record["code"] != AUDIT_TOTAL
     ]
     findings = [
         dict(zip(("file", "link", "code"), key))
-        for key in sorted({_key(*one, path) for one in told})
+        for key in sorted({_key(record, link, path) for record, link in counted_findings})
     ]
     text = json.dumps({"schema": SCHEMA, "findings": findings}, ensure_ascii=False, indent=1)
     with whole_file(path) as file:
         file.write((text + "\n").encode("utf-8", "backslashreplace"))
 
 
-def _key(found: dict[str, Any], link: dict[str, Any], baseline: Path) -> Key:
+def _key(record: dict[str, Any], link: dict[str, Any], baseline: Path) -> Key:
     folder = os.path.dirname(os.path.abspath(baseline))
     try:
-        file = os.path.relpath(found["file"], folder)
+        file = os.path.relpath(record["file"], folder)
     except ValueError:  # another drive
-        file = found["file"]
-    return file.replace(os.sep, "/"), link["name"], found["code"]
+        file = record["file"]
+    return file.replace(os.sep, "/"), link["name"], record["code"]

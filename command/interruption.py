@@ -57,10 +57,10 @@ class Progress:
     """
 
     def __init__(
-        self, file: str, what: str, report: Callable[[str, str], None] = print_message
+        self, file: str, unit_name: str, report: Callable[[str, str], None] = print_message
     ) -> None:
         self._file = file
-        self._what = what
+        self._what = unit_name
         self._report = report
         self._count = 0
         self._due = time.monotonic() + PERIOD

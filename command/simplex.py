@@ -83,12 +83,12 @@ def _measure(options: argparse.Namespace) -> dict[str, Any]:
         )
     facets = simplices
     if simplices.shape[1] == dimension + 1:
-        facets, turned = polyhedron.facets_of(points, simplices)
-        signs = turned if signs is None else turned * np.tile(signs, dimension + 1)
+        facets, facet_signs = polyhedron.facets_of(points, simplices)
+        signs = facet_signs if signs is None else facet_signs * np.tile(signs, dimension + 1)
     is_closed = polyhedron.closes(points, facets, signs)
     findings = [] if is_closed else [finding(SIMPLEX_OPEN)]
-    for one in findings:
-        measurement.print_message(options.file, one)
+    for open_boundary in findings:
+        measurement.print_message(options.file, open_boundary)
     record: dict[str, Any] = (
         {
             "schema": "body-moments-simplex/1",

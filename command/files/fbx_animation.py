@@ -85,7 +85,11 @@ class FbxAnimation:
         first = min((line[0][0] for line in parts.values() if line), default=0)
         try:
             for name, line in parts.items():
-                line = [(rank, layer, part) for one, rank, layer, part in line if one == first]
+                line = [
+                    (rank, layer, part)
+                    for animation, rank, layer, part in line
+                    if animation == first
+                ]
                 if line:
                     properties[name] = self._blended(line, name, properties)
         except RareError:
@@ -117,7 +121,7 @@ class FbxAnimation:
             blending = layer.get("BlendMode", (0,))[0]
             if blending not in (0, 1, 2) or blending == 1 and weight < 1.0:
                 raise RareError
-            kept = 1.0 if blending == 0 else 1.0 - weight
+            kept_share = 1.0 if blending == 0 else 1.0 - weight
             is_turn = name == "Lcl Rotation"
             if is_turn and not layer.get("RotationAccumulationMode", (0,))[0]:
                 below, above = rotations(np.radians([total, values]), mode)
@@ -128,12 +132,12 @@ class FbxAnimation:
                     below = below @ rotation_about(turn[1:], weight * angle)
                 total = np.degrees(rotation_values(below[None], mode, np.radians(total))[0])
                 is_composed = True
-            elif is_turn and is_composed and kept:
+            elif is_turn and is_composed and kept_share:
                 raise RareError  # Its angles are not the only ones of the rotation.
             elif name == "Lcl Scaling" and not layer.get("ScaleAccumulationMode", (0,))[0]:
-                total = _power(total, kept) * _power(values, weight)
+                total = _power(total, kept_share) * _power(values, weight)
             else:
-                total = kept * total + weight * values
+                total = kept_share * total + weight * values
         return total
 
     def _values(self, part: int) -> Array:
@@ -213,10 +217,10 @@ class _Curve:
             raise RareError
         leaving, arriving = self._weights(index)
         start, end = leaving, 1.0 - arriving
-        found = np.roots(
+        roots = np.roots(
             [1.0 + 3.0 * (start - end), 3.0 * (end - 2.0 * start), 3.0 * start, -share]
         )
-        place = found[np.argmin(np.abs(found - np.clip(found.real, 0.0, 1.0)))].real
+        place = roots[np.argmin(np.abs(roots - np.clip(roots.real, 0.0, 1.0)))].real
         left = 1.0 - place
         low = values[index] + leaving * length * self._slope(index, True)
         high = values[index + 1] - arriving * length * self._slope(index + 1, False)
@@ -239,7 +243,7 @@ class _Curve:
         """Return the slope after or before a key; there the curve is cubic."""
         flags = int(self._flags[index])
         previous = int(self._flags[index - 1])
-        given = float(self._data[index, 0] if is_after else self._data[index - 1, 1])
+        stored_slope = float(self._data[index, 0] if is_after else self._data[index - 1, 1])
         is_inner = 0 < index < len(self._times) - 1
         section = slice(max(index - 1, 0), index + 2)
         times, changes = np.diff(self._times[section]), np.diff(self._values[section])
@@ -261,9 +265,9 @@ class _Curve:
         if not flags & _CUBIC or flags & _USER:
             if not is_after and previous & _TCB:
                 raise RareError
-            return given
+            return stored_slope
         least = np.abs(changes).min() if flags & _CLAMPED else np.inf
-        if abs(given) > _NO_BIAS or 0.0 < least <= _LEVEL:
+        if abs(stored_slope) > _NO_BIAS or 0.0 < least <= _LEVEL:
             raise RareError
         if least == 0.0:
             return 0.0

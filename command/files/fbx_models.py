@@ -97,31 +97,31 @@ class FbxModel:
         """Return the places, in the file's axes and unit, of (n, 3) points of its mesh that bones
         move. ValueError if their weights are unknown.
         """
-        whole = np.column_stack([points, np.ones(len(points))]) @ self.geometric.T
-        moved = np.zeros_like(whole)
+        homogeneous = np.column_stack([points, np.ones(len(points))]) @ self.geometric.T
+        moved_points = np.zeros_like(homogeneous)
         for cluster, bone in self.clusters:
-            rows, shares, to_bone = (
+            indices, shares, to_bone = (
                 node.numbers() for node in map(cluster.child, ("Indexes", "Weights", "Transform"))
             )
             matrix = bone.place.matrix @ to_bone.reshape(4, 4).T
-            index = rows.astype(int)
-            np.add.at(moved, index, shares[:, None] * (whole[index] @ matrix.T))
-        free = moved[:, 3] == 0.0
-        moved[free] = whole[free] @ self.place.matrix.T
-        return moved[:, :3] / moved[:, 3:]
+            index = indices.astype(int)
+            np.add.at(moved_points, index, shares[:, None] * (homogeneous[index] @ matrix.T))
+        free = moved_points[:, 3] == 0.0
+        moved_points[free] = homogeneous[free] @ self.place.matrix.T
+        return moved_points[:, :3] / moved_points[:, 3:]
 
     def coarse_levels(self) -> list[FbxModel]:
         """Return all models of the levels of detail in it that follow the first, finest one."""
         levels = [child.below() for child in self.children if self.is_lod_group]
-        shown = [level for level in levels if any(model.geometry for model in level)]
-        return [model for level in shown[1:] for model in level]
+        levels_with_meshes = [level for level in levels if any(model.geometry for model in level)]
+        return [model for level in levels_with_meshes[1:] for model in level]
 
     def below(self) -> list[FbxModel]:
         """Return the model and all models below it."""
-        found: list[FbxModel] = [self]
-        for model in found:
-            found += model.children
-        return found
+        models: list[FbxModel] = [self]
+        for model in models:
+            models += model.children
+        return models
 
     @cached_property
     def place(self) -> Place:
@@ -133,12 +133,12 @@ class FbxModel:
         turn = _turn(pre) @ turn @ _turn(post).T
         scale = self.vector("Lcl Scaling", 1.0)
         pivot, center = self.vector("RotationPivot"), self.vector("ScalingPivot")
-        own = (
+        local = (
             _matrix(turn, self.vector("Lcl Translation") + self.vector("RotationOffset") + pivot)
             @ _matrix(np.diag(scale), self.vector("ScalingOffset") + center - pivot)
             @ _matrix(np.eye(3), -center)
         )
-        matrix = above.matrix @ own
+        matrix = above.matrix @ local
         doubt = above.doubt
         if self.whole("InheritType") != _RSRS:
             inherited = above.rotation.T @ above.matrix[:3, :3]

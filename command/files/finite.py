@@ -45,9 +45,9 @@ def check_fbx(data: files.Data, _path: str) -> None:
         with suppress(*files.MALFORMED):
             count, first = 0, 0
             for begin, numbers in files.fbx_array(data, vertices.end()):
-                more, row = bad_in_table(numbers[:, None])
+                fault_count, row = bad_in_table(numbers[:, None])
                 first = first if count else (begin + row) // 3
-                count += more
+                count += fault_count
             files.refuse_non_finite(count, "vertex", first)
 
 
@@ -75,9 +75,11 @@ def check_gltf(data: files.Data, path: str) -> None:
             with suppress(*files.MALFORMED):  # others may be whole
                 accessor = file.document["accessors"][number]
                 count, first = bad_in_table(file.table(accessor))
-                rows, values = file.sparse(accessor)
-                more, row = bad_in_table(values)
-                count, first = count + more, int(rows[row]) if more and not count else first
+                sparse_rows, values = file.sparse(accessor)
+                sparse_faults, row = bad_in_table(values)
+                if sparse_faults and not count:
+                    first = int(sparse_rows[row])
+                count += sparse_faults
                 files.refuse_non_finite(count, where + ", row", first)
 
 
@@ -92,36 +94,42 @@ def _placing_accessors(document: dict[str, Any]) -> dict[int, str | None]:
     """Return the accessors that place points, each with its mesh's name: None for skins, animations
     and instances.
     """
-    found = {
+    mesh_names = {
         attributes["POSITION"]: mesh.get("name") or str(number)
         for number, mesh in enumerate(document.get("meshes", []))
         for primitive in mesh["primitives"]
         for attributes in (primitive["attributes"], *primitive.get("targets", ()))
         if "POSITION" in attributes
     }
-    others = [skin.get("inverseBindMatrices") for skin in document.get("skins", [])]
+    other_accessors = [skin.get("inverseBindMatrices") for skin in document.get("skins", [])]
     for animation in document.get("animations", []):
-        others += [sampler[key] for sampler in animation["samplers"] for key in ("input", "output")]
+        other_accessors += [
+            sampler[key] for sampler in animation["samplers"] for key in ("input", "output")
+        ]
     for node in document.get("nodes", []):
         instancing = node.get("extensions", {}).get("EXT_mesh_gpu_instancing", {})
-        others += instancing.get("attributes", {}).values()
-    return found | {number: None for number in others if number is not None and number not in found}
+        other_accessors += instancing.get("attributes", {}).values()
+    return mesh_names | {
+        number: None
+        for number in other_accessors
+        if number is not None and number not in mesh_names
+    }
 
 
-def bad_in_table(rows: NDArray) -> tuple[int, int]:
-    """Return the count of numbers in (n, k) that are not finite in float32, and the first row with
-    such a number.
+def bad_in_table(table: NDArray) -> tuple[int, int]:
+    """Return the count of numbers in an (n, k) table that are not finite in float32, and the first
+    row with such a number.
     """
     with np.errstate(over="ignore", invalid="ignore"):
         # The smallest and the largest are NaN if one of the numbers is.
         if (
-            rows.dtype.kind != "f"
-            or not rows.size
-            or rows.max() < files.MAX_FLOAT32
-            and rows.min() > -files.MAX_FLOAT32
+            table.dtype.kind != "f"
+            or not table.size
+            or table.max() < files.MAX_FLOAT32
+            and table.min() > -files.MAX_FLOAT32
         ):
             return 0, 0
-        bad = ~(np.abs(rows) < files.MAX_FLOAT32)
+        bad = ~(np.abs(table) < files.MAX_FLOAT32)
     return int(np.count_nonzero(bad)), int(np.argmax(bad.any(axis=1)))
 
 

@@ -111,17 +111,21 @@ def _correct(groups: list[tuple[list[Object], list[FbxModel]]], to_scene: Array)
             continue
         for obj, model in zip(objects, models):
             bones = [bone for _, bone in model.clusters]
-            if any(one.moves_rarely for one in (model, *bones)):
+            if any(related_model.moves_rarely for related_model in (model, *bones)):
                 doubts[obj.name] = RARE
                 continue
-            found = _place(obj, model, to_scene, is_mixed=bool(bones))
-            unsure = [one.place.doubt for one in (model, *bones) if one.place.doubt is not None]
-            if found is None:
+            points_and_place = _place(obj, model, to_scene, is_mixed=bool(bones))
+            unsure = [
+                related_model.place.doubt
+                for related_model in (model, *bones)
+                if related_model.place.doubt is not None
+            ]
+            if points_and_place is None:
                 doubts[obj.name] = "its points are not those of the file"
-            elif not bones and is_at(obj, found[1]) or len(models) == 1 and not unsure:
-                places[obj.name] = found[1]
+            elif not bones and is_at(obj, points_and_place[1]) or len(models) == 1 and not unsure:
+                places[obj.name] = points_and_place[1]
                 if bones:
-                    points = model.skinned(found[0]) @ to_scene[:3, :3].T
+                    points = model.skinned(points_and_place[0]) @ to_scene[:3, :3].T
                     skinned.append((obj, points))
             else:
                 doubts[obj.name] = "".join(unsure[:1]) or "names are not unique"
@@ -139,12 +143,12 @@ def _place(
     """
     assert model.geometry is not None
     points = model.geometry.child("Vertices").numbers()
-    own = np.empty(3 * len(obj.data.vertices))
-    obj.data.vertices.foreach_get("co", own)
-    if own.shape != points.shape:
+    object_points = np.empty(3 * len(obj.data.vertices))
+    obj.data.vertices.foreach_get("co", object_points)
+    if object_points.shape != points.shape:
         return None
-    own = own.reshape(-1, 3)
-    whole = np.column_stack([points.reshape(-1, 3), np.ones(len(own))])
+    object_points = object_points.reshape(-1, 3)
+    homogeneous = np.column_stack([points.reshape(-1, 3), np.ones(len(object_points))])
     world = to_scene @ model.place.matrix
     to_pivot = model.to_pivot
     # Blender's importer moves the points by the matrix of the mesh, and their origin to the pivot,
@@ -154,14 +158,14 @@ def _place(
         (model.geometric, world),
         (np.eye(4), world @ model.geometric),
     ):
-        moved = (whole @ inner.T)[:, :3]
-        size = max(np.abs(moved).max(initial=0.0), np.abs(inner[:3, 3]).max())
-        if np.abs(moved - own).max(initial=0.0) <= _SAME_POINT * size:
+        local_points = (homogeneous @ inner.T)[:, :3]
+        size = max(np.abs(local_points).max(initial=0.0), np.abs(inner[:3, 3]).max())
+        if np.abs(local_points - object_points).max(initial=0.0) <= _SAME_POINT * size:
             if is_mixed and obj.data.shape_keys is not None:
-                mixed = np.empty_like(own)
+                mixed = np.empty_like(object_points)
                 key = obj.shape_key_add(from_mix=True)
                 key.data.foreach_get("co", mixed.ravel())
                 obj.shape_key_remove(key)  # Blender 5.2 gives it the weight 1.
-                whole[:, :3] += (mixed - own) @ np.linalg.inv(inner[:3, :3]).T
-            return whole[:, :3], outer
+                homogeneous[:, :3] += (mixed - object_points) @ np.linalg.inv(inner[:3, :3]).T
+            return homogeneous[:, :3], outer
     return None

@@ -52,7 +52,7 @@ def import_gltf(path: str, frame: float | None) -> Opened:
     AttributeError without an importer.
     """
     hidden: dict[str, Finding] = {}
-    shown: dict[str, _Shown] = {}
+    shown_nodes: dict[str, _Shown] = {}
 
     class Nodes:
         """An extension of the importer, which is called for each object."""
@@ -61,10 +61,14 @@ def import_gltf(path: str, frame: float | None) -> Opened:
             self, vnode: Any, _node: Any, obj: Object, gltf: Any
         ) -> None:
             if obj.type == "MESH":
-                shown[obj.name] = _node_of(vnode, gltf)
+                shown_nodes[obj.name] = _node_of(vnode, gltf)
             nodes = gltf.data.nodes
             line = _line_of(vnode, gltf)
-            coarse = {one for node in nodes for one in _extension(node, "MSFT_lod").get("ids", ())}
+            coarse = {
+                number_of_level
+                for node in nodes
+                for number_of_level in _extension(node, "MSFT_lod").get("ids", ())
+            }
             cause = "it is a coarser level of detail" if coarse & {*line} else None
             shows = [_extension(nodes[number], "KHR_node_visibility") for number in line]
             if any(extension.get("visible") is False for extension in shows):
@@ -89,7 +93,9 @@ def import_gltf(path: str, frame: float | None) -> Opened:
         del module.glTF2ImportUserExtension
     notes = measure_at(frame)
     try:
-        _correct(_Pose(GltfFile(map_file(path), path), shown_seconds() if notes else 0.0), shown)
+        _correct(
+            _Pose(GltfFile(map_file(path), path), shown_seconds() if notes else 0.0), shown_nodes
+        )
     except MALFORMED:
         cause = "its animations, joints or nodes are compressed, or unreadable"
         notes = (*notes, finding(PLACES_UNCHECKED, cause=cause))
@@ -100,7 +106,7 @@ def _line_of(vnode: Any, gltf: Any) -> list[int]:
     """Return the numbers of a node and of those above it. vnode: the importer's node; its own ones
     have no number.
     """
-    line = [number for number, one in gltf.vnodes.items() if one is vnode]
+    line = [number for number, other_node in gltf.vnodes.items() if other_node is vnode]
     while vnode.parent is not None:
         line.append(vnode.parent)
         vnode = gltf.vnodes[vnode.parent]
@@ -183,17 +189,17 @@ class _Pose:
             for weight, target in zip(self.weights(number), part.get("targets", ())):
                 if weight and "POSITION" in target:
                     points[:, :3] += weight * self._file.numbers(target["POSITION"])
-            moved = np.zeros_like(points) if "skin" in node else points
+            moved_points = np.zeros_like(points) if "skin" in node else points
             for name in (name for name in arrays if "skin" in node and name[0] == "J"):
                 shares = arrays["WEIGHTS" + name[6:]]
                 for joint, share in zip(arrays[name].T.astype(int), shares.T):
-                    moved += share[:, None] * (joints[joint] @ points[..., None])[..., 0]
-            used = np.arange(len(points))
+                    moved_points += share[:, None] * (joints[joint] @ points[..., None])[..., 0]
+            used_indices = np.arange(len(points))
             if "indices" in part:
-                used = np.unique(self._file.numbers(part["indices"])).astype(int)
-            if not moved[used, 3].all():
+                used_indices = np.unique(self._file.numbers(part["indices"])).astype(int)
+            if not moved_points[used_indices, 3].all():
                 raise ValueError("WEIGHTS")
-            blocks.append(moved[used, :3] / moved[used, 3:])
+            blocks.append(moved_points[used_indices, :3] / moved_points[used_indices, 3:])
         return np.concatenate(blocks)
 
 
@@ -213,45 +219,45 @@ def _sampled(file: GltfFile, sampler: dict[str, Any], seconds: float, part: str)
     times = file.numbers(sampler["input"])[:, 0]
     values = file.numbers(sampler["output"])
     kind = sampler.get("interpolation", "LINEAR")
-    of_key = values.reshape(len(times), 3 if kind == "CUBICSPLINE" else 1, -1)
+    key_values = values.reshape(len(times), 3 if kind == "CUBICSPLINE" else 1, -1)
     first = max(bisect_right(times, seconds) - 1, 0)
     last = min(first + 1, len(times) - 1)
     step = times[last] - times[first]
     share = min(max((seconds - times[first]) / step, 0.0), 1.0) if step > 0.0 else 0.0
     if kind == "CUBICSPLINE":
-        (_, start, leaving), (arriving, end, _) = of_key[first], of_key[last]
-        found = (
+        (_, start, leaving), (arriving, end, _) = key_values[first], key_values[last]
+        value = (
             (1.0 + 2.0 * share) * (1.0 - share) ** 2 * start
             + share * (1.0 - share) ** 2 * step * leaving
             + share**2 * (3.0 - 2.0 * share) * end
             + share**2 * (share - 1.0) * step * arriving
         )
     else:
-        start, end = of_key[first, 0], of_key[last, 0]
+        start, end = key_values[first, 0], key_values[last, 0]
         share = 0.0 if kind == "STEP" and share < 1.0 else share
         angle = 0.0
         if part == "rotation":
             end = -end if start @ end < 0.0 else end
             angle = 2.0 * math.atan2(np.linalg.norm(end - start), np.linalg.norm(end + start))
-        found = (
+        value = (
             (math.sin((1.0 - share) * angle) * start + math.sin(share * angle) * end)
             if math.sin(angle) > 0.0
             else (1.0 - share) * start + share * end
         )
-    return found / np.linalg.norm(found) if part == "rotation" else found
+    return value / np.linalg.norm(value) if part == "rotation" else value
 
 
-def _correct(pose: _Pose, shown: dict[str, _Shown]) -> None:
+def _correct(pose: _Pose, shown_nodes: dict[str, _Shown]) -> None:
     """Bring objects to the places, and vertices that weights or joints move to the points, that a
     file states.
     """
     places = {
         name: UPRIGHT @ pose.place(node.number) @ np.linalg.inv(UPRIGHT) @ node.local
-        for name, node in shown.items()
+        for name, node in shown_nodes.items()
         if not node.is_skinned
     }
     place_objects(places)
-    for name, node in shown.items():
+    for name, node in shown_nodes.items():
         obj = bpy.data.objects[name]
         blocks = getattr(obj.data.shape_keys, "key_blocks", ())
         is_mixed = pose.weights(node.number).any() or any(block.value for block in blocks)

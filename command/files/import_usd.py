@@ -163,8 +163,8 @@ class _Stage:
         objects = {obj.data: obj for obj in bpy.data.objects if obj.data is not None}
         pairs = [
             (self._stage.GetPrimAtPath(path), block)
-            for path, found in blocks.items()
-            for block in found
+            for path, data_blocks in blocks.items()
+            for block in data_blocks
         ]
         prims = {block.name: prim for prim, block in pairs if isinstance(block, Object)}
         # Of an object that is merged from two prims, the geometry's prim says more.
@@ -205,8 +205,8 @@ class _Stage:
         # An empty stands for some of them.
         paths = {
             str(path)
-            for path, found in blocks.items()
-            if any(getattr(b, "type", "") != "EMPTY" for b in found)
+            for path, data_blocks in blocks.items()
+            if any(getattr(b, "type", "") != "EMPTY" for b in data_blocks)
         }
         return [
             "{} ({})".format(prim.GetPath(), prim.GetTypeName())
@@ -222,11 +222,11 @@ class _Stage:
         scheme = mesh.GetSubdivisionSchemeAttr().Get() if mesh else None
         members = None
         if prim.IsA(self._geom.PointInstancer):
-            found: dict[str, list[NDArray]] = {}
+            member_places: dict[str, list[NDArray]] = {}
             for path, matrices in self._members(prim):
                 if path in names:
-                    found.setdefault(names[path], []).append(matrices)
-            members = {name: np.concatenate(blocks) for name, blocks in found.items()}
+                    member_places.setdefault(names[path], []).append(matrices)
+            members = {name: np.concatenate(blocks) for name, blocks in member_places.items()}
         return _Prim(
             self._why_hidden(self._geom.Imageable(prim)),
             None if scheme in ("none", "bilinear") else scheme,
@@ -251,12 +251,12 @@ class _Stage:
         ).reshape(-1, 4, 4)
         indices = np.array(schema.GetProtoIndicesAttr().Get(self._time) or [], int)
         mask = schema.ComputeMaskAtTime(self._time)
-        shown = np.array(mask, bool) if len(mask) else np.ones(len(indices), bool)
+        is_shown = np.array(mask, bool) if len(mask) else np.ones(len(indices), bool)
         for number, target in enumerate(schema.GetPrototypesRel().GetForwardedTargets()):
-            chosen = matrices[shown & (indices == number)].transpose(0, 2, 1)
+            prototype_places = matrices[is_shown & (indices == number)].transpose(0, 2, 1)
             root = self._stage.GetPrimAtPath(target)
-            for path, local in self._shapes(root, root) if root and len(chosen) else ():
-                yield path, (chosen[:, None] @ local).reshape(-1, 4, 4)
+            for path, local in self._shapes(root, root) if root and len(prototype_places) else ():
+                yield path, (prototype_places[:, None] @ local).reshape(-1, 4, 4)
 
     def _shapes(self, prim: Any, root: Any) -> Iterator[tuple[Any, Array]]:
         """Yield the shapes of a prototype that are shown, and their places relative to its root."""
@@ -291,7 +291,9 @@ class _Stage:
         kind = prim.GetTypeName().removesuffix("_1")
         if kind not in ("Sphere", "Capsule", "Cylinder", "Cone"):
             return None
-        values = {one.GetName(): one.Get(self._time) for one in prim.GetAttributes()}
+        values = {
+            attribute.GetName(): attribute.Get(self._time) for attribute in prim.GetAttributes()
+        }
         radius = values.get("radius", 0.0)
         bottom = values.get("radiusBottom", radius)
         top = values.get("radiusTop", 0.0 if kind == "Cone" else radius)
@@ -317,9 +319,9 @@ def _correct(
         if prim.solid is not None and patch is not None:
             if prim.solid not in surfaces:
                 surfaces[prim.solid] = scene.imports.surface_data(name, [patch], 1.0)[:2]
-            data, moved = surfaces[prim.solid]
-            if moved:
-                findings[name] = (finding(scene.findings.SURFACES_ROUNDED, share=moved),)
+            data, shift = surfaces[prim.solid]
+            if shift:
+                findings[name] = (finding(scene.findings.SURFACES_ROUNDED, share=shift),)
             _replace(obj, data)
         elif prim.points is not None and len(prim.points) == len(obj.data.vertices):
             obj.modifiers.clear()
@@ -332,7 +334,11 @@ def _correct(
     for name, prim in prims.items():
         if prim.members is not None:
             _show_members(name, prim)
-            about = [one for member in prim.members for one in findings.get(member, ())]
+            about = [
+                member_finding
+                for member in prim.members
+                for member_finding in findings.get(member, ())
+            ]
             findings[name] = tuple(dict.fromkeys(about))
         elif prim.hidden is None and not prim.is_member:
             obj = bpy.data.objects[name]

@@ -41,8 +41,8 @@ def import_mesh(path: str) -> None:
     if len(mesh.points):
         low, high = streams.box_of_blocks([mesh.points], "vertex")
         with np.errstate(over="ignore"):
-            moved = np.abs(mesh.points.astype(np.float32) - mesh.points).max()
-        if moved > _MOVED * (high - low).max():
+            largest_shift = np.abs(mesh.points.astype(np.float32) - mesh.points).max()
+        if largest_shift > _MOVED * (high - low).max():
             center = polyhedron.box_center(low, high, np.dtype(np.float32))
             mesh = replace(mesh, points=mesh.points - center)
     obj = bpy.data.objects.new(mesh.name, blender_mesh(mesh))
@@ -51,23 +51,27 @@ def import_mesh(path: str) -> None:
     bpy.context.view_layer.update()
 
 
-def blender_mesh(found: streams.FileMesh) -> bpy.types.Mesh:
+def blender_mesh(file_mesh: streams.FileMesh) -> bpy.types.Mesh:
     """Return a file's mesh as data of Blender. FileError if a coordinate is too large for it."""
     with np.errstate(over="ignore"):
-        points = found.points.astype(np.float32)
+        points = file_mesh.points.astype(np.float32)
     streams.box_of_blocks([points], "vertex")
-    mesh = bpy.data.meshes.new(found.name)
+    mesh = bpy.data.meshes.new(file_mesh.name)
     mesh.vertices.add(len(points))
     if len(points):  # Attributes are set several times faster than properties.
         mesh.attributes["position"].data.foreach_set("vector", points.ravel())
-    mesh.edges.add(len(found.edges))
-    mesh.edges.foreach_set("vertices", found.edges.astype(np.int32).ravel())
-    mesh.loops.add(len(found.corners))
-    if len(found.corners):
-        mesh.attributes[".corner_vert"].data.foreach_set("value", found.corners.astype(np.int32))
-    mesh.polygons.add(len(found.sides))
-    mesh.polygons.foreach_set("loop_start", (np.cumsum(found.sides) - found.sides).astype(np.int32))
-    for name, values in found.values.items():
+    mesh.edges.add(len(file_mesh.edges))
+    mesh.edges.foreach_set("vertices", file_mesh.edges.astype(np.int32).ravel())
+    mesh.loops.add(len(file_mesh.corners))
+    if len(file_mesh.corners):
+        mesh.attributes[".corner_vert"].data.foreach_set(
+            "value", file_mesh.corners.astype(np.int32)
+        )
+    mesh.polygons.add(len(file_mesh.sides))
+    mesh.polygons.foreach_set(
+        "loop_start", (np.cumsum(file_mesh.sides) - file_mesh.sides).astype(np.int32)
+    )
+    for name, values in file_mesh.values.items():
         if name not in _KNOWN:
             mesh.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values)
     mesh.update(calc_edges=True)
@@ -82,30 +86,30 @@ def import_3mf(path: str) -> Opened:
     meshes: dict[tuple[str, str], bpy.types.Mesh] = {}
     errors: list[Finding] = []
     notes: dict[str, tuple[Finding, ...]] = {}
-    for one, negative in _without_negative_parts(placed, errors):
-        if one.key not in meshes:
-            meshes[one.key] = _mesh(one)
-        obj = bpy.data.objects.new(one.name, meshes[one.key])
+    for part, negative in _without_negative_parts(placed, errors):
+        if part.key not in meshes:
+            meshes[part.key] = _mesh(part)
+        obj = bpy.data.objects.new(part.name, meshes[part.key])
         bpy.context.scene.collection.objects.link(obj)
-        found = dict(one.print_settings or ())
-        if found:
+        print_settings = dict(part.print_settings or ())
+        if print_settings:
             obj.body_moments.kind = "PRINTED"
-        if "density" in found:
-            obj.body_moments.density = found.pop("density")
-        set_print(obj.body_moments, found)
-        unread = [finding(UNCHECKED, subject=PRINT_SETTINGS)] * (one.print_settings is None)
+        if "density" in print_settings:
+            obj.body_moments.density = print_settings.pop("density")
+        set_print(obj.body_moments, print_settings)
+        unread = [finding(UNCHECKED, subject=PRINT_SETTINGS)] * (part.print_settings is None)
         cut = [finding(streams.NEGATIVE_PARTS_CUT, names=negative)] if negative else []
         notes[obj.name] = (*unread, *cut)
-        if one.hidden:
-            hidden[obj.name] = finding(FILE_HIDES, cause=one.hidden)
-        obj.matrix_basis = Matrix(one.matrix)
+        if part.hidden:
+            hidden[obj.name] = finding(FILE_HIDES, cause=part.hidden)
+        obj.matrix_basis = Matrix(part.matrix)
         if (
-            np.abs(np.array(obj.matrix_basis) - one.matrix).max()
-            > _SHEAR * np.abs(one.matrix).max()
+            np.abs(np.array(obj.matrix_basis) - part.matrix).max()
+            > _SHEAR * np.abs(part.matrix).max()
         ):
             obj.matrix_basis = Matrix()  # an object's own channels hold no shear
             obj.data = _mesh(
-                replace(one, points=one.points @ one.matrix[:3, :3].T + one.matrix[:3, 3])
+                replace(part, points=part.points @ part.matrix[:3, :3].T + part.matrix[:3, 3])
             )
     bpy.context.view_layer.update()
     return Opened(tuple(errors), by_object=notes, hidden=hidden)
@@ -117,34 +121,39 @@ def _without_negative_parts(
     """Yield the meshes with negative parts cut away, and the names of these; a mesh that cannot be
     cut is left out, with an error.
     """
-    for number, one in enumerate(placed):
-        if one.is_negative:
-            yield replace(one, hidden=one.hidden or "it is cut away from the other parts"), []
+    for number, solid_part in enumerate(placed):
+        if solid_part.is_negative:
+            yield (
+                replace(
+                    solid_part, hidden=solid_part.hidden or "it is cut away from the other parts"
+                ),
+                [],
+            )
             continue
         cutters = [
             part
             for part in placed
-            if part.is_negative and part.item == one.item and not part.hidden
+            if part.is_negative and part.item == solid_part.item and not part.hidden
         ]
-        if one.hidden or not cutters:
-            yield one, []
+        if solid_part.hidden or not cutters:
+            yield solid_part, []
             continue
         names = [cutter.name for cutter in cutters]
-        inverse = np.linalg.inv(one.matrix)
-        surfaces = [_closed_surface(part, inverse @ part.matrix) for part in (one, *cutters)]
+        inverse = np.linalg.inv(solid_part.matrix)
+        surfaces = [_closed_surface(part, inverse @ part.matrix) for part in (solid_part, *cutters)]
         closed = [surface for surface in surfaces if surface is not None]
         left = (
             bodies.union.subtract(closed[0], closed[1:]) if len(closed) == len(surfaces) else None
         )
         if left is not None and left.triangle_count:
             triangles = left.all_triangles()[0].astype(np.int64)
-            yield replace(one, key=(number,), points=left.points, triangles=triangles), names
+            yield replace(solid_part, key=(number,), points=left.points, triangles=triangles), names
             continue
         cause = "they cover all of it"
         if left is None:
             cause = "the surfaces are not closed, or Blender's Boolean fails with them"
         errors.append(
-            finding(streams.NEGATIVE_PARTS_UNFIT, names=names, object=one.name, cause=cause)
+            finding(streams.NEGATIVE_PARTS_UNFIT, names=names, object=solid_part.name, cause=cause)
         )
 
 
@@ -156,10 +165,10 @@ def _closed_surface(part: streams.Placed, matrix: NDArray) -> Surface | None:
     return solid.repaired_surface if is_closed else None
 
 
-def _mesh(one: streams.Placed) -> bpy.types.Mesh:
+def _mesh(part: streams.Placed) -> bpy.types.Mesh:
     return blender_mesh(
         streams.FileMesh(
-            one.name, one.points, one.triangles.ravel(), np.full(len(one.triangles), 3)
+            part.name, part.points, part.triangles.ravel(), np.full(len(part.triangles), 3)
         )
     )
 
@@ -168,10 +177,10 @@ def import_cad(path: str) -> Opened:
     """Add the surfaces of a file to the scene, in meters. Raises FileError and OSError."""
     file = cad.read_surfaces(path, files.file_limits(), for_blender=False)
     unit = 1.0 if file.unit is None else file.unit
-    made = scene.imports.show_bodies(file.bodies, bpy.context.scene.collection, unit)
+    objects = scene.imports.show_bodies(file.bodies, bpy.context.scene.collection, unit)
     bpy.context.view_layer.update()
     unread = (finding(cad.FACES_NOT_READ, count=file.unread),) if file.unread else ()
-    by_object: dict[str, tuple[Finding, ...]] = {obj.name: unread for obj in made}
+    by_object: dict[str, tuple[Finding, ...]] = {obj.name: unread for obj in objects}
     return Opened(file.refused, file.notes, by_object)
 
 

@@ -74,11 +74,11 @@ def open_file(path: str | None, frame: float | None = None) -> Opened:
 def _imported(path: str, kind: str, frame: float | None) -> Opened:
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     try:
-        found = _ANIMATED[kind](path, frame) if kind in _ANIMATED else _IMPORTERS[kind](path)
+        findings = _ANIMATED[kind](path, frame) if kind in _ANIMATED else _IMPORTERS[kind](path)
     except AttributeError as error:
         fault = "it has no importer for {} files".format(kind)
         raise FileError(FILE_UNREADABLE, error=fault) from error
-    opened = found if isinstance(found, Opened) else Opened()
+    opened = findings if isinstance(findings, Opened) else Opened()
     for name in opened.hidden:
         bpy.data.objects[name].hide_render = True
     if not bpy.context.scene.objects:
@@ -162,6 +162,8 @@ def open_name() -> str | None:
 
     Blender runs a command on its start-up scene if it cannot open the file.
     """
-    own = takewhile(lambda word: word not in ("-c", "--command", "--"), sys.argv[1:])
-    named = (word for word in own if _BLEND_WORD.search(word) and not word.startswith("-"))
-    return bpy.data.filepath or next(named, None)
+    blender_words = takewhile(lambda word: word not in ("-c", "--command", "--"), sys.argv[1:])
+    blend_files = (
+        word for word in blender_words if _BLEND_WORD.search(word) and not word.startswith("-")
+    )
+    return bpy.data.filepath or next(blend_files, None)

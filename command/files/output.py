@@ -98,7 +98,7 @@ def write_documents(
     """Write documents, which may be iterated twice, in the requested format, and return whether it
     succeeded; None if there is no robot to write, and a file at --output stays as it was.
     """
-    if options.format in robots.FORMATS and not any("robot" in one for one in documents):
+    if options.format in robots.FORMATS and not any("robot" in document for document in documents):
         measurement.print_message("no robot was written, and no file was replaced")
         return None
     text = option_types.FORMATS[options.format](documents)
@@ -123,8 +123,8 @@ def is_result(path: Path) -> bool:
     columns = head.split(b"\n", 1)[0].rstrip(b"\r").decode("utf-8", "replace").split(",")
     with suppress(zipfile.BadZipFile), zipfile.ZipFile(path) as arrays:
         return {*arrays.namelist()} in (_SPECTRUM, _FLAT_SPECTRUM)
-    own = _COLUMNS[:-_LAST], _COLUMNS[-_LAST:]
-    return (columns[: len(own[0])], columns[-_LAST:]) == own
+    table_columns = _COLUMNS[:-_LAST], _COLUMNS[-_LAST:]
+    return (columns[: len(table_columns[0])], columns[-_LAST:]) == table_columns
 
 
 def guard(force: bool) -> Callable[[Path], None]:
@@ -167,7 +167,9 @@ def _find_refusal(target: Path, read: Sequence[str | Path], force: bool) -> str:
     is_read = target.exists() and any(
         os.path.exists(path) and target.samefile(path) for path in read
     )
-    lost = "{} is not a result of body_moments and would be lost. Use another name, or --force"
+    loses_foreign_file = (
+        "{} is not a result of body_moments and would be lost. Use another name, or --force"
+    )
     refusals = {
         "no folder {}".format(target.parent): not target.parent.is_dir(),
         "{} is a folder".format(target): target.is_dir(),
@@ -176,6 +178,6 @@ def _find_refusal(target: Path, read: Sequence[str | Path], force: bool) -> str:
             not os.access(folder, os.W_OK)
         ),
         "{} is a file that is read. Use another name".format(target): is_read,
-        lost.format(target): not (force or is_replaceable(target)),
+        loses_foreign_file.format(target): not (force or is_replaceable(target)),
     }
     return next((reason for reason, holds in refusals.items() if holds), "")

@@ -22,8 +22,8 @@ _AGREEMENT = 1e-5  # of an axis, and of a location: larger than the rounding alo
 
 def set_frame(frame: float) -> None:
     """Evaluate the scene at a frame, which need not be whole."""
-    whole = math.floor(frame)
-    bpy.context.scene.frame_set(whole, subframe=frame - whole)
+    whole_frame = math.floor(frame)
+    bpy.context.scene.frame_set(whole_frame, subframe=frame - whole_frame)
 
 
 def shown_seconds(first: float = 0.0) -> float:
@@ -67,8 +67,8 @@ def place_objects(places: Mapping[str, Array]) -> None:
     anchor = objects.new(ANCHOR, None)
     bpy.context.scene.collection.objects.link(anchor)
     # The objects below move with them.
-    moved = {*wrong, *(child for parent in wrong for child in parent.children_recursive)}
-    for obj in (obj for obj in moved if obj.name in places):
+    moved_objects = {*wrong, *(child for parent in wrong for child in parent.children_recursive)}
+    for obj in (obj for obj in moved_objects if obj.name in places):
         obj.constraints.clear()
         obj.animation_data_clear()
         obj.parent = anchor

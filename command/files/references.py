@@ -135,8 +135,8 @@ def _are_allowed(words: Sequence[str]) -> bool:
     """Return whether Blender's last command-line switch for scripts, or else its preferences, let
     files run scripts.
     """
-    own = words[: words.index("--")] if "--" in words else words
-    switches = [_ALLOW[word] for word in own if word in _ALLOW]
+    blender_words = words[: words.index("--")] if "--" in words else words
+    switches = [_ALLOW[word] for word in blender_words if word in _ALLOW]
     return switches[-1] if switches else bpy.context.preferences.filepaths.use_scripts_auto_execute
 
 

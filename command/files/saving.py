@@ -123,17 +123,19 @@ def _store(data: bpy.types.AssetMetaData, measurement: Measurement) -> None:
         data[key] = values[key]
 
 
-def _without_numbers(known: set[read.assembly.Root]) -> Iterator[Finding]:
+def _without_numbers(measured_roots: set[read.assembly.Root]) -> Iterator[Finding]:
     """Yield a finding if assets of the open file have geometry and were not measured."""
     data = bpy.data
     geometry = (*data.meshes, *data.curves, *data.metaballs, *data.volumes)
     roots = (
-        one for one in (*data.objects, *data.collections) if one not in known and _has_geometry(one)
+        data_block
+        for data_block in (*data.objects, *data.collections)
+        if data_block not in measured_roots and _has_geometry(data_block)
     )
     names = sorted(
-        one.name
-        for one in (*roots, *geometry)
-        if one.asset_data is not None and one.library is None
+        data_block.name
+        for data_block in (*roots, *geometry)
+        if data_block.asset_data is not None and data_block.library is None
     )
     if names:
         yield finding(ASSETS_NOT_MEASURED, names=names)

@@ -106,7 +106,7 @@ class BareFile:
             check_file(self._path)
             self._measure_meshes(contents)
         contents.caveats += verdict.open_body_caveats(
-            (label, one.method) for label, _, one in contents.measured
+            (label, measurement.method) for label, _, measurement in contents.measured
         )
 
     def store(self, contents: Contents) -> None:
@@ -117,9 +117,9 @@ class BareFile:
         """Return a document with its text as a robot, if one is requested, which needs Blender."""
         if self.options.format not in robots.FORMATS:
             return document
-        wanted = measure.scene.measure_options(self.options, self._threads)
+        measure_options = measure.scene.measure_options(self.options, self._threads)
         return measure.robots.complete(
-            document, contents.measured, self.options, wanted, is_opened=False
+            document, contents.measured, self.options, measure_options, is_opened=False
         )
 
     def _settings(self) -> Settings:
@@ -146,13 +146,15 @@ class BareFile:
 
     def _chosen(self, bodies: dict[str, T], contents: Contents) -> Iterator[tuple[str, T]]:
         """Return the requested bodies and their names; each name that none has is an error."""
-        wanted = dict.fromkeys(bodies if self.options.object is None else self.options.object)
+        requested_names = dict.fromkeys(
+            bodies if self.options.object is None else self.options.object
+        )
         contents.errors += [
-            failure(other, finding(NO_SUCH_NAME, kind="object", name=other))
-            for other in wanted
-            if other not in bodies
+            failure(missing_name, finding(NO_SUCH_NAME, kind="object", name=missing_name))
+            for missing_name in requested_names
+            if missing_name not in bodies
         ]
-        return ((name, body) for name, body in bodies.items() if name in wanted)
+        return ((name, body) for name, body in bodies.items() if name in requested_names)
 
     def _measure_whole(self, contents: Contents) -> None:
         is_scan = self._is_scan
@@ -160,10 +162,10 @@ class BareFile:
         if is_scan and self.options.label is not None:
             self._measure_labels(name, contents)
             return
-        chosen = [*self._chosen({name: None}, contents)]
+        chosen_names = [*self._chosen({name: None}, contents)]
         if is_scan and self.options.fourier:
             contents.errors.append(failure(None, finding(FOURIER_OBJECT_COUNT, count=0)))
-        if not chosen:
+        if not chosen_names:
             return
         progress = self._progress(self._path, "samples" if is_scan else "faces")
         measurement = (
@@ -171,62 +173,82 @@ class BareFile:
             if is_scan
             else self._measure_stream(name, progress)
         )
-        requested = [more for more in ("pose", "signature") if getattr(self.options, more)]
+        requested = [name for name in ("pose", "signature") if getattr(self.options, name)]
         shapeless = [finding(SHAPE_OF_GRID)] * bool(requested)
         shapeless = shapeless if is_scan else checks.unused(requested)
         floats = ["float"] * bool(self.options.float)
-        more = (
+        empty_entries = (
             *requested,
             *["thumbnail"] * bool(self.options.thumbnails),
             *["floating"] * len(floats),
         )
-        self._add(contents, measurement, [*shapeless, *checks.unused(floats)], dict.fromkeys(more))
+        self._add(
+            contents,
+            measurement,
+            [*shapeless, *checks.unused(floats)],
+            dict.fromkeys(empty_entries),
+        )
 
     def _measure_labels(self, name: str, contents: Contents) -> None:
         options = self.options
         settings, findings = self._mesh_settings()
         table = {}
         if options.label_table is not None:
-            named = options.label_table.name
-            with contents.attempt(named), about_file(named):
+            table_name = options.label_table.name
+            with contents.attempt(table_name), about_file(table_name):
                 table = read_label_table(options.label_table, options.limits)
             if not table:
                 return
-        wanted = None if options.label == "all" else [options.label]
+        requested_labels = None if options.label == "all" else [options.label]
         array = self._array_options()
         measured = measure_labels(
-            self._path, name, array, replace(settings, unit=1.0), wanted, table
+            self._path, name, array, replace(settings, unit=1.0), requested_labels, table
         )
-        absent = [more["label"]["value"] for _, more in measured]
+        absent = [entries["label"]["value"] for _, entries in measured]
         absent = [label for label in absent if label not in table]
         if options.label_table is not None and absent:
             values = {"labels": absent, "others": sorted(table), "remedy": "--label-table"}
             raise FileError(LABEL_ABSENT, file=options.label_table.name, **values)
-        findings = [one for one in findings if one.code not in (UNIT_ASSUMED, OPTIONS_UNUSED)]
+        findings = [
+            file_finding
+            for file_finding in findings
+            if file_finding.code not in (UNIT_ASSUMED, OPTIONS_UNUSED)
+        ]
         requested = ("spline_order", "density_scale", "pose", "signature", "fourier")
-        findings += checks.unused(one for one in requested if getattr(options, one))
-        for _, (one, more) in self._chosen({pair[0].name: pair for pair in measured}, contents):
-            density = table.get(more["label"]["value"], Label()).density
-            own = [each for each in findings if density is None or each.code != DENSITY_DEFAULTED]
-            self._add(contents, one, own, more)
+        findings += checks.unused(name for name in requested if getattr(options, name))
+        for _, (measurement, entries) in self._chosen(
+            {pair[0].name: pair for pair in measured}, contents
+        ):
+            density = table.get(entries["label"]["value"], Label()).density
+            own_findings = [
+                file_finding
+                for file_finding in findings
+                if density is None or file_finding.code != DENSITY_DEFAULTED
+            ]
+            self._add(contents, measurement, own_findings, entries)
 
     def _array_options(self) -> ArrayOptions:
-        taken = {
-            one: getattr(self.options, one)
-            for one in (*checks.OF_ARRAYS, "unit_scale", "limits", "threshold")
+        values = {
+            name: getattr(self.options, name)
+            for name in (*checks.OF_ARRAYS, "unit_scale", "limits", "threshold")
         }
-        taken["positions"] = dict(self.options.positions or ())
-        return ArrayOptions(**{one: value for one, value in taken.items() if value is not None})
+        values["positions"] = dict(self.options.positions or ())
+        return ArrayOptions(**{name: value for name, value in values.items() if value is not None})
 
     def _measure_stream(self, name: str, progress: Callable[[int], None]) -> Measurement:
         check_file(self._path)
         options = self.options
-        given = [
-            one for one in _NOT_OF_STREAMS if getattr(options, one) not in (None, "thin", "value")
+        given_options = [
+            name_of_option
+            for name_of_option in _NOT_OF_STREAMS
+            if getattr(options, name_of_option) not in (None, "thin", "value")
         ]
-        given += [*arguments.boolean_and_wire(options), *["kind"] * (options.kind == "printed")]
-        if given:
-            raise QueryError(STREAM_OPTIONS, options=arguments.words(given))
+        given_options += [
+            *arguments.boolean_and_wire(options),
+            *["kind"] * (options.kind == "printed"),
+        ]
+        if given_options:
+            raise QueryError(STREAM_OPTIONS, options=arguments.words(given_options))
         settings, findings = self._mesh_settings()
         return measure_mesh_file(self._path, name, settings, tuple(findings), progress)
 
@@ -276,38 +298,49 @@ class BareFile:
             body = body_of_mesh(reading, shell)
             measurement = measure_reading(reading, body, shell)
             sheet = [finding(MEASURED_AS_SHELL)]
-        more, of_liquid = {}, ()
+        extra_entries, floating_findings = {}, ()
         if self.options.float:
-            of_mass = measurement.mass_properties
+            mass_properties = measurement.mass_properties
             settled = partial(
                 floating.settle,
                 [body],
-                of_mass.mass,
-                of_mass.center,
+                mass_properties.mass,
+                mass_properties.center,
                 self.options.float,
                 UP,
                 center_error=measurement.center_bounds,
             )
-            more, of_liquid = floating_entry(settled, measurement, self.options, contents)
+            extra_entries, floating_findings = floating_entry(
+                settled, measurement, self.options, contents
+            )
         if self.options.thumbnails:
-            more["thumbnail"] = picture(reading.join(), measurement, settings.unit)
-        cuts, of_cuts = cut_entries(measurement, body, self.options, contents)
-        self._add(contents, measurement, (*findings, *sheet, *of_liquid, *of_cuts), more | cuts)
+            extra_entries["thumbnail"] = picture(reading.join(), measurement, settings.unit)
+        cuts, cut_findings = cut_entries(measurement, body, self.options, contents)
+        self._add(
+            contents,
+            measurement,
+            (*findings, *sheet, *floating_findings, *cut_findings),
+            extra_entries | cuts,
+        )
 
     def _add(
         self,
         contents: Contents,
         measurement: Measurement,
         findings: Iterable[Finding],
-        more: dict[str, Any],
+        extra_entries: dict[str, Any],
     ) -> None:
-        """Add a measurement and its record. findings: about its file. more: parts of the record."""
+        """Add a measurement and its record. findings: about its file. extra_entries: of the
+        record.
+        """
         options = self.options
         findings = (*measurement.findings, *findings, *checks.body_findings(options, measurement))
         measurement = replace(measurement, findings=findings)
         surface = measurement.area_moments if options.surface_moments else None
         contents.objects.append(
-            record.record(measurement, options.frame, options.order, surface, more, options.about)
+            record.record(
+                measurement, options.frame, options.order, surface, extra_entries, options.about
+            )
         )
         contents.measured.append((measurement.name, None, measurement))
 
@@ -316,12 +349,12 @@ def _with_own_names(meshes: Iterable[Named]) -> dict[str, Named]:
     """Return meshes or bodies by name, later ones of a name with numbers behind it, as in
     Blender.
     """
-    named: dict[str, Named] = {}
+    by_name: dict[str, Named] = {}
     for mesh in meshes:
         numbered = ("{}.{:03d}".format(mesh.name, number) for number in count(1))
-        name = next(name for name in chain([mesh.name], numbered) if name not in named)
-        named[name] = replace(mesh, name=name)
-    return named
+        name = next(name for name in chain([mesh.name], numbered) if name not in by_name)
+        by_name[name] = replace(mesh, name=name)
+    return by_name
 
 
 def is_bare(path: str, options: Namespace, memory: int | None) -> bool:

@@ -32,12 +32,12 @@ def serve(line: Lifeline) -> None:
     messages = line.messages()
     setup = next(messages)
     options = arguments.parse(setup["words"])
-    said = io.StringIO()
+    stderr_text = io.StringIO()
     try:
-        with redirect_stderr(said):
+        with redirect_stderr(stderr_text):
             checks.prepare(options)
     except SystemExit:
-        line.answer({"usage": said.getvalue()})
+        line.answer({"usage": stderr_text.getvalue()})
         return
 
     def report(_file: str, text: str) -> None:
@@ -72,16 +72,16 @@ def references(path: str, opened: Iterable[str] = ()) -> set[Path]:
     are missing tiles.
     """
     waiting = [Path(path), *map(Path, opened)]
-    known = set()
+    visited = set()
     while waiting:
         file = waiting.pop()
         with suppress(*_UNREADABLE):
             file = Path(os.path.realpath(file))
-            if file not in known:
-                known.add(file)
+            if file not in visited:
+                visited.add(file)
                 names = _NAMES.get(file.suffix.lower())
                 waiting += [file.parent / name for name in names(file)] if names else []
-    return known - {Path(os.path.realpath(path))}
+    return visited - {Path(os.path.realpath(path))}
 
 
 def _of_nrrd(path: Path) -> Iterator[str]:

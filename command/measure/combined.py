@@ -51,17 +51,20 @@ class Combined:
         ]
         bones = [
             record.record(
-                replace(part.measurement, place_error=moved),
+                replace(part.measurement, place_error=place_error),
                 frame,
                 more={"armature": rig.armature.name},
             )
             for rig in self.rigs
-            for moved in [self.unit * _place_error(rig)]
+            for place_error in [self.unit * _place_error(rig)]
             for part in rig.parts
             if part.measurement is not None
         ]
-        found = {"assemblies": sorted(assemblies, key=lambda entry: entry["name"]), "bones": bones}
-        return {name: entries for name, entries in found.items() if entries}
+        entries_by_kind = {
+            "assemblies": sorted(assemblies, key=lambda entry: entry["name"]),
+            "bones": bones,
+        }
+        return {name: entries for name, entries in entries_by_kind.items() if entries}
 
     def store(self, contents: Contents) -> None:
         for assembly in self.assemblies:
@@ -73,8 +76,8 @@ class Combined:
 
 
 def _place_error(rig: bodies.rig.Rig) -> float:
-    of_meshes = max(map(read.places.place_error, rig.objects), default=0.0)
-    return of_meshes + read.places.place_error(rig.armature)
+    mesh_error = max(map(read.places.place_error, rig.objects), default=0.0)
+    return mesh_error + read.places.place_error(rig.armature)
 
 
 def measure_combined(
@@ -86,12 +89,12 @@ def measure_combined(
     that have a mass.
     """
     scene = bpy.context.scene
-    found = Combined(options.meters_per_unit(scene))
-    wanted = replace(options, order=None)
+    combined = Combined(options.meters_per_unit(scene))
+    member_options = replace(options, order=None)
 
     def add_assembly(root: Root) -> None:
-        found.assemblies.append(
-            measure_assembly(root, bpy.context.evaluated_depsgraph_get(), wanted)
+        combined.assemblies.append(
+            measure_assembly(root, bpy.context.evaluated_depsgraph_get(), member_options)
         )
 
     by_name = sorted(scene.objects, key=lambda obj: obj.name)
@@ -113,5 +116,5 @@ def measure_combined(
     for armature in by_name:
         if armature.type == "ARMATURE" and armature.get("body_method") == Procedure.ASSEMBLY:
             with contents.attempt(armature.name):
-                found.rigs.append(bodies.rig.measure_rig(bpy.context, armature))
-    return found
+                combined.rigs.append(bodies.rig.measure_rig(bpy.context, armature))
+    return combined

@@ -70,13 +70,18 @@ def said_once(entries: Sequence[dict[str, Any]], code: str) -> Iterator[Finding]
     """Yield the finding with a code, to be said once of a file, if several records all have it; it
     leaves them.
     """
-    found = [(entry, one) for entry in entries for one in entry["findings"] if one["code"] == code]
-    if len(found) < len(entries) or len(entries) < 2:
+    matches = [
+        (entry, record)
+        for entry in entries
+        for record in entry["findings"]
+        if record["code"] == code
+    ]
+    if len(matches) < len(entries) or len(entries) < 2:
         return
-    for entry, one in found:
-        entry["findings"].remove(one)
-        entry["warnings"].remove(one["message"])
-    yield from unique(finding(code, **one["values"]) for _, one in found)
+    for entry, record in matches:
+        entry["findings"].remove(record)
+        entry["warnings"].remove(record["message"])
+    yield from unique(finding(code, **record["values"]) for _, record in matches)
 
 
 def is_open_sheet(refusal: MeasureError, options: Namespace) -> bool:
@@ -108,9 +113,9 @@ def cut_entries(
     if options.against is not None:
         entries["cut_fill"] = None
         with contents.attempt(measurement.name):
-            found = _cut_fill(body, options.against, against_object)
-            entries["cut_fill"] = cut_fill_record(found, str(options.against))
-            findings = partly_compared(found)
+            cut_fill = _cut_fill(body, options.against, against_object)
+            entries["cut_fill"] = cut_fill_record(cut_fill, str(options.against))
+            findings = partly_compared(cut_fill)
     return entries, findings
 
 

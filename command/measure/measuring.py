@@ -43,9 +43,9 @@ def measured_together(
 
     That is the case if an object needs settings or results of its own besides mass properties.
     """
-    own = ("order", "threshold", "label", "polynomial", "density_from")
+    individual_options = ("order", "threshold", "label", "polynomial", "density_from")
     is_alone = options.pose or options.signature
-    if is_alone or any(getattr(options, name) is not None for name in own):
+    if is_alone or any(getattr(options, name) is not None for name in individual_options):
         return None
     return measured_in_turn(objects, bpy.context.evaluated_depsgraph_get(), measure_options)
 
@@ -66,16 +66,16 @@ def measure_shape(
         shape = shape_of(obj, depsgraph, measure_options)
     except NoShapeError as refusal:
         return refusal.measurement, dict.fromkeys(requested), (refusal.finding,)
-    more: dict[str, Any] = {"pose": shape.pose()} if options.pose else {}
+    shape_entries: dict[str, Any] = {"pose": shape.pose()} if options.pose else {}
     findings: tuple[Finding, ...] = ()
     if options.signature and shape.has_surface:
-        more["signature"] = shape.signature().as_record()
+        shape_entries["signature"] = shape.signature().as_record()
         if shape.measurement.method.source == verdict.Source.NURBS:
             findings = (finding(SIGNATURE_OF_DISPLAY_MESH),)
     elif options.signature:
-        more["signature"] = None
+        shape_entries["signature"] = None
         findings = (finding(bodies.SHAPE_UNAVAILABLE, cause=bodies.NEEDS_POLYGONS),)
-    return shape.measurement, more, findings
+    return shape.measurement, shape_entries, findings
 
 
 def thumbnail_of(obj: bpy.types.Object, measurement: Measurement, unit: float) -> str | None:
@@ -128,14 +128,14 @@ def record_of_flat(
     depsgraph = bpy.context.evaluated_depsgraph_get()
     order = options.order
     posed = checks.unused(name for name in ("pose", "float") if getattr(options, name))
-    more: dict[str, Any] = {"pose": None} if options.pose else {}
+    extra_entries: dict[str, Any] = {"pose": None} if options.pose else {}
     invariants = []
     try:
         region = flat_region(obj, depsgraph, selected=False, unit=unit)
         moments = region.moments(max(order or 0, LEAST_ORDER))
         if options.signature:
             shape = flat_shape.flat_shape_of(obj, depsgraph, unit)
-            more["signature"] = shape.signature().as_record()
+            extra_entries["signature"] = shape.signature().as_record()
         if order is not None and order >= HU_ORDER:
             normalized = normalize(moments)
             invariants = [*hu_invariants(normalized), *flusser_invariants(normalized)]
@@ -149,7 +149,7 @@ def record_of_flat(
         (*region.findings, *area_findings(region, moments.total), *posed, *findings),
         order=order,
         invariants=invariants,
-        more=more,
+        more=extra_entries,
         about=options.about,
         frame=(options.frame, region.rotation, region.location),
     )
@@ -174,13 +174,15 @@ def objects_to_measure(
     """
     scene = bpy.context.scene
     layer = bpy.context.view_layer
-    same = Counter(obj.name for obj in scene.objects)
+    name_counts = Counter(obj.name for obj in scene.objects)
     # A linked object may have a local one's name; the full name has the library too.
-    labels = {obj: obj.name if same[obj.name] == 1 else obj.name_full for obj in scene.objects}
+    labels = {
+        obj: obj.name if name_counts[obj.name] == 1 else obj.name_full for obj in scene.objects
+    }
     if names is None:
         candidates = {*visibility.measurable_objects(layer), *_excluded(scene, layer)}
         reasons = {} if everything else assembly.left_out_reasons(scene, layer)
-        chosen = [
+        labeled_objects = [
             (label, obj)
             for obj, label in labels.items()
             if obj in candidates and obj not in reasons
@@ -190,7 +192,7 @@ def objects_to_measure(
             for obj, reason in reasons.items()
             if obj in candidates
         ]
-        return chosen, left_out, []
+        return labeled_objects, left_out, []
     by_name = {
         name: [(label, obj) for obj, label in labels.items() if label == name]
         or [(label, obj) for obj, label in labels.items() if obj.name == name]
@@ -219,13 +221,13 @@ def _excluded(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> set[bpy.typ
 def other_scenes(scene: bpy.types.Scene) -> Iterator[Finding]:
     """Yield a finding if a file has measurable objects outside its open scene."""
     here = {*scene.objects}
-    others = [
-        other.name
-        for other in bpy.data.scenes
-        if any(visibility.measurable(obj) for obj in {*other.objects} - here)
+    scene_names = [
+        other_scene.name
+        for other_scene in bpy.data.scenes
+        if any(visibility.measurable(obj) for obj in {*other_scene.objects} - here)
     ]
-    if others:
-        yield finding(files.OTHERS_LEFT_OUT, kind="scene", name=scene.name, others=others)
+    if scene_names:
+        yield finding(files.OTHERS_LEFT_OUT, kind="scene", name=scene.name, others=scene_names)
 
 
 def set_density(obj: bpy.types.Object, options: Namespace) -> None:
@@ -236,22 +238,25 @@ def set_density(obj: bpy.types.Object, options: Namespace) -> None:
     The object's settings change in memory. Only --write saves them, together with the results.
     """
     source, name = option_types.split_source(options.density_from or "")
-    chosen: dict[str, Any] = {}
+    new_settings: dict[str, Any] = {}
     if options.threshold is not None and obj.type == "VOLUME":
-        chosen |= {"grid_as": "THRESHOLD", "threshold": options.threshold}
+        new_settings |= {"grid_as": "THRESHOLD", "threshold": options.threshold}
     if options.label is not None and obj.type == "VOLUME":
-        chosen |= {"grid_as": "LABEL", "label": 0 if options.label == "all" else options.label}
+        new_settings |= {
+            "grid_as": "LABEL",
+            "label": 0 if options.label == "all" else options.label,
+        }
     if options.polynomial is not None:
         source = "polynomial"
-        chosen["density_polynomial"] = options.polynomial
+        new_settings["density_polynomial"] = options.polynomial
     if source:
-        chosen |= {"mass_from": "DENSITY", "density_from": source.upper()}
+        new_settings |= {"mass_from": "DENSITY", "density_from": source.upper()}
     if source == "attribute":
-        chosen["density_attribute"] = name
+        new_settings["density_attribute"] = name
     if source == "volume":
         volume = bpy.context.scene.objects.get(name)
         if volume is None or volume.type != "VOLUME":
             raise QueryError(session.findings.NO_SUCH_NAME, kind="Volume object", name=name)
-        chosen["density_volume"] = volume
-    for key, value in chosen.items():
+        new_settings["density_volume"] = volume
+    for key, value in new_settings.items():
         setattr(obj.body_moments, key, value)

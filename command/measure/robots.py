@@ -60,24 +60,28 @@ def complete(
     if options.format not in FORMATS:
         return document
     if options.links == "object" or not is_opened:
-        made = _by_object(document, measured, measure_options)
+        scene_links = _by_object(document, measured, measure_options)
     else:
-        made = _of_scene(document, measured, options.links, measure_options)
-    made = replace(made, robot=made.robot.with_fixed_roots()) if options.fixed_base else made
-    robot = with_primitives(made.robot, "none")
-    told = []
+        scene_links = _of_scene(document, measured, options.links, measure_options)
+    scene_links = (
+        replace(scene_links, robot=scene_links.robot.with_fixed_roots())
+        if options.fixed_base
+        else scene_links
+    )
+    robot = with_primitives(scene_links.robot, "none")
+    geometry_findings = []
     failed = []
     if not (options.no_meshes or options.inertial_only or is_stream(options.output)):
-        surface_of = partial(made.surface, bpy.context)
+        surface_of = partial(scene_links.surface, bpy.context)
         read = Path(document["file"]) if document["file"] else None
         try:
-            seen = (
-                without_collision(made.robot)
+            robot_with_colliders = (
+                without_collision(scene_links.robot)
                 if options.collision == "none"
-                else made.with_colliders().robot
+                else scene_links.with_colliders().robot
             )
-            robot, told = with_geometry(
-                seen,
+            robot, geometry_findings = with_geometry(
+                robot_with_colliders,
                 options.format,
                 surface_of,
                 options.output,
@@ -93,12 +97,17 @@ def complete(
             ]
     robot = merge_fixed(robot) if options.merge_fixed else robot
     text, findings = robot_text(
-        robot, options.format, [*made.findings, *told], inertial_only=options.inertial_only
+        robot,
+        options.format,
+        [*scene_links.findings, *geometry_findings],
+        inertial_only=options.inertial_only,
     )
     findings += failed
-    for one in findings:
-        print_message(sentence(one))
-    refused = [failure(None, one) for one in findings if severity(one) == Severity.ERROR]
+    for problem in findings:
+        print_message(sentence(problem))
+    refused = [
+        failure(None, problem) for problem in findings if severity(problem) == Severity.ERROR
+    ]
     written = {"robot": text} if robot.links else {}
     return document | written | {"errors": [*document["errors"], *refused]}
 
@@ -108,10 +117,14 @@ def _by_object(
 ) -> SceneLinks:
     """Return the measured objects as links."""
     labels = {obj: label for label, obj, _ in measured if obj is not None}
-    made = [object_candidate(label, obj, one, labels) for label, obj, one in measured]
-    made.sort(key=lambda one: one.name)
+    candidates = [
+        object_candidate(label, obj, measurement, labels) for label, obj, measurement in measured
+    ]
+    candidates.sort(key=lambda candidate: candidate.name)
     unit = measure_options.meters_per_unit(bpy.context.scene)
-    robot, findings = jointed_robot(bpy.context, robot_name(document["file"]), made, labels, unit)
+    robot, findings = jointed_robot(
+        bpy.context, robot_name(document["file"]), candidates, labels, unit
+    )
     return SceneLinks(robot, findings, unit, {label: [obj] for obj, label in labels.items()})
 
 
@@ -126,13 +139,13 @@ def _of_scene(
     """
     name = robot_name(document["file"])
     context = bpy.context
-    given = replace(measure_options, order=None)
+    link_options = replace(measure_options, order=None)
     try:
         if links == "bone":
             objects = [obj for obj in context.view_layer.objects if not obj.hide_render]
-            return bone_links(context, name, objects, given)
+            return bone_links(context, name, objects, link_options)
         objects = [obj for _, obj, _ in measured if obj is not None]
-        return collection_links(context, name, context.scene.collection, objects, given)
+        return collection_links(context, name, context.scene.collection, objects, link_options)
     except MeasureError as error:
         return SceneLinks(
             Robot(name, ()), [error.finding], measure_options.meters_per_unit(context.scene)

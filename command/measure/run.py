@@ -87,12 +87,14 @@ class Run:
             contents.errors.append(self.internal_error(None, error))
         self.has_saved = source.has_saved
         self.opened = source.opened
-        for one in contents.errors:
-            where = [text for text in (file, one["name"]) if text]
-            print_message(*where, one["reason"])
-        made = document(
+        for entry in contents.errors:
+            where = [text for text in (file, entry["name"]) if text]
+            print_message(*where, entry["reason"])
+        finished_document = document(
             contents.objects,
-            record.total([one for _, _, one in contents.measured], contents.caveats),
+            record.total(
+                [measurement for _, _, measurement in contents.measured], contents.caveats
+            ),
             contents.errors,
             contents.left_out,
             file=file,
@@ -101,9 +103,9 @@ class Run:
             status=status,
             run=run_of(options),
         )
-        made = source.complete(made, contents)
+        finished_document = source.complete(finished_document, contents)
         interruption.check_interruption()
-        return made
+        return finished_document
 
     def internal_error(self, name: str | None, error: Exception) -> dict[str, Any]:
         """Count an unexpected error if it is the program's fault, and return the entry about it."""

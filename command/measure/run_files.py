@@ -97,8 +97,8 @@ def _blender(options: Namespace) -> str | None:
     the bpy module.
     """
     bpy = sys.modules.get("bpy")
-    own = None if bpy is None or bpy.app.module else bpy.app.binary_path
-    return own if options.blender is None else options.blender
+    running_blender = None if bpy is None or bpy.app.module else bpy.app.binary_path
+    return running_blender if options.blender is None else options.blender
 
 
 class _Places:
@@ -124,12 +124,12 @@ class _Places:
         try:
             ends.enter_context(locked(folder))
             shutil.rmtree(self.work, ignore_errors=True)  # left behind by a run that was killed
-            kept = [self.journal]
+            paths_to_replace = [self.journal]
             if not options.resume:
                 is_older = target.is_file() and output.is_result(target)
                 self._replaced = [self.journal, *([target] if is_older else [])]
-                kept += map(_old, self._replaced)
-            for path in kept:
+                paths_to_replace += map(_old, self._replaced)
+            for path in paths_to_replace:
                 if not (options.force or output.is_replaceable(path)):
                     arguments.fail(
                         "argument --output: {} is in the way, and no result. Move it, or use "
@@ -176,8 +176,12 @@ class _Supervised:
         self._faults = 0
         cores = processes.cores()
         self._count = max(1, min(options.jobs or cores, len(self.tasks)))
-        given = options.memory_mb
-        memory = processes.memory_share(self._count) if given is None else int(given * 1e6)
+        memory_option = options.memory_mb
+        memory = (
+            processes.memory_share(self._count)
+            if memory_option is None
+            else int(memory_option * 1e6)
+        )
         self._limits = Limits(options.timeout or measure_parser.DEFAULT_TIMEOUT, memory)
         threads = max(1, cores // self._count)
         self._setup = {"words": options.words, "threads": threads, "memory": memory}
@@ -211,24 +215,26 @@ class _Supervised:
             "blender": blender,
         }
         limits = {"seconds": self._limits.seconds, "memory": self._limits.memory}
-        known = []
+        reused_statuses = []
         if self._options.resume:
             entries = journal.entries
-            given = arguments.run_of(self._options)["options"]
+            run_options = arguments.run_of(self._options)["options"]
             retried = self._options.retry_failed
             reasons = {
                 path: entries[path].reason_to_measure(
-                    {"path": path} | state(path) | common, given, limits, retried
+                    {"path": path} | state(path) | common, run_options, limits, retried
                 )
                 if path in entries
                 else "not recorded"
                 for path in self.tasks
             }
-            known = [entries[path].status for path, reason in reasons.items() if reason is None]
-            self.done = len(known)
+            reused_statuses = [
+                entries[path].status for path, reason in reasons.items() if reason is None
+            ]
+            self.done = len(reused_statuses)
             _report_reuse(reasons)
             pool.add(path for path, reason in reasons.items() if reason is not None)
-        progress = Progress(len(self.tasks), known)
+        progress = Progress(len(self.tasks), reused_statuses)
         while not pool.is_done:
             for outcome in pool.step():
                 status, reason, text = self._recorded(outcome, blender)

@@ -94,16 +94,16 @@ class Scene:
         self._wanted = replace(
             self._wanted, unit_scale=(options.unit_scale or 1.0) if is_unitless(path) else None
         )
-        chosen, contents.left_out, contents.errors = objects_to_measure(
+        labeled_objects, contents.left_out, contents.errors = objects_to_measure(
             options.object, options.all, opened.hidden
         )
         contents.errors += [
             failure(None, reason) for reason in (*opened.errors, *references.missing_links())
         ]
-        self._measure_each(chosen, opened, contents)
+        self._measure_each(labeled_objects, opened, contents)
         contents.caveats += references.scripts_of_open_file() if path is None else ()
         contents.caveats += verdict.open_body_caveats(
-            (label, one.method) for label, _, one in contents.measured
+            (label, measurement.method) for label, _, measurement in contents.measured
         )
         if options.object is None:  # A user who names objects knows what their total means.
             objects = [obj for _, obj, _ in contents.measured]
@@ -119,7 +119,7 @@ class Scene:
             if options.float:
                 self._float_assemblies(contents)
         if options.fourier:
-            contents.errors.extend(self._fourier(chosen, contents))
+            contents.errors.extend(self._fourier(labeled_objects, contents))
         if not contents.objects and not contents.flats and not contents.errors:
             contents.errors.append(failure(None, why_nothing(len(contents.left_out))))
 
@@ -131,12 +131,12 @@ class Scene:
             self._combined.store(contents)
         is_changed = options.write
         if options.asset_metadata and path is not None and suffixes.file_suffix(path) == BLEND:
-            of_objects = {obj: one for _, obj, one in contents.measured}
-            in_file, told = saving.write_assets(
-                of_objects | self._combined.measurements(), path, options.asset_metadata
+            object_measurements = {obj: measurement for _, obj, measurement in contents.measured}
+            in_file, asset_findings = saving.write_assets(
+                object_measurements | self._combined.measurements(), path, options.asset_metadata
             )
             is_changed = is_changed or in_file
-            contents.caveats += told
+            contents.caveats += asset_findings
         if is_changed:
             if self._place is None:
                 raise FileError(
@@ -171,11 +171,11 @@ class Scene:
 
     def _measure_each(
         self,
-        chosen: list[tuple[str, bpy.types.Object]],
+        labeled_objects: list[tuple[str, bpy.types.Object]],
         opened: references.Opened,
         contents: Contents,
     ) -> None:
-        of_file = (
+        file_notes = (
             *opened.notes,
             *file_findings(self._path, self.options),
             *references.blocked_scripts(),
@@ -187,17 +187,17 @@ class Scene:
             else {}
         )
         left_out = {entry["name"] for entry in contents.left_out}
-        objects = [obj for _, obj in chosen]
+        objects = [obj for _, obj in labeled_objects]
         for body in floating.bodies_of(objects, False) if self.options.float else ():
             members = [obj for obj in body if obj.name not in left_out]
             first = next(obj for obj in members if obj in objects)
             self._afloat[first] = members
-        in_turn = measured_together([obj for _, obj in chosen], self.options, self._wanted)
-        for label, obj in chosen:
+        in_turn = measured_together([obj for _, obj in labeled_objects], self.options, self._wanted)
+        for label, obj in labeled_objects:
             user = operands.get(obj)
             cut = [] if user is None else [finding(SOLID_OPERAND_MEASURED, object=user.name)]
             with contents.attempt(label):
-                about = (*opened.by_object.get(obj.name, ()), *of_file, *cut)
+                about = (*opened.by_object.get(obj.name, ()), *file_notes, *cut)
                 self._measure_object(label, obj, in_turn, about, contents)
         contents.flats.sort(key=lambda entry: entry["name"])
 
@@ -211,69 +211,85 @@ class Scene:
     ) -> None:
         """Add an object's measurement and its record, or the record of a flat shape.
 
-        A body with a mass but without moments of the requested order gets a record without them,
-        and an error is added. in_turn: measures the objects together; None if each has to be
-        measured by itself. findings: about the object's file.
+        in_turn: measures the objects together; None if each has to be measured by itself. findings:
+        about the object's file.
         """
-        order = self.options.order
-        wanted = self._wanted
         set_density(obj, self.options)
-        try:
-            measurement, more, of_shape = (
-                (in_turn(obj).measurement, {}, ())
-                if in_turn
-                else measure_shape(obj, self.options, self._wanted)
-            )
-        except MeasureError as refusal:
-            if self.options.flat and refusal.finding.code in NO_BODY:
-                unit = self._wanted.unit_scale
-                contents.flats.append(
-                    record_of_flat(label, obj, self.options, unit, refusal, findings)
-                )
-                return
-            if is_open_sheet(refusal, self.options):
-                wanted = replace(wanted, kind="shell")
-                measurement, more, of_shape = measure_shape(obj, self.options, wanted)
-                of_shape = (*of_shape, finding(MEASURED_AS_SHELL))
-            elif refusal.finding.code in NO_BODY and any(
-                one.code == cad.FACES_NOT_READ for one in findings
-            ):
-                return  # The file's errors name the faces that are missing.
-            elif order is None:
-                raise
-            else:
-                lower = replace(wanted, order=None)
-                measurement, more, of_shape = measure_shape(obj, self.options, lower)
-                lost = _unavailable("moments of this order", refusal)
-                contents.errors.append(failure(label, lost))
-                order = None
+        measured = self._measure_or_less(label, obj, in_turn, findings, contents)
+        if measured is None:
+            return
+        measurement, extra_entries, shape_findings, measure_options = measured
+        order = measure_options.order
         surface = (
             measurement.area_moments if self.options.surface_moments and order is not None else None
         )
         findings = (
-            *(*measurement.findings, *of_shape, *findings),
+            *(*measurement.findings, *shape_findings, *findings),
             *(*self._default_density(obj, measurement), *body_findings(self.options, measurement)),
         )
-        moved = read.places.place_error(obj) * self._wanted.meters_per_unit(bpy.context.scene)
-        named = replace(measurement, name=label, findings=findings, place_error=moved)
+        place_error = read.places.place_error(obj) * self._wanted.meters_per_unit(bpy.context.scene)
+        labeled = replace(measurement, name=label, findings=findings, place_error=place_error)
         if given.COLLIDERS in obj:
             colliders = session.colliders.collider_record(obj, measurement, bpy.context)
-            more |= {} if colliders is None else {"colliders": colliders}
-        entries, of_body = self._body_entries(obj, named, wanted, contents)
-        more |= entries
-        named = replace(named, findings=(*named.findings, *of_body))
+            extra_entries |= {} if colliders is None else {"colliders": colliders}
+        entries, body_notes = self._body_entries(obj, labeled, measure_options, contents)
+        extra_entries |= entries
+        labeled = replace(labeled, findings=(*labeled.findings, *body_notes))
         if self.options.thumbnails:
             unit = self._wanted.meters_per_unit(bpy.context.scene)
-            more["thumbnail"] = thumbnail_of(obj, measurement, unit)
-        entry = record.record(named, self.options.frame, order, surface, more, self.options.about)
+            extra_entries["thumbnail"] = thumbnail_of(obj, measurement, unit)
+        entry = record.record(
+            labeled, self.options.frame, order, surface, extra_entries, self.options.about
+        )
         contents.objects.append(entry)
         contents.measured.append((label, obj, measurement))
+
+    def _measure_or_less(
+        self,
+        label: str,
+        obj: bpy.types.Object,
+        in_turn: Callable[[bpy.types.Object], stack.Measured] | None,
+        findings: tuple[Finding, ...],
+        contents: Contents,
+    ) -> tuple[Measurement, dict[str, Any], tuple[Finding, ...], MeasureOptions] | None:
+        """Return an object's measurement, entries of its record, findings, and the options that
+        were possible: an open sheet becomes a shell, and moments of a high order may be left out.
+
+        Return None for a flat shape, whose record is added, and for a body whose faces are missing
+        in the file. Raises MeasureError.
+        """
+        measure_options = self._wanted
+        try:
+            if in_turn:
+                return in_turn(obj).measurement, {}, (), measure_options
+            return *measure_shape(obj, self.options, measure_options), measure_options
+        except MeasureError as refusal:
+            has_no_body = refusal.finding.code in NO_BODY
+            if self.options.flat and has_no_body:
+                contents.flats.append(
+                    record_of_flat(
+                        label, obj, self.options, measure_options.unit_scale, refusal, findings
+                    )
+                )
+                return None
+            if is_open_sheet(refusal, self.options):
+                shell = replace(measure_options, kind="shell")
+                measurement, entries, notes = measure_shape(obj, self.options, shell)
+                return measurement, entries, (*notes, finding(MEASURED_AS_SHELL)), shell
+            if has_no_body and any(note.code == cad.FACES_NOT_READ for note in findings):
+                return None  # The file's errors name the faces that are missing.
+            if measure_options.order is None:
+                raise
+            without_moments = replace(measure_options, order=None)
+            measured = measure_shape(obj, self.options, without_moments)
+            contents.errors.append(failure(label, _unavailable("moments of this order", refusal)))
+            return *measured, without_moments
 
     def _body_entries(
         self,
         obj: bpy.types.Object,
         measurement: Measurement,
-        wanted: MeasureOptions,
+        measure_options: MeasureOptions,
         contents: Contents,
     ) -> tuple[dict[str, Any], tuple[Finding, ...]]:
         """Return the entries of cuts and of floating, if requested, and findings about them."""
@@ -283,19 +299,21 @@ class Scene:
         findings: tuple[Finding, ...] = ()
 
         def against_object(name: str, surface: mesh.Surface) -> CutFill:
-            other = scene.objects.get(name)
-            if other is None:
+            other_object = scene.objects.get(name)
+            if other_object is None:
                 raise QueryError(session.findings.NO_SUCH_NAME, kind="object", name=name)
-            return cuts.cut_fill_against(other, surface, depsgraph, wanted.meters_per_unit(scene))
+            return cuts.cut_fill_against(
+                other_object, surface, depsgraph, measure_options.meters_per_unit(scene)
+            )
 
         if self.options.below is not None or self.options.against is not None:
-            body = measure_body(obj, depsgraph, wanted).body
+            body = measure_body(obj, depsgraph, measure_options).body
             entries, findings = cut_entries(
                 measurement, body, self.options, contents, against_object
             )
         if obj in self._afloat:
-            entry, of_liquid = self._floating(self._afloat[obj], measurement, contents)
-            return entries | entry, (*findings, *of_liquid)
+            entry, floating_findings = self._floating(self._afloat[obj], measurement, contents)
+            return entries | entry, (*findings, *floating_findings)
         return entries, findings
 
     def _float_assemblies(self, contents: Contents) -> None:
@@ -317,13 +335,13 @@ class Scene:
         self, members: Sequence[bpy.types.Object], measurement: Measurement, contents: Contents
     ) -> tuple[dict[str, Any], tuple[Finding, ...]]:
         """Return the entry of objects that float as one body, and findings about it."""
-        wanted = replace(self._wanted, order=None, surface=False)
+        measure_options = replace(self._wanted, order=None, surface=False)
 
         def settle() -> Flotation:
             for member in members:
                 set_density(member, self.options)
             depsgraph = bpy.context.evaluated_depsgraph_get()
-            return floating.read(depsgraph, members, wanted, self.options.float).rest
+            return floating.read(depsgraph, members, measure_options, self.options.float).rest
 
         entry, findings = floating_entry(settle, measurement, self.options, contents)
         if entry["floating"] and len(members) > 1:
@@ -346,17 +364,17 @@ class Scene:
             yield finding(bodies.DENSITY_DEFAULTED, density=default)
 
     def _fourier(
-        self, chosen: list[tuple[str, bpy.types.Object]], contents: Contents
+        self, labeled_objects: list[tuple[str, bpy.types.Object]], contents: Contents
     ) -> Iterator[dict[str, Any]]:
         """Write the Fourier transform of the one measured object, and add the findings to its
         record.
         """
-        if len(chosen) != 1:
-            yield failure(None, finding(FOURIER_OBJECT_COUNT, count=len(chosen)))
+        if len(labeled_objects) != 1:
+            yield failure(None, finding(FOURIER_OBJECT_COUNT, count=len(labeled_objects)))
             return
         if not (contents.objects or contents.flats):
             return  # the reason is among the errors already
-        (label, obj) = chosen[0]
+        (label, obj) = labeled_objects[0]
         (entry,) = (*contents.objects, *contents.flats)
         try:
             record.add_findings(entry, write_transform(obj, self.options, self._wanted))
@@ -364,8 +382,10 @@ class Scene:
             yield failure(label, _unavailable("Fourier transform", refusal))
         except OSError as error:
             file = str(self.options.fourier)
-            lost = finding(write.findings.FILE_NOT_WRITTEN, file=file, error=system_reason(error))
-            yield failure(label, lost)
+            missing_transform = finding(
+                write.findings.FILE_NOT_WRITTEN, file=file, error=system_reason(error)
+            )
+            yield failure(label, missing_transform)
         except Exception as error:
             yield contents.internal(label, error)
 
@@ -381,9 +401,9 @@ class Scene:
             and suffixes.file_suffix(self._path) != BLEND
         ):
             raise FileError(RESULTS_NOT_STORED, cause=NEEDS_BLEND)
-        for label, obj, one in contents.measured:
+        for label, obj, measurement in contents.measured:
             with contents.attempt(label):
-                store(obj, one)
+                store(obj, measurement)
                 with (
                     read.tracking.tracking_paused()
                 ):  # the stored results already belong to these settings

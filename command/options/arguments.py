@@ -165,10 +165,10 @@ def run_of(options: argparse.Namespace) -> dict[str, Any]:
     """Return the entry `run` of documents: the add-on's version and the given options that
     influence records.
     """
-    given = {
+    given_options = {
         name: value for name, value in of_numbers(options).items() if value != _defaults()[name]
     }
-    return {"addon": version(), "options": dict(zip(words(given), given.values()))}
+    return {"addon": version(), "options": dict(zip(words(given_options), given_options.values()))}
 
 
 @functools.cache
@@ -196,19 +196,19 @@ def files_of_options(
     name.
     """
     positions = (path for _, path in options.positions or ())
-    named = options.q, options.label_table
-    return [path for path in (*files, opened, *named, *positions) if path]
+    paths_in_options = options.q, options.label_table
+    return [path for path in (*files, opened, *paths_in_options, *positions) if path]
 
 
 def name_frames(argv: list[str]) -> list[str]:
     """Write a `--frame` with a number as `--at-frame`."""
-    named = list(argv)
+    words = list(argv)
     for number, word in enumerate(argv):
         option, equals, value = word.partition("=")
         value = value if equals else "".join(argv[number + 1 : number + 2])
         if option == "--frame" and re.fullmatch(r"[+-]?\.?\d\S*", value):
-            named[number] = "--at-frame" + word.removeprefix("--frame")
-    return named
+            words[number] = "--at-frame" + word.removeprefix("--frame")
+    return words
 
 
 def join_negative_values(argv: list[str]) -> list[str]:
@@ -244,10 +244,10 @@ def options_of_blender(options: argparse.Namespace, is_scan: bool) -> list[str]:
 
 def options_of_polygons(options: argparse.Namespace) -> list[str]:
     """Return the given options for which a body of a CAD file has to be an object in Blender."""
-    given = {name: getattr(options, name) for name in _OF_POLYGONS}
+    values = {name: getattr(options, name) for name in _OF_POLYGONS}
     return [
         *options_of_blender(options, False),
-        *(name for name, value in given.items() if value not in (None, False, "thin")),
+        *(name for name, value in values.items() if value not in (None, False, "thin")),
         *["kind"] * (options.kind == "printed"),
     ]
 
@@ -264,11 +264,11 @@ def check_blender(options: argparse.Namespace, paths: Sequence[str]) -> None:
     for path in paths:
         is_scan = bool(scans.scan_suffix(path))
         suffix = Path(path).suffix.lower()
-        given = words(
+        given_options = words(
             options_of_polygons(options)
             if suffix in listing.CAD
             else options_of_blender(options, is_scan)
         )
-        if given or not (is_scan or suffix in (*listing.UNITLESS, *listing.CAD)):
-            what = ", ".join(given) if given else "“{}”".format(path)
-            fail(NEEDS_BLENDER.format(what + (" need" if len(given) > 1 else " needs")))
+        if given_options or not (is_scan or suffix in (*listing.UNITLESS, *listing.CAD)):
+            subject = ", ".join(given_options) if given_options else "“{}”".format(path)
+            fail(NEEDS_BLENDER.format(subject + (" need" if len(given_options) > 1 else " needs")))

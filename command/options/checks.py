@@ -32,9 +32,9 @@ def prepare(options: Namespace) -> None:
     """
     try:
         if options.material is not None and options.material not in density.BY_NAME:
-            known = ", ".join(sorted(density.BY_NAME))
+            material_names = ", ".join(sorted(density.BY_NAME))
             raise UsageError(
-                "There is no material “{}”. Known are {}".format(options.material, known)
+                "There is no material “{}”. Known are {}".format(options.material, material_names)
             )
         if options.polynomial is not None:
             density.parse_polynomial(options.polynomial)

@@ -36,7 +36,7 @@ _NAMED = {
 # Functions from documents, which may be iterated twice, to pieces of text. Robots are written by
 # the processes that measure the files.
 FORMATS = documents.FORMATS | dict.fromkeys(
-    robots.FORMATS, lambda of_files: (one.get("robot", "") for one in of_files)
+    robots.FORMATS, lambda files: (document.get("robot", "") for document in files)
 )
 
 
@@ -48,10 +48,10 @@ def command(text: str) -> str:
 
 
 def _checked(
-    read: Callable[[str], T], what: str, holds: Callable[[T], bool] = lambda _: True
+    read: Callable[[str], T], description: str, holds: Callable[[T], bool] = lambda _: True
 ) -> Callable[[str], T]:
-    """Return a function that parses a text; ArgumentTypeError unless it is `what`: read without a
-    ValueError, and `holds`.
+    """Return a parser of a text. It raises ArgumentTypeError, which names the description, if
+    `read` raises ValueError or the value does not hold.
     """
 
     def parse(text: str) -> T:
@@ -59,7 +59,7 @@ def _checked(
             value = read(text)
             if holds(value):
                 return value
-        raise ArgumentTypeError("{!r} is not {}".format(text, what))
+        raise ArgumentTypeError("{!r} is not {}".format(text, description))
 
     return parse
 
@@ -78,8 +78,8 @@ def _whole(text: str) -> int:
 
 def _bounded(name: str, least: int, most: int) -> Callable[[str], int]:
     """Return a function that parses a whole number within limits, called `name` in messages."""
-    what = "{} from {} to {}".format(name, least, most)
-    return _checked(_whole, what, lambda value: least <= value <= most)
+    description = "{} from {} to {}".format(name, least, most)
+    return _checked(_whole, description, lambda value: least <= value <= most)
 
 
 order = _bounded("an order", 0, MAX_ORDER)
@@ -157,7 +157,9 @@ def split_source(text: str) -> tuple[str, str]:
 
 def liquid(text: str) -> float:
     """Return the density of a liquid, kg/m³, from its name or as a number."""
-    liquids = {name: one for name, one in density.BY_NAME.items() if one.category == "Liquids"}
+    liquids = {
+        name: preset for name, preset in density.BY_NAME.items() if preset.category == "Liquids"
+    }
     densities = {
         alias.casefold(): material.density
         for name, material in liquids.items()
@@ -172,10 +174,10 @@ def liquid(text: str) -> float:
 
 def heel_angles(text: str) -> tuple[float, ...]:
     """Return the angles of A:B:STEP, in degrees."""
-    what = "A:B:STEP, angles from -180 to 180 in steps of at least {}".format(MIN_HEEL_STEP)
+    description = "A:B:STEP, angles from -180 to 180 in steps of at least {}".format(MIN_HEEL_STEP)
     first, last, step = _checked(
         lambda text: tuple(map(_float, text.split(":"))),
-        what,
+        description,
         lambda parts: (
             len(parts) == 3
             and -180.0 <= parts[0] <= parts[1] <= 180.0

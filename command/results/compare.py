@@ -29,35 +29,35 @@ def differences(
     align: compare centers and tensors in each body's own pose, and skip numbers about a point that
     did not move with the body.
     """
-    others = {document["file"]: document for document in second}
-    rows: list[tuple[str, bool]] = []  # lines, and whether they pass
+    second_documents = {document["file"]: document for document in second}
+    lines: list[tuple[str, bool]] = []  # lines, and whether they pass
     compared = 0
     for document in first:
-        other = others.pop(document["file"], None)
-        if other is None:
-            rows.append(("only in the first: {}".format(document["file"]), False))
+        second_document = second_documents.pop(document["file"], None)
+        if second_document is None:
+            lines.append(("only in the first: {}".format(document["file"]), False))
             continue
-        if document["status"] != other["status"]:
+        if document["status"] != second_document["status"]:
             text = "FAIL  {}: status {} and {}".format(
-                document["file"], document["status"], other["status"]
+                document["file"], document["status"], second_document["status"]
             )
-            rows.append((text, False))
-        names = _bodies(other)
+            lines.append((text, False))
+        names = _bodies(second_document)
         for name, entry in _bodies(document).items():
             label = "{}: {}".format(document["file"], name)
             match = names.pop(name, None)
             if match is None:
-                rows.append(("only in the first: {}".format(label), False))
+                lines.append(("only in the first: {}".format(label), False))
                 continue
             compared += 1
-            rows += _numbers(label, entry, match, tolerance, align)
-        rows += [
+            lines += _numbers(label, entry, match, tolerance, align)
+        lines += [
             ("only in the second: {}: {}".format(document["file"], name), False) for name in names
         ]
-    rows += [("only in the second: {}".format(file), False) for file in others]
-    failed = sum(not passes for _, passes in rows)
+    lines += [("only in the second: {}".format(file), False) for file in second_documents]
+    failed = sum(not passes for _, passes in lines)
     summary = "{} bodies compared, {} differences beyond what is allowed".format(compared, failed)
-    return [*(line for line, _ in rows), summary], bool(failed)
+    return [*(line for line, _ in lines), summary], bool(failed)
 
 
 def _bodies(document: dict[str, Any]) -> dict[str, dict[str, Any]]:
@@ -81,27 +81,33 @@ def _numbers(
 ) -> Iterator[tuple[str, bool]]:
     """Yield a line for each differing number of an object, and whether it passes."""
     if "plane" in first:
-        values, others = (_flat_values(entry, align) for entry in (first, second))
+        values, second_values = (_flat_values(entry, align) for entry in (first, second))
     elif align and not (first.get("pose") and second.get("pose")):
         yield "FAIL  {}: no pose to align by".format(label), False
         return
     else:
-        values, others = (_values(entry, align) for entry in (first, second))
-    for name in dict.fromkeys((*values, *others)):
-        (value, size, bound), (other, _, second_bound) = (
-            of.get(name, (None, 0.0, 0.0)) for of in (values, others)
+        values, second_values = (_values(entry, align) for entry in (first, second))
+    for name in dict.fromkeys((*values, *second_values)):
+        (value, size, bound), (second_value, _, second_bound) = (
+            of.get(name, (None, 0.0, 0.0)) for of in (values, second_values)
         )
-        if value is None or other is None:
-            if value != other:
-                yield "FAIL  {}: {} is {} and {}".format(label, name, value, other), False
+        if value is None or second_value is None:
+            if value != second_value:
+                yield "FAIL  {}: {} is {} and {}".format(label, name, value, second_value), False
             continue
         allowed = tolerance * size + bound + second_bound
-        difference = abs(value - other)
+        difference = abs(value - second_value)
         if difference:
             passes = difference <= allowed
             yield (
                 _LINE.format(
-                    "pass" if passes else "FAIL", label, name, value, other, difference, allowed
+                    "pass" if passes else "FAIL",
+                    label,
+                    name,
+                    value,
+                    second_value,
+                    difference,
+                    allowed,
                 ),
                 passes,
             )
@@ -109,7 +115,7 @@ def _numbers(
 
 def _values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
     """Return the numbers of a body's record by their names. align: in the body's own pose."""
-    found: dict[str, Number] = {
+    numbers: dict[str, Number] = {
         name: (entry[name], abs(entry[name] or 0.0), _bound(entry, name))
         for name in _SCALARS
         if name in entry
@@ -118,20 +124,22 @@ def _values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
     inertia = entry["inertia"]
     about = entry.get("inertia_about")
     if not align:
-        found |= _moments(entry.get("moments") or {})
+        numbers |= _moments(entry.get("moments") or {})
         if about is not None:
             distance = math.dist(*(map(_number, point) for point in (about["point"], center)))
-            found |= _tensor("inertia_about", about["inertia"], _bound_about(entry, distance))
+            numbers |= _tensor("inertia_about", about["inertia"], _bound_about(entry, distance))
     else:
-        rows, inertia = (
+        pose_rows, inertia = (
             [[*map(_number, row)] for row in of] for of in (entry["pose"]["matrix"][:3], inertia)
         )
-        center = [sum(a * _number(b) for a, b in zip(row, center)) + row[3] for row in rows]
-        rows = [row[:3] for row in rows]
-        inertia = _product(_product(rows, inertia), [list(column) for column in zip(*rows)])
+        center = [sum(a * _number(b) for a, b in zip(row, center)) + row[3] for row in pose_rows]
+        pose_rows = [row[:3] for row in pose_rows]
+        inertia = _product(
+            _product(pose_rows, inertia), [list(column) for column in zip(*pose_rows)]
+        )
     bound = _bound(entry, "inertia")
     return (
-        found
+        numbers
         | _named(
             "center_of_mass",
             zip("xyz", center),
@@ -151,26 +159,26 @@ def _values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
 def _flat_values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
     """Return the numbers of a flat shape. align: only numbers that do not depend on its place."""
     area = entry["area"]
-    found: dict[str, Number] = {"area": (area, area or 0.0, bound_of(entry, "area") or 0.0)}
-    for one in entry.get("invariants", ()):
-        size = math.hypot(one["real"] or 0.0, one["imaginary"] or 0.0)
-        bound = (one["error"] or 0.0) + (one["input"] or 0.0)
+    numbers: dict[str, Number] = {"area": (area, area or 0.0, bound_of(entry, "area") or 0.0)}
+    for invariant in entry.get("invariants", ()):
+        size = math.hypot(invariant["real"] or 0.0, invariant["imaginary"] or 0.0)
+        bound = (invariant["error"] or 0.0) + (invariant["input"] or 0.0)
         for part in ("real", "imaginary"):
-            found["{} {}".format(one["name"], part)] = (one[part], size, bound)
+            numbers["{} {}".format(invariant["name"], part)] = (invariant[part], size, bound)
     if align:
-        return found
+        return numbers
     second = entry["second_moments"]
     square = (second["xx"] or 0.0) + (second["yy"] or 0.0)
     gyration = math.sqrt(max(square / area, 0.0)) if area else 0.0
     bound = bound_of(entry, "centroid") or 0.0
-    found |= _named("centroid", zip("xyz", entry["centroid"]), gyration, bound)
+    numbers |= _named("centroid", zip("xyz", entry["centroid"]), gyration, bound)
     # The axes are known to that accuracy at best.
-    turned = found["area"][2] / area if area else 0.0
+    axes_error = numbers["area"][2] / area if area else 0.0
     for name in ("x", "y", "normal"):
-        found |= _named("plane." + name, zip("xyz", entry["plane"][name]), 1.0, turned)
+        numbers |= _named("plane." + name, zip("xyz", entry["plane"][name]), 1.0, axes_error)
     bound = bound_of(entry, "second_moments") or 0.0
-    found |= _named("second_moments", second.items(), _largest(second.values()), bound)
-    return found | _moments(entry.get("moments") or {})
+    numbers |= _named("second_moments", second.items(), _largest(second.values()), bound)
+    return numbers | _moments(entry.get("moments") or {})
 
 
 def _named(
@@ -180,9 +188,9 @@ def _named(
     return {"{}[{}]".format(name, key): (value, size, bound) for key, value in values}
 
 
-def _tensor(name: str, rows: Matrix, bound: float) -> dict[str, Number]:
-    pairs = [("xyz"[i] + "xyz"[j], rows[i][j]) for i in range(3) for j in range(i, 3)]
-    return _named(name, pairs, _largest(sum(rows, [])), bound)
+def _tensor(name: str, tensor: Matrix, bound: float) -> dict[str, Number]:
+    pairs = [("xyz"[i] + "xyz"[j], tensor[i][j]) for i in range(3) for j in range(i, 3)]
+    return _named(name, pairs, _largest(sum(tensor, [])), bound)
 
 
 def _largest(values: Iterable[float | None]) -> float:
@@ -194,7 +202,7 @@ def _number(value: float | None) -> float:
 
 
 def _moments(moments: dict[str, Any]) -> dict[str, Number]:
-    found: dict[str, Number] = {}
+    numbers: dict[str, Number] = {}
     for domain in (name for name in _DOMAINS if name in moments):
         bounds = [moments.get(part, {}).get(domain, {}) for part in ("error", "input")]
         degrees: dict[int, dict[str, float | None]] = {}
@@ -202,7 +210,7 @@ def _moments(moments: dict[str, Any]) -> dict[str, Number]:
             degrees.setdefault(sum(map(int, powers.split(","))), {})[powers] = value
         for values in degrees.values():
             size = _largest(values.values())
-            found |= {
+            numbers |= {
                 "moments.{}[{}]".format(domain, powers): (
                     value,
                     size,
@@ -210,7 +218,7 @@ def _moments(moments: dict[str, Any]) -> dict[str, Number]:
                 )
                 for powers, value in values.items()
             }
-    return found
+    return numbers
 
 
 def _product(first: Matrix, second: Matrix) -> Matrix:

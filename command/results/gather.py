@@ -103,26 +103,32 @@ def _merge(options: argparse.Namespace) -> tuple[Iterable[str], int]:
     first: tuple[str, dict[str, Any]] | None = None
     for path in options.paths:
         for document, _ in _read_file(path):
-            given = document.get("run", {}).get("options", {})
-            first = first or (path, given)
-            if given != first[1]:
+            run_options = document.get("run", {}).get("options", {})
+            first = first or (path, run_options)
+            if run_options != first[1]:
                 text = "{} was made with other options than {}: {}. Merge results of one run"
                 names = {
-                    name for name in (given | first[1]) if given.get(name) != first[1].get(name)
+                    name
+                    for name in (run_options | first[1])
+                    if run_options.get(name) != first[1].get(name)
                 }
                 raise UsageError(text.format(path, first[0], ", ".join(sorted(names))))
             documents[document["file"]] = document
             counts[os.path.abspath(document["file"] or "")] += 1
     if options.manifest is not None:
         listed = [os.path.abspath(name) for name in listing.read(options.manifest)]
-        for what, names in (
+        for fault, names in (
             ("no document of", [name for name in listed if not counts[name]]),
             ("several documents of", [name for name in listed if counts[name] > 1]),
             ("documents of files that are not in the list:", sorted(counts.keys() - {*listed})),
         ):
             if names:
-                more = " and {} more".format(len(names) - _LISTED) if len(names) > _LISTED else ""
-                raise UsageError("There are {} {}{}".format(what, ", ".join(names[:_LISTED]), more))
+                ellipsis = (
+                    " and {} more".format(len(names) - _LISTED) if len(names) > _LISTED else ""
+                )
+                raise UsageError(
+                    "There are {} {}{}".format(fault, ", ".join(names[:_LISTED]), ellipsis)
+                )
         place = {name: number for number, name in enumerate(listed)}
         documents = dict(
             sorted(documents.items(), key=lambda item: place[os.path.abspath(item[0] or "")])
@@ -140,8 +146,10 @@ def _read_file(path: str) -> Iterator[Entry]:
             begin = file.read(2)
             file.seek(0)
             if begin[:1] == "[" or begin == "{\n":
-                whole = measurement.parse_json(file.read())
-                for number, entry in enumerate(whole if isinstance(whole, list) else [whole], 1):
+                content = measurement.parse_json(file.read())
+                for number, entry in enumerate(
+                    content if isinstance(content, list) else [content], 1
+                ):
                     yield _entry(entry, "document {}".format(number))
                 return
             for number, line in enumerate(file, 1):
@@ -200,7 +208,9 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
     ]
     shares = [(_share(entry), "{}: {}".format(file, entry["name"])) for file, entry in objects]
     widest = [(share, name) for share, name in shares if share is not None]
-    slowest, widest = (sorted(rows, reverse=True)[:_LISTED] for rows in (slowest, widest))
+    slowest, widest = (
+        sorted(section_rows, reverse=True)[:_LISTED] for section_rows in (slowest, widest)
+    )
     failed = [
         "{}  {}: {}".format(
             document["status"],
@@ -210,21 +220,26 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
         for document, _ in entries
         if document["status"] != "ok"
     ]
-    more = ["and {} more".format(len(failed) - _LISTED)] if len(failed) > _LISTED else []
+    ellipsis = ["and {} more".format(len(failed) - _LISTED)] if len(failed) > _LISTED else []
     sections = {
-        "Not measured:": [*failed[:_LISTED], *more],
+        "Not measured:": [*failed[:_LISTED], *ellipsis],
         "Findings, by how many objects or files have them:": [
-            "{:>8}  {:<8} {}".format(count, *one) for one, count in codes.most_common()
+            "{:>8}  {:<8} {}".format(count, *row) for row, count in codes.most_common()
         ],
-        "Slowest, in seconds:": ["{:>10.3f}  {}".format(*one) for one in slowest],
+        "Slowest, in seconds:": ["{:>10.3f}  {}".format(*row) for row in slowest],
         "Widest bounds of the volume or area, of its size:": [
-            "{:>10.1e}  {}".format(*one) for one in widest
+            "{:>10.1e}  {}".format(*row) for row in widest
         ],
     }
     lines = [
         "{}: {}".format(measurement.counted(statuses.total(), "file"), _counted(statuses)),
         "{}: {}".format(measurement.counted(methods.total(), "object"), _counted(methods)),
-        *(line for title, rows in sections.items() if rows for line in ("", title, *rows)),
+        *(
+            line
+            for title, section_rows in sections.items()
+            if section_rows
+            for line in ("", title, *section_rows)
+        ),
     ]
     return (measurement.visible(line) + "\n" for line in lines), 0
 
@@ -241,10 +256,10 @@ def _compare(options: argparse.Namespace) -> tuple[Iterable[str], int]:
         raise UsageError("“compare” takes two results")
     first, second = ([document for document, _ in _read([path])] for path in options.paths)
     lines, failed = compare.differences(first, second, options.tolerance, options.align)
-    shown = [] if options.quiet and not failed else lines
+    printed_lines = [] if options.quiet and not failed else lines
     return (
         measurement.visible(line) + "\n"
-        for line in shown
+        for line in printed_lines
         if not (options.quiet and line.startswith("pass"))
     ), int(failed)
 

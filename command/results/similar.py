@@ -59,8 +59,8 @@ def answer(options: argparse.Namespace) -> tuple[list[str], int]:
         measurement.print_message(failure)
     query = _entry_by_name(entries, options.to)
     lines = [_COLUMNS.format("distance", "size", "", "name")]
-    others = [entry for entry in entries if entry is not query]
-    ranked = shape.rank(query.signature, others, options.any_size, options.any_hand)
+    other_entries = [entry for entry in entries if entry is not query]
+    ranked = shape.rank(query.signature, other_entries, options.any_size, options.any_hand)
     for entry, likeness in ranked[: options.count]:
         distance = "{:.3e}".format(likeness.distance(options.any_size, options.any_hand))
         similarity = verdict.SIMILARITY[shape.classify(likeness)]
@@ -76,12 +76,12 @@ def answer(options: argparse.Namespace) -> tuple[list[str], int]:
 
 
 def _entry_by_name(entries: list[shape.Entry], name: str) -> shape.Entry:
-    named = [entry for entry in entries if entry.name == name] or [
+    matches = [entry for entry in entries if entry.name == name] or [
         entry for entry in entries if entry.label == name
     ]
-    if not named:
+    if not matches:
         raise UsageError("No body named {} has a signature".format(name))
-    if len(named) > 1:
-        labels = ", ".join(entry.label for entry in named)
+    if len(matches) > 1:
+        labels = ", ".join(entry.label for entry in matches)
         raise UsageError("Several bodies are named {}. Use one of {}".format(name, labels))
-    return named[0]
+    return matches[0]

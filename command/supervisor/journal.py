@@ -64,8 +64,12 @@ class Entry:
         is none.
         """
         changed = {name for name in key if self.head["key"].get(name) != key[name]}
-        own = self.options
-        names = sorted(name for name in own | options if own.get(name) != options.get(name))
+        earlier_options = self.options
+        names = sorted(
+            name
+            for name in earlier_options | options
+            if earlier_options.get(name) != options.get(name)
+        )
         other_options = ": ".join(filter(None, ["made with other options", " ".join(names)]))
         reasons = {
             other_options: "options" in changed,

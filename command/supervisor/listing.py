@@ -39,10 +39,10 @@ def expand(names: Iterable[str]) -> Iterator[str]:
         if not os.path.isdir(name):
             yield name
             continue
-        found = sorted(_walk(name))
-        if not found:
+        paths = sorted(_walk(name))
+        if not paths:
             raise FileNotFoundError(ENOENT, "no file that can be measured is in it", name)
-        yield from found
+        yield from paths
 
 
 def _walk(top: str) -> Iterator[str]:
@@ -51,13 +51,13 @@ def _walk(top: str) -> Iterator[str]:
     Each folder counts once, so that links in a circle end. Hidden entries and unreadable folders
     are left out.
     """
-    known: set[tuple[int, int]] = set()
+    visited: set[tuple[int, int]] = set()
     for folder, folders, files in os.walk(top, followlinks=True):
         status = os.stat(folder)
-        if (status.st_dev, status.st_ino) in known:
+        if (status.st_dev, status.st_ino) in visited:
             folders.clear()
             continue
-        known.add((status.st_dev, status.st_ino))
+        visited.add((status.st_dev, status.st_ino))
         folders[:] = sorted(name for name in folders if not name.startswith("."))
         yield from (
             os.path.join(folder, name) for name in files if name[0] != "." and _is_measurable(name)

@@ -244,8 +244,8 @@ class Pool:
         assert child.task is not None
         attempts, seconds = self._attempts.pop(child.task, (0, 0.0))
         seconds += time.monotonic() - child.started
-        said = self._stderr_tail(child)
-        return TaskOutcome(child.task, status, attempts + 1, seconds, said=said, **more)
+        stderr_tail = self._stderr_tail(child)
+        return TaskOutcome(child.task, status, attempts + 1, seconds, said=stderr_tail, **more)
 
     def _give(self, child: _Child) -> None:
         child.deadline = float("inf")
@@ -261,14 +261,14 @@ class Pool:
         processes.kill([child.process])  # Its descendants, too.
         self._children.remove(child)
         how = processes.how_it_ended(child.process.returncode)
-        said = self._stderr_tail(child)
+        stderr_tail = self._stderr_tail(child)
         task = child.task
         outcome = self._outcome(child, child.doomed or "crashed", how=how) if task else None
         self._close(child)
         if not child.ready:
             self._failed_starts += 1
             if self._failed_starts >= MAX_FAILED_STARTS:
-                raise ChildError(" ".join(said.split()) or how)
+                raise ChildError(" ".join(stderr_tail.split()) or how)
         if task is None or outcome is None:
             return []
         if outcome.attempts < ATTEMPTS:

@@ -13,14 +13,14 @@ PERIOD = 5.0  # seconds between lines
 
 
 class Progress:
-    """The counts of a run. total: count of its files. known: statuses of the files that an earlier
-    run has recorded.
+    """The counts of a run. total: count of its files. recorded_statuses: those of
+    files that an earlier run has recorded.
     """
 
-    def __init__(self, total: int, known: Sequence[str] = ()) -> None:
+    def __init__(self, total: int, recorded_statuses: Sequence[str] = ()) -> None:
         self.counts: Counter[str] = Counter()
         self._total = total
-        self._known = Counter(known)
+        self._known = Counter(recorded_statuses)
         self._began = time.monotonic()
         self._due = self._began + PERIOD
 
@@ -34,11 +34,11 @@ class Progress:
             return
         self._due = now + PERIOD
         measured = self.counts.total()
-        done = self._known.total() + measured
-        text = "{} of {} files".format(done, self._total)
+        finished = self._known.total() + measured
+        text = "{} of {} files".format(finished, self._total)
         if measured:
             seconds = now - self._began
-            left = timedelta(seconds=round((self._total - done) * seconds / measured))
+            left = timedelta(seconds=round((self._total - finished) * seconds / measured))
             failed = measured - self.counts["ok"]
             text += ", {:.3g} per second, {} left, {} not ok".format(
                 measured / seconds, left, failed
