@@ -71,10 +71,10 @@ def revolve(curve: Curve, begin: NDArray, axis: NDArray, start: float, end: floa
         np.cos(angles)[:, None] * radial[:, None]
         + np.sin(angles)[:, None] * np.cross(axis, radial)[:, None]
     ) / ring[:, None]
-    weights = np.ones(len(arms)) if curve.weights is None else curve.weights
+    weights = curve.all_weights[:, None] * ring
     knots = np.repeat(angles[::2], 2)
     space = SplineSpace((start, *knots.tolist(), end), 3, len(angles))
-    return Patch((curve.space, space), begin + heights[:, None] + around, weights[:, None] * ring)
+    return Patch((curve.space, space), begin + heights[:, None] + around, weights)
 
 
 def revolved_quadric(curve: Curve, begin: NDArray, axis: NDArray) -> Quadric | None:
@@ -122,15 +122,13 @@ def revolved_quadric(curve: Curve, begin: NDArray, axis: NDArray) -> Quadric | N
 
 def rule(first: Curve, second: Curve) -> Patch:
     """Return the surface of lines between equal parameters of two curves in the same form."""
-    weights = [
-        np.ones(len(one.points)) if one.weights is None else one.weights for one in (first, second)
-    ]
+    weights = first.all_weights
     if first.space != second.space or (
-        np.abs(weights[0] - weights[1]).max() > 1e-14 * weights[0].max()
+        np.abs(weights - second.all_weights).max() > 1e-14 * weights.max()
     ):
         raise ValueError("curves of two forms")
     points = np.stack([first.points, second.points], axis=1)
-    return Patch((first.space, clamped_space(2)), points, np.stack([weights[0]] * 2, axis=1))
+    return Patch((first.space, clamped_space(2)), points, np.stack([weights] * 2, axis=1))
 
 
 def join_pieces(curves: Sequence[Curve]) -> Curve:
@@ -139,13 +137,13 @@ def join_pieces(curves: Sequence[Curve]) -> Curve:
     """
     if len(curves) == 1:
         return curves[0]
-    order = curves[0].space.order
-    weights = [np.ones(order) if one.weights is None else one.weights for one in curves]
-    if any(one.space != curves[0].space or len(one.points) != order for one in curves) or any(
-        row[0] != 1.0 or row[-1] != 1.0 for row in weights
-    ):
-        raise ValueError("pieces of several degrees")
+    space = curves[0].space
+    order = space.order
+    for curve in curves:
+        has_unit_ends = curve.all_weights[0] == curve.all_weights[-1] == 1.0
+        if curve.space != space or len(curve.points) != order or not has_unit_ends:
+            raise ValueError("pieces of several degrees")
     breaks = np.repeat(np.linspace(0.0, 1.0, len(curves) + 1), order - 1).tolist()
-    points = np.concatenate([curves[0].points[:1], *(one.points[1:] for one in curves)])
-    weight = np.concatenate([[1.0], *(row[1:] for row in weights)])
-    return Curve(SplineSpace((0.0, *breaks, 1.0), order, len(points)), points, weight)
+    points = np.concatenate([curves[0].points[:1], *(curve.points[1:] for curve in curves)])
+    weights = np.concatenate([[1.0], *(curve.all_weights[1:] for curve in curves)])
+    return Curve(SplineSpace((0.0, *breaks, 1.0), order, len(points)), points, weights)

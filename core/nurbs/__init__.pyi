@@ -25,6 +25,9 @@ from .patch_moments import stored_area_moments as stored_area_moments
 from .patch_moments import vector_area as vector_area
 from .patch_moments import volume_moments as volume_moments
 from .patch_topology import closed_parts as closed_parts
+from .piece_nets import bezier_nets as bezier_nets
+from .piece_nets import evaluate_nets as evaluate_nets
+from .piece_nets import sample_pieces as sample_pieces
 from .quadric import TURN as TURN
 from .quadric import Quadric as Quadric
 from .seams import close_pairs as close_pairs
@@ -41,9 +44,6 @@ from .splines import patches_size as patches_size
 from .splines import reverse_curves as reverse_curves
 from .tracked_solid import TrackedSolid as TrackedSolid
 from .trimmed_face import TrimmedFace as TrimmedFace
-from .trimmed_face import bezier_nets as bezier_nets
-from .trimmed_face import evaluate_nets as evaluate_nets
-from .trimmed_face import sample_pieces as sample_pieces
 
 __all__ = [
     "Curve",

@@ -17,7 +17,7 @@ may miss them alike. The tangents of a Bézier curve lie in the cone of its cont
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
@@ -77,8 +77,8 @@ def length_moments(curves: Sequence[Curve], order: int = 3) -> Moments:
     values, estimate, size = _integrate(
         curves, length, 1.0, order, about, reach, LENGTH_TOLERANCE, kinks=True
     )
-    scale = size * reach ** degree.astype(np.float64)
-    error = estimate * reach ** degree.astype(np.float64) + ROUNDING * U * 8 * scale
+    powers = reach ** degree.astype(np.float64)
+    error = estimate * powers + ROUNDING * U * 8 * (size * powers)
     return Moments(values, about, Measure.LENGTH, error)
 
 
@@ -128,53 +128,56 @@ def _integrate(
     curve turns back. A piece is done when two rules agree within the tolerance, relative to its
     length or to the mean length of pieces.
     """
-    degree = monomials(order).sum(axis=1)
-    unit = reach ** degree.astype(np.float64)
-    values = np.zeros(len(degree))
+    unit = reach ** monomials(order).sum(axis=1).astype(np.float64)
+    values = np.zeros(len(unit))
     estimate = 0.0
-    whole = 0.0
-    alike: dict[tuple[int, ...], list[tuple[Array, Array]]] = {}
-    for curve in curves:
-        pieces = _bezier_pieces(curve, about)
-        alike.setdefault(pieces[0].shape[1:], []).append(pieces)
-    blocks = [
-        row[start : start + CURVES_PER_BLOCK]
-        for row in alike.values()
-        for start in range(0, len(row), CURVES_PER_BLOCK)
-    ]
-    for block in blocks:
-        net, anchor = (np.concatenate(arrays) for arrays in zip(*block))
+    total_length = 0.0
+    for net, anchor in _blocks_of_pieces(curves, about):
         coarse = None
         rule = 0
         depth = 0
-        share = 0.0
+        mean_length = 0.0
         while len(net):
             if coarse is None:
                 coarse, _ = _piece_integrals(net, anchor, RULES[rule], density, order)
-            fine, size = _piece_integrals(net, anchor, RULES[rule + 1], density, order)
-            share = share or float(size.mean())
-            differ = np.where(
+            fine, lengths = _piece_integrals(net, anchor, RULES[rule + 1], density, order)
+            mean_length = mean_length or float(lengths.mean())
+            differences = np.where(
                 unit > 0.0, np.abs(fine - coarse) / np.where(unit > 0.0, unit, 1.0), 0.0
             ).max(axis=1)
-            differ += _doubtful_lengths(net, kinks, largest)
+            differences += _doubtful_lengths(net, kinks, largest)
             # A piece whose moments overflow is not halved.
-            good = ~(differ > tolerance * np.maximum(size, share) * largest) | (depth >= MAX_DEPTH)
-            values += fine[good].sum(axis=0)
-            estimate += float(differ[good].sum())
-            whole += float(size[good].sum())
-            net = net[~good]
-            anchor = anchor[~good]
-            coarse = fine[~good]
-            rule = rule + 1
+            limits = tolerance * np.maximum(lengths, mean_length) * largest
+            is_done = ~(differences > limits) | (depth >= MAX_DEPTH)
+            values += fine[is_done].sum(axis=0)
+            estimate += float(differences[is_done].sum())
+            total_length += float(lengths[is_done].sum())
+            net = net[~is_done]
+            anchor = anchor[~is_done]
+            coarse = fine[~is_done]
+            rule += 1
             if rule + 1 == len(RULES):
+                # The finest rule did not suffice: halve the pieces, and begin with the first.
                 net = np.concatenate(
                     [np.einsum("ij,cjd->cid", half, net) for half in halves(net.shape[1])]
                 )
                 net, anchor = _about_first_control(net, np.tile(anchor, (2, 1)))
                 coarse = None
                 rule = 0
-                depth = depth + 1
-    return values, estimate, whole
+                depth += 1
+    return values, estimate, total_length
+
+
+def _blocks_of_pieces(curves: Sequence[Curve], about: NDArray) -> Iterator[tuple[Array, Array]]:
+    """Yield the control points and anchors of `_bezier_pieces`, of many curves of one form."""
+    by_form: dict[tuple[int, ...], list[tuple[Array, Array]]] = {}
+    for curve in curves:
+        net, anchor = _bezier_pieces(curve, about)
+        by_form.setdefault(net.shape[1:], []).append((net, anchor))
+    for pieces in by_form.values():
+        for start in range(0, len(pieces), CURVES_PER_BLOCK):
+            nets, anchors = zip(*pieces[start : start + CURVES_PER_BLOCK])
+            yield np.concatenate(nets), np.concatenate(anchors)
 
 
 def _bezier_pieces(curve: Curve, about: NDArray) -> tuple[Array, Array]:
@@ -233,6 +236,5 @@ def _piece_integrals(
         (element * place[0] ** p * place[1] ** q * place[2] ** r).sum(axis=1)
         for p, q, r in monomials(order).tolist()
     ]
-    return np.stack(columns, axis=1), (np.sqrt((velocity**2).sum(axis=0)) * weights[:, 0]).sum(
-        axis=1
-    )
+    speed = np.sqrt((velocity**2).sum(axis=0))
+    return np.stack(columns, axis=1), (speed * weights[:, 0]).sum(axis=1)

@@ -138,59 +138,53 @@ class FlatFace:
         weights (n,).
         """
         sections = [self.area_moments(order, about - height * self.normal) for height in heights]
-        raw, error = (
-            sum(step * row for step, row in zip(steps, rows))
-            for rows in zip(*((one.raw, one.rounding_error) for one in sections))
-        )
+        raw = sum(step * section.raw for step, section in zip(steps, sections))
+        error = sum(step * section.rounding_error for step, section in zip(steps, sections))
         return Moments(np.asarray(raw), about, Measure.VOLUME, np.asarray(error))
 
     def outlines(self, each: int) -> list[Array]:
         """Return the loops as polygons (n, 2) along the plane, through `each` samples per span."""
-        loops = [
-            np.concatenate([curve.samples(each)[:-1] for curve in loop]) for loop in self.loops
-        ]
-        flat = (np.concatenate(loops) - self.center) @ self._frame
-        return np.split(flat, np.cumsum([len(loop) for loop in loops])[:-1])
+        outlines = _sampled_loops(self.loops, each)
+        flat = (np.concatenate(outlines) - self.center) @ self._frame
+        return np.split(flat, np.cumsum([len(outline) for outline in outlines])[:-1])
 
     def quads(self, each: int) -> Array:
         """Return (n, 4, 3) corners of trapezoids that fill the polygon through `each` samples per
         span.
         """
-        loops = self.outlines(each)
-        begin = np.concatenate(loops)
+        outlines = self.outlines(each)
+        begin = np.concatenate(outlines)
+        # In whole grains, heights that differ by rounding are equal.
         grain = SAME_HEIGHT_RTOL * float(np.ptp(begin, axis=0).max())
         begin[:, 1] = np.round(begin[:, 1] / grain) * grain
-        starts = np.cumsum([0, *map(len, loops)])
-        end = np.concatenate(
-            [np.roll(begin[a:b], -1, axis=0) for a, b in zip(starts[:-1], starts[1:])]
-        )
+        starts = np.cumsum([len(outline) for outline in outlines])[:-1]
+        end = np.concatenate([np.roll(part, -1, axis=0) for part in np.split(begin, starts)])
         heights = np.unique(begin[:, 1])
         low = np.minimum(begin[:, 1], end[:, 1])
         high = np.maximum(begin[:, 1], end[:, 1])
         with np.errstate(divide="ignore", invalid="ignore"):
             slope = (end[:, 0] - begin[:, 0]) / (end[:, 1] - begin[:, 1])
-        found: list[Array] = []
+        blocks: list[Array] = []
         step = max(1, PAIRS_PER_BLOCK // len(low))
         for start in range(0, len(heights) - 1, step):
-            bottom = heights[start : start + step]
             top = heights[start + 1 : start + 1 + step]
-            bottom = bottom[: len(top)]
+            bottom = heights[start : start + len(top)]
             row, edge = np.nonzero((low <= bottom[:, None]) & (high >= top[:, None]))
             x = begin[edge, 0] + (np.stack([bottom[row], top[row]]) - begin[edge, 1]) * slope[edge]
             order = np.lexsort((x.sum(axis=0), row))
-            (x0, x1) = x[:, order]
-            y0 = bottom[row[order]]
-            y1 = top[row[order]]
+            x_bottom, x_top = x[:, order]
+            y_bottom, y_top = bottom[row[order]], top[row[order]]
+            # From the left, edges of a row enter and leave the region in turn.
             left = slice(0, None, 2)
             right = slice(1, None, 2)
             corners = [
-                (x0[left], y0[left]),
-                (x0[right], y0[right]),
-                (x1[right], y1[right]),
-                (x1[left], y1[left]),
+                (x_bottom[left], y_bottom[left]),
+                (x_bottom[right], y_bottom[right]),
+                (x_top[right], y_top[right]),
+                (x_top[left], y_top[left]),
             ]
-            found.append(np.moveaxis(np.array(corners, np.float64), 2, 0))
-        return np.concatenate(found) @ self._frame.T + self.center
+            blocks.append(np.moveaxis(np.array(corners, np.float64), 2, 0))
+        return np.concatenate(blocks) @ self._frame.T + self.center
 
     @cached_property
     def _frame(self) -> Array:
@@ -202,8 +196,8 @@ class FlatFace:
 
 def split_faces(faces: Sequence[Face]) -> tuple[list[Patch], list[FlatFace | TrimmedFace]]:
     """Return the patches, and the faces within loops of curves."""
-    patches = [one for one in faces if isinstance(one, Patch)]
-    return patches, [one for one in faces if not isinstance(one, Patch)]
+    patches = [face for face in faces if isinstance(face, Patch)]
+    return patches, [face for face in faces if not isinstance(face, Patch)]
 
 
 def planar_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Curve], Array]:
@@ -229,19 +223,14 @@ def planar_loops(
     center = curves_center(curves)
     size = max(float(np.abs(curve.points - center).max()) for curve in curves)
     tolerance = 4.0 * (WELDING_RTOL * size + stored + 2.0**-52 * float(np.abs(center).max()))
-    for loop in loops:
-        ends = [curve.evaluate(curve.space.domain) for curve in loop]
-        gaps = [
-            np.linalg.norm(before[1] - after[0])
-            for before, after in zip(ends, [*ends[1:], ends[0]])
-        ]
-        if max(gaps) > tolerance or any(curve.space.is_discontinuous for curve in loop):
-            raise MeasureError(
-                CURVES_BOUND_NOTHING,
-                fault="A curve is open and bounds no region. Close it with Toggle Cyclic",
-            )
+    if not all(_is_closed(loop, tolerance) for loop in loops):
+        raise MeasureError(
+            CURVES_BOUND_NOTHING,
+            fault="A curve is open and bounds no region. Close it with Toggle Cyclic",
+        )
     points = np.concatenate([curve.points for curve in curves]) - center
     points -= points.mean(axis=0)  # The middle of a box need not be in the plane.
+    # Three zero rows, so that there are three axes for fewer points too.
     _, _, axes = np.linalg.svd(np.concatenate([points, np.zeros((3, 3))]), full_matrices=False)
     if np.abs(points @ axes[2]).max() > tolerance:
         raise MeasureError(
@@ -252,36 +241,59 @@ def planar_loops(
     leading = next(axis for axis in (2, 1, 0) if abs(normal[axis]) > 1e-6)
     normal = normal * np.sign(normal[leading])
     frame = np.stack([axes[0], np.cross(normal, axes[0])], axis=1)
-
-    def polygons(each: int) -> list[NDArray]:
-        samples = [np.concatenate([curve.samples(each)[:-1] for curve in loop]) for loop in loops]
-        return [_without_repeats((points - center) @ frame, tolerance) for points in samples]
-
-    flat = polygons(SAMPLES_PER_SPAN)
-    if min(map(len, flat)) < 3:
-        raise MeasureError(
-            CURVES_BOUND_NOTHING,
-            fault=(
-                "A curve is smaller than the rounding of its coordinates. Delete it, "
-                "move it nearer to the origin"
-            ),
-        )
-    spans = sum(len(curve.space.spans) for curve in curves)
-    finer = [each for each in FINER_SAMPLES if spans * each <= MAX_CHORDS]
-    while chords_cross(flat, tolerance):
-        if not finer:
-            raise MeasureError(
-                CURVES_BOUND_NOTHING,
-                fault="The curves cross or touch, so the region is ambiguous. Separate them",
-            )
-        flat = polygons(finer.pop(0))
-    starts = np.cumsum([0, *map(len, flat)])
-    edges = orient_loops(np.concatenate(flat), np.split(np.arange(starts[-1]), starts[1:-1]))
-    ahead = edges[starts[:-1], 0] < edges[starts[:-1], 1]
+    polygons = _separate_polygons(loops, center, frame, tolerance)
+    starts = np.cumsum([0, *map(len, polygons)])
+    edges = orient_loops(np.concatenate(polygons), np.split(np.arange(starts[-1]), starts[1:-1]))
+    # The first edge of a loop that keeps its direction runs to the next corner.
+    is_ahead = edges[starts[:-1], 0] < edges[starts[:-1], 1]
     oriented = [
-        list(loop) if is_right else reverse_curves(loop) for loop, is_right in zip(loops, ahead)
+        list(loop) if ahead else reverse_curves(loop) for loop, ahead in zip(loops, is_ahead)
     ]
     return oriented, normal
+
+
+def _is_closed(loop: Sequence[Curve], tolerance: float) -> bool:
+    """Return whether curves without jumps end where the next ones begin."""
+    if any(curve.space.is_discontinuous for curve in loop):
+        return False
+    ends = np.array([curve.evaluate(curve.space.domain) for curve in loop])
+    gaps = np.linalg.norm(ends[:, 1] - np.roll(ends[:, 0], -1, axis=0), axis=1)
+    return bool(gaps.max() <= tolerance)
+
+
+def _sampled_loops(loops: Sequence[Sequence[Curve]], each: int) -> list[Array]:
+    """Return the (n, 3) samples of loops, `each` per span."""
+    return [np.concatenate([curve.samples(each)[:-1] for curve in loop]) for loop in loops]
+
+
+def _separate_polygons(
+    loops: Sequence[Sequence[Curve]], center: NDArray, frame: NDArray, tolerance: float
+) -> list[NDArray]:
+    """Return loops as polygons (n, 2) that do not cross, through as few samples as show this.
+
+    frame: (3, 2) vectors along the plane. MeasureError if loops are too small or cross.
+    """
+    spans = sum(len(curve.space.spans) for loop in loops for curve in loop)
+    finer = [each for each in FINER_SAMPLES if spans * each <= MAX_CHORDS]
+    for each in (SAMPLES_PER_SPAN, *finer):
+        polygons = [
+            _without_repeats((points - center) @ frame, tolerance)
+            for points in _sampled_loops(loops, each)
+        ]
+        if min(map(len, polygons)) < 3:
+            raise MeasureError(
+                CURVES_BOUND_NOTHING,
+                fault=(
+                    "A curve is smaller than the rounding of its coordinates. Delete it, "
+                    "move it nearer to the origin"
+                ),
+            )
+        if not chords_cross(polygons, tolerance):
+            return polygons
+    raise MeasureError(
+        CURVES_BOUND_NOTHING,
+        fault="The curves cross or touch, so the region is ambiguous. Separate them",
+    )
 
 
 def self_intersects(loop: NDArray, tolerance: float) -> bool:
@@ -313,19 +325,17 @@ def chords_cross(loops: Sequence[NDArray], tolerance: float, touch: bool = True)
     i, j, _ = overlapping_box_pairs(low, high, -2.0 * tolerance, len(begin) ** 2)
     if touch and (np.abs(begin[i] - begin[j]).max(axis=1) <= tolerance).any():
         return True
-    one, other = np.concatenate([i, j]), np.concatenate([j, i])
-    p, q = begin[one], end[one]
-    length = np.linalg.norm(q - p, axis=1)
-    sides = np.array([_side(p, q, corners[other]) for corners in (begin, end, after)])
+    # Each pair in both orders: the line of an edge, and the corners of the other one.
+    edge, other = np.concatenate([i, j]), np.concatenate([j, i])
+    run = end[edge] - begin[edge]
+    length = np.linalg.norm(run, axis=1)
+    arms = np.array([corners[other] - begin[edge] for corners in (begin, end, after)])
+    sides = run[:, 0] * arms[..., 1] - run[:, 1] * arms[..., 0]
     is_far = np.abs(sides) > tolerance * length
     is_left = sides > 0.0
     is_cut = is_far[0] & is_far[1] & (is_left[0] != is_left[1])
-    along = ((end[other] - p) * (q - p)).sum(axis=1)
+    # The other edge ends on the edge, and the one after it goes on beyond.
+    along = (arms[1] * run).sum(axis=1)
     is_inside = (along > tolerance * length) & (along < (length - tolerance) * length)
     is_passed = is_inside & is_far[0] & ~is_far[1] & is_far[2] & (is_left[0] != is_left[2])
     return bool((is_cut[: len(i)] & is_cut[len(i) :]).any() or is_passed.any())
-
-
-def _side(a: NDArray, b: NDArray, point: NDArray) -> Array:
-    u, v = b - a, point - a
-    return u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]

@@ -412,68 +412,71 @@ def integrate_adaptively(
     tolerance, relative to the cell's size or to the mean size of all cells.
     """
     k = len(unit)
+    divisor = np.maximum(unit, MIN_DIVISOR)[:, None]
+    is_fine = tolerance < AREA_RTOL
+    points = RULES if is_fine else COARSE_RULES
+    max_points = MAX_POINTS if is_fine else MAX_POINTS // 2
     values = np.zeros(k)
     estimate = 0.0
-    lost = 0.0
-    most = np.maximum(unit, MIN_DIVISOR)[:, None]
-    points, enough = (
-        (RULES, MAX_POINTS) if tolerance < AREA_RTOL else (COARSE_RULES, MAX_POINTS // 2)
-    )
-    work = [(part, None, 0) for part in cells]
-    whole = 0.0
-    count = sum(map(len, cells))
-    spent = 0
     converged = True
-    depth = 0
-    at_stake = thickness * sum(
+    # Areas that no rule may have seen: of the cells that are left at the end, at most of all.
+    unseen = 0.0
+    most_unseen = thickness * sum(
         float(undersampled_areas(part, MAX_WEIGHT_RATIOS[0]).sum()) for part in cells
     )
+    cell_count = sum(map(len, cells))
+    total_size = 0.0
+    spent_points = 0
+    depth = 0
+    # Cells, their integrals by the coarser rule of the next comparison if known, and its index.
+    work: list[tuple[BezierCells, NDArray | None, int]] = [(part, None, 0) for part in cells]
     while work:
-        waiting, compared = [], []
+        compared = []
         for part, coarse, level in work:
             rules = _rules(part.orders, part.constant_weights, points[level : level + 2], degree)
+            # A joined rule gives both estimates at once.
             estimates = [
-                row
+                rule_values
                 for rule in (rules if coarse is None else rules[-1:])
-                for row in integrand_in_blocks(part, rule, integrand)
+                for rule_values in integrand_in_blocks(part, rule, integrand)
             ]
-            spent += len(part) * sum(
-                number**2 for number in points[level + (coarse is not None) : level + 2]
-            )
+            new_rules = points[level + (coarse is not None) : level + 2]
+            spent_points += len(part) * sum(number**2 for number in new_rules)
             compared.append(
                 (part, estimates[0] if coarse is None else coarse, estimates[-1], level)
             )
-        whole = whole or sum(float(np.add.reduce(fine[k])) for _, _, fine, _ in compared)
-        last = spent > enough or depth >= MAX_DEPTH
+        total_size = total_size or sum(float(np.add.reduce(fine[k])) for _, _, fine, _ in compared)
+        is_last = spent_points > max_points or depth >= MAX_DEPTH
+        work = []
         for part, coarse, fine, level in compared:
             # The worst of all moments stands for each: one may agree by chance.
-            differ = np.maximum.reduce(np.abs(fine[:k] - coarse[:k]) / most)
+            differences = np.maximum.reduce(np.abs(fine[:k] - coarse[:k]) / divisor)
             kinks = fine[k + 1] if len(fine) > k + 1 else 0.0
             steep = thickness * undersampled_areas(part, MAX_WEIGHT_RATIOS[1])
-            differ += kinks
-            good = differ + steep <= tolerance * np.maximum(fine[k], whole / count)
-            if last or good.all():
-                converged &= bool(good.all())
-                lost += thickness * float(
-                    undersampled_areas(part[~good], MAX_WEIGHT_RATIOS[0]).sum()
+            differences += kinks
+            agrees = differences + steep <= tolerance * np.maximum(fine[k], total_size / cell_count)
+            if is_last or agrees.all():
+                converged &= bool(agrees.all())
+                unseen += thickness * float(
+                    undersampled_areas(part[~agrees], MAX_WEIGHT_RATIOS[0]).sum()
                 )
                 values += np.add.reduce(fine[:k], axis=1)
-                estimate += float(np.add.reduce(differ)) + (UNCONVERGED_FACTOR - 1.0) * float(
-                    np.add.reduce(differ[~good])
+                disagreement = float(np.add.reduce(differences[~agrees]))
+                estimate += float(np.add.reduce(differences)) + (
+                    (UNCONVERGED_FACTOR - 1.0) * disagreement
                 )
                 continue
-            values += np.add.reduce(fine[:k, good], axis=1)
-            estimate += float(np.add.reduce(differ[good]))
-            onward = ~good if level + 2 < len(points) else np.zeros_like(good)
-            onward &= kinks + steep == 0.0  # More points do not resolve a kink: such cells are cut.
-            cut = ~(good | onward)
-            if onward.any():
-                waiting.append((part[onward], fine[:, onward], level + 1))
-            if cut.any():
-                waiting.append((part[cut].split(), None, 0))
-        depth += any(coarse is None for _, coarse, _ in waiting)
-        work = waiting
-    return Integral(values, estimate + min(lost, at_stake), whole, converged)
+            values += np.add.reduce(fine[:k, agrees], axis=1)
+            estimate += float(np.add.reduce(differences[agrees]))
+            # More points do not resolve a kink: such cells are cut.
+            takes_more_points = ~agrees & (kinks + steep == 0.0) & (level + 2 < len(points))
+            is_cut = ~(agrees | takes_more_points)
+            if takes_more_points.any():
+                work.append((part[takes_more_points], fine[:, takes_more_points], level + 1))
+            if is_cut.any():
+                work.append((part[is_cut].split(), None, 0))
+        depth += any(coarse is None for _, coarse, _ in work)
+    return Integral(values, estimate + min(unseen, most_unseen), total_size, converged)
 
 
 @lru_cache(maxsize=256)

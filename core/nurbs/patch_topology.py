@@ -79,18 +79,20 @@ def find_topology(patches: Sequence[Face], tolerance: float) -> PatchTopology:
     """
     if any(space.is_discontinuous for patch in patches for space in patch.spaces):
         raise MeasureError(DISCONTINUOUS_PATCH)
-    around_patches = [patch.sides for patch in patches]
-    curves = [curve for around in around_patches for curve, _ in around]
-    owner = np.repeat(np.arange(len(patches)), list(map(len, around_patches)))
-    forward = np.array([ahead for around in around_patches for _, ahead in around], bool)
-    number_of = np.arange(len(curves))
+    sides_of_patches = [patch.sides for patch in patches]
+    curves = [curve for patch_sides in sides_of_patches for curve, _ in patch_sides]
+    owner = np.repeat(np.arange(len(patches)), list(map(len, sides_of_patches)))
+    forward = np.array(
+        [ahead for patch_sides in sides_of_patches for _, ahead in patch_sides], bool
+    )
+    number_of = np.arange(len(curves))  # The number of each side before cutting, -1 for pieces.
     sides = join_sides(curves, owner, forward, len(patches), tolerance)
     pieces = cut_open_sides(curves, sides, tolerance)
     if pieces:
         counts = np.array(list(map(len, pieces)))
         cut_owner = np.repeat(owner, counts)
         cut_forward = np.repeat(forward, counts)
-        cut_curves = [curve for row in pieces for curve in row]
+        cut_curves = [curve for side_pieces in pieces for curve in side_pieces]
         cut_sides = join_sides(cut_curves, cut_owner, cut_forward, len(patches), tolerance)
         if cut_sides.open_length < sides.open_length - tolerance:
             curves = cut_curves
@@ -98,12 +100,8 @@ def find_topology(patches: Sequence[Face], tolerance: float) -> PatchTopology:
             forward = cut_forward
             sides = cut_sides
             number_of = np.repeat(np.where(counts == 1, number_of, -1), counts)
-    points = sides.points
-    left = sides.left
-    right = sides.right
-    free = sides.free
+    left, right = sides.left, sides.right
     turned = sides.turned
-
     # Two sides fit if one runs against the other; else one of their patches must turn.
     misoriented = sides.same == (forward[left] == forward[right])
     component, number = connected_components(len(patches), owner[left], owner[right])
@@ -111,35 +109,39 @@ def find_topology(patches: Sequence[Face], tolerance: float) -> PatchTopology:
     flipped = turned ^ turned[first[component]]
     are_most = 2 * np.bincount(component, flipped) > np.bincount(component)
     flipped ^= are_most[component]
+    # A seam that does not fit even after turning makes its component one-sided.
+    is_one_sided = misoriented ^ turned[owner[left]] ^ turned[owner[right]]
     unclosable = np.zeros(number, bool)
-    unclosable[component[owner[left[misoriented ^ turned[owner[left]] ^ turned[owner[right]]]]]] = (
-        True
-    )
+    unclosable[component[owner[left[is_one_sided]]]] = True
 
     loops = []
     forward = forward ^ flipped[owner]
-    for loop_sides, complete in _find_loops(points, np.flatnonzero(free), forward, tolerance):
-        if not complete:
+    open_sides = np.flatnonzero(sides.free)
+    for loop_sides, is_complete in _find_loops(sides.points, open_sides, forward, tolerance):
+        if not is_complete:
             unclosable[component[owner[loop_sides]]] = True
             continue
-        loop_curves = [curves[k] for k in loop_sides]
-        part = int(component[owner[loop_sides[0]]])
         loops.append(
-            _cap_loop(loop_curves, part, points[loop_sides], forward[loop_sides], tolerance)
+            _cap_loop(
+                [curves[k] for k in loop_sides],
+                int(component[owner[loop_sides[0]]]),
+                sides.points[loop_sides],
+                forward[loop_sides],
+                tolerance,
+            )
         )
+    seams = np.stack([number_of[left], number_of[right]], axis=1)
     return PatchTopology(
-        component,
-        number,
-        flipped,
-        tuple(loops),
-        int(free.sum()),
-        sides.non_manifold,
-        int(misoriented.sum()),
-        sides.gap,
-        np.stack([number_of[left], number_of[right]], axis=1)[
-            (number_of[left] >= 0) & (number_of[right] >= 0)
-        ],
-        unclosable,
+        component=component,
+        number=number,
+        flipped=flipped,
+        loops=tuple(loops),
+        open_sides=len(open_sides),
+        non_manifold_sides=sides.non_manifold,
+        misoriented_sides=int(misoriented.sum()),
+        seam_gap=sides.gap,
+        seams=seams[(seams >= 0).all(axis=1)],
+        unclosable=unclosable,
     )
 
 
@@ -158,33 +160,32 @@ def _find_loops(
     """Join open sides to chains; return the side indices of each chain, and True if it is
     closed.
     """
-    ahead = forward[free]
-    begin, end = (
-        points[free, np.where(ahead, source, target)] for source, target in ((0, -1), (-1, 0))
-    )
-    limit = 2.0 * tolerance
-    i, j = close_pairs(np.concatenate([begin, end]), limit)
+    is_ahead = forward[free]
+    begin = points[free, np.where(is_ahead, 0, -1)]
+    end = points[free, np.where(is_ahead, -1, 0)]
     count = len(free)
-    i, j = np.concatenate([i, j]), np.concatenate([j, i])  # both ways
-    meet = (i >= count) & (j < count)
-    i = i[meet] - count
-    j = j[meet]
-    close = np.linalg.norm(end[i] - begin[j], axis=1) <= limit
+    # Begins are numbered before ends; each pair is taken in both orders.
+    i, j = close_pairs(np.concatenate([begin, end]), 2.0 * tolerance)
+    i, j = np.concatenate([i, j]), np.concatenate([j, i])
+    is_onward = (i >= count) & (j < count)
+    source, target = i[is_onward] - count, j[is_onward]
+    is_near = np.linalg.norm(end[source] - begin[target], axis=1) <= 2.0 * tolerance
     onward: list[list[int]] = [[] for _ in range(count)]
-    for source, target in sorted(zip(i[close].tolist(), j[close].tolist())):
-        onward[source].append(target)
-    loops = []
+    for k, after in sorted(zip(source[is_near].tolist(), target[is_near].tolist())):
+        onward[k].append(after)
+    chains = []
     used = np.zeros(count, bool)
     for first in range(count):
         path = [] if used[first] else [first]
         while path:
             used[path[-1]] = True
-            after = [k for k in onward[path[-1]] if not used[k]]
-            if first in onward[path[-1]] or not after:
-                loops.append((free[path].tolist(), first in onward[path[-1]]))
+            unused = [k for k in onward[path[-1]] if not used[k]]
+            is_closed = first in onward[path[-1]]
+            if is_closed or not unused:
+                chains.append((free[path].tolist(), is_closed))
                 break
-            path.append(after[0])
-    return loops
+            path.append(unused[0])
+    return chains
 
 
 def _cap_loop(
@@ -195,26 +196,33 @@ def _cap_loop(
     tolerance: float,
 ) -> BoundaryLoop:
     """Close a loop by the cone to its centroid, and return the loop with its caps."""
-    run = np.concatenate([row if ahead else row[::-1] for row, ahead in zip(points, forward)])
+    run = np.concatenate(
+        [samples if ahead else samples[::-1] for samples, ahead in zip(points, forward)]
+    )
     steps = np.diff(np.concatenate([run, run[:1]]), axis=0)
-    weigh = np.linalg.norm(steps, axis=1)
-    center = ((run + steps / 2.0) * weigh[:, None]).sum(axis=0) / weigh.sum()
+    lengths = np.linalg.norm(steps, axis=1)
+    center = ((run + steps / 2.0) * lengths[:, None]).sum(axis=0) / lengths.sum()
     arms = run - center
     _, _, axes = np.linalg.svd(arms, full_matrices=False)
-    width = np.linalg.norm(np.cross(arms, steps), axis=1).sum() / 2.0
     caps = []
     for curve, ahead in zip(curves, forward):
-        ends = (np.broadcast_to(center, curve.points.shape), curve.points)[:: 1 if ahead else -1]
+        apex = np.broadcast_to(center, curve.points.shape)
+        net = np.stack([apex, curve.points] if ahead else [curve.points, apex], axis=1)
         weights = None if curve.weights is None else np.stack([curve.weights] * 2, axis=1)
-        caps.append(Patch((curve.space, clamped_space(2)), np.stack(ends, axis=1), weights))
-    flat = bool(np.abs(arms @ axes[2]).max() <= tolerance)
+        caps.append(Patch((curve.space, clamped_space(2)), net, weights))
+    is_planar = bool(np.abs(arms @ axes[2]).max() <= tolerance)
     # A path there and back has no net area; for a loop in space only its cone's area shows that.
-    area = float(np.linalg.norm(vector_area(caps))) if flat else width
-    slim = bool(area <= tolerance * weigh.sum())
-    crossing = (
-        flat
-        and not slim
-        and len(arms) <= MAX_CHORDS
-        and self_intersects(arms @ axes[:2].T, tolerance)
+    if is_planar:
+        area = float(np.linalg.norm(vector_area(caps)))
+    else:
+        area = np.linalg.norm(np.cross(arms, steps), axis=1).sum() / 2.0
+    zero_area = bool(area <= tolerance * lengths.sum())
+    is_tested = is_planar and not zero_area and len(arms) <= MAX_CHORDS
+    return BoundaryLoop(
+        caps=tuple(caps),
+        component=component,
+        is_planar=is_planar,
+        zero_area=zero_area,
+        area=area,
+        self_intersecting=is_tested and self_intersects(arms @ axes[:2].T, tolerance),
     )
-    return BoundaryLoop(tuple(caps), component, flat, slim, area, crossing)

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -69,17 +69,23 @@ def join_sides(
     length = np.linalg.norm(np.diff(points, axis=1), axis=2).sum(axis=1)
     free = np.linalg.norm(points - points[:, :1], axis=2).max(axis=1) > tolerance
     coincident = _coincident_sides(curves, points, np.flatnonzero(free), tolerance)
-    times = np.bincount(np.array([side for _, i, j, _ in coincident for side in (i, j)], np.intp))
+    coinciding_sides = [side for pair in coincident for side in (pair.first, pair.second)]
+    times = np.bincount(np.array(coinciding_sides, np.intp))
     pairs, turned = _pair_sides(coincident, times, points, owner, forward, patches)
     gap, left, right, same = np.array(pairs, np.float64).reshape(-1, 4).T
     left = left.astype(np.intp)
     right = right.astype(np.intp)
     free[left] = free[right] = False
-    open_length = float(length[free].sum())
-    sum_of_gaps = float((gap * length[left]).sum())
-    non_manifold = int((times > 1).sum())
     return Sides(
-        points, left, right, same > 0.0, turned, free, open_length, sum_of_gaps, non_manifold
+        points=points,
+        left=left,
+        right=right,
+        same=same > 0.0,
+        turned=turned,
+        free=free,
+        open_length=float(length[free].sum()),
+        gap=float((gap * length[left]).sum()),
+        non_manifold=int((times > 1).sum()),
     )
 
 
@@ -90,96 +96,183 @@ def cut_open_sides(curves: Sequence[Curve], sides: Sides, tolerance: float) -> l
     open_sides = np.flatnonzero(sides.free)
     if not 3 <= len(open_sides) <= MAX_CUT_SIDES:
         return []
-    samples = sides.points[open_sides]
+    pieces = [[curve] for curve in curves]
+    is_cut = False
+    for k, ends in _ends_near_sides(sides.points[open_sides], tolerance):
+        side = int(open_sides[k])
+        cuts = _cut_parameters(curves[side], sides.points[side], ends, tolerance)
+        if len(cuts) > 2:
+            is_cut = True
+            pieces[side] = [
+                piece
+                for part in zip(cuts[:-1], cuts[1:])
+                for piece in bezier_curves(curves[side], part)
+            ]
+    return pieces if is_cut else []
+
+
+def _ends_near_sides(samples: NDArray, tolerance: float) -> Iterator[tuple[int, Array]]:
+    """Yield the index of each side in whose box ends of other sides are, and these ends (e, 3).
+
+    samples: (n, m, 3) of all sides.
+    """
+    count = len(samples)
     ends = samples[:, [0, -1]].reshape(-1, 3)
-    steps = np.linalg.norm(np.diff(samples, axis=1), axis=2).max(axis=1)
-    low, high = samples.min(axis=1) - steps[:, None], samples.max(axis=1) + steps[:, None]
+    steps = _sample_steps(samples)[:, None]
+    low, high = samples.min(axis=1) - steps, samples.max(axis=1) + steps
     pairs = overlapping_box_pairs(
         np.concatenate([low, ends]), np.concatenate([high, ends]), -tolerance, MAX_END_PAIRS
     )[:2]
-    side, end = np.sort(pairs, axis=0) - [[0], [len(samples)]]
-    mixed = (side < len(samples)) & (end >= 0)
-    side, end = side[mixed], end[mixed]
-    own_ends = np.linalg.norm(ends[end, None] - samples[side][:, [0, -1]], axis=2).min(axis=1)
-    side, end = side[own_ends > 2.0 * tolerance], end[own_ends > 2.0 * tolerance]
+    # The boxes of sides come first: a pair of a side and an end has one number below the count.
+    side, end = np.sort(pairs, axis=0) - [[0], [count]]
+    is_side_with_end = (side < count) & (end >= 0)
+    side, end = side[is_side_with_end], end[is_side_with_end]
+    own_ends = samples[side][:, [0, -1]]
+    is_other = np.linalg.norm(ends[end, None] - own_ends, axis=2).min(axis=1) > 2.0 * tolerance
+    side, end = side[is_other], end[is_other]
     order = np.argsort(side, kind="stable")
-    crossed, starts = np.unique(side[order], return_index=True)
-    pieces = [[curve] for curve in curves]
-    is_cut = False
-    for which, group in zip(crossed.tolist(), np.split(ends[end[order]], starts[1:])):
-        k = int(open_sides[which])
-        curve = curves[k]
-        # Whole circles are most often cut at their knots.
-        t = curve.space.intervals[1:, 0]
-        gaps = np.linalg.norm(group[:, None] - curve.evaluate(t), axis=2)
-        at_knot = gaps.min(axis=1, initial=np.inf) <= tolerance
-        t = t[(gaps <= tolerance).any(axis=0)]
-        near = group[~at_knot]
-        apart = np.linalg.norm(near[:, None] - samples[which], axis=2).min(axis=1)
-        near = near[apart <= steps[which] + tolerance]
-        if len(near):
-            found = nearest_parameters(curve, samples[which], near, tolerance)
-            miss = np.linalg.norm(near - curve.evaluate(found), axis=1)
-            t = np.unique(np.concatenate([t, found[miss <= tolerance]]))
-        if not len(t):
-            continue
-        marks = [curve.space.domain[0]]
-        for at in t.tolist():
-            if (
-                np.linalg.norm(np.diff(curve.evaluate([marks[-1], at]), axis=0)) > 2.0 * tolerance
-                or len(marks) == 1
-            ):
-                marks.append(at)
-        marks.append(curve.space.domain[1])
-        pieces[k] = [
-            piece for part in zip(marks[:-1], marks[1:]) for piece in bezier_curves(curve, part)
-        ]
-        is_cut = True
-    return pieces if is_cut else []
+    crossed_sides, starts = np.unique(side[order], return_index=True)
+    yield from zip(crossed_sides.tolist(), np.split(ends[end[order]], starts[1:]))
+
+
+def _cut_parameters(curve: Curve, samples: NDArray, ends: NDArray, tolerance: float) -> list[float]:
+    """Return the parameters of a side's curve where ends (e, 3) of other sides lie on it, from the
+    begin of its domain to its end.
+
+    samples: (m, 3) of the curve at equal steps.
+    """
+    # Whole circles are most often cut at their knots.
+    knots = curve.space.intervals[1:, 0]
+    is_near = np.linalg.norm(ends[:, None] - curve.evaluate(knots), axis=2) <= tolerance
+    parameters = knots[is_near.any(axis=0)]
+    rest = ends[~is_near.any(axis=1)]
+    apart = np.linalg.norm(rest[:, None] - samples, axis=2).min(axis=1)
+    rest = rest[apart <= _sample_steps(samples) + tolerance]
+    if len(rest):
+        nearest = nearest_parameters(curve, samples, rest, tolerance)
+        miss = np.linalg.norm(rest - curve.evaluate(nearest), axis=1)
+        parameters = np.unique(np.concatenate([parameters, nearest[miss <= tolerance]]))
+    low, high = curve.space.domain
+    cuts = [low]
+    for parameter in parameters.tolist():
+        length = np.linalg.norm(np.diff(curve.evaluate([cuts[-1], parameter]), axis=0))
+        if length > 2.0 * tolerance or len(cuts) == 1:
+            cuts.append(parameter)
+    return [*cuts, high]
+
+
+def _sample_steps(samples: NDArray) -> Array:
+    """Return the (...,) largest distances of neighboring samples (..., m, 3)."""
+    return np.linalg.norm(np.diff(samples, axis=-2), axis=-1).max(axis=-1)
+
+
+class _Pair(NamedTuple):
+    """Two sides that coincide: their largest distance, their indices, and whether their curves run
+    the same way.
+    """
+
+    distance: float
+    first: int
+    second: int
+    same: bool
 
 
 def _coincident_sides(
     curves: Sequence[Curve], points: NDArray, wide: Index, tolerance: float
-) -> list[tuple[float, int, int, bool]]:
-    """Return pairs of coinciding sides, nearest first: distance, two indices, whether their curves
-    run the same way.
+) -> list[_Pair]:
+    """Return the pairs of coinciding sides, nearest first. wide: the indices of the sides that are
+    no points.
     """
     middle = points.shape[1] // 2
     side_points = points[wide]
-    first = side_points[:, 0]
-    last = side_points[:, -1]
+    begin, end = side_points[:, 0], side_points[:, -1]
+    # These keys are equal for a side and its reverse.
     left, right = close_pairs(
-        np.concatenate([first + last, 2.0 * side_points[:, middle]], axis=1), 2.0 * tolerance
+        np.concatenate([begin + end, 2.0 * side_points[:, middle]], axis=1), 2.0 * tolerance
     )
-    coincident = list(_distance_between(points, wide[left], wide[right], tolerance))
-    loose = np.ones(len(points), bool)
-    loose[[side for _, i, j, _ in coincident for side in (i, j)]] = False
+    coincident = list(_pairs_by_parameter(points, wide[left], wide[right], tolerance))
+    is_loose = np.ones(len(points), bool)
+    is_loose[[side for pair in coincident for side in (pair.first, pair.second)]] = False
     # Equal curves with other parameters: between the same ends, or without ends.
-    ring = np.linalg.norm(last - first, axis=1) <= 2.0 * tolerance
-    arcs = np.flatnonzero(loose[wide] & ~ring)
-    rings = np.flatnonzero(loose[wide] & ring)
-    ends = close_pairs(
-        np.concatenate([first + last, np.abs(first - last)], axis=1)[arcs], 2.0 * tolerance
-    )
-    boxes = overlapping_box_pairs(
-        side_points[rings].min(axis=1), side_points[rings].max(axis=1), -tolerance, MAX_SIDE_PAIRS
+    is_ring = np.linalg.norm(end - begin, axis=1) <= 2.0 * tolerance
+    arcs = np.flatnonzero(is_loose[wide] & ~is_ring)
+    rings = np.flatnonzero(is_loose[wide] & is_ring)
+    arc_keys = np.concatenate([begin + end, np.abs(begin - end)], axis=1)[arcs]
+    arc_pairs = np.stack(close_pairs(arc_keys, 2.0 * tolerance))
+    ring_points = side_points[rings]
+    ring_pairs = overlapping_box_pairs(
+        ring_points.min(axis=1), ring_points.max(axis=1), -tolerance, MAX_SIDE_PAIRS
     )[:2]
-    candidates = np.concatenate(
-        [arcs[np.stack(ends)], np.sort(rings[np.stack(boxes)], axis=0)], axis=1
-    )
-    for i, j in wide[candidates.T].tolist():
-        coincident += _overlapping_sides(curves, points, i, j, tolerance)
+    candidates = np.concatenate([arcs[arc_pairs], np.sort(rings[np.stack(ring_pairs)], axis=0)], 1)
+    for first, second in wide[candidates.T].tolist():
+        coincident += _pairs_by_points(curves, points, first, second, tolerance)
     return sorted(coincident)
 
 
+class _Merging:
+    """Patches that joined sides merge to groups, and which of them must turn.
+
+    owner: (n,) patch of each side. forward: (n,) whether the patch is on its left.
+    """
+
+    def __init__(self, owner: Index, forward: Mask, patch_count: int) -> None:
+        self._owner = owner
+        self._forward = forward
+        # A union-find forest: the parent of each patch, whether it is turned against the parent,
+        # and the size of its group if it is a root.
+        self._parent = list(range(patch_count))
+        self._is_odd = [False] * patch_count
+        self._size = [1] * patch_count
+        self.is_joined = np.zeros(len(owner), bool)  # (n,) sides
+        self.pairs: list[_Pair] = []
+
+    def root(self, patch: int) -> tuple[int, bool]:
+        """Return the first patch of a group, and whether a patch of it is turned against that."""
+        is_turned = False
+        while self._parent[patch] != patch:
+            is_turned ^= self._is_odd[patch]
+            patch = self._parent[patch]
+        return patch, is_turned
+
+    def needs_turn(self, pair: _Pair) -> bool:
+        """Return whether one of the two patches must be turned, as both are given."""
+        return bool(pair.same == (self._forward[pair.first] == self._forward[pair.second]))
+
+    def rank(self, pair: _Pair) -> int:
+        """Return the rank of a pair: 0 within a group; 1 joins a single patch, 2 other groups,
+        without turning; 3 joins with turning; 4 contradicts its group.
+        """
+        first, is_first_turned = self.root(int(self._owner[pair.first]))
+        second, is_second_turned = self.root(int(self._owner[pair.second]))
+        needs_turn = self.needs_turn(pair)
+        if first == second:
+            return 0 if needs_turn == is_first_turned ^ is_second_turned else 4
+        if needs_turn:
+            return 3
+        return 1 if (self._size[first] == 1) != (self._size[second] == 1) else 2
+
+    def join(self, pair: _Pair) -> None:
+        """Join two sides, and merge the groups of their patches, the smaller into the larger."""
+        first, is_first_turned = self.root(int(self._owner[pair.first]))
+        second, is_second_turned = self.root(int(self._owner[pair.second]))
+        if first != second:
+            if self._size[first] < self._size[second]:
+                first, second = second, first
+            self._parent[second] = first
+            self._is_odd[second] = self.needs_turn(pair) ^ is_first_turned ^ is_second_turned
+            self._size[first] += self._size[second]
+        self.is_joined[[pair.first, pair.second]] = True
+        self.pairs.append(pair)
+
+
 def _pair_sides(
-    coincident: Sequence[tuple[float, int, int, bool]],
+    coincident: Sequence[_Pair],
     times: Index,
     points: NDArray,
     owner: Index,
     forward: Mask,
-    count: int,
-) -> tuple[list[tuple[float, int, int, bool]], Mask]:
+    patch_count: int,
+) -> tuple[list[_Pair], Mask]:
     """Return the joined pairs, and a (patches,) mask of the ones to turn. times: number of pairs
     with each side.
 
@@ -188,69 +281,40 @@ def _pair_sides(
     no patch is turned needlessly. Among equal pairs the sharpest angle comes first; patches that
     lie on each other come last.
     """
-    part = list(range(count))
-    odd = [False] * count
-    size = [1] * count
-
-    def root(patch: int) -> tuple[int, bool]:
-        turn = False
-        while part[patch] != patch:
-            turn ^= odd[patch]
-            patch = part[patch]
-        return patch, turn
-
-    pairs = []
-    used = np.zeros(len(owner), bool)
-    middles = points.mean(axis=1)
-    sums = np.zeros((count, 3))
-    np.add.at(sums, owner, middles)
-    arms = (sums[owner] / np.bincount(owner)[owner, None]) - middles
-    arms /= np.maximum(np.linalg.norm(arms, axis=1), 1e-300)[:, None]
-
-    def angle(pair: tuple[float, int, int, bool]) -> float:
-        return float(np.linalg.norm(arms[pair[1]] - arms[pair[2]]))
-
-    def rank(pair: tuple[float, int, int, bool]) -> int:
-        _, i, j, same = pair
-        (a, turn) = root(int(owner[i]))
-        (b, other) = root(int(owner[j]))
-        flip = same == (forward[i] == forward[j])
-        if a == b:
-            rank_found = 0 if flip == turn ^ other else 4
-        else:
-            joins_single = (size[a] == 1) != (size[b] == 1)
-            rank_found = 3 if flip else 2 - joins_single
-        return max(rank_found, 3) if angle(pair) < FOLDED_ANGLE else rank_found
-
-    def join(pair: tuple[float, int, int, bool]) -> None:
-        _, i, j, same = pair
-        (a, turn) = root(int(owner[i]))
-        (b, other) = root(int(owner[j]))
-        if a != b:
-            a, b = (a, b) if size[a] >= size[b] else (b, a)
-            part[b] = a
-            odd[b] = bool(same == (forward[i] == forward[j])) ^ turn ^ other
-            size[a] += size[b]
-        used[[i, j]] = True
-        pairs.append(pair)
-
-    crowds = [pair for pair in coincident if max(times[pair[1]], times[pair[2]]) > 1]
+    merging = _Merging(owner, forward, patch_count)
+    crowded = []
     for pair in coincident:
-        if times[pair[1]] == times[pair[2]] == 1:
-            join(pair)
-    crowd, number = connected_components(
-        len(owner), *(np.array([pair[k] for pair in crowds], np.intp) for k in (1, 2))
-    )
-    together: dict[int, list] = {}
-    for pair in crowds:
-        together.setdefault(int(crowd[pair[1]]), []).append(pair)
-    for meeting in together.values():
-        meeting.sort(key=lambda pair: (round(angle(pair), 3), pair))
+        if times[pair.first] == times[pair.second] == 1:
+            merging.join(pair)
+        else:
+            crowded.append(pair)
+    arms = _arms(points, owner, patch_count)
+    angles = {pair: float(np.linalg.norm(arms[pair.first] - arms[pair.second])) for pair in crowded}
+    firsts, seconds = (np.array([pair[k] for pair in crowded], np.intp) for k in (1, 2))
+    meeting_of_side, _ = connected_components(len(owner), firsts, seconds)
+    meetings: dict[int, list[_Pair]] = {}
+    for pair in crowded:
+        meetings.setdefault(int(meeting_of_side[pair.first]), []).append(pair)
+    for meeting in meetings.values():
+        meeting.sort(key=lambda pair: (round(angles[pair], 3), pair))
         for priority in range(5):
             for pair in meeting:
-                if not (used[pair[1]] or used[pair[2]]) and rank(pair) <= priority:
-                    join(pair)
-    return pairs, np.array([root(patch)[1] for patch in range(count)], bool)
+                # Folded patches may only be joined with the last two ranks.
+                least = 3 if angles[pair] < FOLDED_ANGLE else 0
+                is_free = not (merging.is_joined[pair.first] or merging.is_joined[pair.second])
+                if is_free and max(merging.rank(pair), least) <= priority:
+                    merging.join(pair)
+    is_turned = [merging.root(patch)[1] for patch in range(patch_count)]
+    return merging.pairs, np.array(is_turned, bool)
+
+
+def _arms(points: NDArray, owner: Index, patch_count: int) -> Array:
+    """Return (n, 3) directions from the middles of sides to those of their patches."""
+    middles = points.mean(axis=1)
+    sums = np.zeros((patch_count, 3))
+    np.add.at(sums, owner, middles)
+    arms = (sums[owner] / np.bincount(owner)[owner, None]) - middles
+    return arms / np.maximum(np.linalg.norm(arms, axis=1), 1e-300)[:, None]
 
 
 def close_pairs(keys: NDArray, limit: float) -> tuple[Index, Index]:
@@ -258,13 +322,13 @@ def close_pairs(keys: NDArray, limit: float) -> tuple[Index, Index]:
     limit.
     """
     keys = keys - keys[:1]
+    # Along a skew line, close rows are close too, and few others: only neighbors are compared.
     slope = 1.0 / np.sqrt(np.arange(2.0, 2.0 + keys.shape[1]))
     line = (keys * slope).sum(axis=1)
     order = np.argsort(line, kind="stable")
     line = line[order]
-    count = np.searchsorted(
-        line, line + (limit * slope.sum() + 1e-12 * np.abs(line).max(initial=0.0)), side="right"
-    )
+    reach = limit * slope.sum() + 1e-12 * np.abs(line).max(initial=0.0)
+    count = np.searchsorted(line, line + reach, side="right")
     count -= np.arange(1, len(line) + 1)
     pairs = []
     for i, j in following_pairs(order, count, PAIRS_PER_BATCH):
@@ -273,50 +337,41 @@ def close_pairs(keys: NDArray, limit: float) -> tuple[Index, Index]:
     return tuple(np.concatenate([np.empty((2, 0), np.intp), *pairs], axis=1))
 
 
-def _distance_between(
+def _pairs_by_parameter(
     points: NDArray, left: NDArray, right: NDArray, tolerance: float
-) -> Iterator[tuple[float, int, int, bool]]:
-    """Yield pairs of sides that coincide parameter by parameter: distance, indices, True if they
-    run the same way.
-    """
+) -> Iterator[_Pair]:
+    """Yield those pairs of sides that coincide parameter by parameter; (k,) indices of sides."""
     for start in range(0, len(left), PAIRS_PER_BLOCK):
         i = left[start : start + PAIRS_PER_BLOCK]
         j = right[start : start + PAIRS_PER_BLOCK]
-        reversed_distance, forward_distance = (
-            np.linalg.norm(points[i] - other_points, axis=2).max(axis=1)
-            for other_points in (points[j][:, ::-1], points[j])
-        )
-        for same, gap, fits in (
-            (False, reversed_distance, reversed_distance <= tolerance),
-            (
-                True,
-                forward_distance,
-                (forward_distance <= tolerance) & (reversed_distance > tolerance),
-            ),
-        ):
-            yield from zip(
-                gap[fits].tolist(), i[fits].tolist(), j[fits].tolist(), [same] * int(fits.sum())
-            )
+        against = np.linalg.norm(points[i] - points[j][:, ::-1], axis=2).max(axis=1)
+        along = np.linalg.norm(points[i] - points[j], axis=2).max(axis=1)
+        is_against = against <= tolerance
+        is_along = (along <= tolerance) & ~is_against
+        for distance, fits, same in ((against, is_against, False), (along, is_along, True)):
+            for row in zip(distance[fits].tolist(), i[fits].tolist(), j[fits].tolist()):
+                yield _Pair(*row, same)
 
 
-def _overlapping_sides(
+def _pairs_by_points(
     curves: Sequence[Curve], points: NDArray, i: int, j: int, tolerance: float
-) -> list[tuple[float, int, int, bool]]:
-    """Return [(distance, i, j, True if same direction)] if all points of each curve are on the
-    other curve, else [].
+) -> list[_Pair]:
+    """Return the pair of two sides if all points of each curve are on the other curve, else an
+    empty list.
     """
     gaps, ways = [], []
     for curve, samples, others in (
         (curves[j], points[j], points[i]),
         (curves[i], points[i], points[j]),
     ):
-        t = nearest_parameters(curve, samples, others, tolerance)
-        gaps.append(float(np.linalg.norm(others - curve.evaluate(t), axis=1).max()))
+        nearest = nearest_parameters(curve, samples, others, tolerance)
+        gaps.append(float(np.linalg.norm(others - curve.evaluate(nearest), axis=1).max()))
         # negative if they run against it
-        ways.append(float((np.diff(others, axis=0) * curve.derivatives(t[:-1])[1]).sum()))
+        tangents = curve.derivatives(nearest[:-1])[1]
+        ways.append(float((np.diff(others, axis=0) * tangents).sum()))
         if gaps[-1] > tolerance:
             return []
-    return [(max(gaps), i, j, ways[0] > 0.0)]
+    return [_Pair(max(gaps), i, j, ways[0] > 0.0)]
 
 
 def nearest_parameters(curve: Curve, samples: NDArray, points: NDArray, tolerance: float) -> Array:
@@ -343,17 +398,21 @@ def sharpest_crease(faces: Sequence[Face], topology: PatchTopology) -> float:
     there is none.
     """
     worst = max(map(_inner_crease_angle, split_faces(faces)[0]), default=0.0)
+    # The face of each side, its number there, and its curve.
     sides = [
-        (face, k, curve) for face, one in enumerate(faces) for k, (curve, _) in enumerate(one.sides)
+        (index, number, curve)
+        for index, face in enumerate(faces)
+        for number, (curve, _) in enumerate(face.sides)
     ]
     for seam in topology.seams.tolist():
-        first_side, second_side = (
-            _along_side(faces[face], k) * (-1.0 if topology.flipped[face] else 1.0)
-            for face, k, _ in map(sides.__getitem__, seam)
-        )
-        points = [sides[k][2].samples(CREASE_SAMPLES) for k in seam]
+        normals, points = [], []
+        for side in seam:
+            index, number, curve = sides[side]
+            turn = -1.0 if topology.flipped[index] else 1.0
+            normals.append(turn * _along_side(faces[index], number))
+            points.append(curve.samples(CREASE_SAMPLES))
         nearest = np.linalg.norm(points[0][:, None] - points[1], axis=2).argmin(axis=1)
-        worst = max(worst, _largest_angle(first_side, second_side[nearest]))
+        worst = max(worst, _largest_angle(normals[0], normals[1][nearest]))
     return worst
 
 
@@ -362,16 +421,14 @@ def _along_side(patch: Face, number: int) -> Array:
     poles.
     """
     if isinstance(patch, FlatFace):
-        return np.tile(
-            patch.normal, (len(patch.sides[number][0].space.uniform_parameters(CREASE_SAMPLES)), 1)
-        )
+        parameters = patch.curves[number].space.uniform_parameters(CREASE_SAMPLES)
+        return np.tile(patch.normal, (len(parameters), 1))
     if isinstance(patch, TrimmedFace):
         return patch.normals(number, CREASE_SAMPLES)
     axis, end, _ = SIDES[number]
-    held = patch.spaces[axis]
-    run = patch.spaces[1 - axis]
-    tables = [(np.array([held.domain[end]]), None), (run.uniform_parameters(CREASE_SAMPLES), None)]
-    return _normals(patch, *(tables if axis == 0 else tables[::-1])).reshape(-1, 3)
+    at_end = np.array([patch.spaces[axis].domain[end]]), None
+    along = patch.spaces[1 - axis].uniform_parameters(CREASE_SAMPLES), None
+    return _normals(patch, *((at_end, along) if axis == 0 else (along, at_end))).reshape(-1, 3)
 
 
 def _inner_crease_angle(patch: Patch) -> float:
@@ -382,12 +439,12 @@ def _inner_crease_angle(patch: Patch) -> float:
         if not len(inner):
             continue
         across = patch.spaces[1 - axis].uniform_parameters(CREASE_SAMPLES), None
-        before, after = ((inner, spans) for spans in (space.spans[:-1], space.spans[1:]))
-        normals_before, normals_after = (
-            _normals(patch, *((parameters, across) if axis == 0 else (across, parameters)))
-            for parameters in (before, after)
+        # At a knot, the span before it and the one after it have each a normal.
+        before, after = (
+            _normals(patch, *((knots, across) if axis == 0 else (across, knots)))
+            for knots in ((inner, space.spans[:-1]), (inner, space.spans[1:]))
         )
-        worst = max(worst, _largest_angle(normals_before, normals_after))
+        worst = max(worst, _largest_angle(before, after))
     return worst
 
 

@@ -15,7 +15,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -170,28 +169,27 @@ def assess(
 ) -> PatchIntegrals:
     """Sum the `measured` moments of the parts, inverted ones turned and uncounted ones left out;
     add findings.
+
+    measured: of each part, the volume's moments and whether they converged. slope: of `area_slope`.
     """
     size = patches_size(patches)
-    caps = np.zeros(topology.number)
+    cap_area = np.zeros(topology.number)
     for loop in topology.loops:
-        caps[loop.component] += 0.0 if loop.zero_area else loop.area
+        cap_area[loop.component] += 0.0 if loop.zero_area else loop.area
     total = np.array([moments.total for moments, _ in measured])
-    solid = ~topology.unclosable & (
-        np.abs(total) > zero_volume(size, area.total, caps > 0.0, stored)
-    )
+    least_volume = zero_volume(size, area.total, cap_area > 0.0, stored)
+    solid = ~topology.unclosable & (np.abs(total) > least_volume)
     comparison = _compare_parts(parts, total, solid, welding_tolerance(size, stored))
     inverted = solid & (total < 0.0) if comparison is None else comparison.flipped
     is_counted = solid if solid.any() else topology.unclosable
-    turned_parts = [
-        (part, moments, converged, -1.0 if flip else 1.0)
-        for part, (moments, converged), flip, keep in zip(parts, measured, inverted, is_counted)
-        if keep
-    ]
-    volumes = [moments * sign for _, moments, _, sign in turned_parts]
+    counted_parts = np.flatnonzero(is_counted).tolist()
+    part_signs = np.where(inverted, -1.0, 1.0)
+    volumes = [measured[k][0] * float(part_signs[k]) for k in counted_parts]
     volume = sum_moments(volumes) if volumes else measured[0][0] * 0.0
     # May be negative if open, or if cavities overlap.
-    whole_sign = -1.0 if volume.total < 0.0 else 1.0
-    volume = replace(volume, raw=whole_sign * volume.raw)
+    if volume.total < 0.0:
+        part_signs = -part_signs
+        volume = replace(volume, raw=-volume.raw)
     reach = size + 4.0 * stored
     # Caps move with their boundaries: their area counts too.
     skin = area.total + sum(loop.area for loop in topology.loops)
@@ -199,53 +197,52 @@ def assess(
     # A gap lets through at most its area times a third of the distance from the reference point.
     gaps = topology.seam_gap * reach / 3.0
     volume = with_swept_error(volume, stored * skin + gaps + uneven, reach)
-    area = with_area_error(area, slope, stored, reach)
     misoriented = np.flatnonzero(topology.flipped).tolist()
-    further = list(findings)
-    if not all(converged for *_, converged, _ in turned_parts):
-        further.append(finding(ERROR_ESTIMATE_LARGE, quantity="volume"))
-    outward = tuple(
-        patch.reverse_orientation() if whole_sign * sign < 0.0 else patch
-        for part, *_, sign in turned_parts
-        for patch in part
-    )
-    counted = whole_sign * np.where(inverted, -1.0, 1.0) * is_counted
     turned = np.flatnonzero(inverted).tolist()
+    outward = tuple(
+        patch.reverse_orientation() if part_signs[k] < 0.0 else patch
+        for k in counted_parts
+        for patch in parts[k]
+    )
+    signs = (part_signs * is_counted)[topology.component] * np.where(topology.flipped, -1.0, 1.0)
     health = MeshHealth(
-        closed=not (topology.unclosable.any() or caps.any()),
+        closed=not (topology.unclosable.any() or cap_area.any()),
         boundary_edges=topology.open_sides,
         non_manifold_edges=topology.non_manifold_sides,
         inconsistent_edges=topology.misoriented_sides,
         components=topology.number,
         inverted_components=len(turned),
-        cap_area_share=float(caps[solid].sum() / area.total) if area.total > 0.0 else 0.0,
+        cap_area_share=float(cap_area[solid].sum() / area.total) if area.total > 0.0 else 0.0,
     )
     if topology.unclosable.any() or not solid.any():
         method = Procedure.OPEN
-    elif caps[solid].any():
+    elif cap_area[solid].any():
         method = Procedure.CAPPED
     else:
         method = Procedure.REORIENTED if misoriented or turned else Procedure.EXACT
-    return PatchIntegrals(
-        volume,
-        area,
-        health if comparison is None else comparison.add_to(health),
-        method,
-        (
-            *_orientation_findings(
-                topology,
-                [[patches[k]] for k in misoriented],
-                [parts[k] for k in turned],
-                size,
-                volume.total,
-            ),
-            *_closing_findings(topology, solid, area.total, volume.total, size),
-            *_component_findings(comparison, size),
-            *further,
+    all_findings = [
+        *_orientation_findings(
+            topology,
+            [[patches[k]] for k in misoriented],
+            [parts[k] for k in turned],
+            size,
+            volume.total,
         ),
-        outward,
-        counted[topology.component] * np.where(topology.flipped, -1.0, 1.0),
-        topology,
+        *_closing_findings(topology, solid, area.total, volume.total, size),
+        *_component_findings(comparison, size),
+        *findings,
+    ]
+    if not all(measured[k][1] for k in counted_parts):
+        all_findings.append(finding(ERROR_ESTIMATE_LARGE, quantity="volume"))
+    return PatchIntegrals(
+        volume=volume,
+        area=with_area_error(area, slope, stored, reach),
+        health=health if comparison is None else comparison.add_to(health),
+        method=method,
+        findings=tuple(all_findings),
+        patches=outward,
+        signs=signs,
+        topology=topology,
     )
 
 
@@ -276,35 +273,39 @@ def _compare_parts(
     if len(parts) == 1 or not solid.any():
         return None
     components, relations = _classify_parts(parts, solid, SAMPLES_PER_SPAN, tolerance)
-    shared = np.unique(relations.intersecting)
+    crossing = np.unique(relations.intersecting)
     spans = sum(
         math.prod(len(space.spans) for space in face.spaces[:2])
-        for k in shared
+        for k in crossing
         for face in parts[k]
     )
     each = min(FINE_SAMPLES_PER_SPAN, int(np.sqrt(MAX_TRIANGLES / (2.0 * max(spans, 1)))))
-    if len(shared) and each > SAMPLES_PER_SPAN:  # Parts with crossing samples may be merely near.
-        nearer = _classify_parts(
-            [parts[k] for k in shared], np.ones(len(shared), bool), each, tolerance
-        )[1]
-        crossed, inside, crossing = (
-            np.sort(pairs) @ (len(parts), 1)
-            for pairs in (
-                relations.intersecting,
-                shared[nearer.contained_in],
-                shared[nearer.intersecting],
-            )
-        )
-        relations = ComponentRelations(
-            np.concatenate(
-                [relations.contained_in, shared[nearer.contained_in][np.isin(inside, crossed)]]
-            ),
-            relations.intersecting[np.isin(crossed, crossing)],
-            relations.undecided_pairs,
-            shared[nearer.mostly_in],
-            nearer.breakthrough,
-        )
+    # Parts with crossing samples may be merely near.
+    if len(crossing) and each > SAMPLES_PER_SPAN:
+        all_solid = np.ones(len(crossing), bool)
+        _, finer = _classify_parts([parts[k] for k in crossing], all_solid, each, tolerance)
+        relations = _refined(relations, finer, crossing, len(parts))
     return ComponentComparison.from_relations(replace(components, volume=total), relations, solid)
+
+
+def _refined(
+    relations: ComponentRelations, finer: ComponentRelations, crossing: Index, count: int
+) -> ComponentRelations:
+    """Return the relations of `count` parts with those that finer samples of the crossing ones
+    show. crossing: (k,) the parts that `finer` counts from 0.
+    """
+    contained_in, intersecting = crossing[finer.contained_in], crossing[finer.intersecting]
+    # A pair of parts as one number.
+    number = np.array([count, 1])
+    was_crossing = np.isin(np.sort(contained_in) @ number, np.sort(relations.intersecting) @ number)
+    is_crossing = np.isin(np.sort(relations.intersecting) @ number, np.sort(intersecting) @ number)
+    return ComponentRelations(
+        np.concatenate([relations.contained_in, contained_in[was_crossing]]),
+        relations.intersecting[is_crossing],
+        relations.undecided_pairs,
+        crossing[finer.mostly_in],
+        finer.breakthrough,
+    )
 
 
 def _component_findings(comparison: ComponentComparison | None, size: float) -> list[Finding]:
@@ -313,20 +314,20 @@ def _component_findings(comparison: ComponentComparison | None, size: float) -> 
     """
     if comparison is None:
         return []
-    counts = {
+    masks = {
         CAVITIES_SUBTRACTED: comparison.cavities & ~comparison.breaking,
         CAVITIES_BREAK_THROUGH: comparison.breaking,
         COMPONENTS_NESTED: comparison.nested,
         COMPONENTS_OVERLAP: comparison.intersecting,
     }
-    values: dict[str, Any] = {
-        CAVITIES_BREAK_THROUGH: {"share": float(comparison.breakthrough / size)}
-    }
-    findings = [
-        finding(code, count=int(which.sum()), **values.get(code, {}))
-        for code, which in counts.items()
-        if which.any()
-    ]
+    findings = []
+    for code, mask in masks.items():
+        count = int(mask.sum())
+        if count and code == CAVITIES_BREAK_THROUGH:
+            share = float(comparison.breakthrough / size)
+            findings.append(finding(code, count=count, share=share))
+        elif count:
+            findings.append(finding(code, count=count))
     if comparison.undecided_pairs:
         findings.append(
             finding(UNCHECKED, subject=OVERLAP_OF_COMPONENTS, count=int(comparison.undecided_pairs))
@@ -338,28 +339,25 @@ def _classify_parts(
     parts: Sequence[Sequence[Face]], solid: Mask, each: int, tolerance: float
 ) -> tuple[SortedComponents, ComponentRelations]:
     """Return components sampled `each` times per span, and their relations."""
-    points = []
-    triangles = []
-    component = []
-    count, off = 0, 0.0
+    points, triangles, owners = [], [], []
+    point_count = 0
+    distance = 0.0
     for number, part in enumerate(parts):
         for face in part:
             corners, quads, sagitta = _sampled(face, each)
             points.append(corners)
-            triangles.append(np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]) + count)
-            component.append(np.full(len(triangles[-1]), number))
-            count += len(corners)
-            off = max(off, sagitta)
-    points, triangles, component = [
-        np.concatenate(arrays) for arrays in (points, triangles, component)
-    ]
-    components = sort_components(points, triangles, component, len(parts))
-    return components, classify_pairs(
-        points,
-        components,
-        solid,
-        tolerance if each == SAMPLES_PER_SPAN else max(tolerance, 2.0 * off),
+            halves = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+            triangles.append(halves + point_count)
+            owners.append(np.full(len(halves), number))
+            point_count += len(corners)
+            distance = max(distance, sagitta)
+    all_points = np.concatenate(points)
+    components = sort_components(
+        all_points, np.concatenate(triangles), np.concatenate(owners), len(parts)
     )
+    if each != SAMPLES_PER_SPAN:
+        tolerance = max(tolerance, 2.0 * distance)
+    return components, classify_pairs(all_points, components, solid, tolerance)
 
 
 def _sampled(face: Face, each: int) -> tuple[NDArray, Index, float]:
@@ -402,16 +400,14 @@ def _orientation_findings(
     size: float,
     volume: float,
 ) -> list[Finding]:
-    """Return findings about single patches turned to agree with their part, and about whole parts
-    turned.
+    """Return findings about single patches turned to agree with their part (mixed), and about whole
+    parts turned.
     """
 
-    def are_slight(
-        groups: list[list[Face]],
-    ) -> bool:  # an area is at most twice the square of a box's diagonal
-        return (
-            2.0 * sum(patches_size(patches) ** 2 for patches in groups) * size < NEGLIGIBLE * volume
-        )
+    def are_slight(groups: list[list[Face]]) -> bool:
+        # An area is at most twice the square of a box's diagonal.
+        area = 2.0 * sum(patches_size(patches) ** 2 for patches in groups)
+        return area * size < NEGLIGIBLE * volume
 
     findings = []
     if mixed:
@@ -439,13 +435,15 @@ def _closing_findings(
     loops = [loop for loop in closure.loops if solid[loop.component]]
     caps = [loop for loop in loops if not loop.zero_area]
     if caps:
-        capped = sum(loop.area for loop in caps)
+        cap_area = sum(loop.area for loop in caps)
         flat = sum(loop.is_planar for loop in caps)
-        slight = capped * size < NEGLIGIBLE * volume
-        share = float(capped / area)
         findings.append(
             finding(
-                PATCH_HOLES_CAPPED, slight=slight, flat=flat, curved=len(caps) - flat, share=share
+                PATCH_HOLES_CAPPED,
+                slight=cap_area * size < NEGLIGIBLE * volume,
+                flat=flat,
+                curved=len(caps) - flat,
+                share=float(cap_area / area),
             )
         )
     crossing = sum(loop.self_intersecting for loop in loops)

@@ -133,11 +133,15 @@ class Curve:
         slope = (slope[:, :3] - place[:, :3] * slope[:, 3:]) / place[:, 3:]
         return place[:, :3] + self.points[0], slope
 
+    @property
+    def all_weights(self) -> Array:
+        """(count,) weights: ones for a polynomial curve."""
+        return np.ones(len(self.points)) if self.weights is None else self.weights
+
     @cached_property
     def _net(self) -> Array:
         """(count, 4) homogeneous control points about the first."""
-        weights = np.ones(len(self.points)) if self.weights is None else self.weights
-        return homogeneous(self.points - self.points[0], weights)
+        return homogeneous(self.points - self.points[0], self.all_weights)
 
     def transform(self, matrix: ArrayLike) -> Curve:
         """Return the image of the curve under a (4, 4) affine map."""
