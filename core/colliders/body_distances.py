@@ -46,6 +46,7 @@ def hull_of(surface: Surface) -> ConvexHull:
     if len(triangles) == 2 * len(points) - 4 and len(triangles) <= MOST_CONVEX_FACES:
         start = triangles.ravel()
         end = triangles[:, NEXT_AXIS].ravel()
+        # The side that runs against each side, found by a key of both ends.
         side = start * len(points) + end
         order = np.argsort(side)
         place = np.searchsorted(side[order], end * len(points) + start)
@@ -80,22 +81,25 @@ def distances(
     points = np.asarray(surface.points, np.float64)
     size = float(np.ptp(hull.points, axis=0).max())
     solids, sags = zip(*(_polyhedron(shape) for shape in shapes))
-    samples, step = (
-        (hull.points, 0.0) if len(solids) == 1 else _samples(points, triangles, size / STEPS)
-    )
+    if len(solids) == 1:
+        samples, step = hull.points, 0.0
+    else:
+        samples, step = _samples(points, triangles, size / STEPS)
     nearest = np.full(len(samples), np.inf)
     for shape, solid in zip(shapes, solids):
+        # Samples in an earlier shape need no other one.
         rest = np.flatnonzero(nearest > 0.0)
         near = _distances_from_shape(samples[rest], shape, solid, nearest[rest], size)
         nearest[rest] = np.minimum(nearest[rest], near)
     inward = float(nearest.max(initial=0.0))
     corners = np.concatenate([solid.points for solid in solids])
+    # The largest height over a face is a lower bound of the distance.
     outward = float(_heights(corners, hull).max())
     if outward <= enough:
-        outward = float(
-            _distances_from_hull(corners, hull, np.full(len(corners), np.inf), size).max()
-        )
-    is_convex = hull_volume(hull) - volume_and_center(surface)[0] <= CONVEX_RTOL * hull_volume(hull)
+        no_limits = np.full(len(corners), np.inf)
+        outward = float(_distances_from_hull(corners, hull, no_limits, size).max())
+    volume = hull_volume(hull)
+    is_convex = volume - volume_and_center(surface)[0] <= CONVEX_RTOL * volume
     if is_convex or outward > enough:
         return max(outward, 0.0), inward, step + max(sags)
     tree = tree_of_all(surface.points, surface.all_triangles()[0])
@@ -152,6 +156,7 @@ def _outer_samples(solids: Sequence[ConvexHull], size: float, fineness: int) -> 
 
 
 def hull_volume(hull: ConvexHull) -> float:
+    """Return the volume of a hull."""
     return volume_and_center(Surface.from_triangles(hull.points, hull.triangles))[0]
 
 
@@ -182,9 +187,8 @@ def _polyhedron(shape: Shape) -> tuple[ConvexHull, float]:
         points = size[0] * (hull.points - ends) + size[1] * ends
     else:
         points = hull.points * (size if shape.kind != "cylinder" else (size[0], size[0], size[1]))
-    return replace(
-        hull, points=shape.pose.apply(points)
-    ), 0.0 if shape.kind == "box" else BALL_SAG * max(size)
+    sag = 0.0 if shape.kind == "box" else BALL_SAG * max(size)
+    return replace(hull, points=shape.pose.apply(points)), sag
 
 
 def _face_normals(hull: ConvexHull) -> Array:

@@ -188,6 +188,7 @@ def _concave_planes(piece: Piece, size: float) -> Array:
     important ones.
     """
     count = len(piece.points)
+    # Both uses of an edge that two faces share are neighbors in this order, the forward one first.
     key = np.minimum(piece.start, piece.end) * count + np.maximum(piece.start, piece.end)
     order = np.lexsort((piece.start > piece.end, key))
     same = key[order][1:] == key[order][:-1]
@@ -211,15 +212,15 @@ def _concave_planes(piece: Piece, size: float) -> Array:
     normal = normal[real] / length[real, None]
     at = np.tile(a, (3, 1))[real]
     weight = np.tile(weight, 3)[real]
-    normal *= np.where(
-        normal[np.arange(len(normal)), np.abs(normal).argmax(axis=1)] < 0.0, -1.0, 1.0
-    )[:, None]
+    largest = normal[np.arange(len(normal)), np.abs(normal).argmax(axis=1)]
+    normal *= np.where(largest < 0.0, -1.0, 1.0)[:, None]
     planes = np.column_stack([normal, np.einsum("ij,ij->i", normal, at)])
+    # Planes with the same rounded normal and place count as one, as heavy as all of them.
     middle = np.append(piece.points.mean(axis=0), -1.0)
     steps = np.column_stack([np.rint(normal * 6.0), np.rint(planes @ middle / size * 24.0)])
-    _, where, which = np.unique(steps, axis=0, return_index=True, return_inverse=True)
-    total = np.bincount(which.ravel(), weight)
-    return planes[where[np.argsort(-total, kind="stable")[:MAX_PLANES]]]
+    _, first_plane, group = np.unique(steps, axis=0, return_index=True, return_inverse=True)
+    total = np.bincount(group.ravel(), weight)
+    return planes[first_plane[np.argsort(-total, kind="stable")[:MAX_PLANES]]]
 
 
 def _even_planes(points: Array, shares: Array) -> Array:
@@ -251,51 +252,56 @@ def _gains(
     a, b = height[edges[:, 0]], height[edges[:, 1]]
     edge, plane = np.nonzero(a * b < 0.0)
     share = (a[edge, plane] / (a[edge, plane] - b[edge, plane]))[:, None]
-    new = (1.0 - share) * points[edges[edge, 0]] + share * points[edges[edge, 1]]
-    sets = [points]
-    owners = [np.zeros(len(points), np.intp)]
-    inward = [np.zeros(1, bool)]
-    out = np.stack(
+    crossings = (1.0 - share) * points[edges[edge, 0]] + share * points[edges[edge, 1]]
+    outward = np.stack(
         [np.bincount(piece.start, column[piece.face], len(points)) for column in piece.normals.T],
         axis=1,
     )
-    total = 1
-    whose = [np.full(1, -1)]
+    # Sets of points: the whole piece, then each connected part on each side of each plane. For all
+    # points of all sets their place and set; for all sets their plane, and whether they are walls
+    # of holes.
+    places = [points]
+    sets = [np.zeros(len(points), np.intp)]
+    set_planes = [np.full(1, -1)]
+    are_inward = [np.zeros(1, bool)]
+    set_count = 1
     for sign in (1.0, -1.0):
-        above = sign * height >= 0.0
-        vertex, of = np.nonzero(above)
-        number = np.full(height.shape, -1)
-        number[vertex, of] = np.arange(len(vertex))
+        vertex, vertex_plane = np.nonzero(sign * height >= 0.0)
+        number = np.full(height.shape, -1)  # of each vertex on this side of each plane
+        number[vertex, vertex_plane] = np.arange(len(vertex))
         ends = number[edges]  # (e, 2, k)
         # an edge in the plane joins nothing
-        link = np.nonzero((ends >= 0).all(axis=1) & ((a != 0.0) | (b != 0.0)))
-        new_number = len(vertex) + np.arange(len(new))
-        inner = ends[edge, :, plane].max(axis=1)
-        label, parts = connected_components(
-            len(vertex) + len(new),
-            np.concatenate([ends[link[0], 0, link[1]], new_number]),
-            np.concatenate([ends[link[0], 1, link[1]], inner]),
+        is_joining = (ends >= 0).all(axis=1) & ((a != 0.0) | (b != 0.0))
+        joining_edge, joining_plane = np.nonzero(is_joining)
+        crossing_number = len(vertex) + np.arange(len(crossings))
+        inner_end = ends[edge, :, plane].max(axis=1)
+        part, part_count = connected_components(
+            len(vertex) + len(crossings),
+            np.concatenate([ends[joining_edge, 0, joining_plane], crossing_number]),
+            np.concatenate([ends[joining_edge, 1, joining_plane], inner_end]),
         )
-        sets += [points[vertex], new]
-        inward.append(_face_inward(points[vertex], out[vertex], label[: len(vertex)], parts))
-        owners.append(total + label)
-        owner = np.empty(parts, np.intp)
-        owner[label] = np.concatenate([of, plane])
-        whose.append(owner)
-        total += parts
-    owner = np.concatenate(owners)
-    place = np.concatenate(sets)
-    whose = np.concatenate(whose)
-    order = np.argsort(owner, kind="stable")
-    starts = np.searchsorted(owner[order], np.arange(total))
-    around = _boxes_around(place[order], starts, whose, np.concatenate(inward))
-    order = order[np.argsort(around[owner[order]], kind="stable")]
-    outer, starts = np.unique(around[owner[order]], return_index=True)
+        part_planes = np.empty(part_count, np.intp)
+        part_planes[part] = np.concatenate([vertex_plane, plane])
+        places += [points[vertex], crossings]
+        sets.append(set_count + part)
+        set_planes.append(part_planes)
+        vertex_part = part[: len(vertex)]
+        are_inward.append(_face_inward(points[vertex], outward[vertex], vertex_part, part_count))
+        set_count += part_count
+    place = np.concatenate(places)
+    set_of_place = np.concatenate(sets)
+    plane_of_set = np.concatenate(set_planes)
+    order = np.argsort(set_of_place, kind="stable")
+    starts = np.searchsorted(set_of_place[order], np.arange(set_count))
+    around = _boxes_around(place[order], starts, plane_of_set, np.concatenate(are_inward))
+    # Walls of holes join the set around them.
+    order = order[np.argsort(around[set_of_place[order]], kind="stable")]
+    outer_sets, starts = np.unique(around[set_of_place[order]], return_index=True)
     volumes = measure(place[order], starts, SEARCH_RTOL)
-    parts = np.bincount(whose[outer[1:]], minlength=len(planes))
-    return (volumes[0] - np.bincount(whose[outer[1:]], volumes[1:], len(planes))) / np.maximum(
-        parts - 1, 1
-    )
+    planes_of_parts = plane_of_set[outer_sets[1:]]
+    part_counts = np.bincount(planes_of_parts, minlength=len(planes))
+    reductions = volumes[0] - np.bincount(planes_of_parts, volumes[1:], len(planes))
+    return reductions / np.maximum(part_counts - 1, 1)
 
 
 @lru_cache(maxsize=1)
@@ -310,6 +316,7 @@ def _rough_volumes(points: Array, starts: Index, _: float) -> Array:
     ball = _directions()
     sizes = np.diff(np.append(starts, len(points)))
     reach = points @ ball.points.T
+    # The rows of the points that reach farthest of their set in a direction.
     row, direction = np.nonzero(reach >= np.maximum.reduceat(reach, starts).repeat(sizes, axis=0))
     farthest = np.empty((len(starts), len(ball.points), 3))
     farthest[np.arange(len(starts)).repeat(sizes)[row], direction] = points[row]
@@ -320,16 +327,13 @@ def _rough_volumes(points: Array, starts: Index, _: float) -> Array:
 
 def _face_inward(points: NDArray, out: NDArray, label: Index, parts: int) -> Mask:
     """Return a (parts,) mask of the parts whose faces look at the middle: walls of holes. out: (n,
-    3) normals.
+    3) normals. label: (n,) parts.
     """
-    count = np.bincount(label, minlength=parts)
+    count = np.maximum(np.bincount(label, minlength=parts), 1)
+    # Σ (point - middle) · normal
     flux = np.bincount(label, np.einsum("ij,ij->i", points, out), parts)
     for place, normal in zip(points.T, out.T):
-        flux -= (
-            np.bincount(label, place, parts)
-            * np.bincount(label, normal, parts)
-            / np.maximum(count, 1)
-        )
+        flux -= np.bincount(label, place, parts) * np.bincount(label, normal, parts) / count
     return flux < 0.0
 
 
@@ -389,8 +393,10 @@ def _merge(sets: list[Array], most: int, volume: float) -> list[Array]:
 
 
 def _volumes(sets: Sequence[Array]) -> Array:
+    """Return the volumes of the hulls of sets of points."""
     if not sets:
         return np.zeros(0)
     starts = np.cumsum([0, *(len(points) for points in sets[:-1])])
     volumes = hull_volumes(np.concatenate(sets), starts, SEARCH_RTOL)
+    # The tolerance may make a thin hull flat.
     return volumes if volumes.all() else hull_volumes(np.concatenate(sets), starts, 1e-8)

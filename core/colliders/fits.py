@@ -66,12 +66,8 @@ def make_colliders(
         area = float(triangle_areas(hull.points, hull.triangles).sum())
         # Steiner's formula bounds the volume of all places this near to the hull; its mean width is
         # below its diagonal.
-        most = (
-            hull_volume(hull)
-            + area * reach
-            + 2.0 * pi * size * reach**2
-            + 4.0 / 3.0 * pi * reach**3
-        )
+        most = hull_volume(hull) + area * reach + 2.0 * pi * size * reach**2
+        most += 4.0 / 3.0 * pi * reach**3
         for name in SIMPLE:
             shape = fits.make(name)
             if shape.kind == "mesh" or _volume(shape) <= most:
@@ -96,6 +92,7 @@ def _merge_within(
     gaps = {number: hull.gap for number, hull in pieces.items()}
     volumes = {number: hull_volume(hull) for number, hull in pieces.items()}
     compared: set[tuple[int, int]] = set()
+    # The added volume, the numbers of two pieces, and their common hull.
     trials: list[tuple[float, int, int, ConvexHull]] = []
     while True:
         for i, j in set(combinations(pieces, 2)) - compared:
@@ -105,13 +102,15 @@ def _merge_within(
                 trials.append((hull_volume(merged) - volumes[i] - volumes[j], i, j, merged))
             compared.add((i, j))
         trials = sorted(trial for trial in trials if {*trial[1:3]} <= pieces.keys())
-        while trials:
+        best = None
+        while trials and best is None:
             yield MERGING_SHARE
-            _, i, j, merged = trials.pop(0)
-            if farthest_sample(tree, [merged], size, wanted.outward)[0] < inf:
-                break
-        else:
+            trial = trials.pop(0)
+            if farthest_sample(tree, [trial[3]], size, wanted.outward)[0] < inf:
+                best = trial
+        if best is None:
             return [*pieces.values()]
+        _, i, j, merged = best
         del pieces[i], pieces[j]
         number = max(volumes) + 1
         pieces[number] = merged
@@ -215,7 +214,10 @@ def _units(vectors: Array) -> Array:
 
 
 def _round_shape(kind: str, points: NDArray, axes: Array, middle: NDArray, radius: float) -> Shape:
-    """Return the cylinder around points along the third axis, or the capsule, which is as thin."""
+    """Return the cylinder around points along the third axis, or the capsule, which is as thin.
+
+    axes: columns. middle, radius: of the circle around the points along the third axis.
+    """
     along = points @ axes
     caps = np.zeros(len(points))
     if kind == "capsule":
@@ -234,30 +236,30 @@ def enclosing_ball(points: Array) -> tuple[Array, float]:
     """
     dimension = points.shape[1]
     first = points[np.linalg.norm(points - points[0], axis=1).argmax()]
-    held = np.stack([first, points[np.linalg.norm(points - first, axis=1).argmax()]])
-    center, radius = _ball_through(held)
+    holders = np.stack([first, points[np.linalg.norm(points - first, axis=1).argmax()]])
+    center, radius = _ball_through(holders)
     while True:
         distance = np.linalg.norm(points - center, axis=1)
         farthest = int(distance.argmax())
         if distance[farthest] <= radius * (1.0 + BALL_RTOL) + np.finfo(float).tiny:
             return center, float(distance[farthest])
-        held = np.concatenate([held, points[farthest : farthest + 1]])
-        last = len(held) - 1  # the new point holds the ball
+        holders = np.concatenate([holders, points[farthest : farthest + 1]])
+        last = len(holders) - 1
+        # The new point is on the surface of the new ball.
         subsets = [
-            held[[*chosen, last]]
+            holders[[*chosen, last]]
             for count in range(1, min(dimension, last) + 1)
             for chosen in combinations(range(last), count)
         ]
-        balls = [
-            (reach, middle, subset)
-            for subset in subsets
-            for middle, reach in [_ball_through(subset)]
-            if np.linalg.norm(held - middle, axis=1).max() <= reach * (1.0 + 1e-10)
-        ]
+        balls = []
+        for subset in subsets:
+            middle, reach = _ball_through(subset)
+            if np.linalg.norm(holders - middle, axis=1).max() <= reach * (1.0 + 1e-10):
+                balls.append((reach, middle, subset))
         least = min(balls, key=lambda ball: ball[0], default=None)
         if least is None or least[0] <= radius:
             return center, float(distance[farthest])  # rounding alone is left
-        radius, center, held = least
+        radius, center, holders = least
 
 
 def _ball_through(points: Array) -> tuple[Array, float]:

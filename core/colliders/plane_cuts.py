@@ -56,6 +56,7 @@ class Piece:
 
 
 def piece_from_surface(surface: Surface) -> Piece:
+    """Return the triangles of a surface that have an area, as the faces of a piece."""
     triangles = surface.all_triangles()[0].astype(np.intp)
     points = np.asarray(surface.points, np.float64)
     triangles = _join_open_edges(points, triangles)
@@ -108,8 +109,9 @@ def cut(piece: Piece, plane: Array) -> Iterator[Piece]:
 
 
 def _half(piece: Piece, height: NDArray, crossing: NDArray, normal: NDArray) -> Piece | None:
-    """Return the part of a piece above a plane, closed in the plane; crossing: the point on each
-    edge, or -1.
+    """Return the part of a piece above a plane, closed in the plane; None if nothing is above.
+
+    height: of the points. crossing: the point on each edge in the plane, or -1.
     """
     from_above = height[piece.start] > 0.0
     to_above = height[piece.end] > 0.0
@@ -123,20 +125,21 @@ def _half(piece: Piece, height: NDArray, crossing: NDArray, normal: NDArray) -> 
     end = np.where(crosses & to_below, crossing, piece.end)
     leaves = kept & from_above & ~to_above
     enters = kept & to_above & ~from_above
-    where = np.concatenate([end[leaves], start[enters]])
+    # The places where each face's edges meet the plane, in order along it. Between two of them runs
+    # a chord as often as edges that left so far outnumber those that entered, or the other way.
+    place = np.concatenate([end[leaves], start[enters]])
     face = np.concatenate([piece.face[leaves], piece.face[enters]])
-    step = np.ones(len(where), np.intp)
-    step[int(np.count_nonzero(leaves)) :] = -1
-    along = np.einsum("ij,ij->i", piece.points[where], np.cross(piece.normals[face], normal))
+    step = np.repeat([1, -1], [np.count_nonzero(leaves), np.count_nonzero(enters)])
+    along = np.einsum("ij,ij->i", piece.points[place], np.cross(piece.normals[face], normal))
     order = np.lexsort((along, face))
-    where = where[order]
+    place = place[order]
     face = face[order]
     count = np.cumsum(step[order])
-    chords = np.flatnonzero((count[:-1] != 0) & (where[:-1] != where[1:]))
+    chords = np.flatnonzero((count[:-1] != 0) & (place[:-1] != place[1:]))
     chords = chords.repeat(np.abs(count[chords]))
-    forward = count[chords] > 0
-    begin = np.where(forward, where[chords], where[chords + 1])
-    stop = np.where(forward, where[chords + 1], where[chords])
+    is_forward = count[chords] > 0
+    begin = np.where(is_forward, place[chords], place[chords + 1])
+    stop = np.where(is_forward, place[chords + 1], place[chords])
     lid = np.full(len(chords), len(piece.normals))
     whole = Piece(
         piece.points,

@@ -26,6 +26,7 @@ from ..numerics import (
     ArrayLike,
     Index,
     Integers,
+    Mask,
     connected_components,
     first_occurrence,
     float_array,
@@ -190,6 +191,7 @@ def _without_copies(triangles: Index) -> Index:
     if (first == np.arange(count)).all():
         return triangles
     following = np.roll(triangles, -1, axis=1)
+    # 1 if the corners ascend twice on the way round, -1 if once: copies of one direction agree.
     side = 2 * (following > triangles).sum(axis=1) - 3
     facing = np.bincount(first, side, count)[first]
     rest = triangles[facing != 0.0]
@@ -197,10 +199,10 @@ def _without_copies(triangles: Index) -> Index:
     size = int(triangles.max()) + 1
     fits = np.isin(following * size + triangles, start * size + stop).any(axis=1)
     fits &= np.bincount(first, fits, count)[first] == 1.0
-    wanted = np.flatnonzero(np.where(facing != 0.0, side * facing > 0.0, fits))
-    _, rows = np.unique(first[wanted], return_index=True)
-    undecided = np.flatnonzero(~np.isin(first, first[wanted]))
-    return triangles[np.union1d(wanted[rows], undecided)]
+    chosen = np.flatnonzero(np.where(facing != 0.0, side * facing > 0.0, fits))
+    _, rows = np.unique(first[chosen], return_index=True)
+    undecided = np.flatnonzero(~np.isin(first, first[chosen]))
+    return triangles[np.union1d(chosen[rows], undecided)]
 
 
 def _largest(
@@ -241,29 +243,19 @@ def _hollows(
     np.minimum.at(parent, high, low)
     while not np.array_equal(above := parent[parent], parent):
         parent = above
-    # Below a lowest point, that point is the nearest one of the surface around it, so that the sum
-    # of normals weighted by angles tells the side (Bærentzen and Aanæs 2005).
-    lowest = parent == np.arange(count)
-    around = triangles[lowest[triangles].any(axis=1)]
-    corners = points[around]
-    sides = np.roll(corners, -1, axis=1) - corners
-    normal = np.cross(sides[:, 0], sides[:, 1])
-    angle = np.arctan2(
-        np.linalg.norm(normal, axis=1)[:, None], -(sides * np.roll(sides, 1, axis=1)).sum(axis=2)
-    )
-    normal /= np.maximum(lengths(normal), TINY)
-    facing = np.bincount(around.ravel(), (angle * (normal @ up)[:, None]).ravel(), count)
-    faces_up = facing > 0.0
+    faces_up = _faces_up(points, triangles, parent == np.arange(count), up)
     # Links between regions, and of regions with the outside, -1, at the rim.
     first = np.concatenate([parent[low], np.full(len(rim), -1)])
     second = np.concatenate([parent[high], parent[rim]])
-    at = np.concatenate([high, rim])
-    apart = first != second
-    first, second, at = first[apart], second[apart], at[apart]
+    passes = np.concatenate([high, rim])
+    is_link = first != second
+    first, second, passes = first[is_link], second[is_link], passes[is_link]
+    # Of each pair of regions the lowest pass, then all in order of height.
     pair = np.minimum(first, second) * (count + 1) + np.maximum(first, second)
-    order = np.lexsort([at, pair])
+    order = np.lexsort([passes, pair])
     order = order[np.diff(pair[order], prepend=np.iinfo(np.intp).min) != 0]
-    order = order[np.argsort(at[order], kind="stable")]
+    order = order[np.argsort(passes[order], kind="stable")]
+    # A union-find forest of regions by their lowest points; the lower region is the root.
     root = {int(bottom): int(bottom) for bottom in np.unique(parent)} | {-1: -1}
 
     def find(item: int) -> int:
@@ -272,16 +264,33 @@ def _hollows(
             item = root[item]
         return item
 
-    found = []
-    for left, right, top in zip(first[order].tolist(), second[order].tolist(), at[order].tolist()):
+    hollows = []
+    for left, right, top in np.stack([first, second, passes], axis=1)[order].tolist():
         lower, upper = sorted((find(left), find(right)))
         if lower == upper:
             continue
         root[upper] = lower
         if faces_up[upper] and (lower < 0 or not faces_up[lower]):
-            found.append((upper, top))
-    found += [(item, count) for item in root if item >= 0 and faces_up[item] and find(item) == item]
-    return found
+            hollows.append((upper, top))
+    cavities = [item for item in root if item >= 0 and faces_up[item] and find(item) == item]
+    return hollows + [(item, count) for item in cavities]
+
+
+def _faces_up(points: Array, triangles: Index, lowest: Mask, up: Array) -> Mask:
+    """Return an (n,) mask of the lowest points of regions with air above them.
+
+    Below a lowest point, that point is the nearest one of the surface around it, so that the sum of
+    normals weighted by angles tells the side (Bærentzen and Aanæs 2005).
+    """
+    around = triangles[lowest[triangles].any(axis=1)]
+    corners = points[around]
+    sides = np.roll(corners, -1, axis=1) - corners
+    normal = np.cross(sides[:, 0], sides[:, 1])
+    dots = -(sides * np.roll(sides, 1, axis=1)).sum(axis=2)
+    angle = np.arctan2(np.linalg.norm(normal, axis=1)[:, None], dots)
+    normal /= np.maximum(lengths(normal), TINY)
+    facing = angle * (normal @ up)[:, None]
+    return np.bincount(around.ravel(), facing.ravel(), len(points)) > 0.0
 
 
 def spill_tilt(

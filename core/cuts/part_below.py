@@ -336,10 +336,11 @@ def _sums_below(
     index = np.min_scalar_type(k)
     # The first level above each point, and the first that is not below it.
     above = np.searchsorted(levels, points[2], "right").astype(index)
-    beyond = np.searchsorted(levels, points[2], "left").astype(index)
+    not_below = np.searchsorted(levels, points[2], "left").astype(index)
     # In this mode take checks no indices, which costs half of its time.
     columns = np.ascontiguousarray(triangles.T)
     a, b, c = above.take(columns, mode="clip")
+    # Of each triangle, the first levels above its lowest and above its middle corner.
     lowest = np.minimum(np.minimum(a, b), c)
     middle = np.maximum(np.minimum(a, b), np.minimum(np.maximum(a, b), c))
     table = np.zeros((21, k))
@@ -352,11 +353,13 @@ def _sums_below(
         corners = points.take(columns[:, rows], axis=1, mode="clip")
         weight, sizes = _weights(corners)
         _add_sums(table, corners, weight, sizes, middle[rows])
+    # A triangle that is whole below a level is so below all higher ones.
     table = np.cumsum(table, axis=1)
-    stop = np.maximum(middle, beyond.take(columns, mode="clip").max(axis=0))
+    stop = np.maximum(middle, not_below.take(columns, mode="clip").max(axis=0))
     crossed = np.flatnonzero(stop > lowest)
     counts = (stop[crossed] - lowest[crossed]).astype(np.intp)
     for part in batches(counts, TRIANGLES_PER_BLOCK):
+        # A row for each pair of a triangle and a level through it.
         rows = np.repeat(crossed[part], counts[part])
         level = lowest[rows] + segment_ranges(counts[part])
         order = np.argsort(level, kind="stable")
@@ -365,9 +368,10 @@ def _sums_below(
         weight, sizes = _weights(corners)
         z = corners[2]
         is_low = level < middle[rows]
+        # The corner that is alone on its side comes first; the others move along their edges to the
+        # level.
         apex = np.where(is_low, z.argmin(axis=0), z.argmax(axis=0))
-        every = np.arange(len(rows))
-        corners = corners[:, (apex + np.arange(3)[:, None]) % 3, every]
+        corners = corners[:, (apex + np.arange(3)[:, None]) % 3, np.arange(len(rows))]
         ends = corners[:, 1:] - corners[:, :1]
         share = (levels[level] - corners[2, 0]) / ends[2]
         corners[:, 1:] = corners[:, :1] + share * ends
@@ -404,19 +408,21 @@ def _add_sums(table: Array, corners: Array, weight: Array, sizes: Array, level: 
     """
     rows = np.empty((21, len(weight)))
     rows[0] = weight
-    heavy = corners * weight
+    weighted = corners * weight
     total = np.add.reduce(corners, axis=1)
     np.multiply(total, weight, rows[1:4])
+    # (s_z + 2 z) u of each corner, and s_z s + 2 Q
     raised = corners * (total[2] + 2.0 * corners[2])
     tilted = total[2] * total + 2.0 * np.einsum("ct,dct->dt", corners[2], corners)
     row = 4
     for i in range(3):
-        here = rows[row : row + 3 - i]
-        there = rows[row + 6 : row + 9 - i]
-        np.einsum("ct,dct->dt", heavy[i], corners[i:], out=here)
-        here += rows[1 + i] * total[i:]
-        np.einsum("ct,dct->dt", heavy[i], raised[i:], out=there)
-        there += 0.5 * (rows[1 + i] * tilted[i:] + rows[1 + i : 4] * tilted[i])
+        # Products of axis i with itself and the following ones, then the same times z.
+        products = rows[row : row + 3 - i]
+        products_by_z = rows[row + 6 : row + 9 - i]
+        np.einsum("ct,dct->dt", weighted[i], corners[i:], out=products)
+        products += rows[1 + i] * total[i:]
+        np.einsum("ct,dct->dt", weighted[i], raised[i:], out=products_by_z)
+        products_by_z += 0.5 * (rows[1 + i] * tilted[i:] + rows[1 + i : 4] * tilted[i])
         row += 3 - i
     rows[16:] = sizes
     starts = np.flatnonzero(np.diff(level, prepend=-1))

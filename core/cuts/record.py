@@ -27,8 +27,8 @@ def below_record(surface: Surface, level: float) -> dict[str, Any]:
     if not low[2] < level < high[2]:
         raise MeasureError(LEVEL_UNAVAILABLE, fault=PLANE_MISSES)
     triangles = surface.all_triangles()[0]
-    found = measure_below(surface.points, triangles, [UP], [level], surface.coordinate_error)
-    part, face = found.part.at(0), found.face.at(0)
+    below = measure_below(surface.points, triangles, [UP], [level], surface.coordinate_error)
+    part, face = below.part.at(0), below.face.at(0)
     return {
         "level": level,
         **_moments("volume", part),
@@ -71,14 +71,14 @@ def _moments(name: str, moments: Moments) -> dict[str, Any]:
     }
 
 
-def partly_compared(found: CutFill) -> tuple[Finding, ...]:
+def partly_compared(volumes: CutFill) -> tuple[Finding, ...]:
     """Return a finding if a part of the surface has no counterpart."""
-    if found.compared > 1.0 - MAX_LEFT_OUT:
+    if volumes.compared > 1.0 - MAX_LEFT_OUT:
         return ()
-    return (finding(COMPARED_IN_PART, share=found.compared),)
+    return (finding(COMPARED_IN_PART, share=volumes.compared),)
 
 
-def cut_fill_record(found: CutFill, against: str) -> dict[str, Any]:
+def cut_fill_record(volumes: CutFill, against: str) -> dict[str, Any]:
     """Return the entry `cut_fill`. against: the height, `rim`, or the other object's name."""
     sides = {
         name: {
@@ -87,22 +87,20 @@ def cut_fill_record(found: CutFill, against: str) -> dict[str, Any]:
             "center": part.center if part.total > 0.0 else None,
         }
         for name, part, area in (
-            ("cut", found.cut, found.cut_area),
-            ("fill", found.fill, found.fill_area),
+            ("cut", volumes.cut, volumes.cut_area),
+            ("fill", volumes.fill, volumes.fill_area),
         )
     }
-    bounds = [
-        float(found.cut.rounding_error[0] + found.fill.rounding_error[0]),
-        float(found.cut.input_error[0] + found.fill.input_error[0]),
-    ]
+    rounding = float(volumes.cut.rounding_error[0] + volumes.fill.rounding_error[0])
+    moved = float(volumes.cut.input_error[0] + volumes.fill.input_error[0])
     plane = None
-    if found.offset is not None:
-        plane = {"normal": found.normal, "offset": found.offset}
+    if volumes.offset is not None:
+        plane = {"normal": volumes.normal, "offset": volumes.offset}
     return {
         "against": against,
         "plane": plane,
         **sides,
-        "net": found.net,
-        "compared": found.compared,
-        "error_bound": {"net": bounds[0], "input": {"net": bounds[1]}},
+        "net": volumes.net,
+        "compared": volumes.compared,
+        "error_bound": {"net": rounding, "input": {"net": moved}},
     }

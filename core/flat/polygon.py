@@ -223,11 +223,11 @@ def _steep_side_windings(
     along = end - start
     length = np.hypot(*along.T)
     height = float(high.max() - low.min()) or 1.0
-    # Share of the edges that a ray may meet.
+    # Share of the edges that a ray may meet; if these are too many, fewer rays are taken.
     share = min(1.0, float((high - low).mean()) / height + RAYS_PER_BLOCK / len(edges))
-    chosen = chosen[
-        :: max(1, int(len(chosen) * len(edges) * max(share, 1.0 / RAYS_PER_BLOCK) / MAX_EDGE_PAIRS))
-    ]
+    pair_count = len(chosen) * len(edges) * max(share, 1.0 / RAYS_PER_BLOCK)
+    chosen = chosen[:: max(1, int(pair_count / MAX_EDGE_PAIRS))]
+    # Rays of a block are neighbors, so that few edges are near to all of them.
     chosen = chosen[np.argsort((start[chosen] + end[chosen])[:, 1], kind="stable")]
     middle = (start[chosen] + end[chosen]) / 2.0
     rays_per_block = max(1, min(RAYS_PER_BLOCK, PAIRS_PER_BLOCK // len(edges)))
@@ -238,23 +238,24 @@ def _steep_side_windings(
         near = np.flatnonzero((high >= y.min()) & (low <= y.max()))
         a, b, d = (values[near] for values in (start, end, along))
         # 1 where the ray's line is crossed upward, -1 downward
-        up = (b[:, 1] > y).astype(np.int64) - (a[:, 1] > y)
-        ahead = d[:, 0] * (y - a[:, 1]) - d[:, 1] * (x - a[:, 0])  # positive to the edge's left
-        within = (x - a[:, 0]) * (x - b[:, 0]) + (y - a[:, 1]) * (y - b[:, 1]) <= 0.0
-        on = within & (np.abs(ahead) <= np.maximum(touch, 1e-12 * length[near]) * length[near])
-        met = np.where((ahead > 0.0) == (up > 0), up, 0)
-        beyond = np.where(on, 0, met).sum(axis=1)
-        step = np.where(on, up, 0).sum(axis=1)
+        turn = (b[:, 1] > y).astype(np.int64) - (a[:, 1] > y)
+        offset = d[:, 0] * (y - a[:, 1]) - d[:, 1] * (x - a[:, 0])  # positive to the edge's left
+        is_beside = (x - a[:, 0]) * (x - b[:, 0]) + (y - a[:, 1]) * (y - b[:, 1]) <= 0.0
+        nearest = np.maximum(touch, 1e-12 * length[near]) * length[near]
+        is_here = is_beside & (np.abs(offset) <= nearest)
+        is_ahead = (offset > 0.0) == (turn > 0)
+        beyond = np.where(is_ahead & ~is_here, turn, 0).sum(axis=1)
+        here = np.where(is_here, turn, 0).sum(axis=1)
         # From right of the middle one ray; from left of it the same and all edges that lie here.
-        upward = along[chosen[part], 1] > 0.0
-        left[part] = np.where(upward, beyond + step, beyond)
-        right[part] = np.where(upward, beyond, beyond + step)
+        is_upward = along[chosen[part], 1] > 0.0
+        left[part] = np.where(is_upward, beyond + here, beyond)
+        right[part] = np.where(is_upward, beyond, beyond + here)
     return left, right
 
 
 def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int, float, bool]:
-    """Count pairs of edges that cross by more than `touch`, and sum opposed lengths; True if there
-    are too many.
+    """Return the count of pairs of edges that cross by more than `touch`, the length along which
+    edges oppose each other, and True if there are too many pairs to compare.
     """
     start, end = points[edges[:, 0]], points[edges[:, 1]]
     length = np.hypot(*(end - start).T)
@@ -267,12 +268,13 @@ def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int,
         if tested > 2 * MAX_EDGE_PAIRS:  # each pair comes twice
             break
         i, j = i[i < j], j[i < j]
-        sides = []
-        for p, q, target in ((i, j, start), (i, j, end), (j, i, start), (j, i, end)):
+        # Distances of both ends of the second edge from the line of the first, and of the first
+        # edge's from the second's.
+        sides = np.empty((4, len(i)))
+        for row, (p, point) in enumerate(((i, start[j]), (i, end[j]), (j, start[i]), (j, end[i]))):
             span = end[p] - start[p]
-            to = target[q] - start[p]
-            sides.append((span[:, 0] * to[:, 1] - span[:, 1] * to[:, 0]) / length[p])
-        sides = np.array(sides)
+            arm = point - start[p]
+            sides[row] = (span[:, 0] * arm[:, 1] - span[:, 1] * arm[:, 0]) / length[p]
         crosses = (sides[0] * sides[1] < 0.0) & (sides[2] * sides[3] < 0.0)
         crossings += int((crosses & (np.abs(sides) > touch).all(axis=0)).sum())
         along = (np.abs(sides) <= touch).all(axis=0)

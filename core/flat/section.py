@@ -29,6 +29,7 @@ MIN_AXIS_SHARE = (
 def project(plane: Plane, points: ArrayLike) -> Array:
     """Return the (n, 2) coordinates of points along the plane's x and y axes."""
     x, y, z = (float_array("points", points, "n", 3) - plane.origin).T
+    # Not a matrix product, whose rounding depends on the number of points.
     return np.stack([x * a[0] + y * a[1] + z * a[2] for a in plane.axes.T[:2]], axis=1)
 
 
@@ -93,41 +94,45 @@ def fit_plane(
     side = np.sign(vectors @ vectors[largest])
     total = (vectors * side[:, None]).sum(axis=0)
     normal = total / np.sqrt(total @ total)
-    if (vectors @ normal).sum() < 0.0 if facing is None else facing @ normal < 0.0:
+    agreement = (vectors @ normal).sum() if facing is None else facing @ normal
+    if agreement < 0.0:
         normal = -normal
     heights = (used - used[0]) @ normal
     level = float(heights.min() + heights.max()) / 2.0
-    off = float(np.ptp(heights)) / 2.0
-    if off > PLANAR_RTOL * size + 4.0 * error:
-        raise MeasureError(SECTION_NOT_FLAT, share=off / size)
-    axes, named = _axes(normal, prefer)
+    out_of_plane = float(np.ptp(heights)) / 2.0
+    if out_of_plane > PLANAR_RTOL * size + 4.0 * error:
+        raise MeasureError(SECTION_NOT_FLAT, share=out_of_plane / size)
+    axes, x_axis_name = _axes(normal, prefer)
     distance = float((used[0] - origin) @ normal) + level
-    return Plane(origin + distance * normal, axes, off, named)
+    return Plane(origin + distance * normal, axes, out_of_plane, x_axis_name)
 
 
 def _axes(normal: NDArray, prefer: NDArray) -> tuple[Array, str]:
-    inside = [axis - normal * (normal @ axis) for axis in prefer.T]
-    first = int(np.sqrt(inside[0] @ inside[0]) <= MIN_AXIS_SHARE)
-    x = inside[first] / np.sqrt(inside[first] @ inside[first])
-    x = x - normal * (normal @ x)
-    return np.stack([x, np.cross(normal, x), normal], axis=1) + 0.0, "XY"[first]
+    """Return the `Plane.axes` of a plane, and the name of the preferred axis, a column of `prefer`,
+    that x is along.
+    """
+    in_plane = [axis - normal * (normal @ axis) for axis in prefer.T]
+    choice = int(np.sqrt(in_plane[0] @ in_plane[0]) <= MIN_AXIS_SHARE)
+    x = in_plane[choice] / np.sqrt(in_plane[choice] @ in_plane[choice])
+    x = x - normal * (normal @ x)  # once more, because of rounding
+    return np.stack([x, np.cross(normal, x), normal], axis=1) + 0.0, "XY"[choice]
 
 
 def region(
     plane: Plane, points: NDArray, triangles: NDArray, faces: NDArray, error: float
 ) -> tuple[Index, int]:
     """Return (m, 2) edges around the triangles, and the number of faces that look against the plane
-    and are turned.
+    and are turned. faces: of each triangle.
     """
     triangles = first_at_equal_position(points)[triangles]
-    a, b, c = (project(plane, points)[triangles[:, i]] for i in range(3))
-    areas = np.bincount(
-        faces, ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2.0
-    )
-    longest = np.abs(np.stack([b - a, c - a])).max(axis=(0, 2))
-    noise = np.zeros(len(areas))
-    np.maximum.at(noise, faces, longest)  # slivers have no side to look to
-    flipped = areas < -(4.0 * error + 1e-12 * noise) * noise
+    a, b, c = project(plane, points)[triangles].swapaxes(0, 1)
+    first, second = b - a, c - a
+    triangle_areas = (first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) / 2.0
+    areas = np.bincount(faces, triangle_areas)
+    lengths = np.zeros(len(areas))
+    np.maximum.at(lengths, faces, np.abs(np.stack([first, second])).max(axis=(0, 2)))
+    # Slivers have no side to look to.
+    flipped = areas < -(4.0 * error + 1e-12 * lengths) * lengths
     triangles = np.where(flipped[faces][:, None], triangles[:, ::-1], triangles)
     _, start, stop = uncancelled_sides(triangles, np.zeros(len(triangles), np.intp))
     return np.stack([start, stop], axis=1), int(np.count_nonzero(flipped))
@@ -194,40 +199,37 @@ def measure_section(
     positions = plane_positions(2)
     raw = moments.raw[positions]
     length = facet_moments(flat, edges, 0)
-    bounds = [
-        _bounds(raw, about, delta[positions])
-        for delta in (moments.rounding_error, moments.input_error)
-    ]
+    rounding_error = _bounds(raw, about, moments.rounding_error[positions])
+    input_error = _bounds(raw, about, moments.input_error[positions])
     # For at most 2 len(edges) shared pieces, each taken twice.
     ends = EDGE_GROWTH * len(edges) * (5.0 if shared else 1.0)
-    bounds[0]["perimeter"] = (
-        float(length.rounding_error[0]) * (3.0 if shared else 1.0) + ends * rounded
-    )
-    bounds[1]["perimeter"] = ends * error
+    length_rounding = float(length.rounding_error[0]) * (3.0 if shared else 1.0)
+    rounding_error["perimeter"] = length_rounding + ends * rounded
+    input_error["perimeter"] = ends * error
     area = moments.total
-    shift = raw[1:3] / raw[0]
-    second = raw[[5, 3, 4]] - area * np.array([shift[1] ** 2, shift[0] ** 2, shift[0] * shift[1]])
+    x_shift, y_shift = shift = raw[1:3] / raw[0]
+    # The rows of the moments are 1, x, y, xx, xy, yy.
+    second = raw[[5, 3, 4]] - area * np.array([y_shift**2, x_shift**2, x_shift * y_shift])
     second[:2] = np.maximum(second[:2], 0.0)
     sizes = outline_areas(flat, edges)
     centroid = about + shift
     section = Section(
-        plane,
-        area,
-        float(length.raw[0]) - 2.0 * shared,
-        centroid,
-        second,
-        np.ones(4),
-        int((sizes > 0.0).sum()),
-        int((sizes < 0.0).sum()),
-        *bounds,
+        plane=plane,
+        area=area,
+        perimeter=float(length.raw[0]) - 2.0 * shared,
+        centroid=centroid,
+        second=second,
+        reach=np.ones(4),  # It depends on the section's angle, and follows.
+        outlines=int((sizes > 0.0).sum()),
+        holes=int((sizes < 0.0).sum()),
+        rounding_error=rounding_error,
+        input_error=input_error,
     )
     x, y = (used - centroid).T
     sine = np.sin(section.angle)
     cosine = np.cos(section.angle)
-    reach = np.array(
-        [np.abs(row).max() for row in (y, x, y * cosine - x * sine, x * cosine + y * sine)]
-    )
-    return replace(section, reach=reach)
+    distances = np.abs([y, x, y * cosine - x * sine, x * cosine + y * sine])
+    return replace(section, reach=distances.max(axis=1))
 
 
 def _bounds(raw: NDArray, about: NDArray, delta: NDArray) -> dict[str, float]:

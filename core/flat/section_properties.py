@@ -79,38 +79,39 @@ class Section:
 
     @property
     def center(self) -> tuple[float, ...]:
-        """The centroid in space, in the same coordinates as the plane's origin."""
+        """The (3,) centroid in space, in the same coordinates as the plane's origin."""
         u, v = self.centroid
-        return tuple(
-            float(start + u * x + v * y)
-            for start, (x, y, _) in zip(self.plane.origin, self.plane.axes)
-        )
+        center = []
+        # A row of the axes has one coordinate of the plane's x, y and normal.
+        for start, (x, y, _) in zip(self.plane.origin, self.plane.axes):
+            center.append(float(start + u * x + v * y))
+        return tuple(center)
 
     @property
     def principal(self) -> tuple[float, float]:
         """Principal second moments I_1 ≥ I_2."""
-        first, second, mixed = map(float, self.second)
-        larger = (first + second) / 2.0 + hypot((first - second) / 2.0, mixed)
-        # no difference of near equals
-        return larger, max(0.0, (first * second - mixed * mixed) / larger)
+        about_x, about_y, product = map(float, self.second)
+        larger = (about_x + about_y) / 2.0 + hypot((about_x - about_y) / 2.0, product)
+        # The determinant over the larger one avoids a difference of near equals.
+        return larger, max(0.0, (about_x * about_y - product * product) / larger)
 
     @property
     def axes_undetermined(self) -> bool:
         """True if every axis through the centroid is a principal one."""
-        first, second = self.principal
-        return first - second <= EQUAL_MOMENTS_RTOL * first + 2.0 * self._noise
+        larger, smaller = self.principal
+        return larger - smaller <= EQUAL_MOMENTS_RTOL * larger + 2.0 * self._noise
 
     @property
     def angle(self) -> float:
         """Angle from x towards y to principal axis 1, in radians, above -π/2 to π/2; 0 if every
         axis is principal.
         """
-        first, second, mixed = map(float, self.second)
+        about_x, about_y, product = map(float, self.second)
         if self.axes_undetermined:
             return 0.0
-        if abs(mixed) <= self._noise:  # then the product of inertia cannot turn the axis over
-            return 0.0 if first >= second else pi / 2.0
-        return 0.5 * atan2(-2.0 * mixed, first - second)
+        if abs(product) <= self._noise:  # then it cannot turn the axis over
+            return 0.0 if about_x >= about_y else pi / 2.0
+        return 0.5 * atan2(-2.0 * product, about_x - about_y)
 
     @property
     def _noise(self) -> float:
@@ -141,5 +142,6 @@ class Section:
 
     @property
     def _about_axes(self) -> tuple[float, ...]:
-        first, second, _ = map(float, self.second)
-        return first, second, *self.principal
+        """Second moments about x, y, 1, 2."""
+        about_x, about_y, _ = map(float, self.second)
+        return about_x, about_y, *self.principal

@@ -117,16 +117,16 @@ class Vessel:
         reach = max(abs(low), abs(high))
         if guess is None:
             levels = np.linspace(low, high, FIRST_LEVELS)
-            volumes = measure_below(
-                self.points, self.triangles, np.broadcast_to(up, (FIRST_LEVELS, 3)), levels
-            ).volume
+            ups = np.broadcast_to(up, (FIRST_LEVELS, 3))
+            volumes = measure_below(self.points, self.triangles, ups, levels).volume
             above = min(max(int(np.searchsorted(volumes, self.volume)), 1), FIRST_LEVELS - 1)
             low, high = levels[above - 1], levels[above]
             rise = volumes[above] - volumes[above - 1]
             share = (self.volume - volumes[above - 1]) / rise if rise > 0.0 else 0.5
             guess = float(low + np.clip(share, 0.0, 1.0) * (high - low))
         level = min(max(guess, low), high)
-        last = np.inf
+        last_excess = np.inf
+        # Newton's steps, or halves of the interval where these leave it or do not halve the excess.
         while True:
             part = measure_below(self.points, self.triangles, up[None], [level])
             excess = float(part.volume[0]) - self.volume
@@ -135,14 +135,15 @@ class Vessel:
             is_close = abs(excess) <= SLAB_RTOL * self.volume and area > 0.0
             if is_close or high - low <= 4.0 * U * reach:
                 break
-            step = level - excess / area if area > 0.0 else high
-            is_slow = abs(excess) > last / 2.0 or not low < step < high
-            last = abs(excess)
-            level = (low + high) / 2.0 if is_slow else step
+            next_level = level - excess / area if area > 0.0 else high
+            is_slow = abs(excess) > last_excess / 2.0 or not low < next_level < high
+            last_excess = abs(excess)
+            level = (low + high) / 2.0 if is_slow else next_level
         if not area > 0.0:
             return Waterplane(
                 level, part.first[0] / self.volume, 0.0, np.zeros(3), np.zeros((3, 3))
             )
+        # The slab of the remaining excess, whose height is the excess over the area, is taken away.
         middle = part.face_first[0] / area
         slab = -excess * (middle - excess / (2.0 * area) * up)
         second = part.face.about_point(middle[None]).second()[0]
@@ -154,24 +155,25 @@ class Vessel:
         """Return (3, 2) bounds by rounding and by storing: of the level, of the center's height,
         and of the surface's second moments.
         """
+        # The level itself, and one on each side for the growth of the surface's moments.
         step = SHIFT * float(np.ptp(self.points @ up))
         levels = plane.level + step * np.arange(-1.0, 2.0)
         ups = np.broadcast_to(up, (3, 3))
-        found = measure_below(self.points, self.triangles, ups, levels, self.displacement)
-        part = found.part.at(1)
-        off = np.stack([part.rounding_error, part.input_error], axis=1)
+        below = measure_below(self.points, self.triangles, ups, levels, self.displacement)
+        part = below.part.at(1)
+        errors = np.stack([part.rounding_error, part.input_error], axis=1)
         height = float(up @ (part.center - part.about))
         reach = 2.0 * abs(height) + abs(plane.level - float(up @ part.about))
-        bounds = np.zeros((3, 2))
-        bounds[1] = (np.abs(up) @ off[1:4] + reach * off[0]) / self.volume
+        of_level = of_second = np.zeros(2)
+        of_center = (np.abs(up) @ errors[1:4] + reach * errors[0]) / self.volume
         if plane.area > 0.0:
-            faces = found.face.about_point(np.broadcast_to(plane.middle, (3, 3)))
+            faces = below.face.about_point(np.broadcast_to(plane.middle, (3, 3)))
             face = faces.at(1)
-            bounds[0] = off[0] / plane.area
-            bounds[2] = 2.0 * face.rounding_error[4:].sum(), 2.0 * face.input_error[4:].sum()
+            of_level = errors[0] / plane.area
             growth = float(np.abs(np.diff(faces.second(), axis=0)).sum(axis=(1, 2)).max()) / step
-            bounds[2] += growth * bounds[0]
-        return bounds
+            of_second = 2.0 * np.array([face.rounding_error[4:].sum(), face.input_error[4:].sum()])
+            of_second = of_second + growth * of_level
+        return np.stack([of_level, of_center, of_second])
 
 
 @dataclass(frozen=True, eq=False)
@@ -329,6 +331,8 @@ class FloatingBody:
             wet = fitted(None)
         except MeasureError:  # it sinks
             wet = None
+        # The position with flooded hollows while their filling is tried again, and the depth at
+        # which liquid ran in first.
         flooded = depth = None
         for _ in range(MAX_ROUNDS):
             rest = body._descend(body.at(up), [other for other in known if other.body is body])
@@ -362,17 +366,17 @@ class FloatingBody:
         MeasureError
             If there is none.
         """
-        found = [*known]
+        rests = [*known]
         for start in STARTS:
             try:
-                rest = self.settle(start, found)
+                rest = self.settle(start, rests)
             except MeasureError:
                 continue
-            if not any(rest.is_near(other, SAME_ATTITUDE) for other in found):
-                found.append(rest)
-        if not found:
+            if not any(rest.is_near(other, SAME_ATTITUDE) for other in rests):
+                rests.append(rest)
+        if not rests:
             raise MeasureError(FLOAT_UNAVAILABLE, fault=NO_REST)
-        return sorted(found, key=lambda rest: rest.energy)
+        return sorted(rests, key=lambda rest: rest.energy)
 
     def _descend(self, state: Flotation, known: Sequence[Flotation] = ()) -> Flotation:
         """Return the minimum of the energy downhill, or the known one that comes near."""
@@ -499,9 +503,8 @@ class Flotation:
         the waterplane less the tanks' free surfaces, over the displaced volume.
         """
         second = self.plane.second
-        for tank, plane in zip(
-            [tank for tank in self.body.tanks if tank.mass > 0.0], self.tank_planes
-        ):
+        filled = [tank for tank in self.body.tanks if tank.mass > 0.0]
+        for tank, plane in zip(filled, self.tank_planes):
             second = second - tank.density / self.body.density * plane.second
         return second / self.displacement
 

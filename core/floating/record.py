@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -62,53 +62,73 @@ def settle(
         If it sinks, leaks, or does not rest.
     """
     wet = find_hull(bodies)
-    lost = [find_hull([space]) for space in flooded]
-    liquids, closed = [], []
+    spaces = [find_hull([space]) for space in flooded]
+    liquids, tank_hulls = [], []
     for tank, fill, tank_density in tanks:
         hull = find_hull([tank])
-        closed.append(hull)
+        tank_hulls.append(hull)
         vessel = Vessel(hull.points, hull.triangles, 1.0, hull.displacement)
         liquids.append(Tank(replace(vessel, volume=fill * vessel.whole[0]), tank_density))
 
     start = np.asarray(up, np.float64)
-    if lost:
-        are_inside(wet, lost, closed)  # refuses those that overlap
-    for space in lost:
+    if spaces:
+        are_inside(wet, spaces, tank_hulls)  # refuses those that overlap
+    for space in spaces:
         if not any(_holds(fill_hollows(wet, way), space, False) for way in (start, *STARTS)):
             raise MeasureError(FLOAT_UNAVAILABLE, fault=FLOODED_OUTSIDE)
-    made: list[tuple[Hull, FloatingBody]] = []
+    fitted = _FittedBodies(
+        wet, spaces, mass, center, density, tuple(liquids), np.asarray(center_error, np.float64)
+    )
+    return fitted(start).settle(start)
 
-    def fitted(up: Array | None) -> FloatingBody:
-        hull = wet if up is None else fill_hollows(wet, up)
-        for other, body in made:
-            if np.array_equal(other.triangles, hull.triangles) and np.array_equal(
-                other.points, hull.points
-            ):
+
+@dataclass(eq=False)
+class _FittedBodies:
+    """The floating bodies of a wet hull with its hollows filled in several ways.
+
+    made: the last bodies with their hulls, that of the wet hull first.
+    """
+
+    wet: Hull
+    spaces: list[Hull]
+    mass: float
+    center: Array
+    density: float
+    liquids: tuple[Tank, ...]
+    center_error: Array
+    made: list[tuple[Hull, FloatingBody]] = field(default_factory=list)
+
+    def __call__(self, up: Array | None) -> FloatingBody:
+        """Return the body for a direction against gravity, with the hollows filled that are open
+        upward, or for None with none filled; the same one for the same hull.
+        """
+        hull = self.wet if up is None else fill_hollows(self.wet, up)
+        for other, body in self.made:
+            has_triangles = np.array_equal(other.triangles, hull.triangles)
+            if has_triangles and np.array_equal(other.points, hull.points):
                 return body
         points, triangles = hull.points, hull.triangles
-        for space in lost:
+        for space in self.spaces:
             if not _holds(hull, space, True):  # it is in a flooded hollow
                 continue
             triangles = np.concatenate([triangles, space.triangles[:, ::-1] + len(points)])
             points = np.concatenate([points, space.points])
         body = FloatingBody(
-            points,
-            triangles,
-            mass,
-            center,
-            density,
-            hull.openings,
-            tuple(liquids),
-            fitted,
-            hull.displacement,
-            np.asarray(center_error, np.float64),
+            points=points,
+            triangles=triangles,
+            mass=self.mass,
+            center=self.center,
+            density=self.density,
+            openings=hull.openings,
+            tanks=self.liquids,
+            fitted=self,
+            displacement=hull.displacement,
+            center_error=self.center_error,
         )
-        if len(made) > MAX_HULLS:
-            del made[int(made[0][0] is wet)]
-        made.insert(0 if hull is wet else len(made), (hull, body))
+        if len(self.made) > MAX_HULLS:
+            del self.made[int(self.made[0][0] is self.wet)]
+        self.made.insert(0 if hull is self.wet else len(self.made), (hull, body))
         return body
-
-    return fitted(start).settle(start)
 
 
 def _holds(hull: Hull, space: Hull, through: bool) -> bool:

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
@@ -29,6 +30,7 @@ ROUNDS = 40  # of the search for an angle
 ANGLE_ATOL = 1e-9
 SEARCH_STEP = np.radians(2.5)
 FIRST_HEEL = 1e-3  # rad; the arm at rest is zero, so that its sign is that beside it
+_Position: TypeAlias = tuple[float, Flotation]  # a trim, rad, and the state there
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,21 +111,23 @@ def righting_curve(
     axis = rest.heel_axis if forward is None else unit_vector("forward", forward)
     axis = unit_vector("forward across the water", axis - rest.up * float(rest.up @ axis))
     frame = np.stack([axis, np.cross(rest.up, axis), rest.up])
-    heeled: dict[float, tuple[float, Flotation]] = {}
+    heeling = _Heeling(frame, free_trim)
+    heeled: dict[float, _Position] = {}
     for side in (angles[angles >= 0.0], angles[angles < 0.0][::-1]):
         near = (0.0, rest)
         for angle in side.tolist():
-            near = heeled[angle] = _heel(angle, *near, frame, free_trim)
-    states = [heeled[angle] for angle in angles.tolist()]
-
-    def heeled_to(angle: float, near: tuple[float, Flotation]) -> Flotation:
-        return _heel(angle, *near, frame, free_trim)[1]
-
-    arms = np.array([_arm(angle, state, frame) for angle, (_, state) in zip(angles, states)])
+            near = heeled[angle] = heeling.position(angle, near)
+    positions = [heeled[angle] for angle in angles.tolist()]
+    arms = np.array([heeling.arm(angle, heeled[angle]) for angle in angles.tolist()])
     arms = np.where(np.abs(arms) <= LEVEL_TRIM * rest.body.size, 0.0, arms)
-    dry = np.array([-state.depth_of_openings for _, state in states])
+    dry_heights = np.array([-state.depth_of_openings for _, state in positions])
+
+    def dry_height_at(angle: float, near: _Position) -> float:
+        return -heeling.position(angle, near)[1].depth_of_openings
+
     capsize, flooding = [], []
     for sign in (-1.0, 1.0):
+        # The indices of the angles on one side, outward.
         side = np.flatnonzero(sign * angles >= 0.0)[:: int(sign)]
         heeled_side = side[np.abs(angles[side]) > ANGLE_ATOL]
         righting = sign * arms
@@ -135,67 +139,71 @@ def righting_curve(
                     angles,
                     righting,
                     heeled_side,
-                    states,
-                    lambda at, near, s=sign: s * _arm(at, heeled_to(at, near), frame),
+                    positions,
+                    lambda at, near, s=sign: s * heeling.arm(at, heeling.position(at, near)),
                 )
             )
-        flooding.append(
-            _first_change(angles, dry, side, states, lambda *at: -heeled_to(*at).depth_of_openings)
-        )
+        flooding.append(_first_change(angles, dry_heights, side, positions, dry_height_at))
     return RightingCurve(
-        wanted,
-        arms[is_wanted],
-        np.array([trim for trim, _ in states])[is_wanted],
-        np.array([state.energy for _, state in states])[is_wanted] - rest.energy,
-        free_trim,
-        tuple(capsize),
-        tuple(flooding),
+        angles=wanted,
+        arms=arms[is_wanted],
+        trims=np.array([trim for trim, _ in positions])[is_wanted],
+        energies=np.array([state.energy for _, state in positions])[is_wanted] - rest.energy,
+        is_free=free_trim,
+        capsize=tuple(capsize),
+        flooding=tuple(flooding),
     )
 
 
-def _heel(
-    angle: float, trim: float, near: Flotation, frame: Array, free_trim: bool
-) -> tuple[float, Flotation]:
-    """Return the trim and the position at an angle of heel, from those at another angle near it."""
-    cosine, sine = np.cos(angle), np.sin(angle)
-    side = np.array([0.0, sine, cosine])
-    state = near
-    low, high = -np.inf, np.inf
-    for _ in range(MAX_STEPS):
-        up = (np.array([-np.sin(trim), 0.0, 0.0]) + np.cos(trim) * side) @ frame
-        state = near.body.at(up, state)
-        if not free_trim:
-            break
-        along = (np.array([-np.cos(trim), 0.0, 0.0]) - np.sin(trim) * side) @ frame
-        slope = float(state.arm @ along)
-        if abs(slope) <= LEVEL_TRIM * near.body.size:
-            break
-        low, high = (low, trim) if slope > 0.0 else (trim, high)
-        curvature = float(along @ state.stiffness @ along) - state.energy
-        step = -slope / curvature if curvature > 0.0 else -np.sign(slope) * MAX_TRIM_STEP
-        step = float(np.clip(step, -MAX_TRIM_STEP, MAX_TRIM_STEP))
-        if abs(step) <= ANGLE_ATOL * 1e-3:
-            break
-        trim = trim + step if low < trim + step < high else (low + high) / 2.0
-    return trim, state
+class _Heeling:
+    """Positions of a body that heels. frame: (3, 3) rows forward, to the side and up at rest."""
 
+    def __init__(self, frame: Array, free_trim: bool) -> None:
+        self._frame = frame
+        self._free_trim = free_trim
 
-def _arm(angle: float, state: Flotation, frame: Array) -> float:
-    """Return the righting arm: how far buoyancy pushes up at the side that is lower."""
-    return float(state.arm @ (np.array([0.0, np.cos(angle), -np.sin(angle)]) @ frame))
+    def position(self, angle: float, near: _Position) -> _Position:
+        """Return the trim and the state at an angle of heel, from those at another angle near it:
+        by Newton's method, kept within the trims that are known to be too small and too large.
+        """
+        trim, state = near
+        side = np.array([0.0, np.sin(angle), np.cos(angle)])
+        low, high = -np.inf, np.inf
+        for _ in range(MAX_STEPS):
+            up = (np.array([-np.sin(trim), 0.0, 0.0]) + np.cos(trim) * side) @ self._frame
+            state = state.body.at(up, state)
+            if not self._free_trim:
+                break
+            along = (np.array([-np.cos(trim), 0.0, 0.0]) - np.sin(trim) * side) @ self._frame
+            slope = float(state.arm @ along)
+            if abs(slope) <= LEVEL_TRIM * state.body.size:
+                break
+            low, high = (low, trim) if slope > 0.0 else (trim, high)
+            curvature = float(along @ state.stiffness @ along) - state.energy
+            step = -slope / curvature if curvature > 0.0 else -np.sign(slope) * MAX_TRIM_STEP
+            step = float(np.clip(step, -MAX_TRIM_STEP, MAX_TRIM_STEP))
+            if abs(step) <= ANGLE_ATOL * 1e-3:
+                break
+            trim = trim + step if low < trim + step < high else (low + high) / 2.0
+        return trim, state
+
+    def arm(self, angle: float, position: _Position) -> float:
+        """Return the righting arm: how far buoyancy pushes up at the side that is lower."""
+        lower_side = np.array([0.0, np.cos(angle), -np.sin(angle)]) @ self._frame
+        return float(position[1].arm @ lower_side)
 
 
 def _first_change(
     angles: Array,
     values: Array,
     side: Index,
-    states: list[tuple[float, Flotation]],
-    value_at: Callable[[float, tuple[float, Flotation]], float],
+    positions: list[_Position],
+    value_at: Callable[[float, _Position], float],
 ) -> float:
     """Return the angle nearest to zero at which values turn from positive to negative; nan if none
     does.
 
-    side: indices of angles on one side, outward.
+    side: indices of angles on one side, outward. value_at: the value at an angle near a position.
     """
     for i, j in zip(side, side[1:]):
         if not (values[i] > 0.0 >= values[j]):
@@ -205,7 +213,7 @@ def _first_change(
         for _ in range(ROUNDS):
             # The Illinois method: regula falsi that halves a value kept twice.
             middle = low + (high - low) * first / (first - last) if np.isfinite(last) else high
-            value = value_at(float(middle), states[i])
+            value = value_at(float(middle), positions[i])
             if value > 0.0:
                 low, first, last = middle, value, last / 2.0
             else:

@@ -19,6 +19,7 @@ meshes they wrinkle: folds are the cheapest way for a shell to gain area.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -126,12 +127,12 @@ def balance(
     start = problem.evaluate(problem.start)
     if start is None:
         raise MeasureError(NO_CERTAIN_VOLUME)
-    before, _, gradient = start
+    before = start.center
     step_directions = np.einsum("ri,nik->rnk", across, fans.center_gradient(before)[movable])
     step_directions *= (weights[used] / area[used])[:, None]
-    if not _is_solvable(
-        _center_jacobian(step_directions, np.zeros(len(across)), gradient[:, movable], np.inf)
-    ):
+    no_moves = np.zeros(len(across))
+    slope = _center_jacobian(step_directions, no_moves, start.gradient[:, movable], np.inf)
+    if not _is_solvable(slope):
         raise MeasureError(BALANCE_NO_EFFECT)
     points, center, far = _newton_solve(problem, start, step_directions, movable, np.inf)
     left = far
@@ -143,43 +144,71 @@ def balance(
     return BalanceResult(points, before, center)
 
 
+class _State(NamedTuple):
+    """The (3,) center of a surface, its (r,) distances from the target, and their (r, n, 3)
+    derivatives by the points, with the opposite sign.
+    """
+
+    center: Array
+    residual: Array
+    gradient: Array
+
+
+class _Iterate(NamedTuple):
+    """Moved points (n, 3), their (r,) multiplier and state, and the (r, r) derivative of the center
+    by the multiplier.
+    """
+
+    points: Array
+    multiplier: Array
+    state: _State
+    slope: Array
+
+
 def _newton_solve(
-    problem: _Problem,
-    start: tuple[NDArray, NDArray, NDArray],
-    step_directions: NDArray,
-    movable: NDArray,
-    limit: float,
+    problem: _Problem, start: _State, step_directions: NDArray, movable: NDArray, limit: float
 ) -> tuple[Array, Array, float]:
     """Return (n, 3) points, the (3,) center, and its remaining distance from its target, 0 if
     reached.
     """
-    points = problem.start
-    (center, residual, gradient) = start
     multiplier = np.zeros(len(step_directions))
-    slope = _center_jacobian(step_directions, multiplier, gradient[:, movable], limit)
+    slope = _center_jacobian(step_directions, multiplier, start.gradient[:, movable], limit)
+    current = _Iterate(problem.start, multiplier, start, slope)
+    least = problem.tolerance
     for _ in range(MAX_NEWTON_STEPS):
-        far = float(np.linalg.norm(residual))
-        if far <= problem.tolerance:
-            return points, center, 0.0
-        change = np.linalg.solve(slope, residual)
-        share = 1.0
-        for _ in range(MAX_STEP_HALVINGS):
-            trial = multiplier + share * change
-            moved = problem.start.copy()
-            moved[movable] += _limited_moves(step_directions, trial, limit)
-            state = problem.evaluate(moved)
-            if state is not None and np.linalg.norm(state[1]) <= (1.0 - 0.1 * share) * far:
-                slope = _center_jacobian(step_directions, trial, state[2][:, movable], limit)
-                if _is_solvable(slope) or np.linalg.norm(state[1]) <= problem.tolerance:
-                    break  # else too many are at the limit to go on from there
-            share /= 2.0
-        else:
-            return points, center, far if far > 16.0 * problem.tolerance else 0.0
-        points = moved
-        multiplier = trial
-        (center, residual, gradient) = state
-    far = float(np.linalg.norm(residual))
-    return points, center, far if far > problem.tolerance else 0.0
+        if np.linalg.norm(current.state.residual) <= problem.tolerance:
+            break
+        following = _newton_step(problem, current, step_directions, movable, limit)
+        if following is None:
+            least = 16.0 * problem.tolerance
+            break
+        current = following
+    far = float(np.linalg.norm(current.state.residual))
+    return current.points, current.state.center, far if far > least else 0.0
+
+
+def _newton_step(
+    problem: _Problem, current: _Iterate, step_directions: NDArray, movable: NDArray, limit: float
+) -> _Iterate | None:
+    """Return the iterate after a step of Newton's method, which is halved until the center comes
+    nearer; None if it does not.
+    """
+    far = float(np.linalg.norm(current.state.residual))
+    change = np.linalg.solve(current.slope, current.state.residual)
+    share = 1.0
+    for _ in range(MAX_STEP_HALVINGS):
+        multiplier = current.multiplier + share * change
+        points = problem.start.copy()
+        points[movable] += _limited_moves(step_directions, multiplier, limit)
+        state = problem.evaluate(points)
+        if state is not None and np.linalg.norm(state.residual) <= (1.0 - 0.1 * share) * far:
+            gradient = state.gradient[:, movable]
+            slope = _center_jacobian(step_directions, multiplier, gradient, limit)
+            # If too many moves are at the limit, there is no step from there.
+            if _is_solvable(slope) or np.linalg.norm(state.residual) <= problem.tolerance:
+                return _Iterate(points, multiplier, state, slope)
+        share /= 2.0
+    return None
 
 
 def _is_solvable(system: NDArray) -> bool:
@@ -241,17 +270,15 @@ class _Problem:
         )
         return area if self.shell else volume
 
-    def evaluate(self, points: NDArray) -> tuple[NDArray, NDArray, NDArray] | None:
-        """Return the (3,) center, its (r,) distances from the target, and (r, n, 3) derivatives;
-        None if inside out.
-        """
+    def evaluate(self, points: NDArray) -> _State | None:
+        """Return the state of moved points, or None if they are inside out."""
         moments = self._moments(points)
         if not moments.total * self.sign > moments.rounding_error[0]:
             return None
         center = moments.center
         derive = area_gradient if self.shell else volume_gradient
         gradient = derive(replace(self.surface, points=points), center)
-        return (
+        return _State(
             center,
             self.across @ (self.target - center),
             np.einsum("ri,nik->rnk", self.across, gradient[:, 1:4] / moments.total),
@@ -304,8 +331,9 @@ class _Fans:
         faces = faces.ravel()
         number = len(names)
         vectors = normals(points, triangles)
-        corner = np.unique(np.repeat(faces, 3) * np.int64(self.count) + triangles.ravel())
-        self.owner, self.vertex = corner // self.count, corner % self.count
+        # Each pair of a face and a vertex once, by a key of both.
+        key = np.unique(np.repeat(faces, 3) * np.int64(self.count) + triangles.ravel())
+        self.owner, self.vertex = key // self.count, key % self.count
         self.share = 1.0 / np.bincount(self.owner)[self.owner]
         area = sums_by_index(faces, np.linalg.norm(vectors, axis=1) / 2.0, number)
         self.areas = sums_by_index(self.vertex, area[self.owner] * self.share, self.count)
@@ -316,19 +344,16 @@ class _Fans:
             ],
             axis=1,
         )
-        whole = np.bincount(faces)[faces] == 1
+        whole = np.bincount(faces)[faces] == 1  # triangles that are a face
         owners, start, stop = uncancelled_sides(triangles[~whole], faces[~whole])
         fan = np.concatenate(
             [triangles[whole], np.stack([start, stop, self.count + owners], axis=1)]
         )
         owners = np.concatenate([faces[whole], owners])
         self.points = np.concatenate([points, middles])
-        facing = np.stack([sums_by_index(faces, column, number) for column in vectors.T], axis=1)[
-            owners
-        ]
-        self.opposed = (normals(self.points, fan) * facing).sum(
-            axis=1
-        ) < 0.0  # Faces that are not convex.
+        facing = np.stack([sums_by_index(faces, column, number) for column in vectors.T], axis=1)
+        # Triangles of a fan that face against it, because its face is not convex.
+        self.opposed = (normals(self.points, fan) * facing[owners]).sum(axis=1) < 0.0
         self.fan = fan
 
     def center_gradient(self, center: NDArray) -> Array:

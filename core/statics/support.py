@@ -20,6 +20,7 @@ to the face that the body tips onto.
 
 from dataclasses import dataclass
 from math import atan2
+from typing import NamedTuple
 
 import numpy as np
 
@@ -238,21 +239,20 @@ def nearest_inside(corners: Array, margin: float) -> Array:
     """
     along = np.roll(corners, -1, axis=0) - corners
     lengths = np.linalg.norm(along, axis=1)
-    outward = (
-        np.stack([along[:, 1], -along[:, 0]], axis=1)
-        / np.where(lengths > 0.0, lengths, 1.0)[:, None]
-    )
+    outward = np.stack([along[:, 1], -along[:, 0]], axis=1)
+    outward = outward / np.where(lengths > 0.0, lengths, 1.0)[:, None]
+    # Each edge allows outward · x ≤ limit. The nearest point is the origin, its foot on one of
+    # these lines, or where two of them meet.
     limits = (outward * corners).sum(axis=1) - margin
     first, second = np.triu_indices(len(corners), 1)
     cross = outward[first, 0] * outward[second, 1] - outward[first, 1] * outward[second, 0]
     turned = limits[first, None] * outward[second] - limits[second, None] * outward[first]
-    meets = (
-        np.stack([turned[:, 1], -turned[:, 0]], axis=1)
-        / np.where(cross == 0.0, np.inf, cross)[:, None]
-    )
-    points = np.concatenate([np.zeros((1, 2)), outward * limits[:, None], meets[cross != 0.0]])
-    points = points[(points @ outward.T <= limits + 1e-9 * np.abs(corners).max()).all(axis=1)]
-    return points[np.linalg.norm(points, axis=1).argsort()[:1]]
+    meets = np.stack([turned[:, 1], -turned[:, 0]], axis=1)
+    meets = meets / np.where(cross == 0.0, np.inf, cross)[:, None]
+    candidates = np.concatenate([np.zeros((1, 2)), outward * limits[:, None], meets[cross != 0.0]])
+    slack = 1e-9 * np.abs(corners).max()
+    allowed = candidates[(candidates @ outward.T <= limits + slack).all(axis=1)]
+    return allowed[np.linalg.norm(allowed, axis=1).argsort()[:1]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -313,44 +313,49 @@ def resting_poses(
     points = hull.points - float_array("center", center, 3)
     extent = float(np.ptp(hull.points, axis=0).max())
     least = max(tolerance * extent, 2.0 * hull.gap)
-    face, unit, heights, margins, beyond = _faces(points, hull, least)
-    if heights.min() < -least or hull.is_flat and margins.max() < -least:
+    faces = _faces(points, hull, least)
+    heights = faces.heights
+    if heights.min() < -least or hull.is_flat and faces.margins.max() < -least:
         raise MeasureError(CENTER_OUTSIDE_HULL)
-    shares = sums_by_index(face, solid_angles(points, hull.triangles), len(heights)) / (4.0 * np.pi)
+    angles = solid_angles(points, hull.triangles)
+    shares = sums_by_index(faces.face, angles, len(heights)) / (4.0 * np.pi)
     # A face that contains the center has an uncertain solid angle: it gets the share that the
     # others leave.
-    around = heights <= 1e-9 * extent
-    if around.any():
-        shares[around] = (1.0 - shares[~around].sum()) / np.count_nonzero(around)
-    stable = margins > least
+    has_center = heights <= 1e-9 * extent
+    if has_center.any():
+        shares[has_center] = (1.0 - shares[~has_center].sum()) / np.count_nonzero(has_center)
+    is_stable = faces.margins > least
     # Over the edge of a face with a margin near zero the center may rise: the body stays where it
     # is.
-    rests = stable | (heights[beyond] >= heights)
-    ends = np.where(rests, np.arange(len(rests)), beyond)
+    rests = is_stable | (heights[faces.beyond] >= heights)
+    # The face that a body ends on: each round follows twice as many edges.
+    ends = np.where(rests, np.arange(len(rests)), faces.beyond)
     while not np.array_equal(further := ends[ends], ends):
         ends = further
     shares = sums_by_index(ends, shares, len(rests))
-    kept = np.flatnonzero(stable)
-    if not len(kept):
+    poses = np.flatnonzero(is_stable)
+    if not len(poses):
         raise MeasureError(NO_STABLE_POSE)
-    kept = kept[np.lexsort((heights[kept], -np.round(shares[kept], 12)))]
-    return RestingPoses(unit[kept], shares[kept], margins[kept], heights[kept])
+    poses = poses[np.lexsort((heights[poses], -np.round(shares[poses], 12)))]
+    return RestingPoses(faces.units[poses], shares[poses], faces.margins[poses], heights[poses])
 
 
-def _faces(
-    points: NDArray, hull: ConvexHull, least: float
-) -> tuple[
-    Index,
-    Array,
-    Array,
-    Array,
-    Index,
-]:
-    """Return (m,) faces of a hull's triangles, (f, 3) unit normals, (f,) heights of the center,
-    margins and neighbors.
+class _Faces(NamedTuple):
+    """Faces of a hull. face: (m,) of each triangle. units: (f, 3) outward unit normals. heights,
+    margins: (f,) of the center above the face, and of its foot inside the nearest edge. beyond:
+    (f,) the face beyond the edge that the foot is nearest to, or has passed farthest.
+    """
 
-    points: from the center. The neighbor is the face beyond the edge that the foot is nearest to,
-    or has passed farthest. least: smaller distances count as 0.
+    face: Index
+    units: Array
+    heights: Array
+    margins: Array
+    beyond: Index
+
+
+def _faces(points: NDArray, hull: ConvexHull, least: float) -> _Faces:
+    """Return the faces of a hull, each of triangles in one plane. points: from the center. least:
+    smaller distances count as 0.
     """
     triangles, neighbors = hull.triangles, hull.neighbors
     double = normals(points, triangles)
@@ -375,9 +380,10 @@ def _faces(
     first[1:] = owner[order][1:] != owner[order][:-1]
     nearest = order[first]
     margins = np.full(count, -np.inf)
-    over = np.arange(count)
-    margins[owner[nearest]], over[owner[nearest]] = distance[nearest], beyond[nearest]
-    return face, unit, heights, margins, over
+    margins[owner[nearest]] = distance[nearest]
+    nearest_face = np.arange(count)
+    nearest_face[owner[nearest]] = beyond[nearest]
+    return _Faces(face, unit, heights, margins, nearest_face)
 
 
 def _coplanar(

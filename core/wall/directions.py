@@ -117,6 +117,7 @@ def offset_directions(points: Array, triangles: Integers, stored: float = 0.0) -
     total = np.maximum(np.bincount(corner, weight, count), np.finfo(float).tiny)
 
     def mean(values: NDArray) -> Array:
+        """Return the (n,) means over the corners at each vertex, weighted by their angles."""
         return np.bincount(corner, weight * values, count) / total
 
     middle = np.stack([mean(column) for column in normals.T], axis=1)
@@ -131,11 +132,11 @@ def offset_directions(points: Array, triangles: Integers, stored: float = 0.0) -
             system[:, i, j] = system[:, j, i] = mean(normals[:, i] * normals[:, j])
     right = np.stack([mean(short * column) for column in normals.T], axis=1)
     values, axes = np.linalg.eigh(system)
+    # The (2, n) largest errors of the normals around a vertex, by rounding and by storing.
     tilt = np.stack([_group_maximum(row.repeat(3), corner, count) for row in noise[solid].T])
     noisy = tilt.sum(axis=0)
-    thinnest = 1.0 / np.sqrt(
-        np.maximum(-_group_maximum(-weight / total[corner], corner, count), np.finfo(float).tiny)
-    )
+    least_share = -_group_maximum(-weight / total[corner], corner, count)
+    thinnest = 1.0 / np.sqrt(np.maximum(least_share, np.finfo(float).tiny))
 
     def solved(least: float) -> tuple[NDArray, NDArray, NDArray]:
         """Return (n, 3) directions across planes with eigenvalues above `least`, mean deviations,
@@ -159,12 +160,12 @@ def offset_directions(points: Array, triangles: Integers, stored: float = 0.0) -
         behind = np.flatnonzero(rough & (low < MIN_ADVANCE))
         if len(behind):
             _maximin_direction(vectors, behind, low, corner, weight, normals)
-    flat = values <= np.maximum(RANK_RTOL, (8.0 * noisy) ** 2)[:, None] * values[:, 2:]
-    flat &= (total > np.finfo(float).tiny)[:, None] & ~rough[:, None]
-    if flat.any():
-        vectors = _smooth_in_plane(
-            points, triangles[solid], vectors, np.einsum("nij,nj,nkj->nik", axes, flat, axes)
-        )
+    # The axes along which a vertex may slide without moving the planes around it.
+    is_free = values <= np.maximum(RANK_RTOL, (8.0 * noisy) ** 2)[:, None] * values[:, 2:]
+    is_free &= (total > np.finfo(float).tiny)[:, None] & ~rough[:, None]
+    if is_free.any():
+        free = np.einsum("nij,nj,nkj->nik", axes, is_free, axes)
+        vectors = _smooth_in_plane(points, triangles[solid], vectors, free)
     far = np.linalg.norm(vectors, axis=1)
     lift = thinnest * (far + gain * off)
     return OffsetDirections(
@@ -180,11 +181,10 @@ def _smooth_in_plane(points: NDArray, triangles: NDArray, vectors: NDArray, free
     boundaries stay.
     """
     edges = find_edges(triangles)
-    free[triangles.ravel()[edges.boundary_sides()]] = (
-        0.0  # closed loops: each end of a side is a start
-    )
-    able = np.einsum("nii->n", free) > 0.5
-    triangles = triangles[able[triangles].any(axis=1)]
+    # Boundaries are closed loops, so that each end of a side is the start of one.
+    free[triangles.ravel()[edges.boundary_sides()]] = 0.0
+    can_move = np.einsum("nii->n", free) > 0.5
+    triangles = triangles[can_move[triangles].any(axis=1)]
     if not len(triangles):
         return vectors
     used, number = np.unique(triangles, return_inverse=True)
@@ -195,13 +195,10 @@ def _smooth_in_plane(points: NDArray, triangles: NDArray, vectors: NDArray, free
     # from corner k to k + 1, across from corner k + 2
     sides = corners - np.roll(corners, -1, axis=1)
     double = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
-    weight = (
-        -np.einsum("mki,mki->mk", np.roll(sides, -1, axis=1), np.roll(sides, -2, axis=1))
-        / double[:, None]
-    )
+    dots = np.einsum("mki,mki->mk", np.roll(sides, -1, axis=1), np.roll(sides, -2, axis=1))
+    weight = (-dots / double[:, None]).ravel()  # the cotangent of the angle across from a side
     start = triangles.ravel()
     stop = np.roll(triangles, -1, axis=1).ravel()
-    weight = weight.ravel()
 
     def gradient(steps: NDArray) -> Array:
         """Return half the gradient of Σ cot |d_i - d_j|², in the free directions."""
@@ -216,7 +213,7 @@ def _smooth_in_plane(points: NDArray, triangles: NDArray, vectors: NDArray, free
         return np.einsum("nij,nj->ni", free, total)
 
     size = np.bincount(start, np.abs(weight), count) + np.bincount(stop, np.abs(weight), count)
-    size = np.maximum(size, np.finfo(float).tiny)[:, None]
+    size = np.maximum(size, np.finfo(float).tiny)[:, None]  # the preconditioner's diagonal
     directions = vectors[used]
     rest = -gradient(directions)
     step = rest / size

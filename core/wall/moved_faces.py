@@ -43,83 +43,98 @@ def part_behind(
     depths: along the ground, below the top and above the bottom, at which places belong to it.
     """
     size = float(np.ptp(points, axis=0).max())
+    tolerance = ROUNDING * size
     corners = moved[triangles].astype(np.float64)
     units = _unit_normals(corners, size)
     beside = faces_beside_edges(triangles, len(points))
     if beside is None:  # T-junctions: each triangle counts by itself
         beside = np.zeros((2, 0), np.int32)
     first, second, untested = overlapping_box_pairs(
-        corners.min(axis=1), corners.max(axis=1), -ROUNDING * size, MAX_PAIRS
+        corners.min(axis=1), corners.max(axis=1), -tolerance, MAX_PAIRS
     )
     if untested:
         return None
     pairs = np.concatenate([[first, second], [second, first]], axis=1)
     blocks = np.array_split(pairs, 1 + pairs.shape[1] // PAIRS_PER_BLOCK, axis=1)
-    met, crossed = np.concatenate(
-        [_find_met(corners, units, block, ROUNDING * size) for block in blocks], axis=1
+    meets, divides = np.concatenate(
+        [_find_meetings(corners, units, block, tolerance) for block in blocks], axis=1
     )
+    crossings = pairs[:, divides]
+    is_divided = np.zeros(len(corners), bool)
+    is_divided[crossings[0]] = True
+    # A patch is of neighbors that nothing else meets: what its largest triangle shows, all do.
     shared = (triangles[pairs[0], :, None] == triangles[pairs[1], None]).sum(axis=(1, 2))
-    apart = np.ones(len(corners), bool)
-    apart[pairs[0, met & (shared < 2)]] = False
-    divided = np.zeros(len(corners), bool)
-    divided[pairs[0, crossed]] = True
-    first, second = pairs[:, crossed]
-    patch, number = connected_components(
-        len(corners), *beside[:, apart[beside].all(axis=0)].astype(np.intp)
-    )
+    is_apart = np.ones(len(corners), bool)
+    is_apart[pairs[0, meets & (shared < 2)]] = False
+    inner_edges = beside[:, is_apart[beside].all(axis=0)].astype(np.intp)
+    patch, patch_count = connected_components(len(corners), *inner_edges)
     order = np.argsort(triangle_areas(moved, triangles))
-    largest = np.zeros(number, np.intp)
+    largest = np.zeros(patch_count, np.intp)
     largest[patch[order]] = order  # the last of equal indices wins
-    largest = largest[~divided[largest]]
-    pieces, owners = [corners[largest]], [largest]
-    order = np.argsort(first, kind="stable")
-    starts = np.flatnonzero(np.diff(first[order], prepend=-1))
-    work = 0
-    for planes in np.split(order, starts[1:]) if len(order) else []:
-        triangle = first[planes[0]]
+    largest = largest[~is_divided[largest]]
+    pieces = _divide_along(corners, units, crossings, tolerance)
+    if pieces is None:
+        return None
+    cells = np.concatenate([corners[largest], pieces[0]])
+    owners = np.concatenate([largest, pieces[1]])
+    middles, steps = cells.mean(axis=1), STEP * size * units[owners]
+    # Places before all cells, then places behind them.
+    sides = np.concatenate([middles + steps, middles - steps])
+    tree = tree_of_all(moved, triangles)
+    component = np.zeros(len(sides), np.intp)
+    winding = tree.winding_numbers(sides - tree.origin, component, 0.0)[0]
+    inside = np.flatnonzero(winding > 0)
+    belongs = np.zeros(len(sides), bool)
+    across = np.tile(units[owners], (2, 1))[inside]
+    belongs[inside] = _belong(points, triangles, sides[inside], across, depths)
+    jump = winding[len(cells) :] - winding[: len(cells)]
+    is_bound = belongs[len(cells) :] != belongs[: len(cells)]
+    lying_together = np.flatnonzero(is_bound & (np.abs(jump) != 1))
+    if len(lying_together):
+        is_flat = np.abs(np.einsum("ei,ei->e", *units[beside])) > 1.0 - ROUNDING
+        group = connected_components(len(corners), *beside[:, is_flat].astype(np.intp))[0]
+        for cell in lying_together:
+            is_bound[cell] = _counts(corners, units, group, owners[cell], middles[cell], size)
+    is_bounding_patch = np.zeros(patch_count, bool)
+    is_bounding_patch[patch[largest]] = is_bound[: len(largest)]
+    is_kept = is_bounding_patch[patch]
+    if not is_divided.any():
+        return Surface(moved, triangles[is_kept])
+    kept_pieces = cells[len(largest) :][is_bound[len(largest) :]]
+    boundary = np.concatenate([corners[is_kept & ~is_divided], kept_pieces])
+    return Surface(boundary.reshape(-1, 3), np.arange(3 * len(boundary)).reshape(-1, 3))
+
+
+def _divide_along(
+    corners: Array, units: Array, crossings: Index, tolerance: float
+) -> tuple[Array, Index] | None:
+    """Return the pieces (k, 3, 3) of triangles that planes of others divide, and the (k,) triangle
+    of each; None if there are too many. crossings: (2, c) divided triangles, and the others.
+    """
+    pieces = [np.zeros((0, 3, 3))]
+    owners = [np.zeros(0, np.intp)]
+    order = np.argsort(crossings[0], kind="stable")
+    triangles, starts = np.unique(crossings[0][order], return_index=True)
+    test_count = 0
+    for triangle, planes in zip(triangles, np.split(crossings[1][order], starts[1:])):
         cells = corners[triangle][None]
-        for plane in second[planes]:
+        for plane in planes:
             count = len(cells)
-            work += count
-            if work > MAX_DIVISIONS:
+            test_count += count
+            if test_count > MAX_DIVISIONS:
                 return None
-            crossed = _find_met(
+            _, is_crossed = _find_meetings(
                 np.concatenate([cells, corners[plane][None]]),
                 units[np.repeat([triangle, plane], [count, 1])],
                 np.stack([np.arange(count), np.full(count, count)]),
-                ROUNDING * size,
-            )[1]
-            height = (cells[crossed] - corners[plane, 0]) @ units[plane]
-            height[np.abs(height) <= ROUNDING * size] = 0.0
-            cells = np.concatenate([cells[~crossed], _divide(cells[crossed], height)])
+                tolerance,
+            )
+            height = (cells[is_crossed] - corners[plane, 0]) @ units[plane]
+            height[np.abs(height) <= tolerance] = 0.0
+            cells = np.concatenate([cells[~is_crossed], _divide(cells[is_crossed], height)])
         pieces.append(cells)
         owners.append(np.full(len(cells), triangle))
-    cells, owner = np.concatenate(pieces), np.concatenate(owners)
-    middles, steps = cells.mean(axis=1), STEP * size * units[owner]
-    sides = np.concatenate([middles + steps, middles - steps])
-    around = tree_of_all(moved, triangles)
-    one = np.zeros(len(sides), np.intp)
-    winding = around.winding_numbers(sides - around.origin, one, 0.0)[0]
-    inside = np.flatnonzero(winding > 0)
-    belongs = np.zeros(len(sides), bool)
-    across = np.tile(units[owner], (2, 1))[inside]
-    belongs[inside] = _belong(points, triangles, sides[inside], across, depths)
-    jump = winding[len(cells) :] - winding[: len(cells)]
-    bounds = belongs[len(cells) :] != belongs[: len(cells)]
-    lying = np.flatnonzero(bounds & (np.abs(jump) != 1))
-    if len(lying):
-        flat = np.abs(np.einsum("ei,ei->e", *units[beside])) > 1.0 - ROUNDING
-        group = connected_components(len(corners), *beside[:, flat].astype(np.intp))[0]
-        for cell in lying:
-            bounds[cell] = _counts(corners, units, group, owner[cell], middles[cell], size)
-    kept = np.zeros(number, bool)
-    kept[patch[largest]] = bounds[: len(largest)]
-    if not divided.any():
-        return Surface(moved, triangles[kept[patch]])
-    cells = np.concatenate(
-        [corners[kept[patch] & ~divided], cells[len(largest) :][bounds[len(largest) :]]]
-    )
-    return Surface(cells.reshape(-1, 3), np.arange(3 * len(cells)).reshape(-1, 3))
+    return np.concatenate(pieces), np.concatenate(owners)
 
 
 def _unit_normals(corners: Array, size: float) -> Array:
@@ -129,29 +144,30 @@ def _unit_normals(corners: Array, size: float) -> Array:
     return across / np.where(lengths > (ROUNDING * size) ** 2, lengths, np.inf)[:, None]
 
 
-def _find_met(corners: Array, units: Array, pairs: Index, tolerance: float) -> Mask:
+def _find_meetings(corners: Array, units: Array, pairs: Index, tolerance: float) -> Mask:
     """Return whether pairs of triangles in two planes meet along a segment, and whether the plane
     of the second one divides the first one there, (2, k).
     """
     first, second = pairs
     along = np.cross(units[first], units[second])
     along /= np.maximum(np.linalg.norm(along, axis=1), np.finfo(float).tiny)[:, None]
+    # The ends of each triangle's segment in the other one's plane, along the common line.
     low, high = np.empty((2, 2, len(first)))
     divided = []
     for k, (one, other) in enumerate([(first, second), (second, first)]):
         height = np.einsum("kci,ki->kc", corners[one] - corners[other, :1], units[other])
         height[np.abs(height) <= tolerance] = 0.0
         places = np.einsum("kci,ki->kc", corners[one], along)
-        beyond = np.roll(height, -1, axis=1)
-        crosses = height * beyond < 0.0
-        share = height / np.where(crosses, height - beyond, 1.0)
+        next_height = np.roll(height, -1, axis=1)
+        crosses = height * next_height < 0.0
+        share = height / np.where(crosses, height - next_height, 1.0)
         places += np.where(crosses, share * (np.roll(places, -1, axis=1) - places), 0.0)
-        meets = crosses | (height == 0.0)
-        low[k] = np.where(meets, places, np.inf).min(axis=1)
-        high[k] = np.where(meets, places, -np.inf).max(axis=1)
+        is_end = crosses | (height == 0.0)
+        low[k] = np.where(is_end, places, np.inf).min(axis=1)
+        high[k] = np.where(is_end, places, -np.inf).max(axis=1)
         divided.append(crosses.any(axis=1))
-    met = high.min(axis=0) - low.max(axis=0) > tolerance
-    return np.stack([met, met & divided[0]])
+    meets = high.min(axis=0) - low.max(axis=0) > tolerance
+    return np.stack([meets, meets & divided[0]])
 
 
 def _divide(cells: Array, height: Array) -> Array:

@@ -98,10 +98,9 @@ class OffsetSolid:
         """Return a wall's volume moments to third order, about the middle of the surface's bounding
         box.
         """
-        if not (inward < self.inward or inward == 0.0) or not (
-            outward < self.outward or outward == 0.0
-        ):
-            raise ValueError("offset folds over")
+        for move, limit in ((inward, self.inward), (outward, self.outward)):
+            if not (move < limit or move == 0.0):
+                raise ValueError("offset folds over")
         degree = np.arange(1, COEFFICIENT_COUNT + 1)
         up = outward**degree / degree
         down = -((-inward) ** degree) / degree
@@ -180,12 +179,9 @@ class OffsetSolid:
         """Return the (3,) middle of the triangle that folds first. side: "inward", "outward" or
         "centered".
         """
-        at = (
-            self.inward_at
-            if side == "inward" or side == "centered" and self.inward < self.outward
-            else self.outward_at
-        )
-        return self.points[self.triangles[at]].mean(axis=0)
+        is_inward = side == "inward" or side == "centered" and self.inward < self.outward
+        triangle = self.inward_at if is_inward else self.outward_at
+        return self.points[self.triangles[triangle]].mean(axis=0)
 
     def max_thickness(self, side: str) -> float:
         """Return the thickness from which the wall on that side folds over: "inward", "outward" or
@@ -250,56 +246,69 @@ def offset_solid(surface: Surface) -> OffsetSolid:
     reach = np.abs(points - about).max(axis=0) * (1.0 + 4.0 * U), np.abs(vectors).max(axis=0)
     sums = np.zeros((20, COEFFICIENT_COUNT))
     bounds = np.zeros((3, 7))
-    swept = np.zeros((2, 4))
-    tested = []
+    swept_rounding = np.zeros(4)
+    swept_bound = np.zeros(4)
+    jacobians, jacobian_errors, doubled_areas = [], [], []
+    # How far rounding moves a point, and a direction.
     rounded = 4.0 * U * float(np.linalg.norm(reach[0]))
-    slid = 4.0 * U * float(np.linalg.norm(reach[1]))
-    for part, known in zip(blocks(triangles), blocks(directions.has_normal)):
+    turned = 4.0 * U * float(np.linalg.norm(reach[1]))
+    for part, is_known in zip(blocks(triangles), blocks(directions.has_normal)):
         prisms = _Prisms(points[part], about, vectors[part])
         sums += prisms.sums()
         slide = directions.tangential_error[:, part].max(axis=2)
         lift = directions.normal_error[:, part].max(axis=2)
         if stored:
             # such a triangle should have moved by one
-            lift[1] += np.where(known, 0.0, 1.0 + prisms.far)
+            lift[1] += np.where(is_known, 0.0, 1.0 + prisms.far)
         bounds += prisms.bounds(slide, lift, stored)
-        swept[0] += prisms.swept(slide[0] + slid, lift[0] + slid, rounded)
-        swept[1] += prisms.swept(slide[1], lift[1], stored)
-        tested.append((prisms.own_size, JACOBIAN_ROUNDINGS * U * prisms.sizes(), prisms.double))
-    jacobian, jacobian_error, double = (np.concatenate(column, axis=-1) for column in zip(*tested))
+        swept_rounding += prisms.swept(slide[0] + turned, lift[0] + turned, rounded)
+        swept_bound += prisms.swept(slide[1], lift[1], stored)
+        jacobians.append(prisms.own_size)
+        jacobian_errors.append(JACOBIAN_ROUNDINGS * U * prisms.sizes())
+        doubled_areas.append(prisms.double)
+    jacobian = np.concatenate(jacobians, axis=-1)
+    jacobian_error = np.concatenate(jacobian_errors, axis=-1)
+    double = np.concatenate(doubled_areas)
     solid = directions.has_normal
     lost = float(double[~solid].sum())
     total = float(double.sum())
     if stored and lost > MAX_UNORIENTED_SHARE * total:
         raise MeasureError(WALL_PRECISION_LOST, share=lost / total)
-    rest = np.flatnonzero(solid)
+    solid_triangles = np.flatnonzero(solid)
+    # Inward is the same way with the sign of s, and so that of the odd coefficients, changed.
     outward, inward = (
         first_positive_root(jacobian[:, :, solid] * signs[:, None, None], jacobian_error[:, solid])
         for signs in (np.array([1.0, 1.0, 1.0]), np.array([1.0, -1.0, 1.0]))
     )
     height = jacobian[0, :, solid] / double[solid, None]
     uneven = np.abs(height - 1.0) > UNEVEN_RTOL
-    error, moved = _propagate_error(bounds, reach, len(tested), stored)
+    error, moved = _propagate_error(bounds, reach, len(jacobians), stored)
     slides = directions.tangential_error.max(axis=1) + directions.normal_error.max(axis=1)
-    swept[0] += _swept_by_strips(points, vectors, triangles, rounded, slides[0] + 2.0 * slid)
-    swept[1] += _swept_by_strips(points, vectors, triangles, stored, slides[1])
+    swept_rounding += _swept_by_strips(
+        points, vectors, triangles, rounded, slides[0] + 2.0 * turned
+    )
+    swept_bound += _swept_by_strips(points, vectors, triangles, stored, slides[1])
+
+    def first_fold(limits: NDArray) -> int:
+        if not np.isfinite(limits.min(initial=np.inf)):
+            return -1
+        return int(solid_triangles[np.argmin(limits)])
+
     return OffsetSolid(
-        points,
-        vectors,
-        triangles,
-        about,
-        sums,
-        error,
-        moved,
-        swept[1],
-        swept[0],
-        np.array(reach),
-        outward.min(initial=np.inf),
-        inward.min(initial=np.inf),
-        *(
-            int(rest[np.argmin(limit)]) if np.isfinite(limit.min(initial=np.inf)) else -1
-            for limit in (outward, inward)
-        ),
+        points=points,
+        vectors=vectors,
+        triangles=triangles,
+        about=about,
+        coefficients=sums,
+        rounding_error=error,
+        input_error=moved,
+        swept_bound=swept_bound,
+        swept_rounding=swept_rounding,
+        reach=np.array(reach),
+        outward=outward.min(initial=np.inf),
+        inward=inward.min(initial=np.inf),
+        outward_at=first_fold(outward),
+        inward_at=first_fold(inward),
         inexact_vertices=len(np.unique(triangles[solid][uneven])),
         min_ratio=height.min(initial=1.0),
         max_ratio=height.max(initial=1.0),
@@ -316,6 +325,7 @@ class _Prisms:
         self.points = points.transpose(1, 2, 0) - about[:, None]
         self.edges = (b - a, c - a)
         self.turns = (v - u, w - u)
+        # N(s) = plain + s (first + second) + s² turned
         plain, first, second, turned = (
             np.stack(cross(first, second)) for first in (b - a, v - u) for second in (c - a, w - u)
         )
@@ -468,12 +478,13 @@ def first_positive_root(jacobian: NDArray, error: NDArray) -> Array:
     rounding may have made negative are zero.
     """
     a, b, c = jacobian - error[:, None]
-    dead = ~(a > 0.0)
     size = b * b + np.abs(4.0 * a * c)
-    square = b * b - 4.0 * a * c
-    real = square >= -16.0 * U * size
-    root = np.sqrt(np.maximum(square, 0.0) + 16.0 * U * size)
+    discriminant = b * b - 4.0 * a * c
+    is_real = discriminant >= -16.0 * U * size
+    root = np.sqrt(np.maximum(discriminant, 0.0) + 16.0 * U * size)
     with np.errstate(divide="ignore", invalid="ignore"):
+        # Of both forms of the larger root in y, the one without a difference of near equals.
         largest = np.where(b > 0.0, -2.0 * c / (b + root), (root - b) / (2.0 * a))
-        largest = np.where(dead, np.inf, np.where(real & (largest > 0.0), largest, 0.0))
+        largest = np.where(is_real & (largest > 0.0), largest, 0.0)
+        largest = np.where(a > 0.0, largest, np.inf)  # else not positive at s = 0
         return (1.0 / largest).min(axis=0) * (1.0 - 16.0 * U)
