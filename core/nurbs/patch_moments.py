@@ -91,7 +91,6 @@ def volume_moments(
     faces: Sequence[Face],
     order: int = 3,
     about: NDArray | None = None,
-    tolerance: float = VOLUME_RTOL,
 ) -> tuple[Moments, bool]:
     """Return the volume moments, about the box's middle, of the body in outward patches, and
     whether they converged.
@@ -119,7 +118,7 @@ def volume_moments(
         size += float(sums[-1])
     unit = reach ** (degree + 1.0)
     if rational:
-        integral = integrate_adaptively(rational, flux, unit, tolerance, order)
+        integral = integrate_adaptively(rational, flux, unit, VOLUME_RTOL, order)
         values = values + integral.values
         estimate = integral.estimate
         converged = integral.converged

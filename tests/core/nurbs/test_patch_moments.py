@@ -7,7 +7,7 @@ rules.
 import numpy as np
 import pytest
 from body_moments.core.moments.raw import monomials
-from body_moments.core.numerics import SplineSpace, clamped_space, gauss_legendre_with_ends
+from body_moments.core.numerics import SplineSpace, clamped_space
 from body_moments.core.nurbs import Patch, bezier_patches, patch_moments
 from body_moments.core.nurbs.bezier import cells_of
 from body_moments.core.nurbs.patch_moments import (
@@ -182,12 +182,11 @@ def test_estimate_covers_the_error_of_random_rational_patches(seed):
         assert moments.rounding_error[0] <= 1e-12  # so it tells something
 
 
-@pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 4e-15])
-def test_the_estimate_holds_against_a_fixed_fine_rule(tolerance):
+def test_the_estimate_holds_against_a_fixed_fine_rule():
     rng = np.random.default_rng(8)
     for _ in range(8):
         patch = random_rational(rng, 1.0)
-        moments, converged = volume_moments([patch], 2, ORIGIN, tolerance=tolerance)
+        moments, converged = volume_moments([patch], 2, ORIGIN)
         assert converged
         assert (np.abs(moments.raw - truth(patch, 2)) <= moments.rounding_error + 1e-14).all()
 
@@ -307,13 +306,6 @@ def closed_by_cones(patch, place=0.0):
     return found
 
 
-def test_uninitialized_memory_does_not_reach_results(monkeypatch):
-    place, density = np.ones((3, 4)), np.ones(4)
-    monkeypatch.setattr(np, "empty", lambda shape: np.full(shape, np.inf))
-    assert (patch_moments.weighted_monomials(place, density, 3, 2)[-2:] == 0.0).all()
-    assert (patch_moments.weighted_monomials(place, density, 3) == 1.0).all()
-
-
 @pytest.mark.parametrize("kind", ["volume", "area", "sheet"])
 @pytest.mark.parametrize("rational", [False, True])
 def test_moments_and_bounds_scale_exactly_with_powers_of_two(kind, rational):
@@ -390,28 +382,3 @@ def test_the_slope_of_the_area_is_the_same_far_away(rational):
         for by in (0.0, 2.0**40)
     )
     assert close(far, near, rel=1e-12)
-
-
-@pytest.mark.parametrize("size", [1.0, 50.0])
-@pytest.mark.parametrize("swapped", [False, True])
-@pytest.mark.parametrize(
-    "last, counts", [(-2.0, True), (-1e-8, True), (-1e-10, False), (2.0, False)]
-)
-def test_area_between_points_of_a_turning_patch_counts(swapped, last, counts, size):
-    """The second of three cells turns over along one direction, between two points; at a pole all
-    is rounding.
-    """
-    counts_along = (5, 3)
-    nodes, weights = zip(*(gauss_legendre_with_ends(points) for points in counts_along))
-    height = np.ones((7, 3, 5))
-    height[:3] = 0.7
-    height[4:, 1] = last
-    normal = np.multiply.outer([0.6, 0.0, -0.8], size * height)
-    rule = tuple((points,) for points in counts_along)
-    if swapped:
-        normal, rule, weights = normal.swapaxes(1, 3), rule[::-1], weights[::-1]
-    found = patch_moments._reversed_areas(normal, tuple(one[:, None] for one in weights), rule)
-    width = nodes[0][4] - nodes[0][3]
-    assert close(
-        found, [0.0, size * (1.0 + abs(last)) * width / 2.0 if counts else 0.0, 0.0], rel=1e-13
-    )
