@@ -34,8 +34,8 @@ from scipy.spatial import ConvexHull, QhullError
 
 load_checkout()
 
+from body_moments.core.robots import Roots, read_description
 from body_moments.core.robots.audit import Audit, Auditor, LinkAudit
-from body_moments.core.robots.read.descriptions import Roots, read_description
 from body_moments.core.robots.stated import Description, rotation_of_angles
 from body_moments.core.robots.totals import Expectation
 from body_moments.core.verdict import FileError, MeasureError, severity

@@ -183,20 +183,17 @@ def _scores(
     summed weights.
     """
     per_vertex = np.bincount(weights.vertex, minlength=int(corners.max(initial=-1)) + 1)
-    first = np.cumsum(per_vertex) - per_vertex
-    repeats = per_vertex[corners]
-    owner = np.repeat(np.arange(len(corners)), repeats)
-    entry = (
-        np.arange(len(owner))
-        - np.repeat(np.cumsum(repeats) - repeats, repeats)
-        + first[corners][owner]
-    )
-    key = faces[owner].astype(np.int64) * number + weights.bone[entry]
-    pairs, place = np.unique(key, return_inverse=True)
-    score = numerics.sums_by_index(place, weights.normalized()[entry])
-    positive = score > 0.0
-    face, bone = np.divmod(pairs[positive].astype(np.intp), number)
-    return face, bone, score[positive]
+    counts = per_vertex[corners]
+    # The weights of a vertex stand in a row: each corner takes those of its vertex.
+    starts = numerics.segment_starts(per_vertex)[corners]
+    entry = np.repeat(starts, counts) + numerics.segment_ranges(counts)
+    # One number for each pair of a face and a bone, ascending by face, then bone.
+    key = np.repeat(faces, counts).astype(np.int64) * number + weights.bone[entry]
+    pairs, pair_of_entry = np.unique(key, return_inverse=True)
+    score = numerics.sums_by_index(pair_of_entry, weights.normalized()[entry])
+    is_positive = score > 0.0
+    face, bone = np.divmod(pairs[is_positive].astype(np.intp), number)
+    return face, bone, score[is_positive]
 
 
 def _nearest(

@@ -35,8 +35,8 @@ from .model import Shape as Shape
 from .primitives import equal_inertia_shape as equal_inertia_shape
 from .primitives import moments_of as moments_of
 from .primitives import primitive_moments as primitive_moments
-from .read.descriptions import Roots as Roots
 from .read.descriptions import read_description as read_description
+from .read.roots import Roots as Roots
 from .totals import Expectation as Expectation
 from .write import audit_report as audit_report
 from .write.joints import merge_fixed as merge_fixed

@@ -14,6 +14,7 @@ from ..inertia import combine
 from ..moments import Moments
 from ..numerics import second_of_inertia
 from ..verdict import Finding, Severity, finding, internal_error
+from .comparison import DIFFERS, Reference, is_possible
 from .entries import Entry, LinkAudit
 from .findings import (
     AUDIT_COPIED,
@@ -31,9 +32,8 @@ from .judgment import judge
 from .model import Pose, second_moments
 from .pieces import Geometry, Measurer, Piece, Pieces
 from .plausibility import LEAST_MASS, impossible
-from .read.descriptions import Roots
 from .read.mjcf_meshes import CLOSED
-from .reference import DIFFERS, Reference, is_possible
+from .read.roots import Roots
 from .stated import Description, Place, StatedInertial, StatedLink, StatedShape
 from .totals import Expectation, Totals, Tree, add_up, build_tree
 from .twins import TOLERANCE, Pair, disagreement, find_copies, find_pairs, mapped

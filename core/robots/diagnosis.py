@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from ..verdict import Finding, finding
+from .comparison import AGREES, DIFFERS, Reference, is_possible
 from .findings import AUDIT_DENSITY, AUDIT_UNIT
 from .mistakes import (
     ALL_AGREE,
@@ -25,7 +26,6 @@ from .mistakes import (
     changes,
     scaled,
 )
-from .reference import AGREES, DIFFERS, Reference, is_possible
 from .stated import StatedInertial
 
 BETTER = 0.1  # A change counts if it leaves less than this part of the difference.

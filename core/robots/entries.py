@@ -8,8 +8,7 @@ from dataclasses import dataclass, replace
 from math import inf
 
 from ..verdict import Finding, Severity, sentence, severity
-from .comparison import Effect
-from .reference import Reference
+from .comparison import Effect, Reference
 from .stated import Place, StatedInertial, StatedLink
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from ..mesh import hull_volumes
 from ..numerics import inertia_of_second, second_of_inertia
 from ..verdict import Finding, finding
+from .comparison import DIFFERS, LARGEST_DENSITY, Reference
 from .diagnosis import Diagnosis, diagnose, diagnose_density
 from .entries import Entry, LinkAudit
 from .findings import (
@@ -23,7 +24,6 @@ from .findings import (
 )
 from .pieces import Geometry
 from .plausibility import CENTER_RTOL, LEAST_MASS, Hull, impossible
-from .reference import DIFFERS, LARGEST_DENSITY, Reference
 from .stated import Place, StatedInertial, StatedLink
 
 

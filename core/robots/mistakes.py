@@ -8,13 +8,14 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import permutations, product
 from math import degrees, radians
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..density import POUND
 from ..numerics import Array, ArrayLike, NDArray, rotation_matrix
 from ..verdict import Finding, finding
+from .comparison import AGREES, DIFFERS, LARGEST_DENSITY, Reference, is_possible
 from .findings import (
     AUDIT_ANGLES,
     AUDIT_FRAME_NOT_MEANT,
@@ -26,7 +27,6 @@ from .findings import (
     AUDIT_TURNED,
     AUDIT_UNIT,
 )
-from .reference import AGREES, DIFFERS, LARGEST_DENSITY, Reference, is_possible
 from .stated import StatedInertial, parallel_axis_term, rotation_of_angles
 
 UNEQUAL = 0.05  # Least difference of principal moments that were exchanged.
@@ -74,6 +74,10 @@ class Change(NamedTuple):
     repaired: StatedInertial
 
 
+def _change(repaired: StatedInertial, code: str, **values: Any) -> Change:
+    return Change(finding(code, **values), repaired)
+
+
 class Unit(NamedTuple):
     """A change of units. part, factor: as the finding names them. mass, center, inertia: the
     factors of each.
@@ -87,10 +91,8 @@ class Unit(NamedTuple):
 
     def change(self, stated: StatedInertial, agree: str = ALL_AGREE) -> Change:
         """Return the change of an inertial. agree: the parts that then agree."""
-        return Change(
-            finding(AUDIT_UNIT, part=self.part, factor=self.factor, agree=agree),
-            scaled(stated, self.mass, self.center, self.inertia),
-        )
+        repaired = scaled(stated, self.mass, self.center, self.inertia)
+        return _change(repaired, AUDIT_UNIT, part=self.part, factor=self.factor, agree=agree)
 
 
 WHOLE_POUNDS = Unit(
@@ -133,10 +135,10 @@ def center_changes(
     for signs in SIGNS:
         negative = [axis for axis, sign in zip("xyz", signs) if sign == -1.0]
         moved = replace(stated, center=stated.center * signs)
-        yield Change(finding(AUDIT_SIGN, part=CENTER, axes=negative), moved)
+        yield _change(moved, AUDIT_SIGN, part=CENTER, axes=negative)
     for order in AXES:
         moved = replace(stated, center=stated.center[order])
-        yield Change(finding(AUDIT_ORDER, part=CENTER_AXES, order=_axis_names(order)), moved)
+        yield _change(moved, AUDIT_ORDER, part=CENTER_AXES, order=_axis_names(order))
 
 
 def scaled(
@@ -178,11 +180,11 @@ def _units(stated: StatedInertial, reference: Reference, center_agrees: bool) ->
     if not center_agrees:
         return
     for part, factor in (("mass", stated.mass), ("density", density)):
-        of_unit = finding(AUDIT_INERTIA_OF_UNIT, part=part, factor=factor)
-        yield Change(of_unit, scaled(stated, inertia=factor))
+        repaired = scaled(stated, inertia=factor)
+        yield _change(repaired, AUDIT_INERTIA_OF_UNIT, part=part, factor=factor)
     for factor in (INCH**2, 1e-4, 1e-6):
-        per_mass = finding(AUDIT_UNIT, part=PER_MASS, factor=factor, agree=ALL_AGREE)
-        yield Change(per_mass, scaled(stated, inertia=factor * stated.mass))
+        repaired = scaled(stated, inertia=factor * stated.mass)
+        yield _change(repaired, AUDIT_UNIT, part=PER_MASS, factor=factor, agree=ALL_AGREE)
 
 
 def _points(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
@@ -194,13 +196,15 @@ def _points(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
         ("the origin of the link", stated.inertia - term),
         ("another point, by a parallel-axis term of the wrong sign", stated.inertia + term),
     ):
-        yield Change(finding(AUDIT_INERTIA_ELSEWHERE, part=part), stated.along_link(inertia))
+        yield _change(stated.along_link(inertia), AUDIT_INERTIA_ELSEWHERE, part=part)
     for origin in reference.origins:
         term = parallel_axis_term(stated.mass, stated.center - origin)
-        about_mesh = finding(
-            AUDIT_INERTIA_ELSEWHERE, part="the origin of the mesh", point=origin.tolist()
+        yield _change(
+            stated.along_link(stated.inertia - term),
+            AUDIT_INERTIA_ELSEWHERE,
+            part="the origin of the mesh",
+            point=origin.tolist(),
         )
-        yield Change(about_mesh, stated.along_link(stated.inertia - term))
 
 
 def _frames(stated: StatedInertial) -> Iterator[Change]:
@@ -212,19 +216,16 @@ def _frames(stated: StatedInertial) -> Iterator[Change]:
             ("degrees", "radians", radians),
             ("radians", "degrees", degrees),
         ):
-            turned = rotation_of_angles(*map(convert, stated.angles))
-            angles = finding(AUDIT_ANGLES, part="inertial", unit=unit, wanted=wanted)
-            yield Change(angles, replace(stated, rotation=turned))
+            turned = replace(stated, rotation=rotation_of_angles(*map(convert, stated.angles)))
+            yield _change(turned, AUDIT_ANGLES, part="inertial", unit=unit, wanted=wanted)
     if stated.quaternion is not None:
         w, x, y, z = stated.quaternion
         for quaternion, wanted in (((z, w, x, y), "w x y z"), ((x, y, z, w), "x y z w")):
-            order = finding(AUDIT_ORDER, part="quaternion of the inertial", order=wanted)
-            yield Change(order, replace(stated, rotation=rotation_matrix(quaternion)))
-    yield Change(
-        finding(AUDIT_TRANSPOSED, part="rotation of the inertial"),
-        replace(stated, rotation=stated.rotation.T),
-    )
-    yield Change(finding(AUDIT_FRAME_NOT_MEANT), replace(stated, rotation=np.eye(3)))
+            turned = replace(stated, rotation=rotation_matrix(quaternion))
+            yield _change(turned, AUDIT_ORDER, part="quaternion of the inertial", order=wanted)
+    transposed = replace(stated, rotation=stated.rotation.T)
+    yield _change(transposed, AUDIT_TRANSPOSED, part="rotation of the inertial")
+    yield _change(replace(stated, rotation=np.eye(3)), AUDIT_FRAME_NOT_MEANT)
 
 
 def _signs(stated: StatedInertial, center_agrees: bool) -> Iterator[Change]:
@@ -239,8 +240,13 @@ def _signs(stated: StatedInertial, center_agrees: bool) -> Iterator[Change]:
         yield Change(wrong, replace(stated, tensor=stated.tensor * factors))
     for axis in range(3):
         mirror = np.diag(1.0 - 2.0 * np.eye(3)[axis])
-        mirrored = finding(AUDIT_TURNED, part="inertial", change="mirrored along", axis="xyz"[axis])
-        yield Change(mirrored, _turned(stated, mirror))
+        yield _change(
+            _turned(stated, mirror),
+            AUDIT_TURNED,
+            part="inertial",
+            change="mirrored along",
+            axis="xyz"[axis],
+        )
 
 
 def _turned(stated: StatedInertial, linear: NDArray) -> StatedInertial:
@@ -257,8 +263,9 @@ def _orders(stated: StatedInertial, center_agrees: bool) -> Iterator[Change]:
     for order in AXES:
         for reordered, tensor in _reordered(stated.inertia, order, "") if center_agrees else ():
             yield Change(reordered, stated.along_link(tensor))
-        axes = finding(AUDIT_ORDER, part="axes of the inertial", order=_axis_names(order))
-        yield Change(axes, _turned(stated, np.eye(3)[order]))
+        permuted = _turned(stated, np.eye(3)[order])
+        axes = _axis_names(order)
+        yield _change(permuted, AUDIT_ORDER, part="axes of the inertial", order=axes)
     # A quarter turn, such as y up instead of z up: exact, which sines and cosines are not.
     for axis, way in product(range(3), (1.0, -1.0)):
         along = np.eye(3)[axis]
@@ -268,10 +275,13 @@ def _orders(stated: StatedInertial, center_agrees: bool) -> Iterator[Change]:
             ("inertial", both),
             ("inertia", replace(both, center=stated.center)),
         ):
-            by_90 = finding(
-                AUDIT_TURNED, part=part, change="turned by 90 degrees about", axis="xyz"[axis]
+            yield _change(
+                repaired,
+                AUDIT_TURNED,
+                part=part,
+                change="turned by 90 degrees about",
+                axis="xyz"[axis],
             )
-            yield Change(by_90, repaired)
     if center_agrees and stated.is_turned:
         for order in AXES:
             for reordered, tensor in _reordered(stated.tensor, order, OWN_FRAME):
@@ -294,8 +304,8 @@ def _sequences(stated: StatedInertial) -> Iterator[Change]:
         for read_as, name in zip(SEQUENCES[0], names):
             i, j = entries[name]
             tensor[i, j] = tensor[j, i] = stated.tensor[entries[read_as]]
-        order = finding(AUDIT_ORDER, part=part, order=" ".join(names))
-        yield Change(order, replace(stated, tensor=tensor))
+        reread = replace(stated, tensor=tensor)
+        yield _change(reread, AUDIT_ORDER, part=part, order=" ".join(names))
 
 
 def _moments(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
@@ -312,9 +322,9 @@ def _moments(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
     for order in AXES:
         exchanged = moments[order]
         if np.abs(exchanged - moments).max() > UNEQUAL * moments[2]:
+            repaired = stated.along_link((axes * exchanged) @ axes.T)
             numbers = " ".join(map(str, order + 1))
-            exchange = finding(AUDIT_ORDER, part="principal moments", order=numbers)
-            yield Change(exchange, stated.along_link((axes * exchanged) @ axes.T))
+            yield _change(repaired, AUDIT_ORDER, part="principal moments", order=numbers)
 
 
 def _reordered(tensor: NDArray, order: NDArray, where: str) -> Iterator[tuple[Finding, Array]]:
@@ -339,11 +349,11 @@ def _transposed(stated: StatedInertial) -> Iterator[Change]:
     """Yield changes for a tensor that was made with its principal axes as rows instead of
     columns.
     """
-    part = finding(AUDIT_TRANSPOSED, part="principal axes that make the tensor")
+    part = "principal axes that make the tensor"
     moments, axes = np.linalg.eigh(stated.inertia)
     # The file's own order and signs of the axes are unknown.
     for order in permutations(range(3)):
         for signs in ((1, 1, 1), (1, 1, -1), (1, -1, 1), (-1, 1, 1)):
             columns = axes[:, order] * signs
             tensor = columns.T @ (moments[list(order)][:, None] * columns)
-            yield Change(part, stated.along_link(tensor))
+            yield _change(stated.along_link(tensor), AUDIT_TRANSPOSED, part=part)

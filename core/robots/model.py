@@ -295,6 +295,11 @@ class Robot:
             self, links=tuple(replace(link, is_fixed=link.name in roots) for link in self.links)
         )
 
+    def without_motion(self) -> Robot:
+        """Return the links with their inertials alone: no joints, shapes or poses."""
+        links = tuple(Link(link.name, link.inertial) for link in self.ordered())
+        return Robot(self.name, links)
+
     def at_joints(self) -> Robot:
         """Return the robot with each link's origin at its joint, its axes unturned, for formats
         that demand it.
@@ -310,6 +315,12 @@ class Robot:
             replace(joint, pose=Pose(rotation=joint.pose.rotation)) for joint in self.joints
         )
         return replace(self, links=links, joints=joints)
+
+    def moves_freely(self, root: Link) -> bool:
+        """Return whether a root can move in the world, and has a mass to move."""
+        return not root.is_fixed and any(
+            part.inertial is not None for part in self.rigid_parts(root)
+        )
 
     def rigid_parts(self, link: Link) -> list[Link]:
         """Return a link and all links below it that are connected by fixed joints only, parents

@@ -20,14 +20,14 @@ from ..moments import SECOND_MOMENT_INDEX, Moments
 from ..numerics import Array, NDArray, first_occurrence, inertia_of_second
 from ..verdict import Finding, MeasureError, Procedure, finding
 from . import read
+from .comparison import Reference
 from .entries import Entry
 from .findings import AUDIT_ANGLES
 from .model import Pose, Shape
 from .plausibility import Hull, spread_directions
 from .primitives import primitive_moments
-from .read.descriptions import Roots
 from .read.mjcf_meshes import CLOSED
-from .reference import Reference
+from .read.roots import Roots
 from .stated import StatedShape, rotation_of_angles
 from .totals import Body
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from math import atan2, inf
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -35,6 +35,11 @@ class Place(NamedTuple):
     line: int = 1
     column: int = 1
     file: str = ""
+
+    @property
+    def values(self) -> dict[str, Any]:
+        """The values of a finding that name the place."""
+        return {"line": self.line, "column": self.column, "source": self.file}
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,9 +18,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ..numerics import Array
+from .comparison import Reference
 from .entries import LinkAudit
 from .model import Pose
-from .reference import Reference
 from .stated import StatedInertial
 from .totals import Tree
 

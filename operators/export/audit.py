@@ -14,7 +14,7 @@ from bpy_extras.io_utils import ImportHelper
 
 from ...blender.write import reports
 from ...core import robots, verdict
-from ...core.robots import AUDITED_SUFFIXES, read, write
+from ...core.robots import AUDITED_SUFFIXES, write
 from .. import findings, selection
 
 if TYPE_CHECKING:
@@ -62,8 +62,8 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
     def _audit(self, path: Path) -> tuple[dict[str, Any], str]:
         """Return the report of a file, and the name of its text."""
         folders = [Path(bpy.path.abspath(self.root))] if self.root else []
-        roots = read.descriptions.Roots.for_file(path, folders, self.allow_outside)
-        audit = robots.audit.Auditor(roots).audit(read.descriptions.read_description(path, roots))
+        roots = robots.Roots.for_file(path, folders, self.allow_outside)
+        audit = robots.Auditor(roots).audit(robots.read_description(path, roots))
         copy = self._write_copy(path, audit) if self.write_copy else None
         document = write.audit_report.document(str(path), audit, copy)
         if self.write_page:

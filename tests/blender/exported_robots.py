@@ -12,7 +12,7 @@ from body_moments.core.inertia import MassProperties
 from body_moments.core.mesh import Surface
 from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.robots.read.descriptions import Roots, read_description
+from body_moments.core.robots import Roots, read_description
 from body_moments.core.robots.read.meshes import read_mesh
 from body_moments.core.robots.stated import rotation_of_angles
 

@@ -12,35 +12,27 @@ from __future__ import annotations
 import codecs
 import os
 import re
-import stat
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from importlib import import_module
 from io import BytesIO
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, NamedTuple
 
-from ...files import (
-    FILE_MISSING,
-    FILE_TOO_LARGE,
-    FILE_UNREADABLE,
-    FILE_WITHOUT_OBJECTS,
-    NOT_REGULAR,
-)
-from ...verdict import FileError, system_reason
+from ...files import FILE_TOO_LARGE, FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
+from ...verdict import FileError
 from ..findings import (
     DESCRIPTION_INVALID,
     DESCRIPTION_UNKNOWN,
     INCLUDE_UNREADABLE,
-    MESH_MISSING,
-    MESH_OUTSIDE,
     USD_NOT_TEXT,
     XACRO_NOT_EXPANDED,
 )
 from ..formats import AUDITED
 from ..stated import Description, Place
+from .roots import Roots, check_bytes, read_bytes
 from .xml import MAX_ELEMENTS, Node, check_names, check_size, parse
 
 _WIDE = {
@@ -54,112 +46,9 @@ _USD = "#usda"
 _LAYERED = re.compile(rb"\b(?:references|payload|subLayers)\s*=\s*(?:\[[^\]@]*)?@")
 _MARK = "body_moments_place"
 _QUEUE = ThreadPoolExecutor(1)  # One file at a time: xacro keeps what it reads in global variables.
-MAX_DESCRIPTION = 64 << 20  # bytes
 MAX_LINKS = 100_000
 MAX_INCLUDES = 1000
 INCLUDED = "It is included already."
-# Schemes of one letter are drives.
-_SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)", re.DOTALL)
-PATHS = "ROS_PACKAGE_PATH"
-MAX_DEPTH = 3  # Levels of folders below a root that are searched for a package.
-
-
-@dataclass(frozen=True)
-class Roots:
-    """Folders that files may be read from. base: that of the description. anywhere: True if all
-    folders are allowed.
-    """
-
-    folders: tuple[Path, ...]
-    anywhere: bool = False
-    base: Path | None = None
-
-    @classmethod
-    def for_file(cls, file: Path, more: Sequence[Path] = (), anywhere: bool = False) -> Roots:
-        """Return the roots of a description: its package's folder or else that above its own,
-        `more`, and ROS's.
-        """
-        folder = Path(os.path.realpath(file)).parent
-        packages = (
-            above for above in (folder, *folder.parents) if os.path.isfile(above / "package.xml")
-        )
-        paths = [
-            path for path in os.environ.get(PATHS, "").split(os.pathsep) if os.path.isabs(path)
-        ]
-        added = [Path(os.path.realpath(path)) for path in (*more, *paths)]
-        return cls((next(packages, folder.parent), *added), anywhere, folder)
-
-    def at(self, base: Path) -> Roots:
-        """Return the same roots for names in a file of another folder."""
-        return replace(self, base=base)
-
-    def find(self, name: str) -> Path:
-        """Return the file that a description names; raise FileError if it is missing, not allowed,
-        or on a network.
-        """
-        name = name.replace("\\", "/")
-        match = _SCHEME.fullmatch(name)
-        scheme, rest = (match[1].lower(), match[2]) if match else ("", name)
-        if scheme not in ("", "package", "model", "file"):
-            raise FileError(MESH_OUTSIDE, name=name)
-        is_outside = False
-        for path in self._candidates(scheme, rest):
-            try:
-                real = Path(os.path.realpath(path))
-            except (OSError, ValueError):  # no name that the system knows
-                continue
-            # False if the system refuses the name, as one that is too long
-            if not os.path.isfile(real):
-                continue
-            if self.anywhere or any(real.is_relative_to(folder) for folder in self.folders):
-                return real
-            is_outside = True
-        raise FileError(MESH_OUTSIDE if is_outside else MESH_MISSING, name=name)
-
-    def _candidates(self, scheme: str, rest: str) -> Iterator[Path]:
-        """Yield possible paths.
-
-        A package's name may be that of a root, of a folder in it, or of neither.
-        """
-        if scheme in ("package", "model"):
-            rest = rest.lstrip("/")  # Other readers join it so with their folders.
-            package, _, inside = rest.partition("/")
-            for folder in self.folders:
-                if folder.name == package or _package_name(folder) == package:
-                    yield folder / inside
-                yield folder / rest
-                yield folder / inside
-            for folder in self.folders[1:]:
-                yield from (found / inside for found in _folders_named(folder, package))
-            if self.base is not None:
-                yield from (above.parent / rest for above in (self.base, *self.base.parents))
-        elif os.path.isabs(rest):
-            yield Path(rest)
-        else:
-            for folder in (self.base, *self.folders):
-                if folder is not None:
-                    yield folder / rest
-            # Of a description that was copied elsewhere: below its package.
-            yield from (folder / rest.lstrip("./") for folder in self.folders)
-
-
-def _package_name(folder: Path) -> str:
-    """Return the name that the package.xml of a folder states, "" if it has none."""
-    try:
-        with open(folder / "package.xml", encoding="utf-8", errors="replace") as file:
-            match = re.search(r"<name>\s*([\w.-]+)\s*</name>", file.read(1 << 16))
-    except (OSError, ValueError):
-        return ""
-    return match[1] if match else ""
-
-
-def _folders_named(root: Path, name: str) -> Iterator[Path]:
-    """Yield the folders with a name, a few levels below a root."""
-    for folder, folders, _ in os.walk(root):
-        if name in folders:
-            yield Path(folder, name)
-        if len(Path(folder).relative_to(root).parts) >= MAX_DEPTH:
-            folders.clear()
 
 
 def read_description(path: Path, roots: Roots | None = None) -> Description:
@@ -167,56 +56,37 @@ def read_description(path: Path, roots: Roots | None = None) -> Description:
 
     FileError if refused.
     """
-    data = _bytes(path)
+    data = read_bytes(path)
     roots = roots or Roots.for_file(path)
-    is_text = data.startswith(_USD.encode())
-    is_archive = data.startswith(b"PK")
-    if is_archive and path.suffix.lower() != ".usdz":
+    if data.startswith(b"PK") and path.suffix.lower() != ".usdz":
         error = "it is a zip archive, as the MJZ files of MuJoCo are. Unpack it, and audit its .xml"
         raise FileError(FILE_UNREADABLE, error=error)
-    is_binary = is_archive or data.startswith(b"PXR-USDC")
-    is_composed = is_binary or is_text and _LAYERED.search(data) is not None
-    if is_text or is_binary:
-        description = AUDITED[_USD].reader_module.read(
-            _compose_usd(path, roots) if is_composed else data
-        )
-    else:
-        description = _xml(data, roots, path)
-    if is_composed:  # The file itself does not hold the inertials.
-        nowhere = {"span": None, "place": Place(), "inertial_place": Place()}
-        description = replace(
-            description, links=tuple(replace(link, **nowhere) for link in description.links)
-        )
+    is_usd = data.startswith((_USD.encode(), b"PXR-USDC", b"PK"))
+    description = _usd(data, roots, path) if is_usd else _xml(data, roots, path)
     if len(description.links) > MAX_LINKS:
         raise FileError(FILE_TOO_LARGE, limit=MAX_LINKS, content="links")
     if description.format in ("urdf", "mjcf"):
         links = [(link.name, link.place) for link in description.links]
-        joints = [(one.name, joint.place) for joint in description.joints for one in joint.motions]
+        motions = [
+            (motion.name, joint.place) for joint in description.joints for motion in joint.motions
+        ]
         check_names(description.format, links)
-        check_names(description.format, joints)
-    # MuJoCo and Gazebo load models without bodies; a URDF needs a link
+        check_names(description.format, motions)
+    # MuJoCo and Gazebo load models without bodies; a URDF needs a link.
     if not description.links and description.format not in ("mjcf", "sdf"):
         raise FileError(FILE_WITHOUT_OBJECTS, content="links")
     return description
 
 
-def _bytes(path: Path) -> bytes:
-    try:
-        if not stat.S_ISREG(path.stat().st_mode):
-            raise FileError(FILE_UNREADABLE, error=NOT_REGULAR)
-        with open(path, "rb") as file:
-            data = file.read(MAX_DESCRIPTION + 1)
-    except FileNotFoundError as error:
-        raise FileError(FILE_MISSING) from error
-    except OSError as error:
-        raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
-    _check_bytes(len(data))
-    return data
-
-
-def _check_bytes(count: int) -> None:
-    if count > MAX_DESCRIPTION:
-        raise FileError(FILE_TOO_LARGE, limit=MAX_DESCRIPTION, content="bytes")
+def _usd(data: bytes, roots: Roots, path: Path) -> Description:
+    reader = AUDITED[_USD].reader_module
+    if data.startswith(_USD.encode()) and not _LAYERED.search(data):
+        return reader.read(data)
+    description = reader.read(_compose_usd(path, roots))
+    # The file itself does not hold the inertials.
+    nowhere = {"span": None, "place": Place(), "inertial_place": Place()}
+    links = tuple(replace(link, **nowhere) for link in description.links)
+    return replace(description, links=links)
 
 
 def _xml(data: bytes, roots: Roots, path: Path) -> Description:
@@ -242,72 +112,106 @@ def _narrow(data: bytes) -> bytes:
         raise FileError(DESCRIPTION_INVALID, format="XML", line=1, error=str(error)) from error
 
 
-def _include(root: Node, roots: Roots, own: Path) -> None:
+class _Scope(NamedTuple):
+    """The files around an element.
+
+    roots: of the names in its file. files: those that it is in, the outermost first. model: those
+    of its model of MuJoCo so far.
+    """
+
+    roots: Roots
+    files: tuple[Path, ...]
+    model: list[Path]
+
+
+def _include(root: Node, roots: Roots, file: Path) -> None:
     """Replace each `include` of MJCF or SDF by the file's elements, which have no place in the
     model's own file.
 
     Models that MJCF attaches become children of their elements.
     """
-    is_mjcf = root.tag == "mujoco"
-    waiting: list[tuple[Node, int, Roots, tuple[Path, ...], list[Path]]] = [
-        (root, 1, roots, (own,), [own])
-    ]
-    total = 0
+    included = _IncludedFiles(root.tag == "mujoco")
+    waiting = [(root, 1, _Scope(roots, (file,), [file]))]
     count = 0
-    files = 0
     while waiting:
-        node, depth, beside, within, model = waiting.pop()
+        node, depth, scope = waiting.pop()
         count += 1
         check_size(depth, count)
         children = []
-        pending = [(child, beside, within) for child in reversed(node.children)]
+        pending = [(child, scope) for child in reversed(node.children)]
         while pending:
-            child, here, above = pending.pop()
-            is_attached = is_mjcf and node.tag == "asset" and child.tag == "model"
-            if child.tag != "include" and not is_attached:
-                children.append(child)
-                waiting.append((child, depth + 1, here, above, model))
+            child, around = pending.pop()
+            if child.tag == "include":
+                elements, inside = included.include(child, around)
+                pending += [(element, inside) for element in reversed(elements)]
                 continue
-            name = child.get("file") if is_mjcf else getattr(child.find("uri"), "text", "").strip()
-            place = {
-                "line": child.place.line,
-                "column": child.place.column,
-                "source": child.place.file,
-            }
-            try:
-                path = here.find(name) if is_mjcf else _model_file(name, here)
-                data = _bytes(path)
-                total = total + len(data)
-                files = files + 1
-                _check_bytes(total)
-                found = parse(_narrow(data), str(path))
-                if is_attached and found.tag != root.tag:
-                    raise FileError(DESCRIPTION_UNKNOWN, tag=found.tag)
-            except FileError as error:
-                raise FileError(
-                    INCLUDE_UNREADABLE, name=name, cause=error.finding.as_record(), **place
-                ) from error
-            # A model of MuJoCo includes a file once; all models may repeat, but not include
-            # themselves.
-            if path in (model if is_mjcf and not is_attached else above) or files > MAX_INCLUDES:
-                raise FileError(INCLUDE_UNREADABLE, name=name, cause=INCLUDED, **place)
-            there = here if is_mjcf and not is_attached else here.at(path.parent)
-            inside = (*above, path)
-            if is_attached:
-                child.children = [found]
-                children.append(child)
-                waiting.append((found, depth + 1, there, inside, [path]))
+            children.append(child)
+            if included.is_mjcf and node.tag == "asset" and child.tag == "model":
+                model, inside = included.attach(child, around)
+                child.children = [model]
+                waiting.append((model, depth + 1, inside))
             else:
-                model.append(path)
-                # The including file of SDF may place and name it anew.
-                for inner in found.all("model"):
-                    stated = {one.tag: one.text.strip() for one in child.children}
-                    inner.attributes |= {
-                        name: stated[name] for name in ("name", "placement_frame") if name in stated
-                    }
-                    inner.children = [*child.all("pose"), *inner.children]
-                pending += [(below, there, inside) for below in reversed(found.children)]
+                waiting.append((child, depth + 1, around))
         node.children = children
+
+
+class _IncludedFiles:
+    """The files that a description includes, up to a limit of their number and their bytes."""
+
+    def __init__(self, is_mjcf: bool) -> None:
+        self.is_mjcf = is_mjcf
+        self._count = 0
+        self._bytes = 0
+
+    def attach(self, element: Node, scope: _Scope) -> tuple[Node, _Scope]:
+        """Return the model of MuJoCo that an element of its assets names. It may be attached
+        repeatedly, but not to itself.
+        """
+        path, model = self._read(element, element.get("file"), scope.roots, scope.files)
+        inside = _Scope(scope.roots.at(path.parent), (*scope.files, path), [path])
+        return model, inside
+
+    def include(self, element: Node, scope: _Scope) -> tuple[list[Node], _Scope]:
+        """Return the elements of the file that an element `include` names."""
+        if self.is_mjcf:  # A model of MuJoCo includes a file once.
+            path, content = self._read(element, element.get("file"), scope.roots, scope.model)
+            scope.model.append(path)
+            return content.children, scope._replace(files=(*scope.files, path))
+        uri = element.find("uri")
+        name = uri.text.strip() if uri else ""
+        path, content = self._read(element, name, scope.roots, scope.files)
+        # The including file of SDF may place and name a model anew.
+        changes = {child.tag: child.text.strip() for child in element.children}
+        for model in content.all("model"):
+            model.attributes |= {
+                key: changes[key] for key in ("name", "placement_frame") if key in changes
+            }
+            model.children = [*element.all("pose"), *model.children]
+        inside = scope._replace(roots=scope.roots.at(path.parent), files=(*scope.files, path))
+        return content.children, inside
+
+    def _read(
+        self, element: Node, name: str, roots: Roots, refused: Sequence[Path]
+    ) -> tuple[Path, Node]:
+        """Return the file of a name and its root element. FileError if it cannot be read, or is one
+        of the refused files.
+        """
+        place = element.place.values
+        try:
+            path = roots.find(name) if self.is_mjcf else _model_file(name, roots)
+            data = read_bytes(path)
+            self._count += 1
+            self._bytes += len(data)
+            check_bytes(self._bytes)
+            root = parse(_narrow(data), str(path))
+            if element.tag == "model" and root.tag != "mujoco":
+                raise FileError(DESCRIPTION_UNKNOWN, tag=root.tag)
+        except FileError as error:
+            cause = error.finding.as_record()
+            raise FileError(INCLUDE_UNREADABLE, name=name, cause=cause, **place) from error
+        if path in refused or self._count > MAX_INCLUDES:
+            raise FileError(INCLUDE_UNREADABLE, name=name, cause=INCLUDED, **place)
+        return path, root
 
 
 def _model_file(name: str, roots: Roots) -> Path:
@@ -321,7 +225,7 @@ def _model_file(name: str, roots: Roots) -> Path:
             config = roots.find(name.rstrip("/") + "/model.config")
         except FileError:
             raise error from None
-    files = [node.text.strip() for node in parse(_bytes(config)).all("sdf")]
+    files = [node.text.strip() for node in parse(read_bytes(config)).all("sdf")]
     return roots.at(config.parent).find(files[-1] if files else "model.sdf")
 
 
@@ -346,9 +250,9 @@ def _compose_usd(path: Path, roots: Roots) -> bytes:
                 prim.SetInstanceable(False)
         return stage.Flatten().ExportToString().encode()
     except RuntimeError as error:  # pxr.Tf.ErrorException is one.
-        # a place in pxr's source
-        place, _, reason = str(error).strip().partition("\n")[0].rpartition(" : ")
-        raise FileError(FILE_UNREADABLE, error=(reason or place).strip(" '")) from error
+        # Some messages begin with a place in pxr's source.
+        _, _, reason = str(error).strip().partition("\n")[0].rpartition(" : ")
+        raise FileError(FILE_UNREADABLE, error=reason.strip(" '")) from error
 
 
 def _check_layers(sdf: Any, path: Path, roots: Roots) -> None:
@@ -379,58 +283,23 @@ def _check_layers(sdf: Any, path: Path, roots: Roots) -> None:
             waiting.append(sdf.Layer.FindOrOpen(target))
 
 
-def _marked(data: bytes, file: str, places: dict[str, Place]) -> bytes:
-    """Return XML whose elements have the key of their place as an attribute, which macros of xacro
-    pass on.
-    """
-    parts = []
-    end = 0
-    for node in parse(data).walk():
-        if ":" not in node.tag:  # Elements of xacro itself take no other attributes.
-            start = end
-            end = node.start + 1 + len(node.tag.encode())
-            parts += [data[start:end], b' %s="%d"' % (_MARK.encode(), len(places))]
-            places[str(len(places))] = node.place._replace(file=file)
-    return b"".join([*parts, data[end:]])
-
-
 def _expand_xacro(path: Path, data: bytes, roots: Roots) -> Node:
     """Return the element that xacro makes of a file.
 
     It evaluates the file's expressions as Python.
     """
     places: dict[str, Place] = {}
-    marked = _marked(data, "", places)
+    marked = _mark_places(data, "", places)
     try:
         xacro: Any = import_module("xacro")
     except ImportError as error:
         raise FileError(XACRO_NOT_EXPANDED, name=path.name, error=str(error)) from error
-
-    def expand() -> bytes:
-        # xacro appends the name of each file that it reads to a list. This one refuses files
-        # outside of the roots.
-        xacro.all_includes = SimpleNamespace(append=lambda name: roots.find(os.path.abspath(name)))
-        parse_file = xacro.parse
-        files = iter([marked])
-
-        def parse_marked(_: None, name: str) -> Any:
-            source = next(files, None) or _marked(
-                _narrow(_bytes(Path(name))), os.path.abspath(name), places
-            )
-            return parse_file(BytesIO(source))
-
-        xacro.parse = parse_marked
-        try:
-            return xacro.process_file(str(path), verbosity=0).toxml("utf-8")
-        finally:
-            xacro.parse = parse_file
-
     try:
-        root = parse(_QUEUE.submit(expand).result(), str(path))
+        expanded = _QUEUE.submit(_run_xacro, xacro, path, marked, places, roots).result()
+        root = parse(expanded, str(path))
     except FileError as error:
-        raise FileError(
-            INCLUDE_UNREADABLE, name=path.name, cause=error.finding.as_record()
-        ) from error
+        cause = error.finding.as_record()
+        raise FileError(INCLUDE_UNREADABLE, name=path.name, cause=cause) from error
     except (Exception, SystemExit) as error:  # whatever an expression of the file raises
         reason = " ".join(str(error).split())[:200]
         raise FileError(XACRO_NOT_EXPANDED, name=path.name, error=reason) from error
@@ -440,3 +309,45 @@ def _expand_xacro(path: Path, data: bytes, roots: Roots) -> Node:
         node.place = places.get(node.attributes.pop(_MARK, ""), above)
         waiting += [(child, node.place) for child in node.children]
     return root
+
+
+def _mark_places(data: bytes, file: str, places: dict[str, Place]) -> bytes:
+    """Return XML whose elements have an attribute with a key of their place, which is added to
+    `places`; macros of xacro pass it on.
+    """
+    parts = []
+    start = 0
+    for node in parse(data).walk():
+        if ":" in node.tag:  # Elements of xacro itself take no other attributes.
+            continue
+        end_of_tag = node.start + 1 + len(node.tag.encode())
+        parts += [data[start:end_of_tag], b' %s="%d"' % (_MARK.encode(), len(places))]
+        places[str(len(places))] = node.place._replace(file=file)
+        start = end_of_tag
+    return b"".join([*parts, data[start:]])
+
+
+def _run_xacro(
+    xacro: Any, path: Path, marked: bytes, places: dict[str, Place], roots: Roots
+) -> bytes:
+    """Return the XML that xacro makes of a file with marked places, and of marked files that it
+    includes.
+    """
+    # xacro appends the name of each file that it reads to a list. This one refuses files outside of
+    # the roots.
+    xacro.all_includes = SimpleNamespace(append=lambda name: roots.find(os.path.abspath(name)))
+    parse_file = xacro.parse
+    first = iter([marked])  # The first file that xacro parses is the description itself.
+
+    def parse_marked(_: None, name: str) -> Any:
+        source = next(first, None)
+        if source is None:
+            included = _narrow(read_bytes(Path(name)))
+            source = _mark_places(included, os.path.abspath(name), places)
+        return parse_file(BytesIO(source))
+
+    xacro.parse = parse_marked
+    try:
+        return xacro.process_file(str(path), verbosity=0).toxml("utf-8")
+    finally:
+        xacro.parse = parse_file

@@ -29,15 +29,14 @@ from ...files import (
     parse_whole,
     parse_wholes,
 )
-from ...mesh import Surface
-from ...numerics import Array, Floats, Int64, Integers, NDArray, rotation_about
+from ...mesh import Surface, join_surfaces
+from ...numerics import Array, Int64, NDArray, rotation_about, segment_ranges, segment_starts
 from ...streams import StlFile
 from ...verdict import FileError, finding, system_reason
 from ..findings import MESH_UNREADABLE
 from ..stated import MOST
 from .xml import MAX_DEPTH, Node, parse
 
-Arrays = tuple[Floats, Integers]
 MAX_MESH = 1 << 30  # bytes
 MAX_TRIANGLES = 50_000_000
 TURNS = {
@@ -70,31 +69,33 @@ def _read_mesh(path: Path) -> tuple[Surface, Array | None]:
         raise FileError(FILE_TYPE, suffixes=" ".join(READERS))
     if path.stat().st_size > MAX_MESH:
         raise FileError(FILE_TOO_LARGE, limit=MAX_MESH, content="bytes")
-    points, triangles, *upright = reader(path)
-    if not len(triangles):
+    surface, upright = reader(path)
+    count = len(surface.triangles)
+    if not count:
         raise FileError(FILE_WITHOUT_OBJECTS, content="faces")
-    if len(triangles) > MAX_TRIANGLES:
+    if count > MAX_TRIANGLES:
         raise FileError(FILE_TOO_LARGE, limit=MAX_TRIANGLES, content="faces")
-    if triangles.min() < 0 or triangles.max() >= len(points) or not np.isfinite(points).all():
-        raise ValueError("corners")
-    return Surface.from_triangles(points, triangles), upright[0] if upright else None
+    if not np.isfinite(surface.points).all():
+        raise ValueError("points")
+    return surface, upright
 
 
-def read_stl(path: Path) -> Arrays:
-    """Return points and triangles of binary or text STL, with equal corners as one point."""
+def read_stl(path: Path) -> tuple[Surface, None]:
+    """Return the surface of binary or text STL, with equal corners as one point."""
     mesh = StlFile(path).mesh()
-    return mesh.points.astype(np.float64), mesh.corners.reshape(-1, 3)
+    points = mesh.points.astype(np.float64)
+    return Surface.from_triangles(points, mesh.corners.reshape(-1, 3)), None
 
 
-def read_obj(path: Path) -> Arrays:
-    """Return points and triangles of all objects of an OBJ; larger faces are cut into fans."""
-    points, corners, sides, _ = read_obj_faces(path)
-    return points, fan(sides, corners)
+def read_obj(path: Path) -> tuple[Surface, None]:
+    """Return the surface of all objects of an OBJ; larger faces are cut into fans."""
+    points, corners, sizes, _ = read_obj_faces(path)
+    return Surface.from_triangles(points, fan(sizes, corners)), None
 
 
-def read_msh(path: Path) -> Arrays:
-    """Return points and triangles of MuJoCo's own binary format; its normals and texture
-    coordinates are skipped.
+def read_msh(path: Path) -> tuple[Surface, None]:
+    """Return the surface in MuJoCo's own binary format; its normals and texture coordinates are
+    skipped.
     """
     data = path.read_bytes()
     counts = np.frombuffer(data, "<i4", 4)
@@ -104,12 +105,13 @@ def read_msh(path: Path) -> Arrays:
         raise ValueError("counts")
     vertices = np.frombuffer(data, "<f4", 3 * points, 16).reshape(-1, 3)
     triangles = np.frombuffer(data, "<i4", 3 * faces, start).reshape(-1, 3)
-    return vertices.astype(np.float64), triangles.astype(np.int64)
+    surface = Surface.from_triangles(vertices.astype(np.float64), triangles.astype(np.int64))
+    return surface, None
 
 
-def read_glb(path: Path) -> Arrays:
-    """Return points and triangles of a binary glTF, placed by its scene, with y up as other robot
-    readers keep it.
+def read_glb(path: Path) -> tuple[Surface, None]:
+    """Return the surface of a binary glTF, placed by its scene, with y up as other robot readers
+    keep it.
     """
     file = GltfFile(map_file(path), str(path))
     document = file.document
@@ -117,7 +119,7 @@ def read_glb(path: Path) -> Arrays:
         error = "it is compressed. Export it without Draco or meshopt compression"
         raise FileError(FILE_UNREADABLE, error=error)
     scene = document["scenes"][document.get("scene", 0)]
-    gathered = Gathered()
+    parts = []
     waiting = [(index, np.eye(4)) for index in scene.get("nodes", [])]
     visited = 0
     while waiting:
@@ -129,34 +131,44 @@ def read_glb(path: Path) -> Arrays:
         matrix = above @ node_matrix(node)
         waiting += [(child, matrix) for child in node.get("children", [])]
         for primitive in document["meshes"][node["mesh"]]["primitives"] if "mesh" in node else ():
-            if primitive.get("mode", 4) != 4:
+            if primitive.get("mode", 4) != 4:  # no triangles
                 continue
-            corners = file.numbers(primitive["attributes"]["POSITION"])
-            order = np.arange(len(corners))
+            points = file.numbers(primitive["attributes"]["POSITION"])
+            corners = np.arange(len(points))
             if "indices" in primitive:
-                order = file.numbers(primitive["indices"]).ravel().astype(np.int64)
-            gathered.add(corners, order[: len(order) // 3 * 3].reshape(-1, 3), matrix)
-    return gathered.arrays()
+                corners = file.numbers(primitive["indices"]).ravel().astype(np.int64)
+            triangles = corners[: len(corners) // 3 * 3].reshape(-1, 3)
+            parts.append(_placed(points, triangles, matrix))
+    return _join(parts), None
 
 
-def read_dae(path: Path) -> tuple[*Arrays, Array | None]:
-    """Return points (meters, the file's axes), triangles, and the rotation to z up, None if z is
-    up.
-    """
+def read_dae(path: Path) -> tuple[Surface, Array | None]:
+    """Return a surface (meters, the file's axes), and the rotation to z up, None if z is up."""
     root = parse(path.read_bytes())
     for node in root.walk():
-        node.tag = node.tag.rpartition("}")[2]
+        node.tag = node.tag.rpartition("}")[2]  # without the namespace
     by_id = {node.get("id"): node for node in root.walk() if node.get("id")}
-    asset = root.find("asset")
-    unit = asset.find("unit") if asset else None
+    unit = root.find("asset", "unit")
     scale = parse_number(unit.get("meter", "1")) if unit else 1.0
-    up = asset.find("up_axis") if asset else None
-    matrix = np.diag([scale, scale, scale, 1.0])
-    gathered = Gathered()
-    for geometry, place in _instances(root, by_id):
-        for points, triangles in _geometry(geometry, by_id):
-            gathered.add(points, triangles, matrix @ place)
-    return *gathered.arrays(), TURNS.get(up.text.strip() if up else "Y_UP")
+    up = root.find("asset", "up_axis")
+    to_meters = np.diag([scale, scale, scale, 1.0])
+    parts = [
+        _placed(points, triangles, to_meters @ matrix)
+        for geometry, matrix in _instances(root, by_id)
+        for points, triangles in _geometry(geometry, by_id)
+    ]
+    return _join(parts), TURNS.get(up.text.strip() if up else "Y_UP")
+
+
+def _placed(points: NDArray, triangles: NDArray, matrix: NDArray) -> Surface:
+    """Return the surface of (n, 3) points and (m, 3) triangles, placed by a (4, 4) matrix."""
+    return Surface.from_triangles(points, triangles).transform(matrix[:3, :3], matrix[:3, 3])
+
+
+def _join(parts: Sequence[Surface]) -> Surface:
+    if not parts:
+        raise FileError(FILE_WITHOUT_OBJECTS, content="faces")
+    return join_surfaces(parts)
 
 
 def _instances(root: Node, by_id: dict[str, Node]) -> Iterator[tuple[Node, NDArray]]:
@@ -201,7 +213,8 @@ def _matrix(node: Node) -> Array:
     return matrix
 
 
-def _geometry(geometry: Node, by_id: dict[str, Node]) -> Iterator[Arrays]:
+def _geometry(geometry: Node, by_id: dict[str, Node]) -> Iterator[tuple[Array, Int64]]:
+    """Yield the (n, 3) points and (m, 3) triangles of each group of faces."""
     mesh = geometry.find("mesh")
     for primitives in mesh.children if mesh else ():
         if primitives.tag not in ("triangles", "polylist", "polygons"):
@@ -214,6 +227,7 @@ def _geometry(geometry: Node, by_id: dict[str, Node]) -> Iterator[Arrays]:
         lists = [np.array(parse_wholes(element.text), np.int64) for element in primitives.all("p")]
         if not lists:
             continue
+        # Each corner has one index for each input: `stride` of them.
         corners = np.concatenate(lists).reshape(-1, stride)[:, offset]
         if primitives.tag == "triangles":
             yield points, corners.reshape(-1, 3)
@@ -239,35 +253,12 @@ def _positions(vertices: Node, by_id: dict[str, Node]) -> Array:
     return values[: len(values) // stride * stride].reshape(-1, stride)[:, :3]
 
 
-class Gathered:
-    """Points and triangles of parts, each placed by a (4, 4) matrix."""
-
-    def __init__(self) -> None:
-        self._points: list[NDArray] = []
-        self._triangles: list[NDArray] = []
-
-    def add(self, points: NDArray, triangles: NDArray, matrix: NDArray) -> None:
-        """Add (n, 3) points and (m, 3) triangles, whose order is reversed if the matrix mirrors."""
-        turned = triangles[:, ::-1] if np.linalg.det(matrix[:3, :3]) < 0.0 else triangles
-        self._triangles.append(turned + sum(map(len, self._points)))
-        self._points.append(points @ matrix[:3, :3].T + matrix[:3, 3])
-
-    def arrays(self) -> Arrays:
-        """Return all points and triangles."""
-        none = np.zeros((0, 3))
-        return np.concatenate([none, *self._points]), np.concatenate(
-            [none.astype(np.int64), *self._triangles]
-        )
-
-
 def fan(sizes: Int64, corners: Int64) -> Int64:
     """Return (m, 3) triangles: faces of given sizes, cut into fans about their first corners."""
-    starts = np.cumsum(sizes) - sizes
-    cut = np.maximum(sizes - 2, 0)
-    face = np.repeat(np.arange(len(sizes)), cut)
-    step = np.arange(cut.sum()) - np.repeat(np.cumsum(cut) - cut, cut)
-    first = starts[face]
-    return np.stack([corners[first], corners[first + step + 1], corners[first + step + 2]], axis=1)
+    counts = np.maximum(sizes - 2, 0)
+    first = np.repeat(segment_starts(sizes), counts)
+    second = first + segment_ranges(counts) + 1
+    return np.stack([corners[first], corners[second], corners[second + 1]], axis=1)
 
 
 def checked_surface(
@@ -277,22 +268,22 @@ def checked_surface(
 
     ValueError, with its text, if an array is wrong.
     """
-    is_right = (
-        len(points) % 3 == 0 and (np.abs(points) <= MOST).all(),
-        (sizes >= 0).all() and (sizes == np.rint(sizes)).all() and sizes.sum() == len(corners),
-        len(corners)
-        and (corners == np.rint(corners)).all()
-        and 0 <= corners.min() <= corners.max() < len(points) // 3,
-    )
-    for text, is_fine in zip(texts, is_right):
-        if not is_fine:
+    are_points = len(points) % 3 == 0 and (np.abs(points) <= MOST).all()
+    are_sizes = _are_whole(sizes) and sizes.sum() == len(corners)
+    are_corners = len(corners) and _are_whole(corners) and corners.max() < len(points) // 3
+    for text, is_right in zip(texts, (are_points, are_sizes, are_corners)):
+        if not is_right:
             raise ValueError(text[:80])
     return Surface.from_triangles(
         points.reshape(-1, 3), fan(sizes.astype(np.int64), corners.astype(np.int64))
     )
 
 
-READERS: dict[str, Callable[[Path], tuple]] = {
+def _are_whole(numbers: NDArray) -> bool:
+    return bool(((numbers >= 0) & (numbers == np.rint(numbers))).all())
+
+
+READERS: dict[str, Callable[[Path], tuple[Surface, Array | None]]] = {
     ".stl": read_stl,
     ".obj": read_obj,
     ".msh": read_msh,

@@ -64,18 +64,21 @@ class _Model:
     """
 
     def __init__(self, root: Node, count: Iterator[int]) -> None:
-        self.root, self.count = root, count
+        self.root = root
+        self.count = count
         self.compiler: dict[str, str] = {}
         self.meshes: dict[str, Node] = {}
         self.models: dict[str, _Model] = {}
-        self._shapes: dict[Node, Shape] = {}  # those of the meshes that were read
+        self._shapes: dict[Node, Shape] = {}  # of the meshes that were read
         self._classes: dict[str, dict[str, dict[str, str]]] = {}
         for compiler in root.all("compiler"):
-            folder = {"meshdir": compiler.get("assetdir")} if compiler.get("assetdir") else {}
-            self.compiler |= folder | compiler.attributes
+            if compiler.get("assetdir"):
+                self.compiler["meshdir"] = compiler.get("assetdir")
+            self.compiler |= compiler.attributes
         self.euler = self.compiler.get("eulerseq", "xyz")
         for defaults in root.all("default"):
             self._add_defaults(defaults, "main", {})
+        # The equalities that a joint follows another one by, by the name of the follower.
         self.followers = {
             node.get("joint1"): node
             for equality in root.all("equality")
@@ -85,19 +88,21 @@ class _Model:
         }
         for asset in (asset for assets in root.all("asset") for asset in assets.children):
             if asset.tag == "mesh":
-                name = asset.get("file").replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
-                self.meshes[asset.get("name") or name] = asset
+                file_stem = _file_name(asset.get("file")).rpartition(".")[0]
+                self.meshes[asset.get("name") or file_stem] = asset
             elif asset.tag == "model" and asset.children:
                 (inner,) = asset.children
                 self.models[asset.get("name") or inner.get("model")] = _Model(inner, count)
 
     def _add_defaults(self, node: Node, name: str, above: dict[str, dict[str, str]]) -> None:
-        own = self._classes[name] = {tag: dict(values) for tag, values in above.items()}
+        """Add a class of defaults and those in it. above: the values that it inherits, by tag."""
+        by_tag = {tag: dict(values) for tag, values in above.items()}
+        self._classes[name] = by_tag
         for child in node.children:
             if child.tag != "default":
-                own.setdefault(child.tag, {}).update(child.attributes)
+                by_tag.setdefault(child.tag, {}).update(child.attributes)
         for child in node.all("default"):
-            self._add_defaults(child, child.get("class"), own)
+            self._add_defaults(child, child.get("class"), by_tag)
 
     def attributes(self, node: Node, current: str = "main", tag: str = "") -> dict[str, str]:
         """Return the attributes of an element and its defaults. current: the class of those that
@@ -123,20 +128,27 @@ class _Model:
         """Return the mesh of an asset, which MuJoCo moves and turns before it scales it."""
         if node not in self._shapes:
             values = self.attributes(node)
-            scaled = _Frame(self, scale=numbers(values.get("scale", ""), 3, (1.0, 1.0, 1.0)))
+            # The file's own frame is moved and turned to `refpos` and `refquat`, back by them.
+            frame = _Frame(self, scale=numbers(values.get("scale", ""), 3, (1.0, 1.0, 1.0)))
             turn = _rotation({"quat": values["refquat"]} if "refquat" in values else {}, self)[0].T
-            size = scaled.scale_along(turn, values.get("refquat", ""))
-            pose = scaled.place(-turn @ numbers(values.get("refpos", ""), 3, (0.0, 0.0, 0.0)), turn)
+            size = frame.scale_along(turn, values.get("refquat", ""))
+            pose = frame.place(-turn @ numbers(values.get("refpos", ""), 3, (0.0, 0.0, 0.0)), turn)
             surface = _surface(values) if "vertex" in values else None
             if "builtin" in values:
                 surface = builtin_surface(values["builtin"], values.get("params", ""))
             path = values.get("file", "")
             if self.is_set("strippath"):
-                path = path.replace("\\", "/").rpartition("/")[2]
+                path = _file_name(path)
             folder = self.compiler.get("meshdir")
-            path = folder + "/" + path if folder and not path.startswith("/") else path
+            if folder and not path.startswith("/"):
+                path = folder + "/" + path
             self._shapes[node] = Shape("mesh", tuple(size.tolist()), pose, path, surface=surface)
         return self._shapes[node]
+
+
+def _file_name(path: str) -> str:
+    """Return the last part of a path with slashes of either kind."""
+    return path.replace("\\", "/").rpartition("/")[2]
 
 
 class _Frame(NamedTuple):
@@ -178,11 +190,11 @@ class _Frame(NamedTuple):
         values = node.attributes if node.tag == "frame" else {}
         position = numbers(values.get("pos", ""), 3, (0.0, 0.0, 0.0))
         text = values.get("scale", "")
-        own = numbers(text, 3) if len(text.split()) > 1 else np.full(3, number(text, 1.0))
-        if not ((own >= LEAST) & (own <= MOST)).all():
+        factors = numbers(text, 3) if len(text.split()) > 1 else np.full(3, number(text, 1.0))
+        if not ((factors >= LEAST) & (factors <= MOST)).all():
             raise ValueError(text)
-        scale = self.scale_along(turn, text or node.get("name")) * own
-        mass = self.mass * number(values.get("massscale", ""), float(own.prod()))
+        scale = self.scale_along(turn, text or node.get("name")) * factors
+        mass = self.mass * number(values.get("massscale", ""), float(factors.prod()))
         pose = Pose() if node.tag == "body" else self.place(position, turn)
         return self._replace(
             pose=pose, scale=scale, mass=mass, defaults=node.get("childclass") or self.defaults
@@ -212,12 +224,12 @@ class _Frame(NamedTuple):
             return [child for world in worlds for child in world.children], inner
         waiting = [(world, "main") for world in worlds]
         while waiting:
-            part, current = waiting.pop()
+            part, defaults = waiting.pop()
             check_size(1, next(model.count))
-            if part.get("name") == names.get(part.tag, part):
-                return [part], inner._replace(defaults=current)
-            current = part.get("childclass") or current
-            waiting += [(child, current) for child in part.children]
+            if part.tag in names and part.get("name") == names[part.tag]:
+                return [part], inner._replace(defaults=defaults)
+            defaults = part.get("childclass") or defaults
+            waiting += [(child, defaults) for child in part.children]
         raise ValueError(*names.values())
 
     def repeat(self, node: Node) -> list[_Frame]:
@@ -226,7 +238,7 @@ class _Frame(NamedTuple):
         check_size(1, count)
         offset = numbers(node.get("offset"), 3, (0.0, 0.0, 0.0))
         angles = numbers(node.get("euler"), 3, (0.0, 0.0, 0.0))
-        names = "{}{:0{}d}".format
+        digits = len(str(count - 1))
         position = np.zeros(3)
         frames = []
         for index in range(count):
@@ -234,7 +246,7 @@ class _Frame(NamedTuple):
             turn = _rotation({"euler": text}, self.model)[0]
             scale = self.scale_along(turn, node.get("euler"))
             # The names of inner copies come before those of outer ones.
-            suffix = names(node.get("sep"), index, len(str(count - 1))) + self.suffix
+            suffix = "{}{:0{}d}{}".format(node.get("sep"), index, digits, self.suffix)
             pose = self.place(position, turn)
             frames.append(self._replace(pose=pose, scale=scale, suffix=suffix, outer=self))
             position = position + turn @ offset
@@ -246,10 +258,13 @@ class _Frame(NamedTuple):
 
     def scale_along(self, turn: NDArray, text: str) -> Array:
         """Return the (3,) scale along turned axes. ValueError, with the text, if it would shear."""
+        if not np.ptp(self.scale):
+            return self.scale
+        # Axes that stay axes have entries of 0 and 1.
         along = np.abs(turn.T)
-        if np.ptp(self.scale) and np.abs(along * (1.0 - along)).max() > SQUARE_ATOL:
+        if np.abs(along * (1.0 - along)).max() > SQUARE_ATOL:
             raise ValueError(text)
-        return np.round(along) @ self.scale if np.ptp(self.scale) else self.scale
+        return np.round(along) @ self.scale
 
 
 def read(root: Node, data: bytes) -> Description:
@@ -259,28 +274,27 @@ def read(root: Node, data: bytes) -> Description:
     joints: list[StatedJoint] = []
     names = {node.get("name") for node in root.walk() if node.tag == "body"}
     for world in root.all("worldbody"):
-        refused: list[Finding] = []  # of frames of the world, which the bodies in them report
-        waiting = [("", part) for part in reversed([*_parts(world.children, outside, refused)])]
+        findings: list[Finding] = []  # of frames of the world, which the next body reports
+        waiting = [("", part) for part in reversed([*_parts(world.children, outside, findings)])]
         while waiting:
             parent, (body, above) = waiting.pop()
             if body.tag != "body":
                 continue
-            outer = attempt(refused, body, above.enter) or above._replace(pose=Pose())
-            parts = [*_parts(body.children, outer, refused)]
-            findings = [*refused]
+            frame = attempt(findings, body, above.enter) or above._replace(pose=Pose())
+            parts = [*_parts(body.children, frame, findings)]
             pose = attempt(findings, body, _body_pose, above)
-            motions = tuple(
-                motion
-                for node, frame in parts
+            motions = [
+                attempt(findings, node, _motion, frame_of_joint)
+                for node, frame_of_joint in parts
                 if node.tag in ("joint", "freejoint")
-                and (motion := attempt(findings, node, _motion, frame)) is not None
-            )
+            ]
             unnamed = "body {}".format(len(links) + 1)
             unnamed += " without name" * (unnamed in names)
-            link = _link(body, outer, parts, unnamed, findings)
+            link = _link(body, frame, parts, unnamed, findings)
             links.append(link)
-            joints.append(StatedJoint("", parent, link.name, pose or Pose(), motions, body.place))
-            refused = []
+            usable = tuple(motion for motion in motions if motion is not None)
+            joints.append(StatedJoint("", parent, link.name, pose or Pose(), usable, body.place))
+            findings = []
             waiting += ((link.name, part) for part in reversed(parts))
     total = parse_numbers(outside.model.compiler.get("settotalmass", ""))
     return Description(
@@ -301,11 +315,13 @@ def _motion(joint: Node, frame: _Frame) -> Motion:
     if kind == "hinge" and frame.model.compiler.get("angle") != "radian":
         unit = radians(1.0)
     name = frame.full_name(joint)
-    leader, powers = "", (0.0, 1.0)
+    leader = ""
+    powers = (0.0, 1.0)
+    # The equality may be in the joint's own model, or in one that attaches it and knows its prefix.
     scope: _Frame | None = frame
     while scope and not leader:
-        inner = name[len(scope.prefix) :].removesuffix(scope.suffix)
-        if follower := scope.model.followers.get(inner):
+        inner_name = name[len(scope.prefix) :].removesuffix(scope.suffix)
+        if follower := scope.model.followers.get(inner_name):
             leader = scope.prefix + follower.get("joint2") + scope.suffix
             powers = tuple(parse_numbers(follower.get("polycoef") or "0 1"))
         scope = scope.outer
@@ -349,20 +365,19 @@ def _link(
     outer: _Frame,
     parts: Sequence[tuple[Node, _Frame]],
     unnamed: str,
-    refused: Sequence[Finding],
+    findings: list[Finding],
 ) -> StatedLink:
-    """Return the link of a body. unnamed: its name if it states none."""
-    findings = [*refused]
+    """Return the link of a body. unnamed: its name if it states none. findings: those so far."""
     node, frame = next((part for part in parts if part[0].tag == "inertial"), (None, outer))
     inertial = attempt(findings, node, _inertial, frame)
     rules = attempt(findings, outer.model.root, lambda _: outer.model.rules())
     weighs = rules and (rules.from_shapes == "true" or node is None and rules.from_shapes == "auto")
-    read = (
+    geoms = [
         attempt(findings, geom, _shape, inner, findings, weighs)
         for geom, inner in parts
         if geom.tag == "geom"
-    )
-    shapes = tuple(shape for shape in read if shape is not None)
+    ]
+    shapes = tuple(shape for shape in geoms if shape is not None)
     name = outer.full_name(body) or unnamed
     values = {"inertial": inertial, "shapes": shapes, "moves": False, "rules": rules}
     link = stated_link(body, node, findings, name=name, **values)
@@ -445,52 +460,62 @@ def _shape(geom: Node, frame: _Frame, findings: list[Finding], weighs: bool) -> 
     """
     model = frame.model
     attributes = model.attributes(geom, frame.defaults)
-    text = geom.get("name")
     rotation, angles, _ = _rotation(attributes, model)
     pose = Pose(numbers(attributes.get("pos", ""), 3, (0.0, 0.0, 0.0)), rotation)
     kind = attributes.get("type", "sphere")
-    asset = model.meshes.get(attributes.get("mesh", ""))
     inertia = "shell" if attributes.get("shellinertia") == "true" else ""
     fit = None
     if kind == "mesh" or "mesh" in attributes and kind in SIZES:
+        asset = model.meshes.get(attributes.get("mesh", ""))
         shape = Shape("mesh") if asset is None else attempt(findings, asset, model.mesh)
         shape = shape and replace(shape, pose=pose @ shape.pose)
-        kinds = model.attributes(asset).get("inertia", LEGACY) if asset else LEGACY
+        mesh_inertia = model.attributes(asset).get("inertia", LEGACY) if asset else LEGACY
         if kind == "mesh":
-            inertia = kinds
+            inertia = mesh_inertia
         else:
-            size = number(attributes.get("fitscale", ""), 1.0)
-            fit = Fit(kind, kinds, model.is_set("fitaabb"), size)
+            factor = number(attributes.get("fitscale", ""), 1.0)
+            fit = Fit(kind, mesh_inertia, model.is_set("fitaabb"), factor)
     else:
         shape = _primitive(kind, attributes, pose)
     if shape is None:
         return None
-    turn = shape.pose.rotation
-    is_turned = bool((shape.pose.rotation != rotation).any())
-    scale = frame.scale_along(turn, text)
-    round_axes = {"sphere": 3, "capsule": 2, "cylinder": 2}.get(shape.kind, 0)
-    if round_axes and np.ptp(scale[:round_axes]):
-        raise ValueError(text)  # It is no longer round.
-    factors = scale[[0, 2]] if round_axes == 2 else scale[: len(shape.size)]
-    size = tuple((np.array(shape.size) * factors).tolist())
-    shape = replace(shape, size=size, pose=frame.place(shape.pose.position, turn))
+    is_as_stated = frame.is_plain and bool((shape.pose.rotation == rotation).all())
     collides = attributes.get("contype", "1") != "0" or attributes.get("conaffinity", "1") != "0"
+    scaled = _scaled(shape, frame, geom.get("name"))
     groups = numbers(model.compiler.get("inertiagrouprange", ""), 2, (0.0, 5.0))
-    weight = None
-    if weighs and groups[0] <= number(attributes.get("group", ""), 0.0) <= groups[1]:
-        mass = attributes.get("mass")
-        size = float(frame.scale.prod()) ** (2.0 / 3.0 if inertia == "shell" else 1.0)
-        density = number(attributes.get("density", ""), WATER) * frame.mass / size
-        weight = Weight(None if mass is None else number(mass) * frame.mass, density, inertia)
+    counts = weighs and groups[0] <= number(attributes.get("group", ""), 0.0) <= groups[1]
     return StatedShape(
-        shape,
+        scaled,
         "collision" if collides else "visual",
-        angles if frame.is_plain and not is_turned else None,
+        angles if is_as_stated else None,
         geom.place,
         model.root.place.file,
         fit,
-        weight,
+        _weight(attributes, frame, inertia) if counts else None,
     )
+
+
+def _scaled(shape: Shape, frame: _Frame, name: str) -> Shape:
+    """Return a shape of a frame in the body. ValueError, with the name, if it is no longer round,
+    or sheared.
+    """
+    turn = shape.pose.rotation
+    scale = frame.scale_along(turn, name)
+    round_axes = {"sphere": 3, "capsule": 2, "cylinder": 2}.get(shape.kind, 0)
+    if round_axes and np.ptp(scale[:round_axes]):
+        raise ValueError(name)
+    factors = scale[[0, 2]] if round_axes == 2 else scale[: len(shape.size)]
+    size = tuple((np.array(shape.size) * factors).tolist())
+    return replace(shape, size=size, pose=frame.place(shape.pose.position, turn))
+
+
+def _weight(attributes: dict[str, str], frame: _Frame, inertia: str) -> Weight:
+    """Return the mass of a geom. inertia: as of a Weight."""
+    mass = attributes.get("mass")
+    # The frame scales the mass, so the density of the scaled volume or area changes by the rest.
+    content = float(frame.scale.prod()) ** (2.0 / 3.0 if inertia == "shell" else 1.0)
+    density = number(attributes.get("density", ""), WATER) * frame.mass / content
+    return Weight(None if mass is None else number(mass) * frame.mass, density, inertia)
 
 
 def _primitive(kind: str, attributes: dict[str, str], pose: Pose) -> Shape | None:

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from math import radians
 
@@ -14,7 +14,6 @@ from ...numerics import rotation_matrix
 from ...verdict import Finding
 from ..model import Pose
 from ..stated import (
-    ENTRIES,
     Angles,
     Description,
     Motion,
@@ -31,78 +30,91 @@ from .xml import (
     NOWHERE,
     Node,
     attempt,
+    attempt_all,
     axis_of,
     check_names,
     number,
     numbers,
     read_shapes,
     stated_link,
+    symmetric_tensor,
 )
 
 KINDS = ("box", "ellipsoid", "sphere", "cylinder", "capsule")
+TRUE = ("true", "1")
 OWN = "__model__"  # the name of a model's frame within itself
-HINGES = ("revolute", "continuous", "universal", "revolute2")
+MOTIONS = {
+    "revolute": "hinge",
+    "continuous": "hinge",
+    "universal": "hinge",
+    "revolute2": "hinge",
+    "prismatic": "slide",
+}
 
 
 def read(root: Node, data: bytes) -> Description:
     """Return a description from the element `sdf`: all links, wherever their models are."""
-    models = [node for node in root.walk() if node.tag == "model"]
+    nodes = [node for node in root.walk() if node.tag == "model"]
     # Siblings have names of their own; content of plugins is free.
-    for node in (root, *root.all("world"), *models):
+    for node in (root, *root.all("world"), *nodes):
         for tag in ("model", "link", "joint"):
-            check_names("sdf", [(one.get("name"), one.place) for one in node.all(tag)])
-    scopes: dict[Node, _Scope] = {}
-    outer = {inner: model for model in models for inner in model.all("model")}
-    scopes.update((model, _Scope(model, scopes)) for model in models)
-    is_one = len(models) - len(outer) == 1
+            check_names("sdf", [(child.get("name"), child.place) for child in node.all(tag)])
+    outer_of = {inner: node for node in nodes for inner in node.all("model")}
+    is_single = len(nodes) - len(outer_of) == 1
+    models: dict[Node, _Model] = {}
+    for node in nodes:  # outer ones first
+        outer = models[outer_of[node]] if node in outer_of else None
+        prefix = node.get("name") + "::" if len(nodes) > 1 else ""
+        models[node] = _Model(node, outer, is_single, prefix)
     findings: list[Finding] = []
-
-    def in_world(model: Node) -> Pose:
-        """Return the pose of a model in the world, or of a single one in itself."""
-        if model not in outer:
-            return Pose() if is_one else _pose(model)[0]
-        return in_world(outer[model]) @ scopes[outer[model]].pose(model.get("name"))
-
-    def place(node: Node, model: Node) -> Pose:
-        """Return the pose of a link or joint of a model."""
-        return in_world(model) @ scopes[model].pose(node.get("name"))
-
-    several = len(models) > 1
     links = tuple(
-        replace(
-            _link(node, model, scopes[model], several), pose=attempt(findings, node, place, model)
-        )
-        for model in models
-        for node in model.all("link")
+        replace(_link(node, model), pose=attempt(findings, node, model.place))
+        for model in models.values()
+        for node in model.node.all("link")
     )
-    joints = [
-        attempt(findings, node, _joint, model, scopes[model], place, several)
-        for model in models
-        for node in model.all("joint")
-    ]
-    return Description(
-        models[0].get("name") if models else "",
-        "sdf",
-        links,
-        data,
-        joints=tuple(joint for joint in joints if joint is not None),
-        findings=tuple(findings),
+    joints = tuple(
+        joint
+        for model in models.values()
+        for joint in attempt_all(findings, model.node.all("joint"), _joint, model)
     )
+    name = nodes[0].get("name") if nodes else ""
+    return Description(name, "sdf", links, data, joints=joints, findings=tuple(findings))
 
 
-class _Scope:
-    """The frames of a model by their names, each in another one of them. scopes: those of all
-    models.
+class _Model:
+    """A model, and its frames by their names, each in another one of them.
+
+    outer: the model that it is in. is_single: True if no other model has no outer one; its frame is
+    then the world's. prefix: of the names of its links.
     """
 
-    def __init__(self, model: Node, scopes: dict[Node, _Scope]) -> None:
-        frames = [
-            child for child in model.children if child.tag in ("link", "joint", "frame", "model")
-        ]
-        self._model = model
-        self._frames = {frame.get("name"): frame for frame in frames}
-        self._scopes = scopes
+    def __init__(self, node: Node, outer: _Model | None, is_single: bool, prefix: str) -> None:
+        self.node = node
+        self._outer = outer
+        self._is_single = is_single
+        self._prefix = prefix
+        self._inner: dict[str, _Model] = {}
+        if outer is not None:
+            outer._inner[node.get("name")] = self
+        self._frames = {
+            child.get("name"): child
+            for child in node.children
+            if child.tag in ("link", "joint", "frame", "model")
+        }
         self._poses = {OWN: Pose()}
+
+    def link_name(self, link: Node) -> str:
+        """Return the name of a link of the model in the description."""
+        return self._prefix + link.get("name")
+
+    def place(self, node: Node) -> Pose:
+        """Return the pose of a link, joint or model of the model in the world."""
+        return self._in_world() @ self.pose(node.get("name"))
+
+    def _in_world(self) -> Pose:
+        if self._outer is not None:
+            return self._outer.place(self.node)
+        return Pose() if self._is_single else _pose(self.node)[0]
 
     def pose(self, name: str, depth: int = 0) -> Pose:
         """Return the pose of a frame in the model. ValueError if it is unknown, or in itself."""
@@ -111,95 +123,87 @@ class _Scope:
             node = self._frames.get(first)
             if node is None or rest and node.tag != "model" or depth > MAX_DEPTH:
                 raise ValueError(name)
-            default = {"joint": _text(node, "child"), "frame": node.get("attached_to")}.get(
-                node.tag
-            )
-            own, _, _, outer = _pose(node)
-            pose = self.pose(outer or default or OWN, depth + 1) @ own
-            if node.tag == "model":
-                inner = self._scopes[node]
-                place = node.get("placement_frame") or OWN
-                pose = (
-                    pose
-                    @ inner.pose(place, depth + 1).inverse()
-                    @ inner.pose(rest or OWN, depth + 1)
-                )
+            defaults = {"joint": _text(node, "child"), "frame": node.get("attached_to")}
+            relative, _, _, outer = _pose(node)
+            outer = outer or defaults.get(node.tag) or OWN
+            pose = self.pose(outer, depth + 1) @ relative
+            if node.tag == "model":  # The pose is that of its placement frame.
+                inner = self._inner[first]
+                placement = inner.pose(node.get("placement_frame") or OWN, depth + 1)
+                pose = pose @ placement.inverse() @ inner.pose(rest or OWN, depth + 1)
             self._poses[name] = pose
         return self._poses[name]
 
-    def link_of(self, name: str, depth: int = 0) -> tuple[Node, Node | None]:
+    def link_of(self, name: str, depth: int = 0) -> tuple[_Model, Node | None]:
         """Return the model and the link that a frame is fixed to; without one, the name is
         unknown.
         """
         first, _, rest = name.partition("::")
         node = self._frames.get(first)
         if node is None or depth > MAX_DEPTH or node.tag == "link":
-            return self._model, node
+            return self, node
         if node.tag == "model":
-            inner = self._scopes[node]
             canonical = node.get("canonical_link") or next(
                 (link.get("name") for link in node.all("link")), ""
             )
-            return inner.link_of(rest or canonical, depth + 1)
+            return self._inner[first].link_of(rest or canonical, depth + 1)
         return self.link_of(_text(node, "child") or node.get("attached_to"), depth + 1)
 
 
-def _joint(
-    node: Node, model: Node, scope: _Scope, place: Callable[[Node, Node], Pose], several: bool
-) -> StatedJoint:
-    """Return a joint between links. place: returns the pose of a link or joint of a model. several:
-    True if the names of links need their model's.
-    """
+def _joint(node: Node, model: _Model) -> StatedJoint:
     name = node.get("name")
-    kind = node.get("type")
-    kind = "hinge" if kind in HINGES else {"prismatic": "slide"}.get(kind, kind)
-    links = {tag: scope.link_of(_text(node, tag)) for tag in ("parent", "child")}
-    ends = {
-        tag: _text(node, tag) if link is None else _link_name(link, inner, several)
-        for tag, (inner, link) in links.items()
-    }
-    inner, child = links["child"]
-    motions = [Motion(name, kind)]
-    if child is not None and kind in ("hinge", "slide"):
-        own = place(child, inner).inverse() @ place(node, model)
-        motions = []
-        for tag, label in (("axis", name), ("axis2", name + " axis2")):
-            element = node.find(tag, "xyz")
-            frame = "" if element is None else element.get("expressed_in")
-            if node.find(tag) or tag == "axis":
-                turn = own.rotation
-                if frame:
-                    turn = (own @ scope.pose(name).inverse() @ scope.pose(frame)).rotation
-                axis = axis_of("" if element is None else element.text, (0.0, 0.0, 1.0))
-                motion = Motion(label, kind, turn @ axis, own.position)
-                if mimic := node.find(tag, "mimic"):
-                    leader = mimic.get("joint") + " axis2" * (mimic.get("axis") == "axis2")
-                    factor = number(_text(mimic, "multiplier"), 1.0)
-                    offset = number(_text(mimic, "offset"), 0.0)
-                    offset -= factor * number(_text(mimic, "reference"), 0.0)
-                    motion = motion._replace(leader=leader, powers=(offset, factor))
-                motions.append(motion)
-    parent = "" if ends["parent"] == "world" else ends["parent"] or "?"
-    return StatedJoint(name, parent, ends["child"], None, tuple(motions), node.place)
+    parent = _text(node, "parent")
+    child = _text(node, "child")
+    parent_model, parent_link = model.link_of(parent)
+    child_model, child_link = model.link_of(child)
+    if parent_link is not None:
+        parent = parent_model.link_name(parent_link)
+    kind = MOTIONS.get(node.get("type"), node.get("type"))
+    motions = (Motion(name, kind),)
+    if child_link is not None:
+        child = child_model.link_name(child_link)
+        if kind in ("hinge", "slide"):
+            in_child = child_model.place(child_link).inverse() @ model.place(node)
+            motions = tuple(_motions(node, kind, model, in_child))
+    parent = "" if parent == "world" else parent or "?"
+    return StatedJoint(name, parent, child, None, motions, node.place)
 
 
-def _link_name(link: Node, model: Node, several: bool) -> str:
-    name = link.get("name")
-    return "{}::{}".format(model.get("name"), name) if several else name
+def _motions(node: Node, kind: str, model: _Model, pose: Pose) -> Iterator[Motion]:
+    """Yield the motions along the axes of a joint. pose: of the joint in the child."""
+    name = node.get("name")
+    for tag, label in (("axis", name), ("axis2", name + " axis2")):
+        if tag == "axis2" and node.find(tag) is None:
+            continue
+        element = node.find(tag, "xyz")
+        frame = element.get("expressed_in") if element else ""
+        turn = pose.rotation
+        if frame:
+            turn = (pose @ model.pose(name).inverse() @ model.pose(frame)).rotation
+        axis = axis_of(element.text if element else "", (0.0, 0.0, 1.0))
+        motion = Motion(label, kind, turn @ axis, pose.position)
+        if mimic := node.find(tag, "mimic"):
+            leader = mimic.get("joint") + " axis2" * (mimic.get("axis") == "axis2")
+            factor = number(_text(mimic, "multiplier"), 1.0)
+            offset = number(_text(mimic, "offset"), 0.0)
+            offset -= factor * number(_text(mimic, "reference"), 0.0)
+            motion = motion._replace(leader=leader, powers=(offset, factor))
+        yield motion
 
 
-def _link(node: Node, model: Node, scope: _Scope, several: bool) -> StatedLink:
+def _link(node: Node, model: _Model) -> StatedLink:
     findings: list[Finding] = []
     element = node.find("inertial")
-    is_auto = element is not None and element.get("auto") in ("true", "1")
+    is_auto = element is not None and element.get("auto") in TRUE
     inertial = None if is_auto else attempt(findings, element, _inertial)
 
     def pose_of(part: Node) -> tuple[Pose, Angles | None]:
+        """Return the pose of a part in the link, and its angles if they are in the link's frame."""
         pose, angles, _, frame = _pose(part)
         if not frame:
             return pose, angles
         try:
-            return scope.pose(node.get("name")).inverse() @ scope.pose(frame) @ pose, None
+            return model.pose(node.get("name")).inverse() @ model.pose(frame) @ pose, None
         except ValueError as error:
             raise ValueError(frame) from error
 
@@ -207,10 +211,9 @@ def _link(node: Node, model: Node, scope: _Scope, several: bool) -> StatedLink:
     rules = None
     if is_auto:
         shapes, rules = attempt(findings, node, _weights, element, shapes) or (shapes, None)
-    static = _text(model, "static") in ("true", "1")
-    name = _link_name(node, model, several)
-    moves = not static and (is_auto or bool(shapes) and element is None)
-    values = {"name": name, "inertial": inertial, "shapes": shapes, "rules": rules}
+    is_static = _text(model.node, "static") in TRUE
+    moves = not is_static and (is_auto or bool(shapes) and element is None)
+    values = {"name": model.link_name(node), "inertial": inertial, "shapes": shapes, "rules": rules}
     return stated_link(node, element, findings, moves=moves, **values)
 
 
@@ -234,15 +237,17 @@ def _weights(
 
 
 def _text(node: Node, *path: str) -> str:
-    found = node.find(*path)
-    return "" if found is None else found.text.strip()
+    """Return the text of the element along a path of tags, "" if there is none."""
+    element = node.find(*path)
+    return "" if element is None else element.text.strip()
 
 
 def _inertial(node: Node) -> StatedInertial:
     pose, angles, quaternion, _ = _pose(node)
-    tensor = np.eye(3)
-    for name, i, j in ENTRIES:
-        tensor[i, j] = tensor[j, i] = number(_text(node, "inertia", name), float(i == j))
+    # The default is the unit tensor.
+    tensor = symmetric_tensor(
+        lambda name: number(_text(node, "inertia", name), float(name[1] == name[2]))
+    )
     mass = number(_text(node, "mass"), 1.0)
     return StatedInertial(mass, pose.position, tensor, pose.rotation, angles, quaternion)
 
@@ -258,16 +263,10 @@ def _pose(node: Node) -> tuple[Pose, Angles | None, tuple[float, ...] | None, st
         x, y, z, qx, qy, qz, qw = numbers(text, 7, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)).tolist()
         if not any((qx, qy, qz, qw)):
             raise ValueError(text)
-        return (
-            Pose(np.array([x, y, z]), rotation_matrix([qw, qx, qy, qz])),
-            None,
-            (qw, qx, qy, qz),
-            frame,
-        )
+        quaternion = (qw, qx, qy, qz)
+        return Pose(np.array([x, y, z]), rotation_matrix(quaternion)), None, quaternion, frame
     values = numbers(text, 6, (0.0,) * 6)
     roll, pitch, yaw = values[3:].tolist()
-    if element.get("degrees") in ("true", "1"):
-        roll = radians(roll)
-        pitch = radians(pitch)
-        yaw = radians(yaw)
+    if element.get("degrees") in TRUE:
+        roll, pitch, yaw = map(radians, (roll, pitch, yaw))
     return Pose(values[:3], rotation_of_angles(roll, pitch, yaw)), (roll, pitch, yaw), None, frame

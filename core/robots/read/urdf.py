@@ -2,12 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reader of URDF: the inertials and shapes of its links, and its joints."""
 
-import numpy as np
-
 from ...verdict import Finding
 from ..model import Pose
 from ..stated import (
-    ENTRIES,
     Angles,
     Description,
     Motion,
@@ -16,7 +13,17 @@ from ..stated import (
     StatedLink,
     rotation_of_angles,
 )
-from .xml import Node, attempt, axis_of, number, numbers, read_shapes, stated_link
+from .xml import (
+    Node,
+    attempt,
+    attempt_all,
+    axis_of,
+    number,
+    numbers,
+    read_shapes,
+    stated_link,
+    symmetric_tensor,
+)
 
 KINDS = {"revolute": "hinge", "continuous": "hinge", "prismatic": "slide"}
 
@@ -24,13 +31,13 @@ KINDS = {"revolute": "hinge", "continuous": "hinge", "prismatic": "slide"}
 def read(root: Node, data: bytes) -> Description:
     """Return a description from the element `robot`."""
     findings: list[Finding] = []
-    joints = [attempt(findings, node, _joint) for node in root.all("joint")]
+    joints = attempt_all(findings, root.all("joint"), _joint)
     return Description(
         root.get("name"),
         "urdf",
         tuple(map(_link, root.all("link"))),
         data,
-        joints=tuple(joint for joint in joints if joint is not None),
+        joints=joints,
         findings=tuple(findings),
     )
 
@@ -66,10 +73,9 @@ def _link(node: Node) -> StatedLink:
 
 def _inertial(node: Node) -> StatedInertial:
     pose, angles = _origin(node)
-    mass, inertia = node.find("mass"), node.find("inertia")
-    tensor = np.zeros((3, 3))
-    for name, i, j in ENTRIES:
-        tensor[i, j] = tensor[j, i] = number(inertia.get(name) if inertia else "", 0.0)
+    mass = node.find("mass")
+    inertia = node.find("inertia")
+    tensor = symmetric_tensor(lambda name: number(inertia.get(name) if inertia else "", 0.0))
     return StatedInertial(
         number(mass.get("value") if mass else "", 0.0), pose.position, tensor, pose.rotation, angles
     )

@@ -120,8 +120,9 @@ class _Parser:
         if wrong is not None:
             raise _invalid(text, wrong)
         self.index = 0
-        self.count = 0
-        self.line, self.counted = 1, 0
+        self.count = 0  # of prims
+        self.line = 1  # of the character at `counted`
+        self.counted = 0
 
     def peek(self) -> str:
         return self.tokens[self.index][0] if self.index < len(self.tokens) else ""
@@ -212,27 +213,21 @@ def _description(text: str, data: bytes) -> Description:
         if parser.peek() not in _SPECIFIERS:
             raise _invalid(text, parser.tokens[parser.index][1])
         roots.append(parser.prim(0))
-    by_path = _resolve(roots)
-    scales = {
-        "length": _scale(metadata, "metersPerUnit", 0.01),
-        "mass": _scale(metadata, "kilogramsPerUnit", 1.0),
-    }
-    links: list[StatedLink] = []
-    joints: list[tuple[str, Prim]] = []
+    length = _scale(metadata, "metersPerUnit", 0.01)
+    mass = _scale(metadata, "kilogramsPerUnit", 1.0)
+    stage = _Stage(_resolve(roots), length, mass)
     for root in roots:
-        _visit(root, np.eye(4), root.name, scales, links, joints, by_path)
-    by_name = {link.name: link for link in links}
+        stage.visit(root, np.eye(4), root.name)
+    links = {link.name: link for link in stage.links}
     findings: list[Finding] = []
-    usable = [
-        attempt(findings, prim, _joint, path, by_name, scales["length"]) for path, prim in joints
-    ]
+    joints = [attempt(findings, prim, _joint, path, links, length) for path, prim in stage.joints]
     return Description(
         roots[0].name if roots else "",
         "usd",
-        tuple(links),
+        tuple(stage.links),
         data,
-        scales,
-        joints=tuple(one for one in usable if one is not None),
+        {"length": length, "mass": mass},
+        joints=tuple(joint for joint in joints if joint is not None),
         findings=tuple(findings),
     )
 
@@ -249,9 +244,10 @@ def _resolve(roots: list[Prim]) -> dict[str, Prim]:
         waiting += [(path + "/" + child.name, child) for child in prim.children]
     for prim in by_path.values():
         match = _REFERENCE.search(prim.metadata)
-        other = by_path.get(match[1]) if match else None
-        if other is not None:
-            prim.kind, prim.values = prim.kind or other.kind, other.values | prim.values
+        target = by_path.get(match[1]) if match else None
+        if target is not None:
+            prim.kind = prim.kind or target.kind
+            prim.values = target.values | prim.values
     return by_path
 
 
@@ -263,30 +259,137 @@ def _scale(metadata: str, name: str, default: float) -> float:
     return scale
 
 
-def _visit(
-    prim: Prim,
-    above: NDArray,
-    path: str,
-    scales: Mapping[str, float],
-    links: list[StatedLink],
-    joints: list[tuple[str, Prim]],
-    materials: Mapping[str, Prim],
-    is_within: bool = False,
-) -> None:
-    """Add the links and joints at and below a prim. is_within: True in a body, whose parts are no
-    links.
+class _Stage:
+    """The prims of a layer by their paths, its units in m and kg, and its bodies and joints so
+    far, the latter with their paths.
     """
-    matrix = _placed(prim, above)
-    # Joints that close a loop are marked.
-    if prim.kind in JOINTS and prim.values.get("physics:excludeFromArticulation") not in TRUE:
-        joints.append((path, prim))
-    is_body = "PhysicsRigidBodyAPI" in prim.metadata
-    is_fixed = "MassAPI" in prim.metadata and "PhysicsCollisionAPI" not in prim.metadata
-    if is_body or is_fixed and not is_within:
-        links.append(_link(prim, matrix, path, scales, materials))
-    for child in prim.children:
-        below = path + "/" + child.name
-        _visit(child, matrix, below, scales, links, joints, materials, is_within or is_body)
+
+    def __init__(self, prims: Mapping[str, Prim], length: float, mass: float) -> None:
+        self.prims = prims
+        self.length = length
+        self.mass = mass
+        self.inertia = length**2 * mass  # the unit, kg·m²
+        self.links: list[StatedLink] = []
+        self.joints: list[tuple[str, Prim]] = []
+
+    def visit(self, prim: Prim, above: NDArray, path: str, is_within: bool = False) -> None:
+        """Add the bodies and joints at and below a prim. above: the matrix of its parent.
+        is_within: True in a body, whose parts are no bodies of their own.
+        """
+        matrix = _placed(prim, above)
+        # Joints that close a loop are marked.
+        if prim.kind in JOINTS and prim.values.get("physics:excludeFromArticulation") not in TRUE:
+            self.joints.append((path, prim))
+        is_body = "PhysicsRigidBodyAPI" in prim.metadata
+        is_fixed = "MassAPI" in prim.metadata and "PhysicsCollisionAPI" not in prim.metadata
+        if is_body or is_fixed and not is_within:
+            self.links.append(self._link(prim, matrix, path))
+        for child in prim.children:
+            self.visit(child, matrix, path + "/" + child.name, is_within or is_body)
+
+    def _link(self, prim: Prim, matrix: NDArray, path: str) -> StatedLink:
+        """Return a body in the axes of its prim, in meters; the prim's scale is applied to its
+        shapes and its center. matrix: (4, 4), from the prim to the world.
+        """
+        findings: list[Finding] = []
+        frame = Pose(matrix[:3, 3], _turn(matrix))
+        to_link = frame.inverse().matrix
+        rules = attempt(findings, prim, self._rules, to_link @ matrix)
+        inertials = rules and attempt(findings, prim, self._inertials, rules)
+        inertial, overridden = inertials or (None, None)
+        density = rules and attempt(findings, prim, Prim.number, "physics:density", 0.0)
+        if rules is None or inertial is not None and rules.center is not None or findings:
+            rules = None
+        elif inertial is not None and inertial.quaternion is None:
+            moments, axes = np.linalg.eigh(inertial.tensor)
+            rules = rules._replace(moments=moments, axes=axes)
+        shapes = []
+        for part, place in _parts(prim, matrix):
+            shape = attempt(findings, part, _shape, to_link @ place, self.length)
+            if shape is None:
+                continue
+            if rules is not None and shape.role == "collision":
+                weight = attempt(findings, part, self._weight, density or 0.0)
+                of_shape = attempt(findings, part, self._rules, to_link @ place)
+                if of_shape and of_shape.axes is None and of_shape.moments is not None:
+                    of_shape = of_shape._replace(axes=_turn(to_link @ place))
+                shape = replace(
+                    shape, weight=weight, rules=of_shape and of_shape._replace(mass=0.0)
+                )
+            shapes.append(shape)
+        return StatedLink(
+            path,
+            inertial,
+            tuple(shapes),
+            (len(prim.text[: prim.start].encode()), len(prim.text[: prim.end].encode())),
+            moves="PhysicsRigidBodyAPI" in prim.metadata,
+            rules=rules,
+            findings=tuple(findings),
+            local=to_link @ matrix,
+            place=Place(prim.line),
+            inertial_place=Place(prim.line),
+            overridden=overridden,
+            pose=Pose(frame.position * self.length, frame.rotation),
+        )
+
+    def _inertials(
+        self, prim: Prim, rules: Rules
+    ) -> tuple[StatedInertial | None, StatedInertial | None]:
+        """Return the stated inertial, and the one that `newton:inertia` overrides; None for those
+        that come from the colliders. rules: those of the prim.
+        """
+        mass = prim.number("physics:mass", 0.0) * self.mass
+        center = np.zeros(3) if rules.center is None else rules.center
+        of_moments = None
+        if mass and rules.moments is not None:
+            quaternion = (1.0, 0.0, 0.0, 0.0)
+            of_moments = StatedInertial(mass, center, np.diag(rules.moments), quaternion=quaternion)
+            if rules.axes is not None:
+                stated = tuple(prim.vector("physics:principalAxes", quaternion).tolist())
+                of_moments = replace(of_moments, rotation=rules.axes, quaternion=stated)
+        entries = (
+            prim.values.get("newton:inertia", "None") if "NewtonMassAPI" in prim.metadata else ""
+        )
+        if not mass or not _FIELD.search(entries) or entries == "None":
+            return of_moments, None
+        xx, yy, zz, xy, xz, yz = prim.vector("newton:inertia", (0.0,) * 6)
+        tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+        return StatedInertial(mass, center, tensor * self.inertia), of_moments
+
+    def _rules(self, prim: Prim, local: NDArray) -> Rules:
+        """Return the values of PhysicsMassAPI that replace those of colliders, as
+        `UsdPhysics.RigidBodyAPI.ComputeMassProperties` uses them: a center that is finite, other
+        values that are not zero. local: (4, 4), from the prim to the link.
+        """
+        center = prim.vector("physics:centerOfMass", (-inf, -inf, -inf))
+        moments = prim.vector("physics:diagonalInertia", (0.0, 0.0, 0.0)) * self.inertia
+        axes = prim.vector("physics:principalAxes", (0.0, 0.0, 0.0, 0.0))
+        place = (local[:3, :3] @ center + local[:3, 3]) * self.length
+        return Rules(
+            mass=max(prim.number("physics:mass", 0.0), 0.0) * self.mass,
+            center=None if np.isinf(center).all() else place,
+            moments=moments if moments.any() else None,
+            axes=_turn(local) @ rotation_matrix(axes) if axes.any() else None,
+            radius=BALL_RADIUS,
+        )
+
+    def _weight(self, prim: Prim, density: float) -> Weight:
+        """Return the mass of a collider. density: that of its body, 0 if it has none.
+
+        Mass comes before density, the collider's before the body's, and both before its material's.
+        """
+        bound = prim.values.get("material:binding:physics") or prim.values.get(
+            "material:binding", ""
+        )
+        material = self.prims.get(bound.strip("[]<> "))
+        densities = [prim.number("physics:density", 0.0), density]
+        if material is not None:
+            densities.append(material.number("physics:density", 0.0))
+        unit = self.mass / self.length**3
+        mass = prim.number("physics:mass", 0.0) * self.mass
+        first = next((value * unit for value in densities if value > 0.0), WATER)
+        is_hull = prim.values.get("physics:approximation", "").strip("\"'") == "convexHull"
+        return Weight(mass if mass > 0.0 else None, first, "convex" if is_hull else CLOSED)
 
 
 def _joint(prim: Prim, path: str, links: Mapping[str, StatedLink], unit: float) -> StatedJoint:
@@ -358,128 +461,10 @@ def _placed(prim: Prim, above: NDArray) -> Array:
     return np.asarray(matrix, np.float64)
 
 
-def _link(
-    prim: Prim,
-    matrix: NDArray,
-    path: str,
-    scales: Mapping[str, float],
-    materials: Mapping[str, Prim],
-) -> StatedLink:
-    """Return a body in the axes of its prim, in meters; the prim's scale is applied to its shapes
-    and its center.
-    """
-    findings: list[Finding] = []
-    turn = _turn(matrix)
-    to_link = np.eye(4)
-    to_link[:3, :3] = turn.T
-    to_link[:3, 3] = -turn.T @ matrix[:3, 3]
-
-    rules = attempt(findings, prim, _rules, to_link @ matrix, scales)
-    stated = rules and attempt(findings, prim, _inertials, rules, scales)
-    inertial, overridden = stated or (None, None)
-    density = rules and attempt(findings, prim, Prim.number, "physics:density", 0.0)
-    if rules is None or inertial is not None and rules.center is not None or findings:
-        rules = None
-    elif inertial is not None and inertial.quaternion is None:
-        moments, axes = np.linalg.eigh(inertial.tensor)
-        rules = rules._replace(moments=moments, axes=axes)
-    shapes = []
-    for part, place in _parts(prim, matrix):
-        shape = attempt(findings, part, _shape, to_link @ place, scales["length"])
-        if shape is not None and rules is not None and shape.role == "collision":
-            weight = attempt(findings, part, _weight, density or 0.0, materials, scales)
-            own = attempt(findings, part, _rules, to_link @ place, scales)
-            if own and own.axes is None and own.moments is not None:
-                own = own._replace(axes=_turn(to_link @ place))
-            shape = replace(shape, weight=weight, rules=own and own._replace(mass=0.0))
-        if shape is not None:
-            shapes.append(shape)
-    span = len(prim.text[: prim.start].encode()), len(prim.text[: prim.end].encode())
-    place = Place(prim.line)
-    return StatedLink(
-        path,
-        inertial,
-        tuple(shapes),
-        span,
-        moves="PhysicsRigidBodyAPI" in prim.metadata,
-        rules=rules,
-        findings=tuple(findings),
-        local=to_link @ matrix,
-        place=place,
-        inertial_place=place,
-        overridden=overridden,
-        pose=Pose(matrix[:3, 3] * scales["length"], turn),
-    )
-
-
 def _turn(matrix: NDArray) -> Array:
     """Return the (3, 3) rotation of a (4, 4) matrix, without its scale and its mirroring."""
     turn = polar_rotation(matrix[None])[0][0]
     return -turn if np.linalg.det(turn) < 0.0 else turn
-
-
-def _inertials(
-    prim: Prim, rules: Rules, scales: Mapping[str, float]
-) -> tuple[StatedInertial | None, StatedInertial | None]:
-    """Return the stated inertial, and the one that `newton:inertia` overrides; None for those that
-    come from the colliders. rules: those of the prim.
-    """
-    mass = prim.number("physics:mass", 0.0) * scales["mass"]
-    center = np.zeros(3) if rules.center is None else rules.center
-    own = None
-    if mass and rules.moments is not None:
-        own = StatedInertial(mass, center, np.diag(rules.moments), quaternion=(1.0, 0.0, 0.0, 0.0))
-        if rules.axes is not None:
-            order = prim.vector("physics:principalAxes", (1.0, 0.0, 0.0, 0.0)).tolist()
-            own = replace(own, rotation=rules.axes, quaternion=tuple(order))
-    entries = prim.values.get("newton:inertia", "None") if "NewtonMassAPI" in prim.metadata else ""
-    if not mass or not _FIELD.search(entries) or entries == "None":
-        return own, None
-    xx, yy, zz, xy, xz, yz = prim.vector("newton:inertia", (0.0,) * 6)
-    tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    return StatedInertial(mass, center, tensor * _unit(scales)), own
-
-
-def _unit(scales: Mapping[str, float]) -> float:
-    """Return the stage's unit of inertia, kg·m²."""
-    return scales["length"] ** 2 * scales["mass"]
-
-
-def _rules(prim: Prim, local: NDArray, scales: Mapping[str, float]) -> Rules:
-    """Return the values of PhysicsMassAPI that replace those of colliders, as
-    `UsdPhysics.RigidBodyAPI.ComputeMassProperties` uses them: a center that is finite, other
-    values that are not zero.
-    """
-    center = prim.vector("physics:centerOfMass", (-inf, -inf, -inf))
-    moments = prim.vector("physics:diagonalInertia", (0.0, 0.0, 0.0)) * _unit(scales)
-    axes = prim.vector("physics:principalAxes", (0.0, 0.0, 0.0, 0.0))
-    place = (local[:3, :3] @ center + local[:3, 3]) * scales["length"]
-    return Rules(
-        mass=max(prim.number("physics:mass", 0.0), 0.0) * scales["mass"],
-        center=None if np.isinf(center).all() else place,
-        moments=moments if moments.any() else None,
-        axes=_turn(local) @ rotation_matrix(axes) if axes.any() else None,
-        radius=BALL_RADIUS,
-    )
-
-
-def _weight(
-    prim: Prim, density: float, materials: Mapping[str, Prim], scales: Mapping[str, float]
-) -> Weight:
-    """Return the mass of a collider. density: that of its body, 0 if it has none.
-
-    Mass comes before density, the collider's before the body's, and both before its material's.
-    """
-    bound = prim.values.get("material:binding:physics") or prim.values.get("material:binding", "")
-    material = materials.get(bound.strip("[]<> "))
-    stated = [prim.number("physics:density", 0.0), density]
-    if material is not None:
-        stated.append(material.number("physics:density", 0.0))
-    unit = scales["mass"] / scales["length"] ** 3
-    mass = prim.number("physics:mass", 0.0) * scales["mass"]
-    used = next((value * unit for value in stated if value > 0.0), WATER)
-    hull = prim.values.get("physics:approximation", "").strip("\"'") == "convexHull"
-    return Weight(mass if mass > 0.0 else None, used, "convex" if hull else CLOSED)
 
 
 def _parts(prim: Prim, matrix: NDArray) -> Iterator[tuple[Prim, NDArray]]:

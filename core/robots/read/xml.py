@@ -21,7 +21,7 @@ from ...numerics import Array, NDArray
 from ...verdict import FileError, Finding, finding
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER
 from ..model import Shape
-from ..stated import Place, StatedLink, StatedShape
+from ..stated import ENTRIES, Place, StatedLink, StatedShape
 
 MAX_ELEMENTS = 1_000_000
 MAX_DEPTH = 200
@@ -77,10 +77,10 @@ class Node:
         It names the only element with that text, else this one.
         """
         holders = [
-            one
-            for one in self.walk()
+            node
+            for node in self.walk()
             if any(
-                text in (words, *words.split()) for words in (one.text, *one.attributes.values())
+                text in (words, *words.split()) for words in (node.text, *node.attributes.values())
             )
         ]
         holder = holders[0] if len(holders) == 1 else self
@@ -105,8 +105,7 @@ def check_names(form: str, named: Iterable[tuple[str, Place]]) -> None:
     for name, place in named:
         if name in names:
             error = "“{}” is the name of two elements. Give each its own".format(name)
-            values = {"line": place.line, "column": place.column, "source": place.file}
-            raise FileError(DESCRIPTION_INVALID, format=form.upper(), error=error, **values)
+            raise FileError(DESCRIPTION_INVALID, format=form.upper(), error=error, **place.values)
         if name:
             names.add(name)
 
@@ -211,6 +210,14 @@ def attempt(
         return None
 
 
+def attempt_all(
+    findings: list[Finding], nodes: Iterable[Any], read: Callable[..., Value | None], *more: object
+) -> tuple[Value, ...]:
+    """Return the results of `read` for elements or prims, without those that have none."""
+    results = [attempt(findings, node, read, *more) for node in nodes]
+    return tuple(result for result in results if result is not None)
+
+
 def read_shapes(
     findings: list[Finding],
     link: Node,
@@ -230,40 +237,52 @@ def read_shapes(
     def read(node: Node, role: str) -> StatedShape | None:
         pose, angles, *_ = pose_of(node)
         geometry = node.find("geometry")
-        for element in geometry.children if geometry else ():
-            kind = element.tag
-            file = ""
-            if kind in FLAT_KINDS:
-                continue
-            if kind == "mesh":
-                size = numbers(get(element, "scale"), 3, (1.0, 1.0, 1.0)).tolist()
-                file = get(element, "filename") or get(element, "uri")
-            elif kind not in kinds:
-                raise ValueError(kind)
-            elif kind in ("box", "ellipsoid"):
-                size = numbers(
-                    get(element, "size" if kind == "box" else "radii"), 3, (1.0, 1.0, 1.0)
-                ).tolist()
-            else:
-                names = ("radius",) if kind == "sphere" else ("radius", "length")
-                size = [number(get(element, name), length) for name in names]
-            return StatedShape(
-                Shape(kind, tuple(size), pose, file), role, angles, node.place, beside
-            )
-        return None
+        solids = [
+            element
+            for element in (geometry.children if geometry else ())
+            if element.tag not in FLAT_KINDS
+        ]
+        if not solids:
+            return None
+        element = solids[0]
+        kind = element.tag
+        file = ""
+        if kind == "mesh":
+            size = numbers(get(element, "scale"), 3, (1.0, 1.0, 1.0)).tolist()
+            file = get(element, "filename") or get(element, "uri")
+        elif kind not in kinds:
+            raise ValueError(kind)
+        elif kind in ("box", "ellipsoid"):
+            lengths = get(element, "size" if kind == "box" else "radii")
+            size = numbers(lengths, 3, (1.0, 1.0, 1.0)).tolist()
+        else:
+            names = ("radius",) if kind == "sphere" else ("radius", "length")
+            size = [number(get(element, name), length) for name in names]
+        return StatedShape(Shape(kind, tuple(size), pose, file), role, angles, node.place, beside)
 
-    elements = [(element, role) for role in ("visual", "collision") for element in link.all(role)]
-    shapes = [attempt(findings, element, read, role) for element, role in elements]
-    return tuple(shape for shape in shapes if shape is not None)
+    return tuple(
+        shape
+        for role in ("visual", "collision")
+        for shape in attempt_all(findings, link.all(role), read, role)
+    )
 
 
 def stated_link(
     node: Node, element: Node | None, findings: Sequence[Finding], **values: Any
 ) -> StatedLink:
     """Return a link with the places of its values in the file. element: the inertial's, which a
-    repair replaces.
+    repair replaces if it is in the file itself.
     """
-    is_fixed = element is None or values["inertial"] is None or element.start == NOWHERE
-    span = None if element is None or is_fixed else (element.start, element.end)
+    span = None
+    if element is not None and values["inertial"] is not None and element.start != NOWHERE:
+        span = (element.start, element.end)
     places = {"place": node.place, "inertial_place": (element or node).place}
     return StatedLink(span=span, findings=tuple(findings), **places, **values)
+
+
+def symmetric_tensor(entries: Callable[[str], float]) -> Array:
+    """Return the (3, 3) tensor of URDF's and SDF's six entries, such as "ixy"."""
+    tensor = np.empty((3, 3))
+    for name, i, j in ENTRIES:
+        tensor[i, j] = tensor[j, i] = entries(name)
+    return tensor

@@ -22,7 +22,7 @@ from typing import Any
 
 import numpy as np
 
-from ...mesh import Surface
+from ...mesh import Surface, keep_used
 from ...numerics import Array, ArrayLike, NDArray, along_x, quaternion
 from ...verdict import Finding, finding
 from ..findings import GLTF_NODE_MISSING, GLTF_SCALED, ROBOT_SCALED, UNIT_SCALE
@@ -45,11 +45,11 @@ def check(robot: Robot) -> list[Finding]:
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
     """Return a robot as the text of a .gltf file. remarks, inertial_only: as in `urdf.write`."""
-    robot = robot if inertial_only else split_frames(robot)[0]
+    robot = robot.without_motion() if inertial_only else split_frames(robot)[0]
     document = _Document(robot)
     for link in robot.ordered():
-        document.add_link(link, inertial_only)
-    for joint in () if inertial_only else robot.joints:
+        document.add_link(link)
+    for joint in robot.joints:
         document.add_joint(joint)
     return document.text(remarks)
 
@@ -59,21 +59,22 @@ class _Document:
         self.robot = robot
         self.names = unique_names([link.name for link in robot.links], str)
         self.nodes: list[dict[str, Any]] = []
-        self.of_link: dict[str, int] = {}
-        self.of_file: dict[str, list[dict]] = {"meshes": [], "accessors": [], "bufferViews": []}
+        self.node_of_link: dict[str, int] = {}
+        self.meshes: list[dict] = []
+        self.accessors: list[dict] = []
+        self.buffer_views: list[dict] = []
         self.shapes: list[dict] = []
         self.joints: list[dict] = []
         self.buffer = b""
         self.unseen: set[int] = set()  # Nodes in no scene, for meshes that only collide.
 
-    def add_link(self, link: Link, inertial_only: bool) -> None:
-        index = self._node(self.names[link.name], Pose() if inertial_only else link.pose)
-        self.of_link[link.name] = index
+    def add_link(self, link: Link) -> None:
+        index = self._node(self.names[link.name], link.pose)
+        self.node_of_link[link.name] = index
         if link.inertial is not None:
-            self.nodes[index]["extensions"] = body_extensions(
-                link.inertial, is_fixed=not inertial_only and link.is_fixed
-            )
-        for shape in () if inertial_only else link.shapes:
+            extensions = body_extensions(link.inertial, is_fixed=link.is_fixed)
+            self.nodes[index]["extensions"] = extensions
+        for shape in link.shapes:
             self._add_shape(index, link, shape)
 
     def _node(
@@ -114,47 +115,42 @@ class _Document:
             self.nodes[index]["extensions"] = {KHR: {"collider": {"geometry": geometry}}}
 
     def _mesh(self, surface: Surface) -> int:
-        used, corners = np.unique(surface.all_triangles()[0], return_inverse=True)
-        points = (surface.points[used] @ Y_UP.T + 0.0).astype("<f4")
+        used_points, triangles = keep_used(surface.points, surface.all_triangles()[0])
+        points = (used_points @ Y_UP.T + 0.0).astype("<f4")
         ends = {"min": points.min(axis=0).tolist(), "max": points.max(axis=0).tolist()}
         position = self._accessor(points.tobytes(), 5126, "VEC3", len(points), 34962, ends)
         indices = self._accessor(
-            corners.astype("<u4").tobytes(), 5125, "SCALAR", corners.size, 34963, {}
+            triangles.astype("<u4").tobytes(), 5125, "SCALAR", triangles.size, 34963, {}
         )
-        self.of_file["meshes"].append(
+        self.meshes.append(
             {"primitives": [{"attributes": {"POSITION": position}, "indices": indices}]}
         )
-        return len(self.of_file["meshes"]) - 1
+        return len(self.meshes) - 1
 
     def _accessor(
         self, data: bytes, component: int, kind: str, count: int, target: int, more: dict
     ) -> int:
-        views = self.of_file["bufferViews"]
-        accessors = self.of_file["accessors"]
-        views.append(
+        """Add a table of numbers and return its index. component, target: codes of glTF for the
+        type of the numbers, and for vertices or indices. more: further values.
+        """
+        self.buffer_views.append(
             {"buffer": 0, "byteOffset": len(self.buffer), "byteLength": len(data), "target": target}
         )
         self.buffer += data
-        accessors.append(
-            {
-                "bufferView": len(views) - 1,
-                "componentType": component,
-                "type": kind,
-                "count": count,
-            }
-            | more
-        )
-        return len(accessors) - 1
+        view = len(self.buffer_views) - 1
+        accessor = {"bufferView": view, "componentType": component, "type": kind, "count": count}
+        self.accessors.append(accessor | more)
+        return len(self.accessors) - 1
 
     def add_joint(self, joint: Joint) -> None:
         child = self.robot.link(joint.child)
         parent = self.robot.link(joint.parent)
         turn = along_x(Y_UP @ joint.free[0].axis) if len(joint.free) == 1 else np.eye(3)
         place = parent.pose.inverse() @ child.pose @ joint.pose
-        own = self._node(joint.name, place, self.of_link[parent.name], turn)
-        other = self._node(joint.name + " end", joint.pose, self.of_link[child.name], turn)
-        reference = {"connectedNode": other, "joint": len(self.joints)}
-        self.nodes[own]["extensions"] = {KHR: {"joint": reference}}
+        index = self._node(joint.name, place, self.node_of_link[parent.name], turn)
+        end = self._node(joint.name + " end", joint.pose, self.node_of_link[child.name], turn)
+        reference = {"connectedNode": end, "joint": len(self.joints)}
+        self.nodes[index]["extensions"] = {KHR: {"joint": reference}}
         drives = _drives(joint, turn)
         more = {"drives": drives} if drives else {}
         self.joints.append({"name": joint.name, "limits": _limits(joint, turn)} | more)
@@ -179,9 +175,11 @@ class _Document:
             "scene": 0,
             "scenes": [{"name": self.robot.name, "nodes": roots}],
             "nodes": self.nodes,
-            **{name: values for name, values in self.of_file.items() if values},
         }
         if self.buffer:
+            document["meshes"] = self.meshes
+            document["accessors"] = self.accessors
+            document["bufferViews"] = self.buffer_views
             uri = "data:application/octet-stream;base64," + base64.b64encode(self.buffer).decode()
             document["buffers"] = [{"byteLength": len(self.buffer), "uri": uri}]
         return json.dumps(document, ensure_ascii=False, indent=1, allow_nan=False) + "\n"
@@ -207,12 +205,12 @@ def _limits(joint: Joint, turn: NDArray) -> list[dict[str, Any]]:
     """Return the limits of a joint along its node's axes: zero for fixed directions, the range of
     limited ones.
     """
-    held = {"linearAxes": {0, 1, 2}, "angularAxes": {0, 1, 2}}
+    fixed = {"linearAxes": {0, 1, 2}, "angularAxes": {0, 1, 2}}
     limits: list[dict[str, Any]] = []
     for free in joint.free:
         direction, axis = _direction(free, turn)
         kind = "linearAxes" if free.kind == "translate" else "angularAxes"
-        held[kind].discard(axis)
+        fixed[kind].discard(axis)
         low, high = (
             (free.lower, free.upper) if direction[axis] > 0.0 else (-free.upper, -free.lower)
         )
@@ -220,7 +218,7 @@ def _limits(joint: Joint, turn: NDArray) -> list[dict[str, Any]]:
         if ends:
             limits.append({kind: [axis]} | ends)
     return [
-        *({kind: sorted(axes), "min": 0.0, "max": 0.0} for kind, axes in held.items() if axes),
+        *({kind: sorted(axes), "min": 0.0, "max": 0.0} for kind, axes in fixed.items() if axes),
         *limits,
     ]
 
@@ -284,31 +282,27 @@ def add_rigid_bodies(
             by_name.setdefault(node["name"], []).append(node)
     missing = []
     scaled = []
-    written = 0
     for link in robot.roots:
         inertial = robot.rigid_inertial(link)
-        found = by_name.get(link.name, [])
         if inertial is None:
             continue
-        if len(found) != 1:
+        nodes_of_link = by_name.get(link.name, [])
+        if len(nodes_of_link) != 1:
             missing.append(link.name)
             continue
         if np.abs(link.scale - 1.0).max() > UNIFORM_RTOL:
             scaled.append(link.name)
-        found[0].setdefault("extensions", {}).update(
-            body_extensions(inertial, meters_per_unit * link.scale, link.is_fixed)
-        )
-        written += 1
-    if written:
+        extensions = body_extensions(inertial, meters_per_unit * link.scale, link.is_fixed)
+        nodes_of_link[0].setdefault("extensions", {}).update(extensions)
         document["extensionsUsed"] = sorted({*document.get("extensionsUsed", []), KHR, OMI})
     findings = [finding(GLTF_NODE_MISSING, count=len(missing), links=missing)] if missing else []
     if scaled:
         findings.append(finding(ROBOT_SCALED, count=len(scaled), links=scaled))
-    if meters_per_unit != 1.0:
-        findings.append(finding(UNIT_SCALE, scale=meters_per_unit, cause=GLTF_SCALED))
-        for scene in [scene for scene in document.get("scenes", []) if scene.get("nodes")]:
-            nodes.append(
-                {"name": "Meters", "scale": [meters_per_unit] * 3, "children": scene["nodes"]}
-            )
+    if meters_per_unit == 1.0:
+        return findings
+    for scene in document.get("scenes", []):
+        if scene.get("nodes"):
+            scale = [meters_per_unit] * 3
+            nodes.append({"name": "Meters", "scale": scale, "children": scene["nodes"]})
             scene["nodes"] = [len(nodes) - 1]
-    return findings
+    return [*findings, finding(UNIT_SCALE, scale=meters_per_unit, cause=GLTF_SCALED)]

@@ -165,7 +165,7 @@ def _add_joints(
     A root with mass moves freely if it is not fixed.
     """
     if joint is None:
-        if not link.is_fixed and any(part.inertial is not None for part in robot.rigid_parts(link)):
+        if robot.moves_freely(link):
             SubElement(body, "freejoint")
         return
     for index, free in enumerate(joint.free[:1] if joint.is_ball else joint.free):

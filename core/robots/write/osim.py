@@ -60,11 +60,8 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
             joints.append(_joint(robot, joint, joint_names[joint.name], names))
         elif not inertial_only:
             name = names[link.name]
-            is_free = not link.is_fixed and any(
-                part.inertial is not None for part in robot.rigid_parts(link)
-            )
             ends = _ends((("", link.pose), (name, Pose())))
-            kind = "FreeJoint" if is_free else "WeldJoint"
+            kind = "FreeJoint" if robot.moves_freely(link) else "WeldJoint"
             joints.append(element(kind, *ends, name=name + "_ground"))
     sets = [element("BodySet", element("objects", *bodies), name="bodyset")]
     if not inertial_only:

@@ -56,26 +56,27 @@ def _is_whole(joint: Joint) -> bool:
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
     """Return a robot as an SDF model. remarks, inertial_only: as in `urdf.write`."""
-    robot = robot if inertial_only else with_axis_frames(robot, _is_whole, FRAME_PART)
+    robot = (
+        robot.without_motion() if inertial_only else with_axis_frames(robot, _is_whole, FRAME_PART)
+    )
     names = unique_names([link.name for link in robot.links], _name)
     joint_names = unique_names([joint.name for joint in robot.joints], _name, names.values())
     parts: list[Element] = []
     robot, frames = (robot, {}) if inertial_only else split_frames(robot)
-    for carrier, several in frames.items():
+    for carrier, frames_of_carrier in frames.items():
         to_carrier = robot.link(carrier).pose.inverse()
-        for frame in several:
+        for frame in frames_of_carrier:
             values = {"name": names[frame.name], "attached_to": names[carrier]}
             parts.append(element("frame", *_pose(to_carrier @ frame.pose), **values))
     for link in robot.ordered():
         inertial = () if link.inertial is None else (_inertial(link.inertial),)
-        place = () if inertial_only else _pose(link.pose)
-        shapes = () if inertial_only else _shapes(link)
-        parts.append(element("link", *place, *inertial, *shapes, name=names[link.name]))
-    for joint in () if inertial_only else robot.joints:
+        content = (*_pose(link.pose), *inertial, *_shapes(link))
+        parts.append(element("link", *content, name=names[link.name]))
+    for joint in robot.joints:
         values = {"name": joint_names[joint.name], "type": _joint_type(joint)}
         ends = _ends(names[joint.parent], names[joint.child])
         parts.append(element("joint", *_pose(joint.pose), *ends, *_axes(joint), **values))
-    bases = [] if inertial_only else [link.name for link in robot.roots if link.is_fixed]
+    bases = [link.name for link in robot.roots if link.is_fixed]
     taken = [*names.values(), *joint_names.values()]
     for base, name in unique_names(bases, lambda name: names[name] + "_joint", taken).items():
         parts.append(element("joint", *_ends("world", names[base]), name=name, type="fixed"))

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from ...files.whole_file import whole_file
-from ...mesh import Surface
+from ...mesh import Surface, keep_used
 from ..model import Robot
 from .text import unique_names
 
@@ -37,11 +37,11 @@ def to_stl(surface: Surface) -> bytes:
 
 def to_obj(surface: Surface) -> bytes:
     """Return a surface in m as OBJ, with nine digits, which float32 needs."""
-    used, corners = np.unique(surface.all_triangles()[0], return_inverse=True)
+    points, triangles = keep_used(surface.points, surface.all_triangles()[0])
     stream = BytesIO(_OBJ_MARKER)
     stream.seek(0, 2)
-    np.savetxt(stream, surface.points[used], "v %.9g %.9g %.9g")
-    np.savetxt(stream, corners.reshape(-1, 3) + 1, "f %d %d %d")
+    np.savetxt(stream, points, "v %.9g %.9g %.9g")
+    np.savetxt(stream, triangles + 1, "f %d %d %d")
     return stream.getvalue()
 
 

@@ -177,7 +177,7 @@ def _is_flat(surface: Surface | None) -> bool:
     """
     if surface is None:
         return False
-    points = surface.points[np.unique(surface.all_triangles()[0])]
+    points = surface.used_points()
     spread = np.linalg.svd(np.cov((points - points[0]).T), compute_uv=False)
     return bool(spread[2] <= FLATNESS**2 * spread[0])
 

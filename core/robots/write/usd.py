@@ -14,7 +14,7 @@ from math import degrees, inf, radians
 
 import numpy as np
 
-from ...mesh import Surface
+from ...mesh import Surface, keep_used
 from ...numerics import ArrayLike, NDArray, along_x, quaternion
 from ...verdict import Finding
 from ..findings import TOO_SMALL_FOR_SINGLE
@@ -59,43 +59,34 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
     """
     names = unique_names([link.name for link in robot.links], identifier)
     joints = unique_names([joint.name for joint in robot.joints], identifier, names.values())
-    robot, frames = (robot, {}) if inertial_only else split_frames(robot)
+    robot, frames = (robot.without_motion(), {}) if inertial_only else split_frames(robot)
     # Prims without mass stand.
-    heavy = [link for link in robot.roots if link.is_fixed and link.inertial is not None]
-    bases = {} if inertial_only else {link.name: link for link in heavy}
-    trees = {
-        link.name for link in robot.roots if not inertial_only and robot.children(link.name)
-    } | {*bases}
-    is_one = len(robot.roots) == 1 and bool(trees)  # Else each tree is an articulation of its own.
+    bases = {link.name: link for link in robot.roots if link.is_fixed and link.inertial is not None}
+    trees = {link.name for link in robot.roots if robot.children(link.name)} | {*bases}
+    is_single = len(robot.roots) == 1 and bool(trees)
+    # Else each tree is an articulation of its own: by the joint of its base, or by its first link.
+    own_articulation = () if is_single else ARTICULATION
     lines: list[str] = []
     for link in robot.ordered():
-        inertial = link.inertial
-        inner = [] if inertial is None else mass_attributes(inertial)
+        inner = [] if link.inertial is None else mass_attributes(link.inertial)
+        apis = () if link.inertial is None else APIS
         if not inertial_only:
             inner += _transform(link.pose)
-            for count, shape in enumerate(link.shapes, start=1):
-                lines_of_shape = _geometry(shape)
-                if lines_of_shape and shape.seen:
-                    inner += _prim(
-                        "def " + _KINDS[shape.kind], "visual_{}".format(count), lines_of_shape
-                    )
-                if lines_of_shape and shape.collides:
-                    inner += _collider(
-                        shape, names[link.name], count, () if shape.seen else lines_of_shape
-                    )
-            for frame in frames.get(link.name, ()):
-                place = _transform(link.pose.inverse() @ frame.pose)
-                inner += _prim("def Xform", names[frame.name], place)
-        is_tree = not is_one and link.name in trees and link.name not in bases
-        apis = ARTICULATION * is_tree + (() if inertial is None else APIS)
+        for count, shape in enumerate(link.shapes, start=1):
+            inner += _shape(shape, names[link.name], count)
+        for frame in frames.get(link.name, ()):
+            place = _transform(link.pose.inverse() @ frame.pose)
+            inner += _prim("def Xform", names[frame.name], place)
+        if link.name in trees and link.name not in bases:
+            apis = own_articulation + apis
         lines += _prim("def Xform", names[link.name], inner, apis)
-    for joint in () if inertial_only else robot.joints:
+    for joint in robot.joints:
         lines += _joint(robot, joint, joints[joint.name], names)
     taken = [*names.values(), *joints.values()]
     for base, name in unique_names(bases, lambda name: names[name] + "_base", taken).items():
         ends = _ends(None, names[base], bases[base].pose)
-        lines += _prim("def PhysicsFixedJoint", name, ends, ARTICULATION * (not is_one))
-    top = _prim("def Xform", ROOT, lines, ARTICULATION * is_one)
+        lines += _prim("def PhysicsFixedJoint", name, ends, own_articulation)
+    top = _prim("def Xform", ROOT, lines, ARTICULATION if is_single else ())
     return "\n".join([*header(robot.name, remarks, 1.0, ROOT), *top, ""])
 
 
@@ -319,29 +310,33 @@ def _geometry(shape: Shape) -> list[str]:
     return [*attributes, *_transform(shape.pose, scale)]
 
 
-def _collider(shape: Shape, link: str, count: int, geometry: Sequence[str]) -> list[str]:
-    """Return the lines of a collider with its own geometry, else the visible prim's; of a mesh its
-    convex hull.
+def _shape(shape: Shape, link: str, count: int) -> list[str]:
+    """Return the prims of a visible shape and of a collider, a mesh's convex hull; none without
+    geometry. A collider of a visible shape refers to its prim.
     """
+    geometry = _geometry(shape)
+    kind = "def " + _KINDS[shape.kind]
+    visual = "visual_{}".format(count)
+    lines = _prim(kind, visual, geometry) if shape.seen else []
+    if not geometry or not shape.collides:
+        return lines if geometry else []
     # Renderers skip guides.
-    inner = ['uniform token purpose = "guide"', *geometry]
+    inner = ['uniform token purpose = "guide"', *(() if shape.seen else geometry)]
     apis = ["PhysicsCollisionAPI"]
     if shape.kind == "mesh":
         inner.append('uniform token physics:approximation = "convexHull"')
         apis.append("PhysicsMeshCollisionAPI")
-    seen = "/{}/{}/visual_{}".format(ROOT, link, count) if shape.seen else ""
-    return _prim("def " + _KINDS[shape.kind], "collision_{}".format(count), inner, apis, seen)
+    reference = "/{}/{}/{}".format(ROOT, link, visual) if shape.seen else ""
+    return lines + _prim(kind, "collision_{}".format(count), inner, apis, reference)
 
 
 def _mesh(surface: Surface, pose: Pose) -> list[str]:
     """Return the lines in the prim of a mesh, embedded: USD knows no files of other formats."""
-    triangles = surface.all_triangles()[0]
-    used, corners = np.unique(triangles, return_inverse=True)
-    points = surface.points[used].astype(np.float32)
+    points, triangles = keep_used(surface.points, surface.all_triangles()[0])
     return [
-        "point3f[] points = [{}]".format(", ".join(map(singles, points))),
+        "point3f[] points = [{}]".format(", ".join(map(singles, points.astype(np.float32)))),
         "int[] faceVertexCounts = [{}]".format(", ".join(["3"] * len(triangles))),
-        "int[] faceVertexIndices = [{}]".format(", ".join(map(str, corners.ravel().tolist()))),
+        "int[] faceVertexIndices = [{}]".format(", ".join(map(str, triangles.ravel().tolist()))),
         'uniform token subdivisionScheme = "none"',
         *_transform(pose),
     ]

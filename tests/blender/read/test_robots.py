@@ -11,8 +11,8 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.core.polyhedron import polyhedron_moments
+from body_moments.core.robots import Roots, read_description
 from body_moments.core.robots.read import xml
-from body_moments.core.robots.read.descriptions import Roots, read_description
 from body_moments.core.robots.read.meshes import read_mesh
 from body_moments.core.streams.threemf import read_3mf
 from body_moments.core.verdict import FileError

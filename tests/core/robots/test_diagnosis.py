@@ -15,6 +15,7 @@ from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.mesh import Surface, convex_hull
 from body_moments.core.numerics.rotations import quaternion
 from body_moments.core.polyhedron import polyhedron_moments
+from body_moments.core.robots.comparison import Reference
 from body_moments.core.robots.diagnosis import diagnose
 from body_moments.core.robots.mistakes import (
     IMPERIAL_INERTIAS,
@@ -23,7 +24,6 @@ from body_moments.core.robots.mistakes import (
     WHOLE_IMPERIAL,
     _times,
 )
-from body_moments.core.robots.reference import Reference
 from body_moments.core.robots.stated import StatedInertial, rotation_of_angles
 
 from tests.close import close
