@@ -28,30 +28,43 @@ def rotation_values(turns: NDArray, mode: str, first: NDArray) -> Array:
         if mode == "QUATERNION":
             return turns * (1.0 if turns[0] @ first >= 0.0 else -1.0)
         return _axis_angles(turns, first)
-    i, j, k = ("XYZ".index(axis) for axis in mode)
-    sign = 1.0 if (j - i) % 3 == 1 else -1.0
     values = np.empty((len(turns), 3))
     last = np.asarray(first, np.float64)
-    for row, m in enumerate(turns):
-        cosine = float(np.hypot(m[i, i], m[j, i]))
-        third = last[k] * sign
-        several = []
-        for side in (1.0, -1.0):
-            if cosine > LOCKED:
-                third = np.arctan2(side * m[j, i], side * m[i, i])
-            # The matrix turned back about the third axis shows the first angle, however small the
-            # cosine is.
-            c = np.cos(third)
-            s = np.sin(third)
-            angles = np.empty(3)
-            angles[i] = np.arctan2(s * m[i, k] - c * m[j, k], c * m[j, j] - s * m[i, j])
-            angles[j] = np.arctan2(-m[k, i], side * cosine)
-            angles[k] = third
-            angles *= sign
-            several.append(angles + 2.0 * np.pi * np.round((last - angles) / (2.0 * np.pi)))
-        last = min(several, key=lambda angles: float(np.abs(angles - last).sum()))
+    for row, matrix in enumerate(turns):
+        # Each rotation has two triples of angles, and whole turns of each.
+        triples = [_euler_angles(matrix, mode, side, last) for side in (1.0, -1.0)]
+        nearest = [_nearest_turn(angles, last) for angles in triples]
+        last = min(nearest, key=lambda angles: float(np.abs(angles - last).sum()))
         values[row] = last
     return values
+
+
+def _euler_angles(m: NDArray, mode: str, side: float, last: NDArray) -> Array:
+    """Return the (3,) angles about x, y and z of a (3, 3) rotation, in the order of the mode.
+
+    side: the sign of the middle angle's cosine. last: the former angles, of which the third one is
+    kept if the outer two cannot be told apart.
+    """
+    i, j, k = ("XYZ".index(axis) for axis in mode)
+    sign = 1.0 if (j - i) % 3 == 1 else -1.0
+    cosine = float(np.hypot(m[i, i], m[j, i]))
+    third = last[k] * sign
+    if cosine > LOCKED:
+        third = np.arctan2(side * m[j, i], side * m[i, i])
+    # The matrix turned back about the third axis shows the first angle, however small the cosine
+    # is.
+    c = np.cos(third)
+    s = np.sin(third)
+    angles = np.empty(3)
+    angles[i] = np.arctan2(s * m[i, k] - c * m[j, k], c * m[j, j] - s * m[i, j])
+    angles[j] = np.arctan2(-m[k, i], side * cosine)
+    angles[k] = third
+    return sign * angles
+
+
+def _nearest_turn(angles: NDArray, last: NDArray) -> NDArray:
+    """Return angles with the whole turns added that bring them next to others."""
+    return angles + 2.0 * np.pi * np.round((last - angles) / (2.0 * np.pi))
 
 
 def _axis_angles(turns: NDArray, first: NDArray) -> Array:
@@ -65,8 +78,7 @@ def _axis_angles(turns: NDArray, first: NDArray) -> Array:
         sine = float(np.linalg.norm(turn[1:]))
         if sine > LOCKED:
             axis = turn[1:] / (sine if turn[1:] @ axis >= 0.0 else -sine)
-        near = 2.0 * np.arctan2(turn[1:] @ axis, turn[0])
-        angle = near + 2.0 * np.pi * np.round((angle - near) / (2.0 * np.pi))
+        angle = _nearest_turn(2.0 * np.arctan2(turn[1:] @ axis, turn[0]), angle)
         values[row] = angle, *axis
     return values
 
@@ -100,6 +112,7 @@ def divide_frames(quaternions: NDArray, mode: str, first: NDArray, shortest: flo
     limits = np.maximum(2.0 * np.arccos(cosines), LEAST_ANGLE) * OFF / 4.0
     places = np.arange(len(ends)).astype(np.float64)
     while True:
+        # Compare with the cubics in the middle of each piece.
         wanted = rotation_matrix(in_pieces(quaternions, places))
         values = rotation_values(wanted, mode, first)
         right, left = handle_values(values)

@@ -56,19 +56,20 @@ def bone_pieces(
     storing.
     """
     points = points.astype(np.float64)
-    owner, start, stop = mesh.uncancelled_sides(triangles, bone)
+    bone_of_side, start, stop = mesh.uncancelled_sides(triangles, bone)
     cut, apexes = _apexes(points, start, stop)
-    corners = np.concatenate([triangles, np.stack([stop, start, len(points) + cut], axis=1)])
-    labels = np.concatenate([bone, owner])
+    cones = np.stack([stop, start, len(points) + cut], axis=1)
+    corners = np.concatenate([triangles, cones])
+    bone_of_corners = np.concatenate([bone, bone_of_side])
     points = np.concatenate([points, apexes])
-    order = np.argsort(labels, kind="stable")
-    bones, starts = np.unique(labels[order], return_index=True)
-    faces = np.bincount(bone)
+    face_counts = np.bincount(bone)
+    # Stable: the faces of a bone stay before its cones.
+    order = np.argsort(bone_of_corners, kind="stable")
+    bones, starts = np.unique(bone_of_corners[order], return_index=True)
     pieces = []
-    for one, rows in zip(bones.tolist(), np.split(order, starts[1:])):
-        used, local = np.unique(corners[rows], return_inverse=True)
-        surface = mesh.Surface(points[used], local.reshape(-1, 3), displacement=displacement)
-        pieces.append(BonePiece(one, surface, int(faces[one])))
+    for number, rows in zip(bones.tolist(), np.split(order, starts[1:])):
+        surface = mesh.Surface(*mesh.keep_used(points, corners[rows]), displacement=displacement)
+        pieces.append(BonePiece(number, surface, int(face_counts[number])))
     return pieces
 
 
@@ -82,12 +83,12 @@ def bones_of_caps(
     edge = mesh.find_edges(triangles).of_side.reshape(-1, 3)
     while (result == NO_BONE).any():
         known = result != NO_BONE
-        of_edge = np.full(int(edge.max()) + 1, NO_BONE)
-        of_edge[edge[known].ravel()] = np.repeat(result[known], 3)
-        found = of_edge[edge[~known]].max(axis=1)
-        if (found == NO_BONE).all():  # Caps that touch nothing go with the bone of most faces.
-            found[:] = np.bincount(bone[~is_cap], minlength=1).argmax()
-        result[~known] = found
+        bone_of_edge = np.full(int(edge.max()) + 1, NO_BONE)
+        bone_of_edge[edge[known].ravel()] = np.repeat(result[known], 3)
+        beside = bone_of_edge[edge[~known]].max(axis=1)
+        if (beside == NO_BONE).all():  # Caps that touch nothing go with the bone of most faces.
+            beside[:] = np.bincount(bone[~is_cap], minlength=1).argmax()
+        result[~known] = beside
     return result
 
 
@@ -159,21 +160,25 @@ def dominant_bones(
         [np.bincount(faces, points[corners, k]) / np.maximum(size, 1) for k in range(3)], axis=1
     )
     face, bone, score = _scores(faces, corners, weights, number)
-    result = np.full(len(size), -1)
+    result = np.full(len(size), NO_BONE)
+    # Pairs of a face and a bone are sorted by face: its largest score is that of a segment.
     starts, sizes = np.unique(face, return_index=True, return_counts=True)[1:]
-    leading = score >= (1.0 - TIE_RTOL) * np.repeat(np.maximum.reduceat(score, starts), sizes)
-    face, bone = face[leading], bone[leading]
+    is_leading = score >= (1.0 - TIE_RTOL) * np.repeat(np.maximum.reduceat(score, starts), sizes)
+    face = face[is_leading]
+    bone = bone[is_leading]
     result[face] = bone
-    rivals = np.bincount(face)[face] > 1
-    face, bone = face[rivals], bone[rivals]
+    ties = np.bincount(face)[face] > 1
+    face = face[ties]
+    bone = bone[ties]
     result[face] = _nearest(face, bone, _distances(center[face], bones[bone]))
-    left = np.flatnonzero((result < 0) & (size > 0))
+    unweighted = np.flatnonzero((result == NO_BONE) & (size > 0))
     block = max(PAIRS_PER_BLOCK // number, 1)
-    for start in range(0, len(left), block):
-        some = left[start : start + block]
-        pairs = np.repeat(some, number), np.tile(np.arange(number), len(some))
-        result[pairs[0]] = _nearest(*pairs, _distances(center[pairs[0]], bones[pairs[1]]))
-    return result, left
+    for start in range(0, len(unweighted), block):
+        some_faces = unweighted[start : start + block]
+        face = np.repeat(some_faces, number)
+        bone = np.tile(np.arange(number), len(some_faces))
+        result[face] = _nearest(face, bone, _distances(center[face], bones[bone]))
+    return result, unweighted
 
 
 def _scores(

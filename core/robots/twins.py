@@ -18,7 +18,6 @@ from typing import NamedTuple
 import numpy as np
 
 from ..numerics import Array
-from .comparison import Reference
 from .entries import LinkAudit
 from .model import Pose
 from .stated import StatedInertial
@@ -61,8 +60,8 @@ class Plane:
 
 def find_pairs(audits: Sequence[LinkAudit], tree: Tree) -> list[Pair]:
     """Return the pairs of links with inertials, and all maps that fit their geometry."""
-    indices = {one.link.name: index for index, one in enumerate(audits) if one.link.inertial}
-    places = [tree.poses[one.link.name] for one in audits]
+    indices = {audit.link.name: index for index, audit in enumerate(audits) if audit.link.inertial}
+    places = [tree.poses[audit.link.name] for audit in audits]
     sides = [
         (index, indices[other])
         for name, index in indices.items()
@@ -72,7 +71,8 @@ def find_pairs(audits: Sequence[LinkAudit], tree: Tree) -> list[Pair]:
 
     def mirror(first: int, second: int) -> list[Pose]:
         """Return the map by the plane, if it is known."""
-        start, end = places[first], places[second]
+        start = places[first]
+        end = places[second]
         if plane is None or start is None or end is None:
             return []
         return [end.inverse() @ plane.mirror(start)]
@@ -82,25 +82,34 @@ def find_pairs(audits: Sequence[LinkAudit], tree: Tree) -> list[Pair]:
 
     pairs = [pair(*side, [*mirror(*side), *_OWN_MAPS], TOLERANCE) for side in sides]
     paired = {index for side in sides for index in side}
+    unpaired = {
+        name: (index, reference)
+        for name, index in indices.items()
+        if (reference := audits[index].reference) is not None and index not in paired
+    }
+    # Links whose names differ by numbers alone are copies of the first one.
     groups: dict[str, list[int]] = {}
-    rest: dict[int, Reference] = {}
-    for name, index in indices.items():
-        reference = audits[index].reference
-        if reference is not None and index not in paired:
-            rest[index] = reference
-            if re.search(r"\d", name):
-                groups.setdefault(re.sub(r"\d+", "#", name), []).append(index)
-    for first, *others in groups.values():
-        pairs += [pair(first, other, _OWN_MAPS[:1], EQUAL) for other in others]
-    ordered = sorted(rest, key=lambda index: rest[index].volume)
-    for first, second in zip(ordered, ordered[1:]):
-        is_near = rest[second].volume <= (1.0 + ALIKE) * rest[first].volume
+    for name, (index, _) in unpaired.items():
+        if re.search(r"\d", name):
+            groups.setdefault(re.sub(r"\d+", "#", name), []).append(index)
+    for first, *copies in groups.values():
+        pairs += [pair(first, copy, _OWN_MAPS[:1], EQUAL) for copy in copies]
+    # Other links are paired if their volumes are equal, and the plane maps one onto the other.
+    by_volume = sorted(unpaired.values(), key=lambda link: link[1].volume)
+    for (first, start), (second, end) in zip(by_volume, by_volume[1:]):
+        is_near = end.volume <= (1.0 + ALIKE) * start.volume
         maps = mirror(first, second) if is_near else []
-        if maps and pair(first, second, maps, EQUAL).maps:
-            ends = [pose.apply(rest[i].center) for i in (first, second) if (pose := places[i])]
-            if np.linalg.norm(ends[0] - ends[1]) > np.sqrt(np.trace(rest[second].inertia)):
-                pairs.append(pair(first, second, [*maps, *_OWN_MAPS], TOLERANCE))
-    return [one for one in pairs if one.maps]
+        if not maps or not pair(first, second, maps, EQUAL).maps:
+            continue
+        centers = [
+            place.apply(reference.center)
+            for place, reference in ((places[first], start), (places[second], end))
+            if place is not None
+        ]
+        # One link within the other has no other side.
+        if np.linalg.norm(centers[0] - centers[1]) > np.sqrt(np.trace(end.inertia)):
+            pairs.append(pair(first, second, [*maps, *_OWN_MAPS], TOLERANCE))
+    return [each for each in pairs if each.maps]
 
 
 def _fitting_maps(
@@ -109,12 +118,12 @@ def _fitting_maps(
     """Return the maps that lay the first link's geometry onto the second's; all of them if the
     geometry is unknown.
     """
-    own = first.reference
-    other = second.reference
-    if own is None or other is None:
+    start = first.reference
+    end = second.reference
+    if start is None or end is None:
         return maps
-    low, high = sorted((own.volume, other.volume))
-    apart = [other.compare(mapped(own.uniform(1.0), pose)) for pose in maps]
+    low, high = sorted((start.volume, end.volume))
+    apart = [end.compare(mapped(start.uniform(1.0), pose)) for pose in maps]
     if high > (1.0 + within) * low or min(apart) > within:
         return []
     return [pose for pose, value in zip(maps, apart) if value <= min(apart) + EQUAL]
@@ -123,25 +132,28 @@ def _fitting_maps(
 def _other_side(name: str) -> str:
     """Return the name of the right link of a left one; other names as they are."""
     words: list[str] = _WORD.findall(name)
-    return "".join(_cased(_SIDES.get(word.lower(), word), word) for word in words)
-
-
-def _cased(word: str, like: str) -> str:
-    if like.isupper():
-        return word.upper()
-    return word.capitalize() if like[0].isupper() else word
+    others = []
+    for word in words:
+        other = _SIDES.get(word.lower(), word)
+        if word.isupper():
+            other = other.upper()
+        elif word[0].isupper():
+            other = other.capitalize()
+        others.append(other)
+    return "".join(others)
 
 
 def _plane(pairs: Sequence[tuple[Pose | None, Pose | None]]) -> Plane | None:
     """Return the plane between most of the pairs of places."""
-    places = [(one.position, other.position) for one, other in pairs if one and other]
-    known = [place for place in places if (place[0] != place[1]).any()]
-    if not known:
+    points = [(one.position, other.position) for one, other in pairs if one and other]
+    apart = [(first, second) for first, second in points if (first != second).any()]
+    if not apart:
         return None
-    first, second = (np.array(several) for several in zip(*known))
+    first, second = (np.array(several) for several in zip(*apart))
     ways = second - first
-    ways = ways / np.linalg.norm(ways, axis=1)[:, None]
-    normal = np.linalg.eigh(ways.T @ ways)[1][:, 2]
+    directions = ways / np.linalg.norm(ways, axis=1)[:, None]
+    # The direction to which most of them are near, whatever their signs.
+    normal = np.linalg.eigh(directions.T @ directions)[1][:, 2]
     offsets = np.sort((first + second) / 2.0 @ normal)
     half = len(offsets) // 2  # The median; numpy's own functions load much for it.
     return Plane(normal, float(offsets[half] + offsets[-1 - half]) / 2.0)
@@ -174,19 +186,19 @@ def find_copies(audits: Sequence[LinkAudit]) -> Iterator[list[int]]:
     of drawn shapes without a certain volume.
     """
     groups: dict[tuple[bytes, bool], list[int]] = {}
-    for index, one in enumerate(audits):
-        inertial = one.link.inertial
-        if inertial is not None and one.is_drawn and inertial.mass > 0.0:
+    for index, audit in enumerate(audits):
+        inertial = audit.link.inertial
+        if inertial is not None and audit.is_drawn and inertial.mass > 0.0:
             numbers = np.concatenate([[inertial.mass], inertial.center, inertial.inertia.ravel()])
-            is_drawn = any(shape.role == "visual" for shape in one.link.shapes)
-            groups.setdefault((numbers.tobytes(), is_drawn), []).append(index)
+            draws = any(shape.role == "visual" for shape in audit.link.shapes)
+            groups.setdefault((numbers.tobytes(), draws), []).append(index)
     for group in groups.values():
-        first, *others = (one for index in group if (one := audits[index].reference))
+        first, *others = (reference for index in group if (reference := audits[index].reference))
         size = np.trace(first.inertia)
+        moments = np.linalg.eigvalsh(first.inertia)
         if any(
-            abs(one.volume / first.volume - 1.0) > TOLERANCE
-            or np.linalg.norm(np.linalg.eigvalsh(one.inertia) - np.linalg.eigvalsh(first.inertia))
-            > TOLERANCE * size
-            for one in others
+            abs(other.volume / first.volume - 1.0) > TOLERANCE
+            or np.linalg.norm(np.linalg.eigvalsh(other.inertia) - moments) > TOLERANCE * size
+            for other in others
         ):
             yield group

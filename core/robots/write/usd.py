@@ -103,39 +103,32 @@ def write_over(
     relative to this one. meters_per_unit: of the scene, whose exporter omits it. Bodies cannot
     nest: each root carries all links fixed to it.
     """
-    tree: dict[str, dict] = {}
-    bodies = {}
-    for link in robot.roots:
-        inertial = robot.rigid_inertial(link)
-        if inertial is not None:
-            path = tuple(paths[link.name])
-            bodies[path] = mass_attributes(inertial, meters_per_unit, link.scale)
-            branch = tree
-            for name in path:
-                branch = branch.setdefault(name, {})
-    top = next(iter(tree), ROOT)
+    bodies: dict[tuple[str, ...], list[str]] = {}
     joints = []
     for link in robot.roots:
-        if link.is_fixed and tuple(paths[link.name]) in bodies:
+        inertial = robot.rigid_inertial(link)
+        if inertial is None:
+            continue
+        path = tuple(paths[link.name])
+        bodies[path] = mass_attributes(inertial, meters_per_unit, link.scale)
+        if link.is_fixed:
             pose = Pose(link.pose.position / meters_per_unit, link.pose.rotation)
-            name = "_".join([*paths[link.name], "base"])
-            joints += _prim(
-                "def PhysicsFixedJoint", name, _ends(None, "/".join(paths[link.name]), pose, top="")
-            )
+            ends = _ends(None, "/".join(path), pose, top="")
+            joints += _prim("def PhysicsFixedJoint", "_".join([*path, "base"]), ends)
+    top = next((path[0] for path in bodies), ROOT)
     lines = header(robot.name, remarks, meters_per_unit, top, [geometry])
-    overs = _overs(tree, (), bodies)
+    # The joints stand within the last prim, before its closing brace.
+    overs = _overs(bodies)
     return "\n".join([*lines, *overs[:-1], *(_INDENT + line for line in joints), *overs[-1:], ""])
 
 
-def _overs(
-    tree: Mapping[str, dict], above: tuple[str, ...], bodies: Mapping[tuple, list[str]]
-) -> list[str]:
+def _overs(bodies: Mapping[tuple[str, ...], list[str]]) -> list[str]:
+    """Return the lines of nested prims that add those of each body at its path."""
     lines = []
-    for name, branch in tree.items():
-        path = (*above, name)
-        body = bodies.get(path, [])
-        inner = [*body, *_overs(branch, path, bodies)]
-        lines += _prim("over", name, inner, APIS if body else ())
+    for name in dict.fromkeys(path[0] for path in bodies):
+        below = {path[1:]: body for path, body in bodies.items() if path[0] == name}
+        body = below.pop((), [])
+        lines += _prim("over", name, [*body, *_overs(below)], APIS if body else ())
     return lines
 
 
@@ -218,6 +211,7 @@ def inertial_text(
         principal.moments / mass,
         principal.axes,
     )
+    # Attributes of prims below it stay.
     below = re.search(r"\n[ \t]*(?:def|over|class)\b", old)
     split = below.start() if below else len(old)
     match = re.search(r"\n([ \t]+)\S", old)
@@ -356,21 +350,20 @@ def _joint(robot: Robot, joint: Joint, name: str, names: dict[str, str]) -> list
         free = joint.free[0]
         kind = "PhysicsRevoluteJoint" if free.kind == "rotate" else "PhysicsPrismaticJoint"
         turn = along_x(free.axis)
-        (apis, drive) = _drive(free, "angular" if free.kind == "rotate" else "linear")
-        limits = [_in_degrees(free.kind, limit) for limit in (free.lower, free.upper)]
-        more = ['uniform token physics:axis = "X"']
-        more += [
-            "float physics:{}Limit = {}".format(end, single(v))
-            for end, v in zip(("lower", "upper"), limits)
+        apis, drive = _drive(free, "angular" if free.kind == "rotate" else "linear")
+        more = [
+            'uniform token physics:axis = "X"',
+            "float physics:lowerLimit = {}".format(single(_in_degrees(free.kind, free.lower))),
+            "float physics:upperLimit = {}".format(single(_in_degrees(free.kind, free.upper))),
+            *drive,
         ]
-        more += drive
     elif joint.is_ball:
         kind = "PhysicsSphericalJoint"
         apis = ()
         more = []
     else:
         kind = "PhysicsJoint"
-        (apis, more) = _limits(joint)
+        apis, more = _limits(joint)
     here = Pose(joint.pose.position, joint.pose.rotation @ turn)
     lines = _ends(
         names[parent.name], names[child.name], Pose(place.position, place.rotation @ turn), here
@@ -399,9 +392,8 @@ def _drive(free: FreeAxis, name: str) -> tuple[list[str], list[str]]:
     lines = []
     for key, attribute in NAMES["USD"].items():
         if key in free.values:
-            value = free.values[key] * (
-                radians(1.0) if free.kind == "rotate" and key != "effort" else 1.0
-            )
+            is_per_angle = free.kind == "rotate" and key != "effort"
+            value = free.values[key] * (radians(1.0) if is_per_angle else 1.0)
             lines.append("float drive:{}:physics:{} = {}".format(name, attribute, single(value)))
     return ["PhysicsDriveAPI:" + name] if lines else [], lines
 
@@ -415,20 +407,21 @@ def _limits(joint: Joint) -> tuple[tuple[str, ...], list[str]]:
     limit is the higher.
     """
     limits = {"{}{}".format(kind, axis): (1.0, -1.0) for kind in ("trans", "rot") for axis in "XYZ"}
-    apis, lines = [], []
+    apis = []
+    lines = []
     for free in joint.free:
-        kind = "rot" if free.kind == "rotate" else "trans"
-        axis = "XYZ"[int(np.argmax(np.abs(free.axis)))]
-        flipped = free.axis["XYZ".index(axis)] < 0.0
-        ends = (-free.upper, -free.lower) if flipped else (free.lower, free.upper)
-        limits[kind + axis] = (_in_degrees(free.kind, ends[0]), _in_degrees(free.kind, ends[1]))
-        drive = _drive(free, kind + axis)
-        apis += drive[0]
-        lines += drive[1]
+        axis = int(np.argmax(np.abs(free.axis)))
+        is_reversed = free.axis[axis] < 0.0
+        low, high = (-free.upper, -free.lower) if is_reversed else (free.lower, free.upper)
+        name = ("rot" if free.kind == "rotate" else "trans") + "XYZ"[axis]
+        limits[name] = (_in_degrees(free.kind, low), _in_degrees(free.kind, high))
+        drive_apis, drive = _drive(free, name)
+        apis += drive_apis
+        lines += drive
     for name, (low, high) in limits.items():
         if low == -inf and high == inf:
             continue
         apis.append("PhysicsLimitAPI:" + name)
-        for end, value in (("low", low), ("high", high)):
-            lines.append("float limit:{}:physics:{} = {}".format(name, end, single(value)))
+        lines.append("float limit:{}:physics:low = {}".format(name, single(low)))
+        lines.append("float limit:{}:physics:high = {}".format(name, single(high)))
     return tuple(apis), lines
