@@ -13,7 +13,7 @@ from body_moments.core.robots.model import (
     Robot,
     combine_inertials,
 )
-from body_moments.core.robots.stated import StatedInertial, rotation_of_angles
+from body_moments.core.robots.stated import rotation_of_angles
 
 from tests.close import close
 from tests.core import bodies
@@ -37,19 +37,6 @@ def pose(seed):
     return Pose(np.random.default_rng(seed).normal(size=3), bodies.rotation(seed))
 
 
-def test_nested_poses_compose_and_invert():
-    outer, inner, point = pose(1), pose(2), RNG.normal(size=3)
-    both = outer @ inner
-    assert close(
-        both.rotation @ point + both.position,
-        outer.rotation @ (inner.rotation @ point + inner.position) + outer.position,
-        1e-13,
-    )
-    same = both @ both.inverse()
-    assert np.abs(same.position).max() <= 1e-14 and np.abs(same.rotation - np.eye(3)).max() <= 1e-14
-    assert (Pose().position == 0.0).all() and (Pose().rotation == np.eye(3)).all()
-
-
 def test_angles_turn_about_the_fixed_axes_x_then_y_then_z():
     roll, pitch, yaw = 0.3, -1.2, 2.2
     turns = [rotation_of_angles(*angles) for angles in ((roll, 0, 0), (0, pitch, 0), (0, 0, yaw))]
@@ -60,21 +47,6 @@ def test_angles_turn_about_the_fixed_axes_x_then_y_then_z():
         following = np.roll(np.eye(3), axis + 1, axis=1)[0]
         across = np.roll(np.eye(3), axis + 2, axis=1)[0]
         assert close(turn @ following, np.cos(angle) * following + np.sin(angle) * across, 1e-14)
-
-
-def test_inertial_stated_along_other_axes_is_turned():
-    turn = bodies.rotation(4)
-    stated = StatedInertial(
-        2.0, Z, np.diag([1.0, 2.0, 2.5]), turn, (1.0, 2.0, 3.0), (1.0, 0.0, 0.0, 0.0)
-    )
-    assert np.abs(stated.inertia - turn @ np.diag([1.0, 2.0, 2.5]) @ turn.T).max() <= 1e-14
-    for other, tensor in (
-        (stated.along_link(), stated.inertia),
-        (stated.along_link(np.eye(3)), np.eye(3)),
-    ):
-        assert (other.tensor == tensor).all() and (other.rotation == np.eye(3)).all()
-        assert other.angles is None and other.quaternion is None and other.mass == 2.0
-    assert stated.along_link(mass=5.0).mass == 5.0
 
 
 def test_an_inertial_is_moved_with_its_axes():
@@ -144,18 +116,6 @@ def test_principal_axes_not_matching_the_tensor_are_recomputed():
 
 def free(kind="rotate", **limits):
     return FreeAxis(kind, Z, **limits)
-
-
-def test_a_ball_turns_about_three_axes_without_limits():
-    assert free(lower=-1.0).is_limited and free(upper=1.0).is_limited and not free().is_limited
-    for axes, is_ball in (
-        ([free()] * 3, True),
-        ([free()] * 2, False),
-        ([free(), free(), free(upper=1.0)], False),
-        ([free(), free(), free("slide")], False),
-        ([free()] * 3 + [free("slide")], False),
-    ):
-        assert Joint("j", "a", "b", tuple(axes)).is_ball == is_ball
 
 
 def tree():

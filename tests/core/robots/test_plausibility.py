@@ -161,24 +161,6 @@ def test_impossible_inertia_is_reported_with_numbers():
 
 
 @pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
-@pytest.mark.parametrize("share", [1e-2, 1e-9, 1e-10, 1e-11])
-def test_distance_beside_a_corner_is_measured_from_it(size, share):
-    """Equal up to rounding of the size."""
-    hull = Hull(size * (CUBE - 1.0))  # a corner at the origin
-    away = hull.size * share
-    assert close(hull.distance(np.full(3, away / 3.0**0.5)), away, 1e-9)
-    assert hull.distance(np.full(3, 1e-3 * hull.size * 1e-10)) == 0.0 == hull.distance(np.zeros(3))
-
-
-@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
-def test_the_distance_is_found_within_a_billionth_of_the_size(size):
-    """The nearest corner's own plane leaves a tenth of a millionth to gain."""
-    slope = 1e-7
-    hull = Hull(size * np.array([(0, 0, 1), (1, 0, 1 - slope), (0, 1, 2), (1, 1, 2)]))
-    assert close(hull.distance(np.zeros(3)), size / np.hypot(1.0, slope), 2e-9)
-
-
-@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
 def test_least_density_of_an_ellipsoid_is_its_own(size):
     """The bound is sharp for even ellipsoids up to the rounding; others are above."""
     axes = size * np.array([0.5, 0.7, 0.9])
