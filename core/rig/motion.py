@@ -91,7 +91,7 @@ def momenta_between(course: Course, first: int, last: int) -> tuple[Array, Array
     kinetic energy.
     """
     rows = slice(first, last + 1)
-    count = last - first
+    count = last - first  # of velocities
     step = course.step
     masses = course.masses
     center = course.center[rows]
@@ -103,30 +103,24 @@ def momenta_between(course: Course, first: int, last: int) -> tuple[Array, Array
         _stencils(count + 1, np.arange(count) + 0.5, NODES, order, degree)
         for order in (False, True)
     )
+    # In the axes of the heaviest part: the parts' places and shapes, and their rates.
     arms = (back @ (course.centers[rows] - center[:, None])[..., None])[..., 0]
     linear = back @ course.linear[rows]
     arm = mean(arms)
     spread = mean(back @ course.spreads[rows] @ back.swapaxes(-1, -2))
     arm_rate = rate(arms) / step
     shape = mean(linear)
-    turn = mean(axes)
     shape[np.linalg.det(shape) == 0.0] = np.eye(3)  # a bone scaled to nothing has no spread either
     growth = (rate(linear) / step) @ np.linalg.inv(shape)
+    # The rotation of these axes.
+    turn = mean(axes)
     rotation = rotation_matrix(turn)
-    turn_rate = rate(axes) / step
-    # Twice the vector of the rate times the conjugate is the angular velocity.
-    spin = (
-        turn[:, :1] * turn_rate[:, 1:]
-        - turn_rate[:, :1] * turn[:, 1:]
-        - np.cross(turn_rate[:, 1:], turn[:, 1:])
-    )
-    spin = 2.0 * np.einsum("fji,fj->fi", rotation, spin) / (turn * turn).sum(axis=1)[:, None]
+    spin = angular_velocities(turn, rate(axes) / step)
     second = spread.sum(axis=1) + np.einsum("p,fpi,fpj->fij", masses, arm, arm)
     inertia = inertia_of_second(second)
     product = growth @ spread
-    skew = (product - product.swapaxes(-1, -2)).sum(axis=1)
     inner = np.einsum("p,fpi->fi", masses, np.cross(arm, arm_rate))
-    inner += np.stack([skew[:, 2, 1], skew[:, 0, 2], skew[:, 1, 0]], axis=1)
+    inner += axial_vectors(product.sum(axis=1))
     angular = inner + np.einsum("fij,fj->fi", inertia, spin)
     velocity = np.diff(center, axis=0) / step
     energy = masses.sum() * (velocity**2).sum(axis=1) + (spin * (angular + inner)).sum(axis=1)
@@ -135,6 +129,22 @@ def momenta_between(course: Course, first: int, last: int) -> tuple[Array, Array
     return np.column_stack(
         [velocity, angular, energy / 2.0]
     ), rotation @ inertia @ rotation.swapaxes(-1, -2)
+
+
+def angular_velocities(turns: NDArray, rates: NDArray) -> Array:
+    """Return (..., 3) angular velocities, along the turned axes, of (..., 4) quaternions and their
+    rates: twice the vector of the conjugate times the rate.
+    """
+    vectors = turns[..., 1:]
+    spin = turns[..., :1] * rates[..., 1:] - rates[..., :1] * vectors
+    spin = spin - np.cross(vectors, rates[..., 1:])
+    return 2.0 * spin / (turns * turns).sum(axis=-1, keepdims=True)
+
+
+def axial_vectors(matrices: NDArray) -> Array:
+    """Return (..., 3) vectors a with a × x = (M - Mᵀ) x, of (..., 3, 3) matrices."""
+    skew = matrices - matrices.swapaxes(-1, -2)
+    return np.stack([skew[..., 2, 1], skew[..., 0, 2], skew[..., 1, 0]], axis=-1)
 
 
 def momenta(course: Course, flights: Sequence[Flight]) -> tuple[Array, Array]:
@@ -244,6 +254,7 @@ class _stencils:
         degree = nodes - 1 if degree is None else min(degree, nodes - 1)
         self.starts = np.clip(np.ceil(places - nodes / 2.0), 0, count - nodes).astype(np.intp)
         middle = (nodes - 1) / 2.0
+        # Places that are equally far from their nodes share their weights.
         offsets, self.kinds = np.unique(places - self.starts - middle, return_inverse=True)
         powers = np.arange(degree + 1)
         fit = np.linalg.pinv((np.arange(nodes) - middle)[:, None] ** powers)

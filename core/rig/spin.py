@@ -18,7 +18,7 @@ from functools import cached_property
 import numpy as np
 
 from ..numerics import Array, NDArray, inertia_of_second, quaternion, rotation_matrix
-from .motion import Course, continuous
+from .motion import Course, angular_velocities, axial_vectors, continuous
 
 # Of a frame, in -1 to 1. A cubic through the first, second, fourth and fifth has the least error of
 # its derivative.
@@ -71,9 +71,9 @@ class CarriedParts:
         momenta = self.masses[:, None] * np.cross(self.arms, self.rates(self.arms))
         shape = self.linear.copy()
         shape[np.linalg.det(shape) == 0.0] = np.eye(3)  # a bone scaled to nothing has no spread
-        flow = self.rates(self.linear) @ np.linalg.inv(shape) @ self.spreads
-        skew = flow - flow.swapaxes(-1, -2)
-        return momenta + np.stack([skew[..., 2, 1], skew[..., 0, 2], skew[..., 1, 0]], axis=-1)
+        return momenta + axial_vectors(
+            self.rates(self.linear) @ np.linalg.inv(shape) @ self.spreads
+        )
 
     @cached_property
     def inertia(self) -> Array:
@@ -85,11 +85,7 @@ class CarriedParts:
     def momenta(self) -> Array:
         """(f, n, p, 3) angular momenta of the parts about the common center, in the world."""
         turns = continuous(quaternion(self.axes.reshape(-1, 3, 3))).reshape(*self.axes.shape[:2], 4)
-        rate = self.rates(turns)
-        # Twice the vector of the conjugate times the rate is the angular velocity in the carrier's
-        # axes.
-        spin = turns[..., :1] * rate[..., 1:] - rate[..., :1] * turns[..., 1:]
-        spin = 2.0 * (spin - np.cross(turns[..., 1:], rate[..., 1:]))
+        spin = angular_velocities(turns, self.rates(turns))
         momenta = self.own_momenta + np.einsum("fnpij,fnj->fnpi", self.inertia, spin)
         return np.einsum("fnij,fnpj->fnpi", self.axes, momenta)
 
@@ -139,25 +135,31 @@ class CarriedParts:
             turns[frame, 0] = turn
             for node, length in enumerate(lengths):
                 for row in range(0, 2 * steps, 2):
-                    stages = zip(inverse[frame, node, row:], own[frame, node, row:])
-                    start, middle, end = (next(stages) for _ in range(3))
-                    vector = np.zeros(3)
-                    total = np.zeros(3)
-                    for (inv, momentum), share, weight in (
-                        (start, 0.0, 1.0),
-                        (middle, 0.5, 2.0),
-                        (middle, 0.5, 2.0),
-                        (end, 1.0, 1.0),
-                    ):
-                        vector = share * length * vector
-                        spin = inv @ ((turn @ rotation(vector)).T @ kept - momentum)
-                        # of the rate of a rotation vector, to the order of the integrator
-                        bent = np.cross(vector, spin)
-                        vector = spin + bent / 2.0 + np.cross(vector, bent) / 12.0
-                        total += weight / 6.0 * vector
-                    turn = turn @ rotation(length * total)
+                    step = slice(row, row + 3)  # its start, middle and end
+                    body = (inverse[frame, node, step], own[frame, node, step])
+                    turn = turn @ rotation(_step_vector(turn, *body, kept, length))
                 turns[frame, node + 1] = turn
         return turns
+
+
+def _step_vector(
+    turn: NDArray, inverses: NDArray, momenta: NDArray, kept: NDArray, length: float
+) -> Array:
+    """Return the (3,) rotation vector, in the carrier's axes, of one step of the integrator.
+
+    inverses, momenta: (3, 3, 3) of the inertia and (3, 3) of the parts' motion, at the start, the
+    middle and the end of the step. length: seconds.
+    """
+    rate = np.zeros(3)
+    total = np.zeros(3)
+    for stage, share, weight in ((0, 0.0, 1.0), (1, 0.5, 2.0), (1, 0.5, 2.0), (2, 1.0, 1.0)):
+        vector = share * length * rate
+        spin = inverses[stage] @ ((turn @ rotation(vector)).T @ kept - momenta[stage])
+        # The rate of a rotation vector, to the order of the integrator.
+        bent = np.cross(vector, spin)
+        rate = spin + bent / 2.0 + np.cross(vector, bent) / 12.0
+        total += weight / 6.0 * rate
+    return length * total
 
 
 def node_weights(shares: NDArray) -> Array:

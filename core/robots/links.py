@@ -115,18 +115,7 @@ def _spanning_edges(
 
     All fixed links count as one, the world, which has no name.
     """
-    group: dict[str, str] = {}
-
-    def join(first: str, second: str) -> bool:
-        tops = []
-        for name in (first, second):
-            while name in group:
-                name = group[name]
-            tops.append(name)
-        if tops[0] != tops[1]:
-            group[max(tops)] = min(tops)
-        return tops[0] != tops[1]
-
+    groups = _Groups()
     between = {frozenset((one.first, one.second)): one for one in reversed(connections)}
     edges = []
     names = {one.name for one in connections}
@@ -137,15 +126,40 @@ def _spanning_edges(
             edge = Connection(name + "_" * (name in names), parent, child)
         # The side of the parent comes first.
         edges.append(edge if edge.first == parent else _exchange(edge, links))
-        join(parent, child)
+        groups.join(parent, child)
     for link in links.values():
         if link.is_fixed:
-            join("", link.name)
+            groups.join("", link.name)
     used = {edge.name for edge in edges} & names
-    rest = [one for one in connections if one.name not in used]
-    joined = [join(one.first, one.second) for one in rest]
-    edges += [one for one, is_tree in zip(rest, joined) if is_tree]
-    return edges, [one.name for one, is_tree in zip(rest, joined) if not is_tree]
+    loops = []
+    for connection in connections:
+        if connection.name in used:
+            continue
+        if groups.join(connection.first, connection.second):
+            edges.append(connection)
+        else:
+            loops.append(connection.name)
+    return edges, loops
+
+
+class _Groups:
+    """Groups of links that are connected, each with one of them as its top."""
+
+    def __init__(self) -> None:
+        self._above: dict[str, str] = {}
+
+    def join(self, first: str, second: str) -> bool:
+        """Join the groups of two links. Return False if they are one already."""
+        low, high = sorted((self._top(first), self._top(second)))
+        if low == high:
+            return False
+        self._above[high] = low
+        return True
+
+    def _top(self, name: str) -> str:
+        while name in self._above:
+            name = self._above[name]
+        return name
 
 
 def _exchange(edge: Connection, links: Mapping[str, Link]) -> Connection:

@@ -11,7 +11,7 @@ from ...verdict import Finding, finding
 from ..findings import JOINT_VALUES_LOST
 from ..model import Joint, Link, Pose, Robot
 from .shapes import with_masses
-from .text import unique_names
+from .text import free_name
 
 # Names of values in each format, by ours. UsdPhysics and glTF have drives, others dynamics, limits
 # and mimics.
@@ -128,7 +128,8 @@ def with_axis_frames(
     stay as they are. part: of the child's inertial, which each of its frames takes over; zero for
     frames without mass.
     """
-    names, joint_names = ({one.name for one in those} for those in (robot.links, robot.joints))
+    names = {link.name for link in robot.links}
+    joint_names = {joint.name for joint in robot.joints}
     links = {link.name: link for link in robot.links}
     frames: list[Link] = []
     joints: list[Joint] = []
@@ -144,10 +145,8 @@ def with_axis_frames(
             rest = child.inertial.share(1.0 - part * len(between))
             links[child.name] = replace(child, inertial=rest)
         for count, free in enumerate(between, start=1):
-            (name,) = unique_names(["{}_axis_{}".format(child.name, count)], str, names).values()
-            (label,) = unique_names(
-                ["{}_axis_{}".format(joint.name, count)], str, joint_names
-            ).values()
+            name = free_name("{}_axis_{}".format(child.name, count), names)
+            label = free_name("{}_axis_{}".format(joint.name, count), joint_names)
             frames.append(Link(name, inertial, pose))
             joints.append(Joint(label, parent, name, (free,), Pose(rotation=joint.pose.rotation)))
             names.add(name)

@@ -64,6 +64,11 @@ def unique_names(
     return result
 
 
+def free_name(name: str, taken: Iterable[str]) -> str:
+    """Return a name, with a number if it is `taken`."""
+    return unique_names([name], str, taken)[name]
+
+
 def roll_pitch_yaw(rotation: NDArray) -> tuple[float, float, float]:
     """Return roll, pitch and yaw with rotation = Rz(yaw) Ry(pitch) Rx(roll), -π/2 ≤ pitch ≤ π/2,
     also at the poles.

@@ -25,6 +25,7 @@ from .text import (
     document,
     element,
     element_text,
+    free_name,
     is_identity,
     number,
     numbers,
@@ -88,7 +89,7 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
         if any(link.is_fixed for link in robot.roots):
             base = WORLD
         elif len(robot.roots) > 1:
-            base = _free_name(BASE, names)
+            base = free_name(BASE, names.values())
     if base is not None:
         parts.append(element("link", _no_mass(), name=base))
     for link in robot.ordered():
@@ -101,7 +102,8 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
         if joint is not None:
             ends |= {"name": joint_names[joint.name], "parent": names[joint.parent]}
         elif base is not None:
-            ends |= {"name": _free_name(names[link.name] + "_joint", joint_names), "parent": base}
+            name = free_name(names[link.name] + "_joint", joint_names.values())
+            ends |= {"name": name, "parent": base}
         else:
             continue
         parts.append(_joint(robot.pose_in_parent(link), joint, joint_names, **ends))
@@ -123,10 +125,6 @@ def _compiler(robot: Robot) -> Element:
     if is_bare or small_links(robot, BOUNDED):
         values |= {"boundmass": number(LEAST), "boundinertia": number(LEAST)}
     return element("mujoco", element("compiler", **values))
-
-
-def _free_name(name: str, taken: Mapping[str, str]) -> str:
-    return unique_names([name], str, taken.values())[name]
 
 
 def _origin(pose: Pose) -> Element:
