@@ -72,7 +72,7 @@ class OBJECT_OT_body_moments_measure_assembly(modal.ModalSteps, Operator):
         assembly = bodies.assemble(self._member, self._results, context.evaluated_depsgraph_get())
         failures = session.stored.assembly.store(context, assembly)
         measurement = assembly.measurement
-        done = [
+        summary = [
             write.reports.phrase(
                 "{assembly}: {mass:.7g} kg from {count} object",
                 "{assembly}: {mass:.7g} kg from {count} objects",
@@ -83,9 +83,9 @@ class OBJECT_OT_body_moments_measure_assembly(modal.ModalSteps, Operator):
         ]
         if failures:
             names = [name for name, _ in failures]
-            done.append(write.reports.phrase("Results not stored on {names}.", names=names))
+            summary.append(write.reports.phrase("Results not stored on {names}.", names=names))
         findings = of_severity(measurement.findings, Severity.WARNING, Severity.ERROR)
-        return selection.report(self, *done, *findings)
+        return selection.report(self, *summary, *findings)
 
 
 class OBJECT_OT_body_moments_clear_assembly(Operator):

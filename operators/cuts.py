@@ -146,6 +146,6 @@ class OBJECT_OT_body_moments_cut_fill(WithDialog, Operator):
 
     def _change(self, context: Context, obj: Object) -> set[str]:
         height = self.height * scale.meters_per_unit(context.scene)
-        known = stored.cuts.measure_cut_fill(context, obj, self.against, height, self.other)
+        cut_fill = stored.cuts.measure_cut_fill(context, obj, self.against, height, self.other)
         text = write.reports.phrase("Compared “{object}”", object=obj.name)
-        return selection.report(self, text, *known.findings)
+        return selection.report(self, text, *cut_fill.findings)

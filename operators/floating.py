@@ -19,7 +19,7 @@ class OnFloating(selection.OnSelectionInObjectMode):
         "children",
     )
 
-    def for_each_body(self, context: Context, act, done: tuple[str, str]) -> set[str]:
+    def for_each_body(self, context: Context, act, summary_texts: tuple[str, str]) -> set[str]:
         """Run a function for each body, and report how many it returned True for."""
         bodies = {
             body[0]: body
@@ -32,7 +32,7 @@ class OnFloating(selection.OnSelectionInObjectMode):
             self,
             [*bodies],
             lambda root: act(bodies[root], notes),
-            done,
+            summary_texts,
             "already at rest",
             notes,
             "Nothing selected floats",

@@ -176,24 +176,24 @@ class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, I
         selection.draw_properties(self, "unit")
 
     def execute(self, context: Context) -> set[str]:
-        made: list[Object] = []
+        imported: list[Object] = []
         parts: list[verdict.Finding | str] = []
         refusals: list[verdict.MeasureError] = []
         for path in self._paths():
             try:
-                objects, found = self._import(context, path)
+                objects, file_findings = self._import(context, path)
             except verdict.MeasureError as error:
                 refusals.append(error.about(path.name))
             else:
-                made += objects
-                parts += found
-        if not made:
+                imported += objects
+                parts += file_findings
+        if not imported:
             if not refusals:
                 return selection.refuse(self, selection.NO_FILE)
             write.reports.report(self, *map(write.reports.refusal, refusals))
             return {"CANCELLED"}
         context.view_layer.update()  # it takes in the new objects
-        visible = [obj for obj in made if obj.name in context.view_layer.objects]
+        visible = [obj for obj in imported if obj.name in context.view_layer.objects]
         if visible:
             selection.select_only(context, visible, visible[0])
         for part in [*parts, *(write.reports.failure(error.subject, error) for error in refusals)]:
@@ -203,7 +203,7 @@ class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, I
         return {"FINISHED"}
 
     def _paths(self) -> list[Path]:
-        names = [one.name for one in self.files if one.name]
+        names = [file.name for file in self.files if file.name]
         if names:
             return [Path(bpy.path.abspath(self.directory), name) for name in names]
         path = Path(bpy.path.abspath(self.filepath))
@@ -213,12 +213,14 @@ class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, I
         self, context: Context, path: Path
     ) -> tuple[list[Object], list[verdict.Finding | str]]:
         """Return the objects of a file, and findings about the steps and decisions."""
-        found = scene.import_surfaces(path, core.files.limits.file_limits(), self.unit, context)
+        surfaces = scene.import_surfaces(path, core.files.limits.file_limits(), self.unit, context)
         texts = (
             "Imported {count} patch of order {order} from {file}.",
             "Imported {count} patches of order {order} at most from {file}.",
         )
-        if not found.order:
+        if not surfaces.order:
             texts = "Imported {count} solid from {file}.", "Imported {count} solids from {file}."
-        done = write.reports.phrase(*texts, count=found.patches, order=found.order, file=path.name)
-        return found.objects, [done, *found.findings]
+        summary = write.reports.phrase(
+            *texts, count=surfaces.patches, order=surfaces.order, file=path.name
+        )
+        return surfaces.objects, [summary, *surfaces.findings]

@@ -60,8 +60,8 @@ class ModalSteps:
             self._returned_at = perf_counter()
             return {"RUNNING_MODAL"}
         with write.reports.progress(self._count) as step:
-            for done in self._steps:
-                step(done)
+            for completed in self._steps:
+                step(completed)
         return self._finish(context)
 
     def _advance(self, context: Context, event: Event) -> set[str]:
@@ -74,9 +74,9 @@ class ModalSteps:
         try:
             now = perf_counter()
             until = now + max(STEP_SECONDS, min(now - self._returned_at, MAX_STEP_SECONDS))
-            for done in self._steps:
+            for completed in self._steps:
                 if perf_counter() >= until:
-                    self._show_progress(context, done)
+                    self._show_progress(context, completed)
                     self._returned_at = perf_counter()
                     return {"RUNNING_MODAL"}
         except BaseException:
@@ -85,9 +85,9 @@ class ModalSteps:
         self._stop_modal(context)
         return self._finish(context)
 
-    def _show_progress(self, context: Context, done: float) -> None:
-        context.window_manager.progress_update(done)
-        share = done / self._count if self._count else 1.0
+    def _show_progress(self, context: Context, completed: float) -> None:
+        context.window_manager.progress_update(completed)
+        share = completed / self._count if self._count else 1.0
         context.workspace.status_text_set(write.reports.phrase(self.PROGRESS, share=share))
 
     def _stop_modal(self, context: Context) -> None:

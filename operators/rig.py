@@ -47,7 +47,7 @@ class OBJECT_OT_body_moments_measure_bones(OnArmature, Operator):
     def execute(self, context: Context) -> set[str]:
         rig = bodies.measure_rig(context, read.rig.require_armature(armature_of(context)))
         failures = session.stored.results.store_rig(rig)
-        done = write.reports.phrase(
+        summary = write.reports.phrase(
             "{armature}: {mass:.7g} kg in the parts of {count} bone",
             "{armature}: {mass:.7g} kg in the parts of {count} bones",
             armature=rig.armature.name,
@@ -56,7 +56,7 @@ class OBJECT_OT_body_moments_measure_bones(OnArmature, Operator):
         )
         findings = of_severity(rig.measurement.findings, *NOTABLE)
         findings += [write.reports.failure(name, reason) for name, reason in failures]
-        return selection.report(self, done, *findings)
+        return selection.report(self, summary, *findings)
 
 
 class OBJECT_OT_body_moments_clear_bones(OnArmature, Operator):
@@ -87,9 +87,9 @@ class OBJECT_OT_body_moments_physics_rig(OnArmature, Operator):
             self,
             write.reports.phrase(text, count=count, joints=joints),
             *[
-                found
-                for found in rig.measurement.findings
-                if found.code == bodies.findings.BONE_PARTS_IMPOSSIBLE
+                failure
+                for failure in rig.measurement.findings
+                if failure.code == bodies.findings.BONE_PARTS_IMPOSSIBLE
             ],
         )
 
@@ -120,17 +120,17 @@ class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
         armatures = [obj for obj in context.selected_objects if stands_for_meshes(obj)] or [
             context.object
         ]
-        shown = not context.object.body_moments_weight.show
+        is_shown = not context.object.body_moments_weight.show
         prepare = session.character.weight.prepare
         rigs = [rig for armature in armatures if (rig := prepare(context, armature)) is not None]
-        shown = shown or bool(rigs)  # numbers that were out of date are shown anew
+        is_shown = is_shown or bool(rigs)  # numbers that were out of date are shown anew
         for armature in armatures:
-            armature.body_moments_weight.show = shown
-        found = [found for rig in rigs for found in rig.measurement.findings]
+            armature.body_moments_weight.show = is_shown
+        findings = [finding for rig in rigs for finding in rig.measurement.findings]
         names = ", ".join(armature.name for armature in armatures)
-        text = "Showing the weight of {names}" if shown else "Hid the weight of {names}"
-        done = write.reports.phrase(text, names=names)
-        return selection.report(self, done, *of_severity(found, *NOTABLE))
+        text = "Showing the weight of {names}" if is_shown else "Hid the weight of {names}"
+        summary = write.reports.phrase(text, names=names)
+        return selection.report(self, summary, *of_severity(findings, *NOTABLE))
 
 
 class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
@@ -170,5 +170,5 @@ class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
         margin = self.margin if self.target == "INSIDE" else None
         values = session.balance_pose(context, context.object, self.bone, margin)
         text = "Moved “{bone}”: the center is {gap} from its target, {margin} inside the support"
-        done = write.reports.phrase(text if values else BALANCED, **values)
-        return selection.finish(self, [done], is_changed=bool(values))
+        summary = write.reports.phrase(text if values else BALANCED, **values)
+        return selection.finish(self, [summary], is_changed=bool(values))

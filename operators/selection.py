@@ -176,7 +176,7 @@ def summarize(
     operator: Operator,
     changed: int,
     total: int,
-    done: str,
+    summary: str,
     failures: Sequence[Finding] = (),
     findings: Sequence[Finding | str] = (),
     idle: str | None = None,
@@ -186,15 +186,16 @@ def summarize(
 
     All failures and warnings stay in the panel until the next action.
 
-    done: the action on `changed` of `total` objects. failures: the reasons for objects left
-    unchanged. findings: other observations. idle: the reason if nothing had to be done. `done` and
-    `idle` are translated already. nothing: the English text if there are no objects.
+    summary: the report on the action, which changed `changed` of `total` objects. failures: the
+    reasons for objects left unchanged. findings: other observations. idle: the reason if nothing
+    had to be done. `summary` and `idle` are translated already. nothing: the English text if there
+    are no objects.
     """
     if not total:
-        done = write.reports.phrase(nothing)
+        summary = write.reports.phrase(nothing)
     elif not changed and not failures and idle is not None:
-        done = write.reports.phrase("Nothing to do: {cause}", cause=idle)
-    parts = [done] if changed or not failures else []
+        summary = write.reports.phrase("Nothing to do: {cause}", cause=idle)
+    parts = [summary] if changed or not failures else []
     if failures:
         parts.append(
             write.reports.phrase(
@@ -240,14 +241,14 @@ def iterate_objects(
     share. Refusals and failures are added to `failures`: none of them ends the work on the other
     objects.
     """
-    for done, obj in enumerate(objects, 1):
+    for completed, obj in enumerate(objects, 1):
         try:
             for share in action(obj) or ():
-                yield done - 1 + share
+                yield completed - 1 + share
         except Exception as error:
             # objects of two libraries may have one name
             failures.append(write.reports.failure(obj.name_full, error))
-        yield done
+        yield completed
 
 
 def name_warned(names: Sequence[str]) -> list[str]:
@@ -260,7 +261,7 @@ def change_all(
     operator: Operator,
     objects: Sequence[Object],
     action: Callable[[Object], bool | None],
-    done: tuple[str, str],
+    summary_texts: tuple[str, str],
     idle: str | None = None,
     findings: Sequence[Finding | str] = (),
     nothing: str = "Nothing selected can be measured",
@@ -269,13 +270,13 @@ def change_all(
 ) -> set[str]:
     """Run `action` on each object, report the run once, and return the result of `execute`.
 
-    done: the English report, for one object and for `count` objects. idle: the English reason if
-    nothing had to be done. findings: other observations, to which `action` may add. then: gets the
-    changed objects. values: of the texts.
+    summary_texts: the English report, for one object and for `count` objects. idle: the English
+    reason if nothing had to be done. findings: other observations, to which `action` may add.
+    then: gets the changed objects. values: of the texts.
     """
     changed, failures = apply_to_all(objects, action)
     then(changed)
-    text = write.reports.phrase(*done, count=len(changed), **values)
+    text = write.reports.phrase(*summary_texts, count=len(changed), **values)
     reason = idle and write.reports.phrase(idle, **values)
     return summarize(
         operator, len(changed), len(objects), text, failures, findings, reason, nothing
@@ -299,8 +300,8 @@ def apply_to_all(
             changed.append(obj)
 
     with write.reports.progress(len(objects)) as step:
-        for done in iterate_objects(objects, run, failures):
-            step(done)
+        for completed in iterate_objects(objects, run, failures):
+            step(completed)
     return changed, failures
 
 

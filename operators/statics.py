@@ -30,7 +30,7 @@ class OBJECT_OT_body_moments_stability(selection.OnSelection, Operator):
         def check(obj: Object) -> None:
             notes.extend(session.check_stability(context, obj, measured))
 
-        known, failures = selection.apply_to_all(objects, check)
+        checked, failures = selection.apply_to_all(objects, check)
         session.tracking.staleness.mark_up_to_date(context, measured)
         supports = {obj: session.stored.stability.support(obj, context.scene) for obj in objects}
         standing = [
@@ -42,8 +42,8 @@ class OBJECT_OT_body_moments_stability(selection.OnSelection, Operator):
         if falling:
             notes.insert(0, finding(findings.OBJECTS_TIP, count=len(falling), names=falling))
         texts = ("{count} of {total} object stands", "{count} of {total} objects stand")
-        done = write.reports.phrase(*texts, count=len(standing), total=len(known))
-        return selection.summarize(self, len(known), len(objects), done, failures, notes)
+        summary = write.reports.phrase(*texts, count=len(standing), total=len(checked))
+        return selection.summarize(self, len(checked), len(objects), summary, failures, notes)
 
 
 class OBJECT_OT_body_moments_rest_on_ground(selection.OnSelectionInObjectMode, Operator):
@@ -166,8 +166,8 @@ class OBJECT_OT_body_moments_balance_group(modal.ModalDialog, Operator):
 
     def _begin(self, context: Context) -> int:
         scene = context.scene
-        own = (self.frame_start, max(self.frame_start, self.frame_end))
-        first, last = (scene.frame_start, scene.frame_end) if self.use_scene_range else own
+        stated_range = (self.frame_start, max(self.frame_start, self.frame_end))
+        first, last = (scene.frame_start, scene.frame_end) if self.use_scene_range else stated_range
         frames = range(first, last + 1, self.frame_step)
         self._group = session.BalanceGroup(
             context, self.collection, self.contacts, self.ground, self.reach

@@ -30,23 +30,23 @@ class AdvancedPanel:
         obj = session.selected.subject(context)
         scene = context.scene
         rows.button(layout, "object.body_moments_fourier", "MOD_WAVE", short="Fourier")
-        if (shown := displayed(obj, scene)) is not None and shown.live is None:
-            numbers = shown.in_frame(scene.body_moments.frame)
+        if (displayed_body := displayed(obj, scene)) is not None and displayed_body.live is None:
+            numbers = displayed_body.in_frame(scene.body_moments.frame)
             _bounds(layout, obj, numbers)
             _display_mesh(layout, obj, numbers)
 
 
-def _display_mesh(layout: UILayout, obj: Object, shown: inertia.PlainBody) -> None:
+def _display_mesh(layout: UILayout, obj: Object, numbers: inertia.PlainBody) -> None:
     display = write.properties.optional(obj, "body_display_volume")
     if display is None:
         return
     if (body := rows.fold(layout, "body_moments_display_mesh", "Display Mesh")) is not None:
         column = body.column(align=True)
-        rows.values(column, ("Volume", "Difference"), "volume", (display, display - shown.volume))
-        texts.filled(column, "{:+.3g}% of the volume", 100.0 * (display / shown.volume - 1.0))
+        rows.values(column, ("Volume", "Difference"), "volume", (display, display - numbers.volume))
+        texts.filled(column, "{:+.3g}% of the volume", 100.0 * (display / numbers.volume - 1.0))
 
 
-def _bounds(layout: UILayout, obj: Object, shown: inertia.PlainBody) -> None:
+def _bounds(layout: UILayout, obj: Object, numbers: inertia.PlainBody) -> None:
     body = rows.fold(layout, "body_moments_bounds", "Error Bounds")
     if body is None:
         return
@@ -56,14 +56,17 @@ def _bounds(layout: UILayout, obj: Object, shown: inertia.PlainBody) -> None:
         else "Rounding, at Most"
     )
     sources = (
-        (rounding, shown.error_bound),
-        ("Float32 Coordinates, at Most", shown.error_bound["input"]),
+        (rounding, numbers.error_bound),
+        ("Float32 Coordinates, at Most", numbers.error_bound["input"]),
     )
-    measures = ("Volume", "volume", "volume", shown.volume), ("Area", "area", "area", shown.area)
+    measures = (
+        ("Volume", "volume", "volume", numbers.volume),
+        ("Area", "area", "area", numbers.area),
+    )
     # a wire has neither, a grid of densities no surface
     entries = [entry for entry in measures if entry[-1]]
-    entries.append(("Center", "length", "center_of_mass", max(map(abs, shown.center))))
-    entries.append(("Inertia", "inertia", "inertia", max(shown.moments)))
+    entries.append(("Center", "length", "center_of_mass", max(map(abs, numbers.center))))
+    entries.append(("Inertia", "inertia", "inertia", max(numbers.moments)))
     rows.error_bounds(body, sources, entries)
 
 

@@ -69,7 +69,7 @@ class BODY_MOMENTS_UL_assembly(UIList):
         numbers.active = row.is_counted
         if findings:
             worst = max(
-                findings, key=lambda found: tuple(texts.ICONS).index(verdict.severity(found))
+                findings, key=lambda finding: tuple(texts.ICONS).index(verdict.severity(finding))
             )
             numbers.label(text="", icon=texts.ICONS[verdict.severity(worst)])
 
@@ -87,8 +87,8 @@ class BODY_MOMENTS_UL_assembly(UIList):
                 flags.append(0)
                 continue
             closed = None if row.is_open else row.depth
-            found = not self.filter_name or self.filter_name.lower() in row.name.lower()
-            flags.append(self.bitflag_filter_item if found else 0)
+            matches = not self.filter_name or self.filter_name.lower() in row.name.lower()
+            flags.append(self.bitflag_filter_item if matches else 0)
         return flags, []
 
 
@@ -97,13 +97,13 @@ def _base_name(name: str) -> str:
     return re.sub(r"\.\d{3,}$", "", name)
 
 
-def _are_equal(row: PropertyGroup, other: PropertyGroup) -> bool:
+def _are_equal(row: PropertyGroup, other_row: PropertyGroup) -> bool:
     return (
-        row.member == other.member == "OBJECT"
+        row.member == other_row.member == "OBJECT"
         and (row.depth, row.is_counted, row.findings)
-        == (other.depth, other.is_counted, other.findings)
-        and abs(row.mass - other.mass) <= EQUAL_RTOL * row.mass
-        and _base_name(row.name) == _base_name(other.name)
+        == (other_row.depth, other_row.is_counted, other_row.findings)
+        and abs(row.mass - other_row.mass) <= EQUAL_RTOL * row.mass
+        and _base_name(row.name) == _base_name(other_row.name)
     )
 
 
@@ -133,7 +133,7 @@ def draw_assembly(layout: UILayout, context: Context, root: assembly.Root, targe
     texts.stale_state(layout, reason)
     if stored is None:
         return
-    groups = [verdict.Group(found) for found in properties.findings(root)]
+    groups = [verdict.Group(finding) for finding in properties.findings(root)]
     rows.quantities(layout, [("Mass", "mass", stored.mass)])
     _tree(layout, settings)
     _numbers(layout, stored, isinstance(root, Collection))
@@ -172,8 +172,8 @@ def _tree(layout: UILayout, settings: PropertyGroup) -> None:
         rows=max(min(LINES, len(settings.rows)), 2),
     )
     if 0 <= settings.active_row < len(settings.rows):
-        for found in properties.findings_in(settings.rows[settings.active_row].findings):
-            texts.message(layout, found)
+        for finding in properties.findings_in(settings.rows[settings.active_row].findings):
+            texts.message(layout, finding)
 
 
 def _numbers(layout: UILayout, stored: inertia.PlainBody, in_world: bool) -> None:

@@ -120,24 +120,26 @@ def _answer(context: Context) -> Answer:
 
 
 def _of_one(context: Context, obj: Object) -> Answer:
-    shown = displayed(obj, context.scene)
+    displayed_body = displayed(obj, context.scene)
     frame = context.scene.body_moments.frame
     length = write.properties.optional(obj, "body_length")
-    numbers = None if shown is None else shown.in_frame(frame)
-    is_rig = obj.type == "ARMATURE" and shown is not None and not shown.is_posed
+    numbers = None if displayed_body is None else displayed_body.in_frame(frame)
+    is_rig = obj.type == "ARMATURE" and displayed_body is not None and not displayed_body.is_posed
     size = ("Volume", "volume", None if numbers is None else numbers.volume)
     density = ""
     if numbers is not None and numbers.mass > 0.0:
-        density = _density(numbers, length, "at {:s}, not set" if shown.is_assumed else "at {:s}")
+        density = _density(
+            numbers, length, "at {:s}, not set" if displayed_body.is_assumed else "at {:s}"
+        )
     state = ("", "")
-    if shown is not None and shown.reason is not None:
-        state = texts.outdated(shown.reason), "FILE_REFRESH"
-    elif shown is not None and shown.live is not None:
-        live = write.translations.localized(LIVE[shown.lag]).format(
-            milliseconds=1e3 * shown.live.seconds
+    if displayed_body is not None and displayed_body.reason is not None:
+        state = texts.outdated(displayed_body.reason), "FILE_REFRESH"
+    elif displayed_body is not None and displayed_body.live is not None:
+        live = write.translations.localized(LIVE[displayed_body.lag]).format(
+            milliseconds=1e3 * displayed_body.live.seconds
         )
         state = live, "REC"
-    findings = () if shown is None else shown.findings
+    findings = () if displayed_body is None else displayed_body.findings
     followed = session.memory.followed.get(obj)
     is_refused = followed is not None and followed.refusal is not None
     if is_refused and session.stored.outcome.last() is None:
@@ -145,21 +147,21 @@ def _of_one(context: Context, obj: Object) -> Answer:
     return Answer(
         obj.name,
         "OBJECT_DATA",
-        None if shown is None else shown.verdict,
+        None if displayed_body is None else displayed_body.verdict,
         numbers,
         (RESTING_HEADINGS if is_rig else CENTER_HEADINGS)[frame],
         density,
         size if length is None else ("Length", "length", length),
         state,
-        "" if shown is None else _method(obj, shown),
-        [Group(found) for found in findings],
+        "" if displayed_body is None else _method(obj, displayed_body),
+        [Group(finding) for finding in findings],
     )
 
 
 def _of_several(context: Context) -> Answer:
-    shown = total(context)
+    displayed_total = total(context)
     active = context.object
-    count = shown.count + len(shown.missing)
+    count = displayed_total.count + len(displayed_total.missing)
     posed = None
     if active is not None and session.tracking.armatures.stands_for_meshes(active):
         posed = displayed(active, context.scene)
@@ -170,25 +172,30 @@ def _of_several(context: Context) -> Answer:
     else:
         name = write.translations.localized("{:d} Objects").format(count)
     is_rest = posed is not None and write.properties.optional(active, "body_mass") is not None
-    numbers = shown.numbers if posed is None else posed.world
+    numbers = displayed_total.numbers if posed is None else posed.world
     density = ""
     if numbers is not None:
         template = "at {:s} on average"
-        if shown.assumed:
-            is_all = shown.assumed == shown.count
+        if displayed_total.assumed:
+            is_all = displayed_total.assumed == displayed_total.count
             template = "at {:s}, not set" if is_all else "at {:s}, not set: {:d} of {:d}"
-        density = _density(numbers, None, template, shown.assumed, count)
+        density = _density(numbers, None, template, displayed_total.assumed, count)
     volume = None if numbers is None else numbers.volume
     if is_rest:
         state = texts.outdated(posed.reason) if posed.reason else ""
         state = state or write.translations.localized("The mass is that of the rest pose")
         icon = "FILE_REFRESH" if posed.reason else "INFO"
     else:
-        volume = shown.volume if shown.count else volume
-        missing = shown.missing if shown.count else ()  # of none the verdict says it
+        volume = displayed_total.volume if displayed_total.count else volume
+        missing = (
+            displayed_total.missing if displayed_total.count else ()
+        )  # of none the verdict says it
         outstanding = [
             _outstanding(text, names, count)
-            for names, text in ((missing, "Not measured: {:s}"), (shown.stale, "Out of date: {:s}"))
+            for names, text in (
+                (missing, "Not measured: {:s}"),
+                (displayed_total.stale, "Out of date: {:s}"),
+            )
             if names
         ]
         state = "; ".join(outstanding)
@@ -196,15 +203,15 @@ def _of_several(context: Context) -> Answer:
     return Answer(
         name,
         "GROUP",
-        posed.verdict if is_rest else shown.verdict,
+        posed.verdict if is_rest else displayed_total.verdict,
         numbers,
         CENTER_HEADINGS["WORLD"],
         density,
         ("Volume", "volume", volume),
         (state, icon),
         "",
-        [*map(Group, posed.findings if is_rest else shown.findings)]
-        + ([] if is_rest else [*shown.groups]),
+        [*map(Group, posed.findings if is_rest else displayed_total.findings)]
+        + ([] if is_rest else [*displayed_total.groups]),
     )
 
 
@@ -243,14 +250,16 @@ def _buttons(layout: UILayout, context: Context) -> None:
     narrow = texts.is_narrow()
     buttons = layout.column(align=True) if narrow else layout.row(align=True)
     buttons.scale_y = 1.4
-    shown = shown_objects(context)
+    objects = shown_objects(context)
     selected = context.view_layer.objects.selected
     subjects = [
         obj
         for obj in session.tracking.armatures.subjects(selected)
         if read.visibility.measurable(obj)
     ]
-    text = "Measure" if not subjects or len(shown) == 1 and subjects == shown else "Measure {:s}"
+    text = (
+        "Measure" if not subjects or len(objects) == 1 and subjects == objects else "Measure {:s}"
+    )
     name = (
         subjects[0].name
         if len(subjects) == 1
@@ -260,18 +269,21 @@ def _buttons(layout: UILayout, context: Context) -> None:
     rows.button(buttons, "object.body_moments_measure", "PHYSICS", **measure)
     row = buttons.row(align=True)
     short = {"text": ""} if text != "Measure" else {}  # the longer text needs the room
-    is_live = any(obj in session.memory.followed for obj in shown)
+    is_live = any(obj in session.memory.followed for obj in objects)
     rows.button(row, "object.body_moments_live", "REC", depress=is_live, **short)
     row.operator("object.body_moments_select_faults", text="", icon="ZOOM_SELECTED")
 
 
-def _method(obj: Object, shown: Displayed) -> str:
+def _method(obj: Object, displayed_body: Displayed) -> str:
     """Return the method; an unknown one, of another version of the add-on, by its stored text."""
     key = method_key(
-        shown.method, any(found.code == wall.WALL_MEASURED for found in shown.findings)
+        displayed_body.method,
+        any(finding.code == wall.WALL_MEASURED for finding in displayed_body.findings),
     )
     origin = (
-        Source.POLYGONS if shown.method is None or key == str(shown.method) else shown.method.source
+        Source.POLYGONS
+        if displayed_body.method is None or key == str(displayed_body.method)
+        else displayed_body.method.source
     )
     name = METHODS[key][0] if key in METHODS else write.properties.method_text(obj).title()
     return write.translations.localized(SOURCES.get(origin, "{:s}")).format(
@@ -300,10 +312,12 @@ class FindingsPanel:
 def _questioned(context: Context) -> tuple[Object, inertia.PlainBody] | None:
     """Return the object and its numbers if they raise the question of units."""
     objects = shown_objects(context)
-    shown = displayed(objects[0], context.scene) if len(objects) == 1 else None
-    if shown is None or not remedies.is_unit_questioned(context, objects[0], shown.world):
+    displayed_body = displayed(objects[0], context.scene) if len(objects) == 1 else None
+    if displayed_body is None or not remedies.is_unit_questioned(
+        context, objects[0], displayed_body.world
+    ):
         return None
-    return objects[0], shown.world
+    return objects[0], displayed_body.world
 
 
 class RefusedPanel:
@@ -349,12 +363,12 @@ class ApplyPanel:
 
 
 VIEW3D_PT_body_moments, OBJECT_PT_body_moments = places.in_both_places(
-    BodyPanel, shown_for=lambda obj: True, of_all=True
+    BodyPanel, shown_for=lambda obj: True, for_any=True
 )
 CLASSES = (
-    *places.in_both_places(ApplyPanel, "apply", shown_for=read.visibility.measurable, of_all=True),
+    *places.in_both_places(ApplyPanel, "apply", shown_for=read.visibility.measurable, for_any=True),
     *places.in_both_places(
-        FindingsPanel, "findings", options=frozenset(), shown_for=lambda obj: True, of_all=True
+        FindingsPanel, "findings", options=frozenset(), shown_for=lambda obj: True, for_any=True
     ),
     *places.in_both_places(RefusedPanel, "refused", options={"HIDE_HEADER"}),
 )

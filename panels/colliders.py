@@ -52,8 +52,8 @@ class CollidersPanel:
 
     def draw(self, context: Context) -> None:
         layout = self.layout
-        chosen = session.selected.subject(context)
-        body = None if chosen is None else settings.given.body_of(chosen)
+        subject = session.selected.subject(context)
+        body = None if subject is None else settings.given.body_of(subject)
         layout.label(text="" if body is None else body.name, icon="OBJECT_DATA", translate=False)
         group = None if body is None else body.get(settings.given.COLLIDERS)
         stored = group if hasattr(group, "keys") and KEYS.issubset(group.keys()) else None
@@ -125,9 +125,9 @@ class CollidersPanel:
         rows.table(
             layout,
             [
-                (label, "{:.5g} %".format(100.0 * one), repr(one), "")
-                for label, one in ratios
-                if one is not None
+                (label, "{:.5g} %".format(100.0 * ratio), repr(ratio), "")
+                for label, ratio in ratios
+                if ratio is not None
             ],
         )
         texts.title(layout, "Off by")
@@ -154,5 +154,5 @@ def _repeat(make: OperatorProperties, stored: Mapping[str, Any] | None, correct:
 
 
 CLASSES = places.in_both_places(
-    CollidersPanel, "colliders", shown_for=read.visibility.measurable, of_all=True
+    CollidersPanel, "colliders", shown_for=read.visibility.measurable, for_any=True
 )

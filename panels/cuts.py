@@ -86,25 +86,25 @@ def _level(layout: UILayout, level: stored.cuts.Level) -> None:
         rows.table(body, cells)
 
 
-def _cut_fill(layout: UILayout, known: stored.cuts.KnownCutFill) -> None:
-    found = known.cut_fill
+def _cut_fill(layout: UILayout, known_cut_fill: stored.cuts.KnownCutFill) -> None:
+    cut_fill = known_cut_fill.cut_fill
     layout.label(text="Cut and Fill", icon="MOD_BOOLEAN")
     rows.quantities(
         layout,
         [
-            ("Cut", "volume", found.cut.total),
-            ("Fill", "volume", found.fill.total),
-            ("Net", "volume", found.net),
-            ("Cut Area", "area", found.cut_area),
-            ("Fill Area", "area", found.fill_area),
+            ("Cut", "volume", cut_fill.cut.total),
+            ("Fill", "volume", cut_fill.fill.total),
+            ("Net", "volume", cut_fill.net),
+            ("Cut Area", "area", cut_fill.cut_area),
+            ("Fill Area", "area", cut_fill.fill_area),
         ],
     )
-    for shown in known.findings:
-        texts.message(layout, shown)
+    for finding in known_cut_fill.findings:
+        texts.message(layout, finding)
     if (body := rows.fold(layout, "body_moments_cut_fill_centers", "Centers")) is not None:
         for label, part, area in (
-            ("Cut", found.cut, found.cut_area),
-            ("Fill", found.fill, found.fill_area),
+            ("Cut", cut_fill.cut, cut_fill.cut_area),
+            ("Fill", cut_fill.fill, cut_fill.fill_area),
         ):
             if part.total > 0.0:
                 center = part.center.tolist()

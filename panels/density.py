@@ -191,10 +191,10 @@ def _materials(layout: UILayout, context: Context, settings: PropertyGroup) -> N
     column = layout.column(align=True)
     texts.filled(column, "Densities ({:s})", texts.scene_units().unit("density", 0.0)[1])
     slots = chain.from_iterable(obj.material_slots for obj in owners(context))
-    shown = dict.fromkeys(slot.material for slot in slots if slot.material)
-    for material in shown:
+    slot_materials = dict.fromkeys(slot.material for slot in slots if slot.material)
+    for material in slot_materials:
         materials.density_row(column, context.scene, material, material.name)
-    if not shown:
+    if not slot_materials:
         texts.remark(column, "No material slots")
     column = layout.column()
     column.use_property_split = True
@@ -306,11 +306,11 @@ def given_rows(layout: UILayout, settings: PropertyGroup) -> None:
 
 
 CLASSES = (
-    *places.in_both_places(DensityPanel, "density", shown_for=given.has_density, of_all=True),
+    *places.in_both_places(DensityPanel, "density", shown_for=given.has_density, for_any=True),
     *places.in_both_places(
         GivenPanel,
         "given",
         shown_for=lambda obj: _may_be_point(obj) or obj.body_moments.mass_from == "MASS",
-        of_all=True,
+        for_any=True,
     ),
 )

@@ -45,27 +45,27 @@ class FloatingPanel:
         if obj is None or obj not in memory.afloat:
             texts.remark(layout, "Press Float to see where it rests.")
             return
-        held = stored.floating.held_body(obj, context.scene)
-        if isinstance(held, verdict.Finding):
-            texts.message(layout, held)
-        elif held is None:
+        held_body = stored.floating.held_body(obj, context.scene)
+        if isinstance(held_body, verdict.Finding):
+            texts.message(layout, held_body)
+        elif held_body is None:
             texts.remark(layout, "The object has changed. Press Float again.", icon="FILE_REFRESH")
         else:
-            _numbers(layout, held)
-            _positions(layout, held.afloat)
-            if held.afloat.curve is not None:
-                _stability(layout, held.afloat.curve)
+            _numbers(layout, held_body)
+            _positions(layout, held_body.afloat)
+            if held_body.afloat.curve is not None:
+                _stability(layout, held_body.afloat.curve)
 
 
-def _numbers(layout: UILayout, held: stored.floating.Held) -> None:
-    state = held.state
+def _numbers(layout: UILayout, held_body: stored.floating.Held) -> None:
+    state = held_body.state
     stable = state.metacentric_heights[0] > 0.0
-    if not held.is_at_rest:
+    if not held_body.is_at_rest:
         layout.label(text="Not at Rest: Held as Placed", icon="INFO")
     else:
         layout.label(text="Afloat", icon="CHECKMARK" if stable else "ERROR")
-    for found in held.afloat.rest.findings:
-        texts.message(layout, found)
+    for finding in held_body.afloat.rest.findings:
+        texts.message(layout, finding)
     column = layout.column(align=True)
     rows.quantities(
         column,
@@ -77,7 +77,10 @@ def _numbers(layout: UILayout, held: stored.floating.Held) -> None:
     )
     rows.table(
         column,
-        [rows.angle_cell("Heel, about X", held.heel), rows.angle_cell("Trim, about Y", held.trim)],
+        [
+            rows.angle_cell("Heel, about X", held_body.heel),
+            rows.angle_cell("Trim, about Y", held_body.trim),
+        ],
     )
     smaller, larger = state.metacentric_heights
     rows.quantities(column, [("GM", "length", smaller), ("GM, Lengthwise", "length", larger)])
@@ -100,7 +103,7 @@ def _numbers(layout: UILayout, held: stored.floating.Held) -> None:
             ("Center of Buoyancy", state.center_of_buoyancy),
             ("Center of Flotation", state.center_of_flotation),
         ):
-            rows.group(body, label, rows.AXIS_LABELS, "length", held.to_world(point), size)
+            rows.group(body, label, rows.AXIS_LABELS, "length", held_body.to_world(point), size)
 
 
 def _positions(layout: UILayout, afloat: stored.floating.Afloat) -> None:
@@ -113,9 +116,9 @@ def _positions(layout: UILayout, afloat: stored.floating.Afloat) -> None:
         gm = texts.scene_units().text("length", rest.metacentric_heights[0])
         row.label(text="{:d}: GM {:s}".format(place, gm), translate=False)
         row.operator("object.body_moments_float", text="", icon="MOD_OCEAN").position = place
-    more = len(afloat.rests) - MAX_POSITIONS
-    if more > 0:
-        texts.filled(column, "{:d} more", more)
+    further_count = len(afloat.rests) - MAX_POSITIONS
+    if further_count > 0:
+        texts.filled(column, "{:d} more", further_count)
 
 
 def _stability(layout: UILayout, curve: floating.RightingCurve) -> None:
@@ -140,4 +143,4 @@ def _stability(layout: UILayout, curve: floating.RightingCurve) -> None:
         texts.remark(column, "It comes back from any heel.")
 
 
-CLASSES = places.in_both_places(FloatingPanel, "floating", shown_for=measurable, of_all=True)
+CLASSES = places.in_both_places(FloatingPanel, "floating", shown_for=measurable, for_any=True)

@@ -33,17 +33,17 @@ class InertiaPanel:
         row = layout.row()
         row.enabled = not _are_several(context)
         row.prop(context.scene.body_moments, "frame", expand=True)
-        shown = _shown(context)
-        moments = None if shown is None else shown.moments
+        numbers = _shown(context)
+        moments = None if numbers is None else numbers.moments
         rows.group(layout, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", moments)
         column = layout.column(align=True)
-        rows.heading(column, "Principal Axes", "", None if shown is None else shown.axes)
+        rows.heading(column, "Principal Axes", "", None if numbers is None else numbers.axes)
         for place, label in enumerate(rows.PRINCIPAL_LABELS):
-            rows.direction(column, label, None if shown is None else shown.axes[place])
+            rows.direction(column, label, None if numbers is None else numbers.axes[place])
         texts.state(
-            column, "" if shown is None else write.translations.localized(_equal_moments(shown))
+            column, "" if numbers is None else write.translations.localized(_equal_moments(numbers))
         )
-        gyration = None if shown is None else shown.gyration
+        gyration = None if numbers is None else numbers.gyration
         rows.group(layout, "Radii of Gyration", rows.PRINCIPAL_LABELS, "length", gyration)
         body = rows.fold(layout, "body_moments_tensor", "Inertia Tensor", closed=False)
         if body is not None:
@@ -52,13 +52,13 @@ class InertiaPanel:
                 "About the center of mass, Ixy = −∫xy dm",
                 rows.TENSOR_LABELS,
                 "inertia",
-                None if shown is None else shown.inertia,
+                None if numbers is None else numbers.inertia,
             )
 
 
-def _equal_moments(shown: inertia.PlainBody) -> str:
-    error = shown.error_bound["inertia"] + shown.error_bound["input"]["inertia"]
-    pairs = zip(shown.moments, shown.moments[1:])
+def _equal_moments(body: inertia.PlainBody) -> str:
+    error = body.error_bound["inertia"] + body.error_bound["input"]["inertia"]
+    pairs = zip(body.moments, body.moments[1:])
     equal = tuple(b - a <= ERROR_OF_A_DIFFERENCE * error for a, b in pairs)
     return EQUAL_MOMENTS.get(equal, "")
 
@@ -133,7 +133,7 @@ CLASSES = (
         InertiaPanel,
         "inertia",
         shown_for=lambda obj: read.visibility.measurable(obj) or obj.type in ("EMPTY", "ARMATURE"),
-        of_all=True,
+        for_any=True,
     ),
     *places.in_both_places(ReferencePanel, "reference", parent="inertia"),
 )

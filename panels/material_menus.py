@@ -47,9 +47,9 @@ def _set_density(layout: UILayout, context: Context, **options: str):
     target = getattr(context, "body_moments_material", None)
     if target is None:
         button = layout.operator("object.body_moments_set_material", **options)
-        chosen = chosen_objects(context)
-        if len(chosen) == 1:
-            button.target = chosen[0].name_full
+        objects = chosen_objects(context)
+        if len(objects) == 1:
+            button.target = objects[0].name_full
         return button
     button = layout.operator("material.body_moments_set_density", **options)
     button.target = target.name

@@ -62,7 +62,7 @@ def in_both_places(
     parent: str | None = None,
     options: Set[str] = frozenset({"DEFAULT_CLOSED"}),
     shown_for: Callable[[Object], bool] | None = None,
-    of_all: bool = False,
+    for_any: bool = False,
 ) -> tuple[type[Panel], ...]:
     """Make a panel of the sidebar and one of the object's properties that show these contents.
 
@@ -70,15 +70,15 @@ def in_both_places(
     `draw_header_preset`. `name` is part of the identifiers, `VIEW3D_PT_body_moments_NAME` and
     `OBJECT_PT_body_moments_NAME`; "" for the main panel. `parent` names the parent panel, by
     default the main one. `options`: of a sub-panel. `shown_for`, in place of `poll`: whether to
-    show the panel for the subject, whose name it shows if several objects are chosen; with `of_all`
-    for any chosen object.
+    show the panel for the subject, whose name it shows if several objects are chosen; with
+    `for_any` for any chosen object.
     """
 
     def draw(panel: Panel, context: Context) -> None:
         panel.layout.use_property_decorate = False
         if (
             shown_for is not None
-            and not of_all
+            and not for_any
             and len(session.displayed.shown_objects(context)) > 1
         ):
             panel.layout.label(
@@ -87,7 +87,7 @@ def in_both_places(
         contents.draw(panel, context)
 
     def poll(_cls: type[Panel], context: Context) -> bool:
-        if of_all:
+        if for_any:
             return any(map(shown_for, settings.chosen.chosen_objects(context)))
         obj = session.selected.subject(context)
         return obj is not None and shown_for(obj)
@@ -104,12 +104,12 @@ def in_both_places(
     panels = []
     for prefix, place in PLACES.items():
         idname = _idname(prefix, name)
-        own = {"bl_idname": idname, **place, "bl_options": set(options)}
+        properties = {"bl_idname": idname, **place, "bl_options": set(options)}
         if name:
-            own["bl_parent_id"] = _idname(prefix, parent)
+            properties["bl_parent_id"] = _idname(prefix, parent)
         elif prefix == "VIEW3D_PT_":
-            own["bl_options"] = set()
-        panels.append(type(idname, (contents, Panel), (shared | own)))
+            properties["bl_options"] = set()
+        panels.append(type(idname, (contents, Panel), (shared | properties)))
     return tuple(panels)
 
 

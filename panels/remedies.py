@@ -61,20 +61,26 @@ def summary(layout: UILayout, context: Context, groups: Sequence[verdict.Group])
     if worst is None:
         texts.state(layout, "")
     else:
-        _line(layout.row(align=True), context, worst, more=len(warnings) - 1)
+        _line(layout.row(align=True), context, worst, further_count=len(warnings) - 1)
 
 
 def _line(
-    row: UILayout, context: Context, group: verdict.Group, can_accept: bool = True, more: int = 0
+    row: UILayout,
+    context: Context,
+    group: verdict.Group,
+    can_accept: bool = True,
+    further_count: int = 0,
 ) -> None:
-    """Draw the headline of a finding with its first remedy; more: the number of other findings."""
-    own = _remedies(context, group)
-    text = _headline(context, group) + (" (+{:d})".format(more) if more else "")
+    """Draw the headline of a finding with its first remedy; further_count: of other findings."""
+    remedies = _remedies(context, group)
+    text = _headline(context, group) + (" (+{:d})".format(further_count) if further_count else "")
     row.label(text=text, icon=texts.ICONS[verdict.severity(group.finding)], translate=False)
     buttons = row.row(align=True)
     buttons.alignment = "RIGHT"
-    if own:
-        _remedy(buttons, group, own[0], with_text=texts.fits(LINE_SHARE, text + _name(own[0])))
+    if remedies:
+        _remedy(
+            buttons, group, remedies[0], with_text=texts.fits(LINE_SHARE, text + _name(remedies[0]))
+        )
     if can_accept and _is_acceptable(group):
         _accept(buttons, group.finding.code, "CHECKMARK")
 
@@ -95,20 +101,21 @@ def notes(layout: UILayout, idname: str, groups: Sequence[verdict.Group]) -> Non
     shown_notes = verdict.of_severity(map(_of_objects, groups), verdict.Severity.NOTE)
     header, body = layout.panel(idname, default_closed=True)
     texts.filled(header, "Notes ({:d})", len(shown_notes))
-    for shown in shown_notes if body is not None else ():
+    for note in shown_notes if body is not None else ():
         row = body.row(align=True)
-        texts.message(row, shown)
-        if shown.values.get("accepted"):
-            _accept(row, shown.code, "LOOP_BACK", accepted=False)
+        texts.message(row, note)
+        if note.values.get("accepted"):
+            _accept(row, note.code, "LOOP_BACK", accepted=False)
 
 
 def _headline(context: Context, group: verdict.Group) -> str:
     """Return the first clause of a group's sentence; of several objects, their number and the words
     before a number.
     """
-    shown = replace(group.finding, elements=())
+    finding = replace(group.finding, elements=())
     clause = re.split(
-        r"\.$|[.;,] | \(", write.translations.localized_sentence(shown, context.scene.unit_settings)
+        r"\.$|[.;,] | \(",
+        write.translations.localized_sentence(finding, context.scene.unit_settings),
     )[0]
     if not group.objects:
         # its names are in the sentence
@@ -157,7 +164,10 @@ def _remedy(layout: UILayout, group: verdict.Group, remedy: str, with_text: bool
     if remedy == write.remedies.SELECT:
         button.code = group.finding.code
         listed = group.finding.values.get("objects", ())
-        button.listed = "\n".join(one if isinstance(one, str) else one[0] for one in listed)
+        button.listed = "\n".join(
+            listed_object if isinstance(listed_object, str) else listed_object[0]
+            for listed_object in listed
+        )
 
 
 def _accept(layout: UILayout, code: str, icon: str, text: str = "", accepted: bool = True) -> None:
@@ -183,7 +193,7 @@ def last_action(layout: UILayout, context: Context) -> None:
             _remedy(column, group, remedy)
 
 
-def is_unit_questioned(context: Context, obj: Object, shown: inertia.PlainBody) -> bool:
+def is_unit_questioned(context: Context, obj: Object, body: inertia.PlainBody) -> bool:
     """Return whether to ask if a unit is a millimeter: until it is answered, of large and heavy
     bodies.
     """
@@ -191,13 +201,11 @@ def is_unit_questioned(context: Context, obj: Object, shown: inertia.PlainBody) 
         not context.scene.body_moments.units_answered
         and context.scene.unit_settings.scale_length == 1.0
         and max(obj.dimensions) >= MIN_QUESTIONED_LENGTH
-        and shown.mass >= MIN_QUESTIONED_MASS
+        and body.mass >= MIN_QUESTIONED_MASS
     )
 
 
-def unit_question(
-    layout: UILayout, context: Context, obj: Object, shown: inertia.PlainBody
-) -> None:
+def unit_question(layout: UILayout, context: Context, obj: Object, body: inertia.PlainBody) -> None:
     """Ask whether a unit of the scene is a millimeter."""
     box = layout.box()
     units = texts.scene_units()._replace(mass="TONNES", digits=QUESTION_DIGITS)
@@ -207,7 +215,7 @@ def unit_question(
         icon="QUESTION",
         boxed=True,
         length=units.text("length", max(obj.dimensions)),
-        mass=units.text("mass", shown.mass),
+        mass=units.text("mass", body.mass),
     )
     column = box.column(align=True)
     rows.button(column, "scene.body_moments_set_millimeters", "DRIVER_DISTANCE")

@@ -45,9 +45,9 @@ class BonesPanel:
         texts.stale_state(layout, staleness.stale_reason(armature, context.scene))
         units = texts.scene_units()
         measured = [
-            (bone, own.mass)
+            (bone, bone_results.mass)
             for bone in armature.pose.bones
-            if (own := write.properties.stored(bone)) is not None
+            if (bone_results := write.properties.stored(bone)) is not None
         ]
         total = sum(mass for _, mass in measured)
         column = layout.column(align=True)
@@ -139,10 +139,14 @@ def _standing(
     lengths: dict[str, float] = {}
     names: dict[str, Sequence[str]] = {}
     if weight is not None:
-        template, shown, icon = standing(weight, unit)
-        text = write.translations.localized(template).format(**shown)
+        template, length_texts, icon = standing(weight, unit)
+        text = write.translations.localized(template).format(**length_texts)
         mass = weight.parts.mass
-        unmeasured = [name for name, own in zip(weight.parts.names, weight.parts.masses) if not own]
+        unmeasured = [
+            name
+            for name, mass_share in zip(weight.parts.names, weight.parts.masses)
+            if not mass_share
+        ]
         contacts = weight.contacts
         names = {"Carries": contacts.names, "Lifted": contacts.lifted, "Not Measured": unmeasured}
         if weight.support is not None:
@@ -212,8 +216,10 @@ class BONE_PT_body_moments(places.AmongProperties, Panel):
         layout = self.layout
         layout.use_property_decorate = False
         settings = bone.body_moments
-        own = {"DENSITY": ("density",), "MASS": ("mass",)}
-        rows.settings(layout.column(), settings, "mass_from", *own.get(settings.mass_from, ()))
+        source_settings = {"DENSITY": ("density",), "MASS": ("mass",)}
+        rows.settings(
+            layout.column(), settings, "mass_from", *source_settings.get(settings.mass_from, ())
+        )
         rows.button(layout, "object.body_moments_measure_bones", "BONE_DATA")
         texts.stale_state(layout, staleness.stale_reason(bone.id_data, context.scene))
         _numbers(layout, bone)

@@ -81,7 +81,9 @@ def _setting(layout: UILayout, data: PropertyGroup, name: str, expand: bool) -> 
     row.use_property_split = not narrow
     if expand:
         names = [write.translations.localized(item.name) for item in definition.enum_items]
-        expand = texts.fits(1.0 if narrow else VALUE_SHARE, *(one + BUTTON_MARGIN for one in names))
+        expand = texts.fits(
+            1.0 if narrow else VALUE_SHARE, *(choice + BUTTON_MARGIN for choice in names)
+        )
     row.prop(data, name, expand=expand, **options)
 
 
@@ -138,20 +140,20 @@ def quantity_cell(label: str, quantity: str, si: float | None) -> Cell:
 
 def angle_cell(label: str, angle: float) -> Cell:
     """Return the cells of a row for an angle in radians, shown in degrees."""
-    shown = "{:.2f}°".format(round(degrees(angle), 2) + 0.0).replace("-", "−")
-    return label, shown, repr(degrees(angle)), "°"
+    text = "{:.2f}°".format(round(degrees(angle), 2) + 0.0).replace("-", "−")
+    return label, text, repr(degrees(angle)), "°"
 
 
 def values(
     layout: UILayout, labels: Sequence[str], quantity: str, si: Sequence[float], size: float = 0.0
 ) -> None:
     """Draw a row for each value, all in the same unit. size: as for `Units.texts`."""
-    shown = texts.scene_units().texts(quantity, si, size)
+    value_texts = texts.scene_units().texts(quantity, si, size)
     table(
         layout,
         [
             (label, text, repr(float(number)), write.units.SI_UNITS[quantity])
-            for label, text, number in zip(labels, shown, si)
+            for label, text, number in zip(labels, value_texts, si)
         ],
     )
 
@@ -239,28 +241,28 @@ def table(layout: UILayout, cells: Sequence[Cell]) -> None:
         return
     layout = layout.column(align=True)
     labels = [write.translations.localized(label) for label, *_ in cells]
-    share, rests = _form(labels, [shown for _, shown, *_ in cells])
-    for label, (_, shown, exact, unit) in zip(labels, cells):
+    share, rests = _form(labels, [text for _, text, *_ in cells])
+    for label, (_, text, exact, unit) in zip(labels, cells):
         if share:
             row = layout.row(align=True)
             cell = row.split(factor=share, align=True)
             cell.label(text=label, translate=False)
-            right(cell, shown)
+            right(cell, text)
             _copy(row, exact, unit)
         elif rests:
             texts.headline(layout, label)
             row = layout.row(align=True)
-            right(row, shown)
+            right(row, text)
             _copy(row, exact, unit)
         else:
-            number, _, name = shown.rpartition(" ")
+            number, _, name = text.rpartition(" ")
             row = layout.row(align=True)
             texts.headline(row, "{:s} {:s}".format(label, name))
             _copy(row, exact, unit)
             right(layout, number)
 
 
-def _form(labels: Sequence[str], shown: Sequence[str]) -> tuple[float, bool]:
+def _form(labels: Sequence[str], value_texts: Sequence[str]) -> tuple[float, bool]:
     """Return the share of a row that its label takes, 0 if it is above, and whether the text fits
     into a row.
     """
@@ -272,7 +274,7 @@ def _form(labels: Sequence[str], shown: Sequence[str]) -> tuple[float, bool]:
     if room is None:
         return share, True
     label = max(map(texts.length, labels))
-    text = max(map(texts.length, shown))
+    text = max(map(texts.length, value_texts))
     if label + text > room:
         return 0.0, text <= room
     return min(max(share, label / room), 1.0 - text / room), True

@@ -36,7 +36,7 @@ class SectionPanel:
             layout.label(text="Not Measured", icon="RADIOBUT_OFF")
             return
         _verdict(layout, stored, staleness.stale_reason(obj, context.scene, stamps.Kind.SECTION))
-        groups = [Group(found) for found in stored.findings]
+        groups = [Group(finding) for finding in stored.findings]
         remedies.lines(layout, context, groups, can_accept=False)
         _numbers(layout, stored.section)
         _more_numbers(layout, stored.section)
@@ -82,8 +82,8 @@ def _numbers(layout: UILayout, section) -> None:
         column.label(text="Every Axis Is Principal", icon="INFO")
     else:
         angle = degrees(section.angle)
-        shown = "{:s}°".format(write.units.number(0.0 if abs(angle) < 1e-6 else angle))
-        rows.table(column, [("Angle from x to 1", shown, repr(section.angle), "rad")])
+        angle_text = "{:s}°".format(write.units.number(0.0 if abs(angle) < 1e-6 else angle))
+        rows.table(column, [("Angle from x to 1", angle_text, repr(section.angle), "rad")])
 
 
 def _more_numbers(layout: UILayout, section) -> None:

@@ -61,7 +61,7 @@ class BODY_MOMENTS_UL_measured(UIList):
             SortBy(self.sort_by),
             self.warnings_first,
         )
-        return [self.bitflag_filter_item if shown else 0 for shown in listed], lines
+        return [self.bitflag_filter_item if is_listed else 0 for is_listed in listed], lines
 
 
 class SelectionPanel:

@@ -67,12 +67,12 @@ def _symmetry(layout: UILayout, context: Context, obj: Object | None) -> None:
         return
     column = body.column(align=True)
     column.label(text="Directions and normals along the object's axes")
-    shown, more = truncate(stored.elements, MAX_SHOWN)
-    for element in shown:
+    listed_elements, further_count = truncate(stored.elements, MAX_SHOWN)
+    for element in listed_elements:
         texts.filled(column, KINDS[element.kind], element.order)
         rows.direction(column, "", element.direction)
-    if more:
-        texts.filled(column, "And {:d} more", more)
+    if further_count:
+        texts.filled(column, "And {:d} more", further_count)
 
 
 def _similar(layout: UILayout, context: Context) -> None:
@@ -106,5 +106,5 @@ def _similar(layout: UILayout, context: Context) -> None:
 
 
 CLASSES = places.in_both_places(
-    ShapePanel, "shape", shown_for=read.visibility.measurable, of_all=True
+    ShapePanel, "shape", shown_for=read.visibility.measurable, for_any=True
 )

@@ -93,23 +93,28 @@ def _poses(layout: UILayout, poses: statics.RestingPoses | verdict.Finding | Non
     cell.label(text="Tips at")
     if not narrow:
         cell.label(icon="BLANK1")
-    known = () if poses is None or isinstance(poses, verdict.Finding) else poses.tipping_angles
+    angles = () if poses is None or isinstance(poses, verdict.Finding) else poses.tipping_angles
     for place in range(MAX_POSES):
         row = column.row(align=True)
-        row.enabled = place < len(known)
+        row.enabled = place < len(angles)
         share = "–"
         angle = ""
-        if place < len(known):
+        if place < len(angles):
             share = "{:.1f}%".format(100.0 * poses.shares[place])
-            angle = "{:.1f}°".format(degrees(known[place]))
+            angle = "{:.1f}°".format(degrees(angles[place]))
         number = "" if narrow else "{:d}: ".format(place + 1)
         row.label(text=number + share, translate=False)
         rows.right(row, angle)
         row.operator("object.body_moments_rest_on_ground", text="", icon="TRIA_DOWN_BAR").pose = (
             place + 1
         )
-    more = len(known) - MAX_POSES
-    texts.state(column, write.translations.localized("{:d} more").format(more) if more > 0 else "")
+    further_count = len(angles) - MAX_POSES
+    texts.state(
+        column,
+        write.translations.localized("{:d} more").format(further_count)
+        if further_count > 0
+        else "",
+    )
     if isinstance(poses, verdict.Finding):
         texts.message(layout, poses)
 
@@ -120,5 +125,5 @@ CLASSES = places.in_both_places(
     shown_for=lambda obj: (
         read.visibility.measurable(obj) or session.tracking.armatures.stands_for_meshes(obj)
     ),
-    of_all=True,
+    for_any=True,
 )

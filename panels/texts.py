@@ -83,15 +83,17 @@ def sentence(layout: UILayout, text: str, icon: str = "NONE", boxed: bool = Fals
             column.label(text=line, icon=icon if i == 0 else "BLANK1", translate=False)
 
 
-def message(layout: UILayout, shown: verdict.Finding, icon: str = "", boxed: bool = False) -> None:
+def message(
+    layout: UILayout, finding: verdict.Finding, icon: str = "", boxed: bool = False
+) -> None:
     """Draw the sentence of a finding, with the number of its elements instead of their indices.
 
     icon: by default that of its severity. boxed: as for `sentence`.
     """
     text = write.translations.localized_sentence(
-        replace(shown, elements=()), bpy.context.scene.unit_settings
+        replace(finding, elements=()), bpy.context.scene.unit_settings
     )
-    sentence(layout, text, icon or ICONS[verdict.severity(shown)], boxed)
+    sentence(layout, text, icon or ICONS[verdict.severity(finding)], boxed)
 
 
 def remark(

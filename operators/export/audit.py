@@ -51,11 +51,11 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
         except verdict.MeasureError as error:
             raise error.about(path.name) from error
         counts = write.audit_report.count_findings(document)
-        done = reports.phrase(
+        summary = reports.phrase(
             "{links} links: {errors} errors, {warnings} warnings, {notes} notes", **counts
         )
         selection.report(
-            self, done, reports.phrase("See the text “{text}” in the Text Editor", text=text)
+            self, summary, reports.phrase("See the text “{text}” in the Text Editor", text=text)
         )
         return {"FINISHED"}
 

@@ -108,12 +108,12 @@ class RobotExport(selection.InObjectMode, ExportHelper):
     def execute(self, context: Context) -> set[str]:
         path = Path(bpy.path.abspath(self.filepath))
         objects = session.robots.candidates(context, self.collection, self.use_selection)
-        made = self._links(context, objects, path.stem)
-        made = replace(made, robot=made.robot.with_fixed_roots()) if self.fixed_base else made
-        findings = self._export(context, made, path)
-        done = "{count} link exported to {file}.", "{count} links exported to {file}."
+        links = self._links(context, objects, path.stem)
+        links = replace(links, robot=links.robot.with_fixed_roots()) if self.fixed_base else links
+        findings = self._export(context, links, path)
+        texts = "{count} link exported to {file}.", "{count} links exported to {file}."
         return selection.report(
-            self, reports.phrase(*done, count=len(made.robot.links), file=path.name), *findings
+            self, reports.phrase(*texts, count=len(links.robot.links), file=path.name), *findings
         )
 
     def _links(self, context: Context, objects: list[Object], name: str) -> "SceneLinks":
@@ -129,10 +129,10 @@ class RobotExport(selection.InObjectMode, ExportHelper):
         with reports.progress(len(objects)) as step:
             return session.robots.object_links(context, name, objects, step)
 
-    def _export(self, context: Context, made: "SceneLinks", path: Path) -> list[verdict.Finding]:
+    def _export(self, context: Context, links: "SceneLinks", path: Path) -> list[verdict.Finding]:
         if self.geometry == "MESH" and self.use_collision and not self.inertial_only:
-            made = made.with_colliders()
-        robot = made.robot
+            links = links.with_colliders()
+        robot = links.robot
         bare = []
         if self.geometry != "MESH":
             robot = write.shapes.with_primitives(robot, self.geometry.lower())
@@ -143,7 +143,7 @@ class RobotExport(selection.InObjectMode, ExportHelper):
                 robot, bare = write.texts.with_geometry(
                     robot,
                     self.FORMAT,
-                    partial(made.surface, context),
+                    partial(links.surface, context),
                     path,
                     mesh_format=self.mesh_format.lower(),
                 )
@@ -152,9 +152,9 @@ class RobotExport(selection.InObjectMode, ExportHelper):
                     FILE_NOT_WRITTEN, file=path.name, error=verdict.system_reason(error)
                 ) from error
         robot = write.joints.merge_fixed(robot) if self.merge_fixed else robot
-        found = [*made.findings, *bare]
+        all_findings = [*links.findings, *bare]
         text, findings = write.texts.robot_text(
-            robot, self.FORMAT, found, inertial_only=self.inertial_only
+            robot, self.FORMAT, all_findings, inertial_only=self.inertial_only
         )
         selection.write_file(path, [self._encode(text, path)])
         return findings
@@ -164,8 +164,8 @@ class RobotExport(selection.InObjectMode, ExportHelper):
 
     def draw(self, _context: Context) -> None:
         self.layout.use_property_decorate = False
-        chosen = () if self.collection else ("use_selection",)
-        selection.draw_properties(self, *chosen, "links", "inertial_only")
+        first_properties = () if self.collection else ("use_selection",)
+        selection.draw_properties(self, *first_properties, "links", "inertial_only")
         meshes = () if FORMATS[self.FORMAT].holds_meshes else ("mesh_format",)
         column = selection.draw_properties(
             self, "fixed_base", "merge_fixed", "geometry", *meshes, "use_collision"
@@ -176,24 +176,24 @@ class RobotExport(selection.InObjectMode, ExportHelper):
 class GeometryExport(RobotExport):
     """Base of exporters that leave the geometry of objects to Blender's own exporter."""
 
-    def _export(self, context: Context, made: "SceneLinks", path: Path) -> list[verdict.Finding]:
+    def _export(self, context: Context, links: "SceneLinks", path: Path) -> list[verdict.Finding]:
         is_own = self.links != "OBJECT" or self.geometry != "MESH" or self.inertial_only
         has_colliders = self.use_collision and any(
-            not shape.seen for link in made.with_colliders().robot.links for shape in link.shapes
+            not shape.seen for link in links.with_colliders().robot.links for shape in link.shapes
         )
         # Nested prims and nodes cannot move in each other, and Blender's exporters would show
         # colliders.
-        if is_own or has_colliders or any(joint.free for joint in made.robot.joints):
-            return super()._export(context, made, path)
-        made.findings.extend(write.texts.check(made.robot, self.FORMAT))
+        if is_own or has_colliders or any(joint.free for joint in links.robot.joints):
+            return super()._export(context, links, path)
+        links.findings.extend(write.texts.check(links.robot, self.FORMAT))
         sheared = session.robots.sheared_objects(
-            [obj for held in made.members.values() for obj in held]
+            [obj for objects in links.members.values() for obj in objects]
         )
         if sheared:
-            made.findings.append(verdict.finding(ROBOT_SCALED, count=len(sheared), links=sheared))
-        return self._export_over(made, path)
+            links.findings.append(verdict.finding(ROBOT_SCALED, count=len(sheared), links=sheared))
+        return self._export_over(links, path)
 
-    def _export_over(self, made: "SceneLinks", path: Path) -> list[verdict.Finding]:
+    def _export_over(self, links: "SceneLinks", path: Path) -> list[verdict.Finding]:
         """Write the geometry by Blender's exporter, with our masses; return the findings about the
         robot.
         """
@@ -217,13 +217,13 @@ class GeometryExport(RobotExport):
 class UsdExport(GeometryExport):
     """Base of the USD exporter: a layer with masses refers to that of Blender's exporter."""
 
-    def _export_over(self, made: "SceneLinks", path: Path) -> list[verdict.Finding]:
-        robot = made.robot
-        findings = made.findings
+    def _export_over(self, links: "SceneLinks", path: Path) -> list[verdict.Finding]:
+        robot = links.robot
+        findings = links.findings
         usd = write.usd
         paths = {
-            label: session.robots.usd_path(held[0], usd.identifier)
-            for label, held in made.members.items()
+            label: session.robots.usd_path(objects[0], usd.identifier)
+            for label, objects in links.members.items()
         }
         alike = [label for label, prim in paths.items() if list(paths.values()).count(prim) > 1]
         if alike:
@@ -237,10 +237,10 @@ class UsdExport(GeometryExport):
         scaled = [link.name for link in robot.roots if min(link.scale) < 0.0]
         if scaled:
             findings.append(verdict.finding(ROBOT_SCALED, count=len(scaled), links=scaled))
-        if made.unit != 1.0:
-            findings.append(verdict.finding(UNIT_SCALE, scale=made.unit, cause=USD_SCALED))
+        if links.unit != 1.0:
+            findings.append(verdict.finding(UNIT_SCALE, scale=links.unit, cause=USD_SCALED))
         remarks = list(map(verdict.sentence, findings))
-        text = usd.write_over(robot, paths, "./" + geometry.name, made.unit, remarks)
+        text = usd.write_over(robot, paths, "./" + geometry.name, links.unit, remarks)
         selection.write_file(path, [text])
         return findings
 
@@ -248,8 +248,8 @@ class UsdExport(GeometryExport):
 class GltfExport(GeometryExport):
     """Base of the glTF exporter: rigid bodies are added to the file of Blender's exporter."""
 
-    def _export_over(self, made: "SceneLinks", path: Path) -> list[verdict.Finding]:
-        findings = made.findings
+    def _export_over(self, links: "SceneLinks", path: Path) -> list[verdict.Finding]:
+        findings = links.findings
         options = {"use_selection": self.use_selection, "export_format": "GLB", "export_yup": True}
         self._run_exporter("export_scene.gltf", path, options)
         data = path.read_bytes()
@@ -257,7 +257,7 @@ class GltfExport(GeometryExport):
             document = files.gltf_document(data)
         except ValueError as error:
             raise verdict.FileError(ROBOT_GEOMETRY_NOT_WRITTEN, error=path.name) from error
-        findings += write.gltf.add_rigid_bodies(document, made.robot, made.unit)
+        findings += write.gltf.add_rigid_bodies(document, links.robot, links.unit)
         selection.write_file(path, [files.replace_gltf_document(data, document)])
         return findings
 

@@ -24,8 +24,8 @@ from .. import selection
 from .moments import reference_text
 
 
-def copy_text(operator: Operator, context: Context, text: str, done: str) -> None:
-    """Copy a text to the clipboard, and report `done`.
+def copy_text(operator: Operator, context: Context, text: str, summary: str) -> None:
+    """Copy a text to the clipboard, and report the summary.
 
     In background mode there is no clipboard, and long reports are cut short: the text goes to the
     standard output.
@@ -34,7 +34,7 @@ def copy_text(operator: Operator, context: Context, text: str, done: str) -> Non
         sys.stdout.write(text.removesuffix("\n") + "\n")
     else:
         context.window_manager.clipboard = text
-        reports.report(operator, done)
+        reports.report(operator, summary)
 
 
 class OBJECT_OT_body_moments_copy_value(Operator):
@@ -96,18 +96,18 @@ def _report(context: Context) -> Copied | str:
         return MEASURE_FIRST
     document = selected_document(context)
     count = len(document["objects"]) + len(document["errors"])
-    done = "Copied the report of {count} object", "Copied the report of {count} objects"
-    return write.text_report.text(document), reports.phrase(*done, count=count)
+    summary_texts = "Copied the report of {count} object", "Copied the report of {count} objects"
+    return write.text_report.text(document), reports.phrase(*summary_texts, count=count)
 
 
 def _table(context: Context) -> Copied | str:
     if not has_stored(context):
         return MEASURE_FIRST
     document = selected_document(context)
-    done = reports.phrase(
+    summary = reports.phrase(
         "Copied {count} row.", "Copied {count} rows.", count=len(document["objects"])
     )
-    return "".join(measurement.FORMATS["csv"]([document])), done
+    return "".join(measurement.FORMATS["csv"]([document])), summary
 
 
 def _reference(context: Context) -> Copied | str | verdict.Finding:
@@ -202,13 +202,13 @@ class OBJECT_OT_body_moments_copy(Operator):
         elif not (objects := selection.selected_measurable(context)) or context.mode != "OBJECT":
             copied = "Select objects in Object Mode"
         else:
-            made = session.robots.object_links(context, "robot", objects)
+            links = session.robots.object_links(context, "robot", objects)
             text, _ = robot_formats.texts.robot_text(
-                made.robot, self.what, made.findings, inertial_only=True
+                links.robot, self.what, links.findings, inertial_only=True
             )
-            done = "Inertial of {count} link copied.", "Inertials of {count} links copied."
-            copied = (text, reports.phrase(*done, count=len(made.robot.links)))
-            findings = made.findings
+            summary_texts = "Inertial of {count} link copied.", "Inertials of {count} links copied."
+            copied = (text, reports.phrase(*summary_texts, count=len(links.robot.links)))
+            findings = links.findings
         if not isinstance(copied, tuple):
             return selection.refuse(self, copied)
         copy_text(self, context, *copied)

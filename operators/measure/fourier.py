@@ -112,7 +112,7 @@ class OBJECT_OT_body_moments_fourier(modal.ModalSteps, selection.OnSubject, Oper
             self._work = bodies.object_transform(
                 obj, depsgraph, options, self._grid, frame=frame, area=area
             )
-        self._steps = (done for done in self._work.steps())
+        self._steps = (share for share in self._work.steps())
         return 1.0
 
     def _grid(self, size: float) -> core.fourier.FrequencyGrid:
@@ -139,11 +139,11 @@ class OBJECT_OT_body_moments_fourier(modal.ModalSteps, selection.OnSubject, Oper
             if area.type == "IMAGE_EDITOR":
                 area.spaces.active.image = image
         bpy.ops.ed.undo_push(message=self.bl_label)
-        done = write.reports.phrase(
+        summary = write.reports.phrase(
             "Wrote {count} frequencies to {file}; the image {image} shows slices of their "
             "magnitude",
             count=len(transform.q),
             file=self._path.name,
             image=image.name,
         )
-        return selection.report(self, done, *findings)
+        return selection.report(self, summary, *findings)

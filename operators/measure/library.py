@@ -31,12 +31,13 @@ def _sources(_operator: Operator | None, context: Context | None) -> list[tuple[
     preferences.
     """
     libraries = context.preferences.filepaths.asset_libraries if context else ()
-    found = [(FOLDER, "Folder", "The folder that is open in the file browser")]
-    found += [
-        ("LIBRARY_{:d}".format(number), one.name, one.path) for number, one in enumerate(libraries)
+    items = [(FOLDER, "Folder", "The folder that is open in the file browser")]
+    items += [
+        ("LIBRARY_{:d}".format(number), library.name, library.path)
+        for number, library in enumerate(libraries)
     ]
-    _kept[:] = found  # Blender keeps no reference to the texts
-    return found
+    _kept[:] = items  # Blender keeps no reference to the texts
+    return items
 
 
 _kept: list[tuple[str, str, str]] = []

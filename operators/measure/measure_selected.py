@@ -107,15 +107,15 @@ class OBJECT_OT_body_moments_measure(modal.ModalSteps, selection.OnSelection, Op
     def _measure(
         self, objects: list[bpy.types.Object], depsgraph: bpy.types.Depsgraph
     ) -> Generator[int, None, None]:
-        done = 0
+        completed = 0
         for together in bodies.measure_many(objects, depsgraph):
-            for obj, found in together:
-                if isinstance(found, Exception):
-                    self._refusals[obj] = verdict.internal_error.finding_of(found)
+            for obj, outcome in together:
+                if isinstance(outcome, Exception):
+                    self._refusals[obj] = verdict.internal_error.finding_of(outcome)
                 else:
-                    self._results.append((obj, found))
-            done += len(together)
-            yield done
+                    self._results.append((obj, outcome))
+            completed += len(together)
+            yield completed
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
         """Store the results of all objects at the end, so that a canceled run leaves none
@@ -155,15 +155,15 @@ class OBJECT_OT_body_moments_measure(modal.ModalSteps, selection.OnSelection, Op
         names = [warning.values["object"] for warning in warnings]
         if tried == count == 1:
             text = "Measured {object}, with warnings" if warnings else "Measured {object}"
-            done = [write.reports.phrase(text, object=self._results[0][0].name)]
+            summary = [write.reports.phrase(text, object=self._results[0][0].name)]
         else:
             text = write.reports.phrase(
                 "Measured {count} of {total} objects", count=count, total=tried
             )
-            done = [*([text] if tried > 1 else []), *selection.name_warned(names)]
+            summary = [*([text] if tried > 1 else []), *selection.name_warned(names)]
         level = verdict.Severity.WARNING if warnings else verdict.Severity.NOTE
         return selection.finish(
-            self, done, self._failures, notes, level=level, is_changed=bool(count)
+            self, summary, self._failures, notes, level=level, is_changed=bool(count)
         )
 
 

@@ -44,10 +44,10 @@ class OBJECT_OT_body_moments_compute_moments(selection.OnSubject, Operator):
         count = (
             (order + 1) * (order + 2) // 2 if computed.volume is None else len(computed.volume.raw)
         )
-        done = write.reports.phrase(
+        summary = write.reports.phrase(
             "Computed {count} moments of {object}", count=count, object=obj.name
         )
-        return selection.report(self, done, *findings)
+        return selection.report(self, summary, *findings)
 
 
 class OBJECT_OT_body_moments_measure_section(Operator):
@@ -74,8 +74,8 @@ class OBJECT_OT_body_moments_measure_section(Operator):
         stored.results.store_sections(context, sections)
         warned = [
             obj.name
-            for obj, found in sections
-            if of_severity(found[2], Severity.WARNING, Severity.ERROR)
+            for obj, (_, _, findings) in sections
+            if of_severity(findings, Severity.WARNING, Severity.ERROR)
         ]
         if len(measured) == 1:
             text = (
@@ -83,13 +83,13 @@ class OBJECT_OT_body_moments_measure_section(Operator):
                 if warned
                 else "Measured the section of {object}"
             )
-            done = [write.reports.phrase(text, object=measured[0].name)]
+            summary = [write.reports.phrase(text, object=measured[0].name)]
         else:
             texts = ("Measured {count} section", "Measured {count} sections")
-            done = [write.reports.phrase(*texts, count=len(measured))] if measured else []
-            done += selection.name_warned(warned)
+            summary = [write.reports.phrase(*texts, count=len(measured))] if measured else []
+            summary += selection.name_warned(warned)
         level = Severity.WARNING if warned else Severity.NOTE
-        return selection.finish(self, done, failures, level=level, is_changed=bool(measured))
+        return selection.finish(self, summary, failures, level=level, is_changed=bool(measured))
 
 
 def _objects_with_sections(context: Context) -> list[Object]:
@@ -145,7 +145,8 @@ def reference_text(
 ) -> str:
     """Return the text of an object's inertia about a reference, with its bounds."""
     axes, inertia = (
-        list(map(list, rows)) for rows in (zip(*result.reference.axes), tensor_rows(result.inertia))
+        list(map(list, matrix))
+        for matrix in (zip(*result.reference.axes), tensor_rows(result.inertia))
     )
     lines = [
         "{:s}, about {:s}".format(name, choice.text),
@@ -197,9 +198,9 @@ def _selected_points(context: Context) -> list[Vector]:
     points = []
     for obj in context.objects_in_mode_unique_data:
         mesh = bmesh.from_edit_mesh(obj.data)
-        chosen = [
+        vertices = [
             vertex for vertex in mesh.select_history if isinstance(vertex, bmesh.types.BMVert)
         ]
-        chosen += [vertex for vertex in mesh.verts if vertex.select and vertex not in chosen]
-        points += [obj.matrix_world @ vertex.co for vertex in chosen]
+        vertices += [vertex for vertex in mesh.verts if vertex.select and vertex not in vertices]
+        points += [obj.matrix_world @ vertex.co for vertex in vertices]
     return points

@@ -68,8 +68,8 @@ class OBJECT_OT_body_moments_select_faults(Operator):
                 obj, session.stored.density.noted(obj, measurements[obj], context.scene)
             )
             wrong = {
-                kind: found
-                for kind, found in scene.defects_by_kind(measurements[obj]).items()
+                kind: indices
+                for kind, indices in scene.defects_by_kind(measurements[obj]).items()
                 if kind in self.kinds
             }
             if wrong:
@@ -78,35 +78,35 @@ class OBJECT_OT_body_moments_select_faults(Operator):
         # All objects are measured before any is stored: otherwise Blender would evaluate the scene
         # for each of them.
         _, failures = selection.apply_to_all(objects, measure)
-        done, unstored = selection.apply_to_all(list(measurements), store)
+        checked, unstored = selection.apply_to_all(list(measurements), store)
         failures += unstored
         if faults:
             _show_defects(context, faults)
         elif editing:
             bpy.ops.object.mode_set(mode="EDIT")
-        staleness.mark_up_to_date(context, done)
+        staleness.mark_up_to_date(context, checked)
         if faults:
             text = write.reports.phrase(
                 "{count} of {total} measured objects has defects",
                 "{count} of {total} measured objects have defects",
                 count=len(faults),
-                total=len(done),
+                total=len(checked),
             )
         else:
             texts = ("Measured {count} object: no defects", "Measured {count} objects: no defects")
-            text = write.reports.phrase(*texts, count=len(done))
+            text = write.reports.phrase(*texts, count=len(checked))
         defects = [
-            finding(findings.OBJECT_WARNINGS, object=obj.name, causes=_counts(found))
-            for obj, found in faults.items()
+            finding(findings.OBJECT_WARNINGS, object=obj.name, causes=_counts(object_faults))
+            for obj, object_faults in faults.items()
         ]
-        return selection.summarize(self, len(done), len(objects), text, failures, defects)
+        return selection.summarize(self, len(checked), len(objects), text, failures, defects)
 
 
-def _counts(found: dict[str, Any]) -> list[dict]:
+def _counts(faults: dict[str, Any]) -> list[dict]:
     names = {kind: name for kind, name, _ in KINDS}
     return [
         finding(read.findings.KIND_COUNT, kind=names[kind], count=len(indices)).as_record()
-        for kind, indices in found.items()
+        for kind, indices in faults.items()
     ]
 
 

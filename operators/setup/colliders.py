@@ -74,14 +74,14 @@ class _Making(selection.OnSelectionInObjectMode, modal.ModalSteps):
         self._plans: list[session.colliders.Plan] = []
         self._failures: list[Finding] = []
         self._objects = bodies_of(context)
-        known: dict[str, session.colliders.Plan] = {}
+        known_plans: dict[str, session.colliders.Plan] = {}
         unit = scale.meters_per_unit(context.scene)
         measured = bodies.measured_in_turn(self._objects, context.evaluated_depsgraph_get())
-        wanted = core.colliders.fits.Wanted(*self._wanted())
+        fit_request = core.colliders.fits.Wanted(*self._wanted())
 
         def plan(obj: Object) -> Generator[float, None, None]:
             self._check(obj)
-            options = wanted, self.tolerance == "SHARE", self.correct, known
+            options = fit_request, self.tolerance == "SHARE", self.correct, known_plans
             self._plans.append(
                 (yield from session.plan_colliders(obj, measured(obj), unit, *options))
             )
@@ -91,12 +91,14 @@ class _Making(selection.OnSelectionInObjectMode, modal.ModalSteps):
 
     def _finish(self, context: Context) -> set[str]:
         self._made = session.store_colliders(context, self._plans, self.engine)
-        done = write.reports.phrase(
+        summary = write.reports.phrase(
             "{count} collider made", "{count} colliders made", count=len(self._made)
         )
         if len(self._plans) == 1:
             text = "volume {share:percent} of the object's"
-            done += "; " + write.reports.phrase(text, share=self._plans[0].record["volume_ratio"])
+            summary += "; " + write.reports.phrase(
+                text, share=self._plans[0].record["volume_ratio"]
+            )
         beyond = [
             finding(
                 findings.COLLIDERS_BEYOND_TOLERANCE,
@@ -109,7 +111,7 @@ class _Making(selection.OnSelectionInObjectMode, modal.ModalSteps):
             if session.is_beyond_tolerance(plan.record)
         ]
         return selection.summarize(
-            self, len(self._plans), len(self._objects), done, self._failures, beyond
+            self, len(self._plans), len(self._objects), summary, self._failures, beyond
         )
 
 
@@ -202,11 +204,11 @@ class OBJECT_OT_body_moments_remove_colliders(selection.OnSelectionInObjectMode,
     def execute(self, context: Context) -> set[str]:
         objects = bodies_of(context)
         count = session.remove_colliders(context, objects)
-        done = write.reports.phrase(
+        summary = write.reports.phrase(
             "{count} object without colliders", "{count} objects without colliders", count=count
         )
         idle = write.reports.phrase("no selected object has colliders")
-        return selection.summarize(self, count, len(objects), done, idle=idle)
+        return selection.summarize(self, count, len(objects), summary, idle=idle)
 
 
 def bodies_of(context: Context) -> list[Object]:

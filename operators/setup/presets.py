@@ -45,9 +45,9 @@ class OBJECT_OT_body_moments_set_material(Operator):
     def execute(self, context: Context) -> set[str]:
         preferences.copy_defaults(context.scene)
         material = BY_NAME[self.material]
-        named = [obj for obj in context.view_layer.objects if obj.name_full == self.target]
+        named_objects = [obj for obj in context.view_layer.objects if obj.name_full == self.target]
         objects = session.selected.objects_with_settings(
-            named or context.view_layer.objects.selected
+            named_objects or context.view_layer.objects.selected
         )
         if not objects or not given.has_density(objects[0]):
             return selection.refuse(self, "Select objects")
@@ -120,10 +120,10 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         active = context.view_layer.objects.active
-        others = active is not None and any(
+        has_others = active is not None and any(
             obj != active for obj in context.view_layer.objects.selected
         )
-        return others or write.reports.unavailable(
+        return has_others or write.reports.unavailable(
             cls, "Select other objects besides the active one"
         )
 
@@ -152,11 +152,11 @@ class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):
     ]
 
     def execute(self, context: Context) -> set[str]:
-        chosen = session.selected.objects_with_settings(chosen_objects(context))
-        if not chosen:
+        objects = session.selected.objects_with_settings(chosen_objects(context))
+        if not objects:
             return selection.refuse(self, "Select objects")
         active = context.object
-        with context.temp_override(object=active if active in chosen else chosen[0]):
+        with context.temp_override(object=active if active in objects else objects[0]):
             return AddPresetBase.execute(self, context)
 
 

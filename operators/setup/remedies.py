@@ -52,8 +52,8 @@ class OBJECT_OT_body_moments_remedy(selection.OnSubject, Operator):
         text = write.translations.localized("{:s}, and measure the object again").format(
             write.translations.localized(write.remedies.REMEDIES[values.remedy].description)
         )
-        others = ". " + write.translations.localized("Other objects that use the mesh change too")
-        return text + others if values.remedy in write.remedies.EDITS else text
+        warning = ". " + write.translations.localized("Other objects that use the mesh change too")
+        return text + warning if values.remedy in write.remedies.EDITS else text
 
     def draw(self, _context: Context) -> None:
         if self.remedy == write.remedies.SHELL:
@@ -103,7 +103,8 @@ class OBJECT_OT_body_moments_remedy(selection.OnSubject, Operator):
                 obj.data, scene.defects_by_kind(measurement).get("duplicate_faces", ())
             )
         return scene.reverse_faces(
-            obj.data, [shown.elements for shown in measurement.findings if shown.code in REVERSED]
+            obj.data,
+            [reported.elements for reported in measurement.findings if reported.code in REVERSED],
         )
 
 
@@ -154,24 +155,30 @@ class OBJECT_OT_body_moments_accept(selection.OnSubject, Operator):
     def _change(self, context: Context, obj: Object) -> set[str]:
         """Accept a code, or every warning without one, on the objects that the panel is about."""
         changed = False
-        for shown in displayed.shown_objects(context):
-            own = verdict.of_severity(write.properties.findings(shown), verdict.Severity.WARNING)
-            codes = {self.code} if self.code else {found.code for found in own}
-            if shown != obj and not codes & {
-                found.code for found in write.properties.findings(shown)
+        for shown_object in displayed.shown_objects(context):
+            warnings = verdict.of_severity(
+                write.properties.findings(shown_object), verdict.Severity.WARNING
+            )
+            codes = {self.code} if self.code else {reported.code for reported in warnings}
+            if shown_object != obj and not codes & {
+                reported.code for reported in write.properties.findings(shown_object)
             }:
                 continue
-            scene.changes.require_storable_data(shown)
+            scene.changes.require_storable_data(shown_object)
             if not any(
-                [settings.accepted.set_accepted(shown, code, self.accepted) for code in codes]
+                [
+                    settings.accepted.set_accepted(shown_object, code, self.accepted)
+                    for code in codes
+                ]
             ):
                 continue
             changed = True
-            if write.properties.is_stored(shown):
-                kept = settings.accepted.with_acceptance(
-                    write.properties.findings(shown), settings.accepted.accepted_codes(shown)
+            if write.properties.is_stored(shown_object):
+                accepted_findings = settings.accepted.with_acceptance(
+                    write.properties.findings(shown_object),
+                    settings.accepted.accepted_codes(shown_object),
                 )
-                write.properties.store_findings(shown, kept)
+                write.properties.store_findings(shown_object, accepted_findings)
         return {"FINISHED"} if changed else {"CANCELLED"}
 
 
@@ -190,19 +197,21 @@ class OBJECT_OT_body_moments_select_refused(selection.InObjectMode, Operator):
         last = stored.outcome.last()
         refused = last.groups if last is not None else ()
         groups = (*displayed.total(context).groups, *refused) if self.code else refused
-        chosen = [
+        chosen_findings = [
             (group.finding, group.objects)
             for group in groups
             if self.code in ("", group.finding.code)
         ]
         if self.code:
-            chosen += [
-                (one, ()) for one in displayed.total(context).findings if one.code == self.code
+            chosen_findings += [
+                (reported, ())
+                for reported in displayed.total(context).findings
+                if reported.code == self.code
             ]
         names = {
             name if isinstance(name, str) else name[0]
-            for one, owners in chosen
-            for name in one.values.get("objects", owners)
+            for reported, owners in chosen_findings
+            for name in reported.values.get("objects", owners)
         }
         names = {*self.listed.split("\n")} if self.listed else names
         objects = [obj for obj in context.view_layer.objects if names & {obj.name_full, obj.name}]

@@ -100,54 +100,61 @@ class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Ope
                     obj.body_moments.mass_from = "DENSITY"
                     obj.body_moments.density_from = "VALUE"
                     obj.body_moments.density = self.density
-        made = session.make_rigid_bodies(
+        rigid_bodies = session.make_rigid_bodies(
             context, objects, self.type, self.shape, self.frame, self.compounds
         )
-        self.comparison = _compare_masses(context, made)
-        count = len(made.measured)
-        mass = float(sum(one.target.mass for one in made.measured.values()))
-        done = write.reports.phrase(
+        self.comparison = _compare_masses(context, rigid_bodies)
+        count = len(rigid_bodies.measured)
+        mass = float(sum(body.target.mass for body in rigid_bodies.measured.values()))
+        summary = write.reports.phrase(
             "{count} rigid body of {mass:.7g} kg",
             "{count} rigid bodies of {mass:.7g} kg",
             count=count,
             mass=mass,
         )
-        if made.calculated and all(made.calculated.values()):
+        if rigid_bodies.calculated and all(rigid_bodies.calculated.values()):
             text = "; Calculate Mass would say {calculated:.7g} kg"
-            done += write.reports.phrase(text, calculated=float(sum(made.calculated.values())))
-        if made.floors:
+            summary += write.reports.phrase(
+                text, calculated=float(sum(rigid_bodies.calculated.values()))
+            )
+        if rigid_bodies.floors:
             text = "{count} passive body without volume", "{count} passive bodies without volume"
-            floors = write.reports.phrase(*text, count=len(made.floors))
-            done = "; ".join([*([done] if count else ()), floors])
-            count += len(made.floors)
+            floors = write.reports.phrase(*text, count=len(rigid_bodies.floors))
+            summary = "; ".join([*([summary] if count else ()), floors])
+            count += len(rigid_bodies.floors)
         findings = [
-            one.target.finding.of_sources([obj.name])
-            for obj, one in made.measured.items()
-            if one.target.finding is not None and self.frame == "AXES"
+            body.target.finding.of_sources([obj.name])
+            for obj, body in rigid_bodies.measured.items()
+            if body.target.finding is not None and self.frame == "AXES"
         ]
         findings = [*_display_scaled(context, count), *findings]
         if self.frame == "KEEP":
-            findings += _centers_elsewhere([one.target for one in made.measured.values()])
+            findings += _centers_elsewhere([body.target for body in rigid_bodies.measured.values()])
         return selection.summarize(
-            self, count, count + len(made.failures), done, made.failures, findings
+            self,
+            count,
+            count + len(rigid_bodies.failures),
+            summary,
+            rigid_bodies.failures,
+            findings,
         )
 
 
-def _compare_masses(context: Context, made: "session.rigid_bodies.RigidBodies") -> str:
+def _compare_masses(context: Context, rigid_bodies: "session.rigid_bodies.RigidBodies") -> str:
     """Return a line for each of the first bodies: its exact mass, and its mass by Calculate
     Mass.
     """
     units = write.units.Units.from_settings(context.scene.unit_settings)
     lines = []
-    for obj, one in list(made.measured.items())[:SHOWN]:
-        line = "{:s}: {:s}".format(obj.name, units.text("mass", one.target.mass))
-        if made.calculated[obj] > 0.0:  # of a compound, Blender weighs nothing
-            calculated = units.text("mass", made.calculated[obj])
+    for obj, body in list(rigid_bodies.measured.items())[:SHOWN]:
+        line = "{:s}: {:s}".format(obj.name, units.text("mass", body.target.mass))
+        if rigid_bodies.calculated[obj] > 0.0:  # of a compound, Blender weighs nothing
+            calculated = units.text("mass", rigid_bodies.calculated[obj])
             line += write.translations.localized("; Calculate Mass: {:s}").format(calculated)
         lines.append(line)
-    if len(made.measured) > SHOWN:
+    if len(rigid_bodies.measured) > SHOWN:
         lines.append(
-            write.translations.localized("And {:d} more").format(len(made.measured) - SHOWN)
+            write.translations.localized("And {:d} more").format(len(rigid_bodies.measured) - SHOWN)
         )
     return "\n".join(lines)
 
@@ -226,18 +233,20 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(
             failures += refused
             changed |= {plan.obj for plan in plans}
             findings += [
-                found.of_sources([plan.obj.name]) for plan in plans for found in plan.findings
+                finding.of_sources([plan.obj.name]) for plan in plans for finding in plan.findings
             ]
         count = len(changed)
         findings += _display_scaled(context, count)
         findings += _centers_elsewhere(bodies) if count else []
-        done = write.reports.phrase(
+        summary = write.reports.phrase(
             "Set the rigid body mass of {count} object",
             "Set the rigid body mass of {count} objects",
             count=count,
         )
         idle = write.reports.phrase("the masses are equal")
-        return selection.summarize(self, count, len(self._objects), done, failures, findings, idle)
+        return selection.summarize(
+            self, count, len(self._objects), summary, failures, findings, idle
+        )
 
 
 def _centers_elsewhere(bodies: "list[scene.snap_targets.SnapTarget]") -> list[Finding]:

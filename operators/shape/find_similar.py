@@ -99,19 +99,19 @@ class _SearchMixin:
             for kind in COUNTS
             if counts[kind]
         ]
-        found = ", ".join(alike) if alike else write.reports.phrase("none is similar")
-        done = [
+        matches_text = ", ".join(alike) if alike else write.reports.phrase("none is similar")
+        summary = [
             write.reports.phrase(
                 "Compared {count} shape", "Compared {count} shapes", count=len(matches)
             ),
-            found,
+            matches_text,
         ]
         if matches:
             text = "nearest is {object}, at {distance:.2e}"
-            done.append(
+            summary.append(
                 write.reports.phrase(text, object=matches[0].name, distance=matches[0].distance)
             )
-        return selection.finish(self, done, failures)
+        return selection.finish(self, summary, failures)
 
 
 class OBJECT_OT_body_moments_find_similar(modal.ModalSteps, _SearchMixin, Operator):
@@ -132,15 +132,15 @@ class OBJECT_OT_body_moments_find_similar(modal.ModalSteps, _SearchMixin, Operat
     scaled: SCALED
 
     def _begin(self, context: Context) -> int:
-        wanted = require_subject(context)
+        subject = require_subject(context)
         self._others = [
             obj
             for obj in read.visibility.measurable_objects(context.view_layer)
-            if obj != wanted and obj.visible_get()
+            if obj != subject and obj.visible_get()
         ]
         self._failures: list[Finding] = []
-        self._search = session.SimilarSearch(wanted, context.evaluated_depsgraph_get())
-        self._steps = self._compare(wanted.name)
+        self._search = session.SimilarSearch(subject, context.evaluated_depsgraph_get())
+        self._steps = self._compare(subject.name)
         return len(self._others)
 
     def _compare(self, name: str) -> Generator[float, None, None]:
@@ -157,15 +157,15 @@ class OBJECT_OT_body_moments_find_similar(modal.ModalSteps, _SearchMixin, Operat
         """Keep and select the matches at the end, so that a canceled search changes nothing."""
         matches = self._search.find_nearest(self.scaled, self.mirrored)
         if self.select:
-            chosen = {
+            verdicts = {
                 "copy": True,
                 "mirror": self.mirrored,
                 "scaled_copy": self.scaled,
                 "scaled_mirror": self.mirrored and self.scaled,
             }
-            picked = {match.obj for match in matches if chosen.get(match.verdict)}
-            wanted = require_subject(context)
-            selection.select_only(context, {*picked, wanted}, wanted)
+            picked = {match.obj for match in matches if verdicts.get(match.verdict)}
+            subject = require_subject(context)
+            selection.select_only(context, {*picked, subject}, subject)
         return self.store_and_report(context, matches, "", self._failures)
 
 

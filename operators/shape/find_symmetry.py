@@ -120,19 +120,19 @@ class OBJECT_OT_body_moments_find_symmetry(modal.ModalSteps, selection.OnSelecti
             write.reports.phrase(
                 texts[shape.is_display_mesh],
                 object=obj.name,
-                group=found.group,
-                description=", ".join(describe(found)),
+                group=symmetry.group,
+                description=", ".join(describe(symmetry)),
             )
-            for obj, shape, found, _ in self._results
+            for obj, shape, symmetry, _ in self._results
         ]
         selection.redraw(context)
         if self._failures or not symmetries:
             count = len(symmetries)
-            done = write.reports.phrase(
+            summary = write.reports.phrase(
                 "Searched {count} object", "Searched {count} objects", count=count
             )
             return selection.summarize(
-                self, count, len(self._objects), done, self._failures, symmetries
+                self, count, len(self._objects), summary, self._failures, symmetries
             )
         return write.reports.report(self, *write.reports.first(symmetries))
 

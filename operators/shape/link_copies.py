@@ -63,8 +63,8 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
         """
         key = self.tolerance, frozenset(self.may_differ)
         if self._found is None or self._found[0] != key:
-            chosen = self._objects or context.selected_objects or context.visible_objects
-            objects = [obj for obj in chosen if obj.type == "MESH"]
+            candidates = self._objects or context.selected_objects or context.visible_objects
+            objects = [obj for obj in candidates if obj.type == "MESH"]
             with write.reports.progress(len(objects)) as step:
                 self._found = (
                     key,
@@ -127,7 +127,7 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
             session.remeasure(context, linked.objects)
         session.tracking.staleness.mark_axes_changed(linked.objects)
         left_out = [write.reports.failure(obj.name_full, reason) for obj, reason in linked.left_out]
-        done = write.reports.phrase(
+        summary = write.reports.phrase(
             "{count} object linked, {size} saved, vertices moved by up to {maximum:length}",
             "{count} objects linked, {size} saved, vertices moved by up to {maximum:length}",
             count=len(linked.objects),
@@ -136,7 +136,7 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
         )
         total = len(linked.objects) + len(left_out)
         return selection.summarize(
-            self, len(linked.objects), total, done, left_out, nothing=NOTHING
+            self, len(linked.objects), total, summary, left_out, nothing=NOTHING
         )
 
 

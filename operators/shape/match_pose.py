@@ -26,8 +26,10 @@ class OBJECT_OT_body_moments_match_pose(modal.ModalSteps, Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        others = [obj for obj in context.view_layer.objects.selected if obj != context.object]
-        if context.object is None or not others:
+        other_objects = [
+            obj for obj in context.view_layer.objects.selected if obj != context.object
+        ]
+        if context.object is None or not other_objects:
             return write.reports.unavailable(
                 cls, "Select the objects to move, then the object to match"
             )
@@ -57,16 +59,16 @@ class OBJECT_OT_body_moments_match_pose(modal.ModalSteps, Operator):
 
         def find(obj: Object) -> Iterator[float]:
             scene.require_matchable(context, obj)
-            found = bodies.comparable_shape_of(
+            shape = bodies.comparable_shape_of(
                 obj, context.evaluated_depsgraph_get(), isinstance(target, bodies.FlatShape)
             )
-            if type(found) is not type(target):
+            if type(shape) is not type(target):
                 raise EditRefusedError(findings.FLAT_AND_BODY)
             yield 0.3
-            source_skin = bodies.distance_from(found)
+            source_skin = bodies.distance_from(shape)
             yield 0.9
-            match = bodies.register_surfaces(found, target, source_skin, skin)
-            self._plans.append((scene.plan_match(context, obj, found, target, match), match))
+            match = bodies.register_surfaces(shape, target, source_skin, skin)
+            self._plans.append((scene.plan_match(context, obj, shape, target, match), match))
 
         yield from selection.iterate_objects(self._others, find, self._failures)
 
@@ -76,20 +78,20 @@ class OBJECT_OT_body_moments_match_pose(modal.ModalSteps, Operator):
         """
         if not self._size:
             return {"CANCELLED"}
-        moved, distances = [], []
+        moved_objects, distances = [], []
         for plan, match in self._plans:  # parents first, for a child moves with its parent
             try:
                 if scene.move_to_match(context, plan):
-                    moved.append(plan.obj)
+                    moved_objects.append(plan.obj)
             except Exception as error:
                 self._failures.append(write.reports.failure(plan.obj.name_full, error))
             else:
                 distances.append(_distance(plan.obj.name, match, self._size))
-        session.remeasure(context, moved)
+        session.remeasure(context, moved_objects)
         texts = ("Moved {count} object onto {object}", "Moved {count} objects onto {object}")
-        done = write.reports.phrase(*texts, count=len(distances), object=context.object.name)
+        summary = write.reports.phrase(*texts, count=len(distances), object=context.object.name)
         return selection.summarize(
-            self, len(distances), len(self._others), done, self._failures, distances
+            self, len(distances), len(self._others), summary, self._failures, distances
         )
 
 

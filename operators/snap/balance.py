@@ -101,8 +101,10 @@ class OBJECT_OT_body_moments_sculpt_balance(selection.OnSubject, Operator):
         if obj.data.users - obj.data.use_fake_user > 1:
             texts.append(write.reports.phrase("Other objects use this mesh and changed too."))
         if any(
-            other.type == "MESH" and other.data.is_editmode and other.data != obj.data
-            for other in context.view_layer.objects
+            other_object.type == "MESH"
+            and other_object.data.is_editmode
+            and other_object.data != obj.data
+            for other_object in context.view_layer.objects
         ):
             texts.append(
                 write.reports.phrase(
@@ -172,20 +174,20 @@ class OBJECT_OT_body_moments_make_it_stand(selection.OnSubject, Operator):
         support = session.stored.stability.support(obj, context.scene)
         point = context.scene.cursor.location[:] if self.target == "CURSOR" else None
         corners = None if support is None else support.polygon
-        found = session.print_balance.balance_print(
+        balance = session.print_balance.balance_print(
             context, obj, corners, self.margin, point, self.change, self.ballast
         )
-        if found is None:
+        if balance is None:
             text = "It touches the ground along an edge or at a corner. Lay it on a face first."
             return selection.refuse(self, write.reports.phrase(text))
         values = {
-            "walls": found.walls,
-            "infill": round(found.infill, 2),
-            "margin": found.margin * scale,
-            "radius": found.pocket.radius if found.pocket else 0.0,
+            "walls": balance.walls,
+            "infill": round(balance.infill, 2),
+            "margin": balance.margin * scale,
+            "radius": balance.pocket.radius if balance.pocket else 0.0,
         }
         is_ballast = self.change == "BALLAST"
-        if not found.suffices:
+        if not balance.suffices:
             text = (
                 "A pocket cannot do it: the margin is at best {margin:length}, with a radius of "
                 "{radius:length}. Choose another margin, infill or denser ballast"
@@ -196,16 +198,16 @@ class OBJECT_OT_body_moments_make_it_stand(selection.OnSubject, Operator):
             return selection.refuse(self, write.reports.phrase(text, **values))
         if is_ballast:
             settings.pocket_radius = 1e3 * values["radius"]
-            if found.pocket:
-                settings.pocket_center = found.pocket.center
+            if balance.pocket:
+                settings.pocket_center = balance.pocket.center
                 settings.pocket_density = self.ballast
         else:
-            settings.print_walls = found.walls
-            settings.print_infill = found.infill
+            settings.print_walls = balance.walls
+            settings.print_infill = balance.infill
         session.remeasure(context, [obj])
         session.check_stability(context, obj, [])
         text = "Set to {walls} walls and {infill} % infill"
         if is_ballast:
             text = "It has a pocket with a radius of {radius:length}"
-            text = text if found.pocket else "It needs no pocket"
+            text = text if balance.pocket else "It needs no pocket"
         return write.reports.report(self, write.reports.phrase(text, **values))

@@ -35,22 +35,24 @@ def reframe_selected(
     operator: Operator,
     context: Context,
     along_axes: bool,
-    done: tuple[str, str],
+    summary_texts: tuple[str, str],
     strict: bool = False,
 ) -> set[str]:
     """Give each selected object an origin at its center of mass while nothing visible moves, and
     report it.
 
-    along_axes: also align its axes with the principal axes. done: the report, for one object and
-    for `count` objects.
+    along_axes: also align its axes with the principal axes. summary_texts: the report, for one
+    object and for `count` objects.
     """
     objects = selection.selected_measurable(context)
     target_matrix = scene.matrix_along_axes if along_axes else scene.matrix_at_center
     changed, failures = session.reframe_objects(
         context, objects, target_matrix, not along_axes, strict
     )
-    findings = [found.of_sources([plan.obj.name]) for plan in changed for found in plan.findings]
-    text = write.reports.phrase(*done, count=len(changed))
+    findings = [
+        finding.of_sources([plan.obj.name]) for plan in changed for finding in plan.findings
+    ]
+    text = write.reports.phrase(*summary_texts, count=len(changed))
     idle = write.reports.phrase("already in place")
     return selection.summarize(operator, len(changed), len(objects), text, failures, findings, idle)
 
@@ -64,11 +66,11 @@ class OBJECT_OT_body_moments_origin_to_center(selection.OnSelectionInObjectMode,
     bl_label = "Origin to Center of Mass"
 
     def execute(self, context: Context) -> set[str]:
-        done = (
+        summary = (
             "Moved the origin of {count} object to the center of mass",
             "Moved the origins of {count} objects to the center of mass",
         )
-        return reframe_selected(self, context, False, done)
+        return reframe_selected(self, context, False, summary)
 
 
 class OBJECT_OT_body_moments_axes_to_principal(selection.OnSelectionInObjectMode, Operator):
@@ -81,11 +83,11 @@ class OBJECT_OT_body_moments_axes_to_principal(selection.OnSelectionInObjectMode
     strict: STRICT_PROPERTY
 
     def execute(self, context: Context) -> set[str]:
-        done = (
+        summary = (
             "Aligned the axes of {count} object to its principal axes",
             "Aligned the axes of {count} objects to their principal axes",
         )
-        return reframe_selected(self, context, True, done, self.strict)
+        return reframe_selected(self, context, True, summary, self.strict)
 
 
 # Targets of principal axes 1, 2 and 3. An odd order would mirror the body, so axis 3 is reversed in
@@ -177,12 +179,12 @@ class VIEW3D_OT_body_moments_cursor_to_center(selection.OnSelection, Operator):
             if self.rotate:
                 turn_cursor(cursor, total.principal.axes.tolist())
                 findings = [total.principal.finding] if total.principal.finding is not None else []
-        done = write.reports.phrase(
+        summary = write.reports.phrase(
             "Moved the 3D cursor to the center of mass of {count} object",
             "Moved the 3D cursor to the center of mass of {count} objects",
             count=len(added),
         )
-        return selection.summarize(self, len(added), len(objects), done, failures, findings)
+        return selection.summarize(self, len(added), len(objects), summary, failures, findings)
 
 
 def turn_cursor(cursor: View3DCursor, axes: Sequence[Sequence[float]]) -> None:
@@ -238,13 +240,15 @@ class OBJECT_OT_body_moments_add_empty(selection.OnSelectionInObjectMode, Operat
             body.finding.of_sources([body.obj.name]) for body in placed if body.finding is not None
         ]
         failures = [write.reports.failure(obj.name_full, error) for obj, error in refused.items()]
-        done = write.reports.phrase(
+        summary = write.reports.phrase(
             "Placed an empty at the principal frame of {count} object",
             "Placed empties at the principal frames of {count} objects",
             count=len(placed),
         )
         idle = write.reports.phrase("the empties are in place")
-        return selection.summarize(self, len(placed), len(objects), done, failures, findings, idle)
+        return selection.summarize(
+            self, len(placed), len(objects), summary, failures, findings, idle
+        )
 
 
 class OBJECT_OT_body_moments_create_orientation(Operator):

@@ -77,23 +77,23 @@ def draw_region(context: Context) -> None:
         *(getattr(settings, name) for name in SETTINGS),
         _scale(),
     )
-    drawn = _regions.get(pointer)
-    if drawn is None or drawn.key != key:
-        if drawn is None and len(_regions) == MAX_REGIONS:
+    region_batches = _regions.get(pointer)
+    if region_batches is None or region_batches.key != key:
+        if region_batches is None and len(_regions) == MAX_REGIONS:
             del _regions[next(iter(_regions))]
-        drawn = _regions[pointer] = _rebuild(context, key, drawn)
-    if not (drawn.lines or drawn.fills or len(drawn.bodies.centers)):
+        region_batches = _regions[pointer] = _rebuild(context, key, region_batches)
+    if not (region_batches.lines or region_batches.fills or len(region_batches.bodies.centers)):
         return
     view_key = (
         gpu.matrix.get_model_view_matrix(),
         gpu.matrix.get_projection_matrix(),
         gpu.state.viewport_get()[2:],
     )
-    if drawn.view_key != view_key:
-        drawn.discs = _discs(drawn.bodies, discs.View(*map(np.array, view_key)))
-        drawn.view_key = view_key
+    if region_batches.view_key != view_key:
+        region_batches.discs = _discs(region_batches.bodies, discs.View(*map(np.array, view_key)))
+        region_batches.view_key = view_key
     with _restored_state():
-        _draw_batches(drawn, view_key[2])
+        _draw_batches(region_batches, view_key[2])
 
 
 def _rebuild(context: Context, key: tuple, before: _Drawn | None) -> _Drawn:
@@ -103,14 +103,14 @@ def _rebuild(context: Context, key: tuple, before: _Drawn | None) -> _Drawn:
     objects = draw.drawn_objects(context, settings.show_all)
     (entries, active) = collect(context, objects)
     details = list_details(context, objects)
-    rows = list(range(len(entries)))
+    changed = list(range(len(entries)))
     if before is not None and before.key[1:] == key[1:] and len(before.entries) == len(entries):
-        rows = [row for row in rows if entries[row] is not before.entries[row]]
-    bodies = Bodies.of([entries[row] for row in rows], meters_per_unit(scene))
+        changed = [row for row in changed if entries[row] is not before.entries[row]]
+    bodies = Bodies.of([entries[row] for row in changed], meters_per_unit(scene))
     segments = body_lines(bodies, settings)
-    if before is not None and len(rows) < len(entries):
-        before.bodies.put(rows, bodies)
-        before.segments[rows] = segments
+    if before is not None and len(changed) < len(entries):
+        before.bodies.put(changed, bodies)
+        before.segments[changed] = segments
         bodies, segments = before.bodies, before.segments
     colors = look.COLORS[bodies.verdicts][:, None].repeat(segments.shape[1], axis=1)
     if settings.show_axes:
@@ -133,22 +133,25 @@ def draw_texts(context: Context) -> None:
     """Draw the texts of the details into a region, beside their places, and the numbers of the
     active body's axes.
     """
-    drawn = _regions.get(context.region.as_pointer())
+    region_batches = _regions.get(context.region.as_pointer())
     scale = _scale()
-    if drawn is None:
+    if region_batches is None:
         return
     project = partial(location_3d_to_region_2d, context.region, context.space_data.region_3d)
     beside = scale * Vector((look.FRAME, -look.TEXT))
     texts = [
         (place + beside, text, color)
-        for at, text, color in drawn.texts
+        for at, text, color in region_batches.texts
         if (place := project(at)) is not None
     ]
     blf.size(0, look.TEXT * scale)
-    if drawn.active >= 0 and context.scene.body_moments.overlay.show_axes:
+    if region_batches.active >= 0 and context.scene.body_moments.overlay.show_axes:
         ends = [
             project(at)
-            for at in (drawn.bodies.centers[drawn.active], *drawn.segments[drawn.active, :3, 1])
+            for at in (
+                region_batches.bodies.centers[region_batches.active],
+                *region_batches.segments[region_batches.active, :3, 1],
+            )
         ]
         texts += _axis_numbers(*ends, scale=scale) if None not in ends else ()
     blf.enable(0, blf.SHADOW)
@@ -215,10 +218,10 @@ def _line_batches(parts: list[Colored]) -> tuple[Batch, ...]:
 
 
 def _discs(bodies: Bodies, view: discs.View) -> tuple[Batch, ...]:
-    made = discs.disc_triangles(bodies, view, _scale())
-    if made is None:
+    arrays = discs.disc_triangles(bodies, view, _scale())
+    if arrays is None:
         return ()
-    points, colors, triangles = made
+    points, colors, triangles = arrays
     shader = gpu.shader.from_builtin("FLAT_COLOR")
     return tuple(
         batch_for_shader(shader, "TRIS", {"pos": points, "color": tints}, indices=triangles)
@@ -246,15 +249,17 @@ def _restored_state() -> Iterator[None]:
         state.depth_mask_set(mask)
 
 
-def _draw_batches(drawn: _Drawn, size: tuple[int, int]) -> None:
+def _draw_batches(region_batches: _Drawn, size: tuple[int, int]) -> None:
     scale = _scale()
     flat = gpu.shader.from_builtin("FLAT_COLOR")
     gpu.state.depth_test_set("NONE")
-    for batch in drawn.fills:
+    for batch in region_batches.fills:
         batch.draw(flat)
     uniform = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
     colored = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
-    for batch, depth, opacity in zip(drawn.lines, ("NONE", "LESS_EQUAL"), (look.BEHIND, 1.0)):
+    for batch, depth, opacity in zip(
+        region_batches.lines, ("NONE", "LESS_EQUAL"), (look.BEHIND, 1.0)
+    ):
         gpu.state.depth_test_set(depth)
         for shader, width in ((uniform, look.LINE + 2.0 * look.OUTLINE), (colored, look.LINE)):
             shader.bind()
@@ -263,6 +268,6 @@ def _draw_batches(drawn: _Drawn, size: tuple[int, int]) -> None:
             if shader is uniform:
                 shader.uniform_float("color", (*look.DARK[:3], 0.6 * opacity))
             batch.draw(shader)
-    for batch, depth in zip(drawn.discs, ("NONE", "LESS_EQUAL")):
+    for batch, depth in zip(region_batches.discs, ("NONE", "LESS_EQUAL")):
         gpu.state.depth_test_set(depth)
         batch.draw(flat)

@@ -52,22 +52,22 @@ class Bodies:
     def of(cls, entries: Sequence[Entry], unit: float) -> Bodies:
         """Return the bodies as arrays; unit: meters per Blender unit."""
         bodies = [
-            (one.world, one.verdict) if isinstance(one, Displayed) else (one, "sum")
-            for one in entries
+            (entry.world, entry.verdict) if isinstance(entry, Displayed) else (entry, "sum")
+            for entry in entries
         ]
         return cls(
             np.array([numbers.center for numbers, _ in bodies]).reshape(-1, 3) / unit,
             np.array([numbers.axes for numbers, _ in bodies]).reshape(-1, 3, 3).transpose(0, 2, 1),
             np.array([numbers.gyration for numbers, _ in bodies]).reshape(-1, 3) / unit,
             np.array([look.VERDICTS.index(verdict) for _, verdict in bodies], np.intp),
-            np.array([getattr(one, "shows_axes", True) for one in entries], bool),
-            np.array([not getattr(one, "is_plumbed", False) for one in entries], bool),
+            np.array([getattr(entry, "shows_axes", True) for entry in entries], bool),
+            np.array([not getattr(entry, "is_plumbed", False) for entry in entries], bool),
         )
 
-    def put(self, rows: list[int], bodies: Bodies) -> None:
+    def put(self, indices: list[int], bodies: Bodies) -> None:
         """Replace the bodies in these rows."""
         for name, values in vars(bodies).items():
-            getattr(self, name)[rows] = values
+            getattr(self, name)[indices] = values
 
 
 def collect(context: Context, objects: list[Object]) -> tuple[list[Entry], int]:
@@ -84,26 +84,26 @@ def collect(context: Context, objects: list[Object]) -> tuple[list[Entry], int]:
         for bone in context.selected_pose_bones or ()
         if not bone.id_data.body_moments_weight.show
     ]
-    shown = list(
+    displayed_pairs = list(
         zip(
             [*objects, *bones],
             [*all_drawn(objects, scene), *(drawn_bone(bone, scene) for bone in bones)],
         )
     )
-    bodies = [(subject, body) for subject, body in shown if body is not None]
+    bodies = [(subject, body) for subject, body in displayed_pairs if body is not None]
     actives = (context.object, context.active_pose_bone)
     settings = scene.body_moments.overlay
     are_many = len(bodies) >= MANY
-    whole = None
+    selection_body = None
     if are_many and settings.show_all:
         # an assembly or a character is made of bodies that are drawn by themselves
         parts = [
             body.world for obj, body in bodies if body.method != ASSEMBLY and obj.type != "ARMATURE"
         ]
-        whole = inertia.add_bodies(parts)
+        selection_body = inertia.add_bodies(parts)
     elif are_many or settings.show_sum:
         selected = total(context)
-        whole = selected.numbers if selected.count > 1 else None
+        selection_body = selected.numbers if selected.count > 1 else None
     if are_many:
         bodies = [
             (obj, body)
@@ -118,7 +118,7 @@ def collect(context: Context, objects: list[Object]) -> tuple[list[Entry], int]:
         len(settings_of(root).rows) > MAX_MEMBERS or stale_reason(root, scene)
     ):
         assembly = None
-    return entries + [one for one in (whole, assembly) if one is not None], active
+    return entries + [entry for entry in (selection_body, assembly) if entry is not None], active
 
 
 def body_lines(bodies: Bodies, settings: BodyMomentsOverlaySettings) -> numerics.Array:

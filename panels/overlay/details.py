@@ -61,8 +61,12 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
                 )
                 if stood is not None:
                     details.append(support_detail(stood))
-    found = map(faults.of_object, objects) if settings.show_faults else ()
-    details += [_faults(obj, shown) for obj, shown in zip(objects, found) if shown is not None]
+    object_faults = map(faults.of_object, objects) if settings.show_faults else ()
+    details += [
+        _faults(obj, mesh_faults)
+        for obj, mesh_faults in zip(objects, object_faults)
+        if mesh_faults is not None
+    ]
     for obj in objects:
         weight = (
             blender.session.character.weight.weight(obj, context.view_layer.depsgraph)
@@ -80,8 +84,10 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
         details += [_surface(level, unit) for level in levels if level is not None]
     if settings.show_waterline:
         afloat = {id(memory.afloat[obj]): obj for obj in objects if obj in memory.afloat}
-        held = [floating.held_body(obj, context.scene) for obj in afloat.values()]
-        details += [_waterline(body, unit) for body in held if isinstance(body, floating.Held)]
+        floating_bodies = [floating.held_body(obj, context.scene) for obj in afloat.values()]
+        details += [
+            _waterline(body, unit) for body in floating_bodies if isinstance(body, floating.Held)
+        ]
     return details
 
 
@@ -95,7 +101,8 @@ def _path(path: balance_groups.Path) -> Detail:
     if path.contact is not None:
         inside = inside | ~path.contact
     colors = [
-        np.where(one[:, None], look.PATH, look.TIPS) for one in (inside[:-1] & inside[1:], inside)
+        np.where(is_inside[:, None], look.PATH, look.TIPS)
+        for is_inside in (inside[:-1] & inside[1:], inside)
     ]
     if path.unexplained is not None:
         colors[0][path.unexplained[:-1] | path.unexplained[1:]] = look.FAULT
@@ -139,11 +146,11 @@ def _surface(level: cuts.Level, unit: float) -> Detail:
     return Detail(_tinted(outline, look.SUPPORT), _tinted(triangles, look.SUPPORT, FILL))
 
 
-def _waterline(held: floating.Held, unit: float) -> Detail:
+def _waterline(floating_body: floating.Held, unit: float) -> Detail:
     """Return the waterline on the body, and crosses at its centers of buoyancy and gravity and its
     metacenter, with a line through these.
     """
-    state = held.state
+    state = floating_body.state
     body = state.body
     line = cut_outline(body.points, body.triangles, state.up, state.level)
     buoyancy, gravity = state.center_of_buoyancy, state.center_of_gravity
@@ -152,19 +159,23 @@ def _waterline(held: floating.Held, unit: float) -> Detail:
     crosses = places[:, None, None] + CROSS * body.size * np.stack([-np.eye(3), np.eye(3)], axis=1)
     axis = np.array([[buoyancy, metacenter]])
     segments = np.concatenate([line, axis, crosses.reshape(-1, 2, 3)])
-    color = look.WATER if held.is_at_rest else look.EDGE
-    texts = [(place / unit, letter, color) for place, letter in zip(held.to_world(places), "BGM")]
+    color = look.WATER if floating_body.is_at_rest else look.EDGE
+    texts = [
+        (place / unit, letter, color)
+        for place, letter in zip(floating_body.to_world(places), "BGM")
+    ]
     return Detail(
-        _tinted(held.to_world(segments) / unit, color),
+        _tinted(floating_body.to_world(segments) / unit, color),
         _tinted(np.zeros((0, 3, 3)), color),
         tuple(texts),
     )
 
 
-def _faults(obj: Object, found: faults.Faults) -> Detail:
+def _faults(obj: Object, mesh_faults: faults.Faults) -> Detail:
     matrix = np.array(obj.matrix_world, np.float64)
     edges, triangles = (
-        shape @ matrix[:3, :3].T + matrix[:3, 3] for shape in (found.edges, found.triangles)
+        shape @ matrix[:3, :3].T + matrix[:3, 3]
+        for shape in (mesh_faults.edges, mesh_faults.triangles)
     )
     return Detail(_tinted(edges, look.FAULT), _tinted(triangles, look.FAULT, FILL))
 

@@ -173,8 +173,8 @@ class View:
 
         Positions of points behind the eye are meaningless.
         """
-        seen = points @ self.view[:3, :3].T + self.view[:3, 3]
-        clip = seen @ self.projection[:, :3].T + self.projection[:, 3]
+        view_points = points @ self.view[:3, :3].T + self.view[:3, 3]
+        clip = view_points @ self.projection[:, :3].T + self.projection[:, 3]
         scale = np.where(clip[:, 3] == 0.0, 1.0, clip[:, 3])
         return (clip[:, :2] / scale[:, None] + 1.0) / 2.0 * self.size
 
@@ -182,8 +182,8 @@ class View:
         """Return (n, 2) lengths of a pixel at (n, 3) points, along the width and the height; 0
         behind the eye.
         """
-        seen = points @ self.view[:3, :3].T + self.view[:3, 3]
-        w = seen @ self.projection[3, :3] + self.projection[3, 3]
+        view_points = points @ self.view[:3, :3].T + self.view[:3, 3]
+        w = view_points @ self.projection[3, :3] + self.projection[3, 3]
         return np.maximum(w, 0.0)[:, None] * 2.0 / (self.size * np.diagonal(self.projection)[:2])
 
     def place(self, anchors: NDArray, offsets: NDArray) -> Array:
@@ -223,19 +223,21 @@ def disc_triangles(
         bodies.gyration.max(axis=1), sizes, out=np.zeros(len(sizes)), where=sizes > 0.0
     )
     away = np.abs(view.pixels(bodies.centers) - view.size / 2.0) - view.size / 2.0
-    seen = np.flatnonzero((sizes > 0.0) & (away <= (reach + scale * MARGIN)[:, None]).all(axis=1))
-    if not len(seen):
+    visible = np.flatnonzero(
+        (sizes > 0.0) & (away <= (reach + scale * MARGIN)[:, None]).all(axis=1)
+    )
+    if not len(visible):
         return None
-    seen = seen[np.argsort(-view.depths(bodies.centers[seen]), kind="stable")]
+    visible = visible[np.argsort(-view.depths(bodies.centers[visible]), kind="stable")]
     discs = glyphs()
-    reach = reach[seen]
-    verdicts = bodies.verdicts[seen]
+    reach = reach[visible]
+    verdicts = bodies.verdicts[visible]
     radii = scale * np.linalg.norm(discs.corners, axis=2).max(axis=1)[verdicts]
     shrink = np.where(reach > 0.0, np.minimum(reach / radii, 1.0), 1.0).astype(np.float32)
     points = view.place(
-        bodies.centers[seen], scale * shrink[:, None, None] * discs.corners[verdicts]
+        bodies.centers[visible], scale * shrink[:, None, None] * discs.corners[verdicts]
     )
-    first = points.shape[1] * np.arange(len(seen), dtype=np.int32)[:, None, None]
+    first = points.shape[1] * np.arange(len(visible), dtype=np.int32)[:, None, None]
     triangles = discs.triangles[verdicts] + first
     return (
         points.reshape(-1, 3),

@@ -57,8 +57,8 @@ def _mirrored(name: str) -> object:
         return EQUIVALENTS.index(value) if name == "equivalent" else value
 
     def put(_mirror: PropertyGroup, value: bool | int) -> None:
-        chosen = EQUIVALENTS[value] if name == "equivalent" else value
-        setattr(bpy.context.scene.body_moments.overlay, name, chosen)
+        overlay_value = EQUIVALENTS[value] if name == "equivalent" else value
+        setattr(bpy.context.scene.body_moments.overlay, name, overlay_value)
 
     return (EnumProperty if name == "equivalent" else BoolProperty)(**keywords, get=get, set=put)
 
@@ -75,10 +75,10 @@ def _keep_settings() -> None:
         settings = scene.body_moments
         if settings.is_property_set("overlay"):  # reading a group within a group stores it
             settings = settings.overlay
-            chosen = {
+            overlay_settings = {
                 name: getattr(settings, name) for name in SETTINGS if settings.is_property_set(name)
             }
-            _kept[scene.name_full] = chosen
+            _kept[scene.name_full] = overlay_settings
 
 
 def _restore_settings() -> None:
@@ -114,11 +114,11 @@ def drawn_objects(context: Context, show_all: bool) -> list[Object]:
     without selection, too.
     """
     layer, space = context.view_layer, context.space_data
-    chosen = dict.fromkeys(layer.objects if show_all else layer.objects.selected)
-    chosen.update(dict.fromkeys(filter(shows_weight, layer.objects)))
+    objects = dict.fromkeys(layer.objects if show_all else layer.objects.selected)
+    objects.update(dict.fromkeys(filter(shows_weight, layer.objects)))
     return [
         obj
-        for obj in chosen
+        for obj in objects
         if (
             "body_mass" in obj
             or obj in session.memory.levels
