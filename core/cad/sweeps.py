@@ -17,6 +17,7 @@ from ..nurbs import TURN, Curve, Patch, Quadric
 # radians; a quadratic piece of a circle keeps its weights away from zero
 MAX_ARC = 2.0 * math.pi / 3.0
 SAME_RTOL = 1e-12  # relative to the size: lines and circles by rounding
+PROFILE_SAMPLES = 9
 
 
 def arc_steps(turn: float) -> int:
@@ -54,27 +55,30 @@ def conic_pieces(
 
 
 def revolve(curve: Curve, begin: NDArray, axis: NDArray, start: float, end: float) -> Patch:
-    """Return the surface of a curve rotated from a start angle to an end angle about an axis
-    through a point.
+    """Return the surface of a curve rotated between two angles, rad, about an axis through a point.
+
+    Its first parameter is the curve's, the second the angle.
     """
     axis = axis / np.linalg.norm(axis)
     if not 0.0 < end - start <= TURN * (1.0 + 1e-9):
         raise ValueError("angles of no surface")
     steps = arc_steps(end - start)
-    half = (end - start) / steps / 2.0
+    half_step = (end - start) / steps / 2.0
     angles = np.linspace(start, end, 2 * steps + 1)
-    ring = np.where(np.arange(2 * steps + 1) % 2, math.cos(half), 1.0)
+    # A quadratic piece of a circle has both ends on it. Its middle control point, where the
+    # tangents at these meet, is 1 / cos as far away, and has the weight cos.
+    is_middle = np.arange(len(angles)) % 2 == 1
+    ring_weights = np.where(is_middle, math.cos(half_step), 1.0)
     arms = curve.points - begin
     heights = np.outer(arms @ axis, axis)
     radial = arms - heights
-    around = (
-        np.cos(angles)[:, None] * radial[:, None]
-        + np.sin(angles)[:, None] * np.cross(axis, radial)[:, None]
-    ) / ring[:, None]
-    weights = curve.all_weights[:, None] * ring
+    across = np.cross(axis, radial)
+    # (control points of the curve, angles, 3)
+    turned = np.cos(angles)[:, None] * radial[:, None] + np.sin(angles)[:, None] * across[:, None]
+    points = begin + heights[:, None] + turned / ring_weights[:, None]
     knots = np.repeat(angles[::2], 2)
     space = SplineSpace((start, *knots.tolist(), end), 3, len(angles))
-    return Patch((curve.space, space), begin + heights[:, None] + around, weights)
+    return Patch((curve.space, space), points, curve.all_weights[:, None] * ring_weights)
 
 
 def revolved_quadric(curve: Curve, begin: NDArray, axis: NDArray) -> Quadric | None:
@@ -82,41 +86,43 @@ def revolved_quadric(curve: Curve, begin: NDArray, axis: NDArray) -> Quadric | N
     point, facing as that of `revolve`, or None for other curves.
     """
     axis = axis / np.linalg.norm(axis)
-    places, slopes = curve.derivatives(np.linspace(*curve.space.domain, 9))
+    places, tangents = curve.derivatives(np.linspace(*curve.space.domain, PROFILE_SAMPLES))
     arms = places - begin
     z = arms @ axis
-    across = arms - np.outer(z, axis)
-    r = lengths(across)
-    side = across[r.argmax()] / max(r.max(), 1e-300)
-    size = float(np.abs(arms).max())
-    if np.abs(across @ np.cross(axis, side)).max() > SAME_RTOL * size:
+    radial = arms - np.outer(z, axis)
+    distances = lengths(radial)
+    side = radial[distances.argmax()] / max(distances.max(), 1e-300)
+    tolerance = SAME_RTOL * float(np.abs(arms).max())
+    if np.abs(radial @ np.cross(axis, side)).max() > tolerance:
         return None
+    # The profile is in a plane with the axis: there its coordinates are r, along `side`, and z.
+    r = radial @ side
     frame = np.eye(4)
     frame[:3, :3] = np.stack([side, np.cross(axis, side), axis], axis=1)
     frame[:3, 3] = begin
-    r = across @ side
-    run = np.array([r[-1] - r[0], z[-1] - z[0]])
-    off = np.abs((r - r[0]) * run[1] - (z - z[0]) * run[0]).max()
-    if abs(run[1]) > SAME_RTOL * size and off <= SAME_RTOL * size * np.linalg.norm(run):
-        slope = float(run[0] / run[1]) if abs(run[0]) > SAME_RTOL * size else 0.0
-        if r.min() < -SAME_RTOL * size:
+    rise = np.array([r[-1] - r[0], z[-1] - z[0]])
+    off_line = np.abs((r - r[0]) * rise[1] - (z - z[0]) * rise[0]).max()
+    if abs(rise[1]) > tolerance and off_line <= tolerance * np.linalg.norm(rise):
+        if r.min() < -tolerance:
             return None
+        slope = float(rise[0] / rise[1]) if abs(rise[0]) > tolerance else 0.0
         quadric = Quadric(frame, float(r[0] - slope * z[0]), 0.0, slope)
     else:
+        # r² + z² = 2 r center_r + 2 z center_z + rest is a circle.
         rows = np.stack([2.0 * r, 2.0 * z, np.ones(len(r))], axis=1)
         center_r, center_z, rest = np.linalg.lstsq(rows, r**2 + z**2, rcond=None)[0]
         minor = math.sqrt(max(rest + center_r**2 + center_z**2, 0.0))
-        if np.abs(np.hypot(r - center_r, z - center_z) - minor).max() > SAME_RTOL * size:
+        if np.abs(np.hypot(r - center_r, z - center_z) - minor).max() > tolerance:
             return None
         frame[:3, 3] += center_z * axis
-        radius = float(center_r) if abs(center_r) > SAME_RTOL * size else 0.0
+        radius = float(center_r) if abs(center_r) > tolerance else 0.0
         quadric = Quadric(frame, radius, minor)
+    # The normal of `revolve` is that of the curve's direction and the way round.
     widest = r.argmax()
-    at = quadric.project(places[widest : widest + 1])[0]
-    _, along, across = quadric.evaluate(*at)
-    is_inward = (
-        np.cross(slopes[widest], np.cross(axis, arms[widest])) @ np.cross(along, across) < 0.0
-    )
+    swept_normal = np.cross(tangents[widest], np.cross(axis, arms[widest]))
+    at_widest = quadric.project(places[widest : widest + 1])[0]
+    _, along, across = quadric.evaluate(*at_widest)
+    is_inward = swept_normal @ np.cross(along, across) < 0.0
     return quadric.reverse_orientation() if is_inward else quadric
 
 

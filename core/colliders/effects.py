@@ -39,10 +39,8 @@ from .findings import COLLIDERS_FLAT
 
 SUMS = monomial_count(2)  # mass, first and second moments
 DEGREE = monomials(2).sum(axis=1)
-# Products count twice in the norm of a tensor.
-IN_NORM = np.where(monomials(2).max(axis=1) * 2 == DEGREE, np.sqrt(2.0), 1.0) * (DEGREE > 0) + (
-    DEGREE == 0
-)
+# Products, whose powers are at most half of their degree, count twice in the norm of a tensor.
+IN_NORM = np.where((DEGREE > 0) & (monomials(2).max(axis=1) * 2 == DEGREE), np.sqrt(2.0), 1.0)
 # Beside sums that are not held. Repetition takes the effect on held ones away.
 HELD_WEIGHT = 30.0
 NEARNESS = 1e-5
@@ -75,10 +73,10 @@ def effect(body: MassProperties, shapes: Sequence[Shape], volume: float) -> Effe
         raise MeasureError(COLLIDERS_FLAT)
     shift = sums[1:4] / sums[0]
     second = sums[SECOND_MOMENT_INDEX] - sums[0] * np.outer(shift, shift)
-    own = Inertial(
+    inertial = Inertial(
         body.mass, body.center, body.inertia, body.principal.moments, body.principal.axes
     )
-    return compare(own, float(sums[0]), shift, second, ratio(float(sum(shares)), volume))
+    return compare(inertial, float(sums[0]), shift, second, ratio(float(sum(shares)), volume))
 
 
 def uniform_masses(density: float, shapes: Sequence[Shape]) -> list[float]:
@@ -121,10 +119,11 @@ def correct_masses(body: MassProperties, shapes: Sequence[Shape]) -> list[float]
     target = target * units
     roots, off = _nearest(rows, target, SUMS, weights)
     if off > REACHED:
-        center, off = _nearest(rows[:4], target[:4], 4, weights)
+        # Not all sums can be met: hold the center if that can be met, else the nearest one.
+        center_roots, off = _nearest(rows[:4], target[:4], 4, weights)
         if off > REACHED:
-            center, _ = _nearest(rows[:4], target[:4], 1, weights)
-            target[1:4] = rows[1:4] @ center
+            center_roots, _ = _nearest(rows[:4], target[:4], 1, weights)
+            target[1:4] = rows[1:4] @ center_roots
         roots, _ = _nearest(rows, target, 4, weights)
     shares = weights * roots
     return (body.mass / shares.sum() * shares).tolist()
@@ -171,14 +170,12 @@ def _nonnegative(system: Array, target: Array, x: NDArray) -> Array:
     size = len(x)
     x = x.copy()
     free = x > 0.0
-    noise = (
-        64.0
-        * np.finfo(float).eps
-        * float(np.abs(system).sum(axis=0).max())
-        * float(np.abs(target).max())
-    )
+    largest = float(np.abs(system).sum(axis=0).max()) * float(np.abs(target).max())
+    noise = 64.0 * np.finfo(float).eps * largest
     for _ in range(10 * size + 10):
         while True:
+            # The best values of the free ones, or if some are below 0, a step toward them until the
+            # first of these is 0.
             best = np.zeros(size)
             best[free] = np.linalg.lstsq(system[:, free], target, rcond=None)[0]
             if not (best[free] <= 0.0).any():
@@ -190,6 +187,7 @@ def _nonnegative(system: Array, target: Array, x: NDArray) -> Array:
             free &= ~at_zero
             x[~free] = 0.0
         x = best
+        # The fixed one whose growth lowers the sum of squares most becomes free.
         gain = np.where(free, -np.inf, system.T @ (target - system @ x))
         entering = int(gain.argmax())
         if gain[entering] <= noise:
@@ -314,14 +312,15 @@ def _solve(hulls: _Hulls, limit: float) -> Generator[float, None, tuple[Array, f
         except MeasureError:
             radius /= 4.0
             continue
-        still_off = float(np.linalg.norm(state[0]))
-        if off - still_off > 0.1 * (off - expected):
-            radius *= 2.0 if off - still_off > 0.5 * (off - expected) else 1.0
-            off = still_off
+        trial_missing, trial_gradient, _ = state
+        trial_off = float(np.linalg.norm(trial_missing))
+        if off - trial_off > 0.1 * (off - expected):
+            radius *= 2.0 if off - trial_off > 0.5 * (off - expected) else 1.0
+            off = trial_off
             moves = trial
-            (missing, gradient, _) = state
+            missing, gradient = trial_missing, trial_gradient
         else:
-            gradient = (gradient + state[1]) / 2.0
+            gradient = (gradient + trial_gradient) / 2.0
             radius /= 2.0
     return hulls.start + moves, off
 

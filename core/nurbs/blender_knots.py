@@ -43,6 +43,8 @@ def blender_knots(count: int, order: int, cyclic: bool, bezier: bool, endpoint: 
     """Return the knot vector of a valid direction: count + order knots, and order - 1 more if it is
     cyclic.
     """
+    # Knots with equal values: `head` at the begin, then `repeat` of each value, one higher than the
+    # one before; the last `tail` ones go on with the distances of the first knots.
     repeat = order - 1 if bezier else 1
     head = min(2, repeat)
     tail = 0
@@ -54,13 +56,13 @@ def blender_knots(count: int, order: int, cyclic: bool, bezier: bool, endpoint: 
     length = count + order + (order - 1 if cyclic else 0)
     knots = np.zeros(length)
     offset = current = 1 if endpoint and cyclic else 0
-    left = head
+    left_of_value = head
     for i in range(offset, length - tail):
         knots[i] = current
-        left -= 1
-        if left == 0:
+        left_of_value -= 1
+        if left_of_value == 0:
             current = current + 1
-            left = repeat
+            left_of_value = repeat
     for i in range(tail):  # One by one: a tail longer than the rest copies its own first knots.
         knots[length - tail + i] = current + knots[i] - knots[0]
     return knots
@@ -120,7 +122,7 @@ def bezier_patches(
     """
     pieces = [list(_pieces(space, part)) for space, part in zip(patch.spaces, domain)]
     old_net = homogeneous(patch.points, patch.weights)
-    found = []
+    patches = []
     (s_space, t_space) = patch.spaces
     for s_matrix, t_matrix in product(*pieces):
         spaces = (
@@ -128,8 +130,8 @@ def bezier_patches(
             bezier_space(len(t_matrix), t_space.order),
         )
         net = np.einsum("bj,ajd->abd", t_matrix, np.einsum("ai,ijd->ajd", s_matrix, old_net))
-        found.append(Patch(spaces, *projected(net)))
-    return found
+        patches.append(Patch(spaces, *projected(net)))
+    return patches
 
 
 def bezier_curves(curve: Curve, part: tuple[float, float] | None = None) -> list[Curve]:

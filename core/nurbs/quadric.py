@@ -95,24 +95,27 @@ class Quadric:
         for k, row in enumerate(rows):
             for axis in range(3):
                 local[axis, k] = row[axis]
-        found = (self.frame[:3, :3] @ local.reshape(3, -1)).reshape(local.shape)
-        found[:, 0] += self.frame[:3, 3].reshape(3, *[1] * (local.ndim - 2))
-        return [found[:, k] for k in range(len(rows))]
+        placed = (self.frame[:3, :3] @ local.reshape(3, -1)).reshape(local.shape)
+        placed[:, 0] += self.frame[:3, 3].reshape(3, *[1] * (local.ndim - 2))
+        return [placed[:, k] for k in range(len(rows))]
 
     def project(self, points: NDArray, guess: NDArray | None = None) -> Array:
         """Return (n, 2) coordinates of the points of the surface nearest to points, in its frame;
         angles nearest to a guess (n, 2).
         """
         x, y, z = self._inverse[:, :3] @ points.T + self._inverse[:, 3:]
-        away = np.hypot(x, y)
-        found = np.stack([np.arctan2(y, x), np.arctan2(z, away - self.radius)], axis=1)
-        if not self.minor:
-            found[:, 1] = (z + self.slope * (away - self.radius)) / (1.0 + self.slope**2)
+        distance = np.hypot(x, y) - self.radius
+        if self.minor:
+            second = np.arctan2(z, distance)
+        else:
+            second = (z + self.slope * distance) / (1.0 + self.slope**2)
+        coordinates = np.stack([np.arctan2(y, x), second], axis=1)
         if guess is not None:
             for axis, period in enumerate(self.periods):
                 if period:
-                    found[:, axis] += period * np.round((guess[:, axis] - found[:, axis]) / period)
-        return found
+                    turns = np.round((guess[:, axis] - coordinates[:, axis]) / period)
+                    coordinates[:, axis] += period * turns
+        return coordinates
 
     @cached_property
     def _inverse(self) -> Array:

@@ -90,13 +90,13 @@ class SplineChart:
             controls.append(space.controls_of_spans(spans))
         net = self._net[:, controls[0][..., :, None], controls[1][..., None, :]]
         halves = [np.einsum("d...ab,...b->d...a", net, table) for table in tables[1]]
-        found = [
+        derivatives = [
             np.einsum("d...a,...a->d...", halves[j], tables[0][i]) for i, j in DERIVATIVES[most]
         ]
         if len(self._net) == 4:
-            found = quotient_derivatives(found)
-        found[0] += self.patch.points[0, 0].reshape(3, *[1] * np.ndim(u))
-        return found
+            derivatives = quotient_derivatives(derivatives)
+        derivatives[0] += self.patch.points[0, 0].reshape(3, *[1] * np.ndim(u))
+        return derivatives
 
     def project(self, points: NDArray, guess: NDArray | None = None) -> Array:
         """Return (n, 2) coordinates of the points of the patch nearest to points, from a guess
@@ -164,20 +164,17 @@ def _solve(along: NDArray, across: NDArray, target: NDArray, bend: NDArray) -> A
     """Return (n, 2) the combinations of two (3, n) slopes nearest to (3, n) targets; bend: (3, n)
     to subtract from the products of the slopes.
     """
-    a, b, c = (
-        dot(along, along) - bend[0],
-        dot(along, across) - bend[1],
-        dot(across, across) - bend[2],
-    )
+    # Normal equations: a u + b v = p, b u + c v = q.
+    a = dot(along, along) - bend[0]
+    b = dot(along, across) - bend[1]
+    c = dot(across, across) - bend[2]
     p, q = dot(along, target), dot(across, target)
-    bottom = a * c - b * b
+    determinant = a * c - b * b
     # At a pole one slope is zero, and only the other coordinate can move.
-    pole = ~(bottom > 1e-24 * (a + c) ** 2)
-    bottom = np.where(pole, 1.0, bottom)
-    first = np.where(
-        pole, np.where(a > c, p / np.maximum(a, 1e-300), 0.0), (c * p - b * q) / bottom
-    )
-    second = np.where(
-        pole, np.where(a > c, 0.0, q / np.maximum(c, 1e-300)), (a * q - b * p) / bottom
-    )
+    is_pole = ~(determinant > 1e-24 * (a + c) ** 2)
+    determinant = np.where(is_pole, 1.0, determinant)
+    first_at_pole = np.where(a > c, p / np.maximum(a, 1e-300), 0.0)
+    second_at_pole = np.where(a > c, 0.0, q / np.maximum(c, 1e-300))
+    first = np.where(is_pole, first_at_pole, (c * p - b * q) / determinant)
+    second = np.where(is_pole, second_at_pole, (a * q - b * p) / determinant)
     return np.stack([first, second], axis=1)
