@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import ExitStack
 from dataclasses import replace
 
 import numpy as np
@@ -46,16 +45,12 @@ def read(request: Request) -> volume.VolumeReading | None:
     obj = request.obj
     if obj.type != "VOLUME" and "NODES" not in [modifier.type for modifier in obj.modifiers]:
         return None
-    with ExitStack() as opened:
-        opened.enter_context(tracking.tracking_paused())
-        reading = opened.enter_context(
-            volume.volume_reading(obj, request.depsgraph, obj.body_moments.grid)
-        )
-        if reading is None:
-            return None
-        if request.settings.kind != "solid":
-            raise ReadError(GRID_AS_SHELL)
-        request.opened.push(opened.pop_all())
+    request.opened.enter_context(tracking.tracking_paused())
+    reading = request.opened.enter_context(
+        volume.volume_reading(obj, request.depsgraph, obj.body_moments.grid)
+    )
+    if reading is not None and request.settings.kind != "solid":
+        raise ReadError(GRID_AS_SHELL)
     return reading
 
 

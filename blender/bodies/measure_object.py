@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
+from dataclasses import replace
 
 import bpy
 import numpy as np
@@ -85,9 +86,9 @@ class _Collector:
 
     def __init__(self, depsgraph: bpy.types.Depsgraph, options: MeasureOptions):
         self.depsgraph = depsgraph
-        self.options = options
         self.scene = depsgraph.scene
-        self.unit = options.meters_per_unit(self.scene)
+        # The scene's unit is read once for all objects.
+        self.options = replace(options, unit_scale=options.meters_per_unit(self.scene))
         self.objects: list[bpy.types.Object] = []
         self.members: list[Member] = []
         self.surfaces: list[Surface] = []
@@ -128,7 +129,7 @@ class _Collector:
         options = self.options
         if options.order is not None or not _is_uniform(obj.body_moments, options):
             return None
-        settings = object_settings(obj, self.scene, options, self.unit)
+        settings = object_settings(obj, self.scene, options)
         if settings.kind != "solid" or settings.overlap != "signed":
             return None
         return self._settings.setdefault(settings, settings)  # equal ones share their digest

@@ -19,16 +19,15 @@ import numpy as np
 from ...core import bodies, mesh, nurbs, solid, verdict
 from ...core.measurement import WALL_UNSUPPORTED, Body, Settings
 from ...core.moments import (
-    Measure,
     Moments,
     affine_matrices,
     are_similarities,
     distinct_linear_parts,
-    monomial_count,
     sum_moments,
     sum_of_images,
 )
 from ...core.numerics import Array, NDArray
+from ...core.polyhedron import nothing
 from ..read.findings import DISPLAY_MESH_MEASURED
 from .findings import WALL_CREASES, ZERO_SCALE
 from .mesh import mesh_body
@@ -117,9 +116,7 @@ class PatchSheetBody(Body):
         if self.polygons is not None:
             faces = self.polygons.moments(order, True)[1]
             areas += [faces] if faces is not None else []
-        return Moments(
-            np.zeros(monomial_count(order)), self.area.about, Measure.VOLUME
-        ), sum_moments(areas)
+        return nothing(order, self.area.about)[0], sum_moments(areas)
 
 
 def _patches(part: bodies.Part) -> tuple[nurbs.Face, ...]:
@@ -276,7 +273,7 @@ def _sheet_body(reading: bodies.Reading, settings: Settings) -> Body:
         healths.append((polygons.health, 1, polygons.area.total))
     area = sum_moments(areas)
     return PatchSheetBody(
-        _zero_volume(area),
+        nothing(area.order, area.about)[0],
         area,
         bodies.merge_health(healths),
         verdict.Method(verdict.Procedure.SHELL, _source(reading)),
@@ -319,7 +316,7 @@ def _wall_body(
                 by_part.append((source, [inexact]))
     area = sum_moments(areas)
     return Body(
-        _zero_volume(area),
+        nothing(area.order, area.about)[0],
         area,
         health,
         verdict.Method(verdict.Procedure.SHELL, _source(reading)),
@@ -327,11 +324,6 @@ def _wall_body(
         wall=sum_moments(walls),
         estimated=True,
     )
-
-
-def _zero_volume(area: Moments) -> Moments:
-    """Return zero moments of a volume, to the order and about the point of an area."""
-    return Moments(np.zeros_like(area.raw), area.about, Measure.VOLUME)
 
 
 def _distinct_images(

@@ -44,14 +44,11 @@ class Request:
         depsgraph: bpy.types.Depsgraph = None,
         given: MeasureOptions = AS_SET,
         *,
-        unit: float | None = None,
         opened: ExitStack | None = None,
     ) -> Request:
-        """Return the request for an object; `unit` is in meters per Blender unit, by default the
-        scene's.
-        """
+        """Return the request for an object; without a depsgraph, in the scene of the context."""
         scene = bpy.context.scene if depsgraph is None else depsgraph.scene
-        settings = object_settings(obj, scene, given, unit)
+        settings = object_settings(obj, scene, given)
         return cls(settings, given, obj, depsgraph, scene, opened or ExitStack())
 
     @cached_property

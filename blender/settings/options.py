@@ -46,37 +46,37 @@ AS_SET = MeasureOptions()  # every object as its own settings say
 
 
 def object_settings(
-    obj: Object, scene: Scene, options: MeasureOptions = AS_SET, unit: float | None = None
+    obj: Object, scene: Scene, options: MeasureOptions = AS_SET
 ) -> measurement.Settings:
     """Return the options with gaps filled from the object's, and the scene's, settings."""
     properties = obj.body_moments
-    density, mass = options.density, options.mass
-    unit = unit or options.meters_per_unit(scene)
+    unit = options.meters_per_unit(scene)
     # Volume objects do not show the setting Kind
     kind = options.kind or ("solid" if obj.type == "VOLUME" else properties.kind.lower())
+    density = options.density
+    mass = options.mass
     if density is None and mass is None:
         if properties.mass_from == "MASS":
             mass = numerics.shortest_decimal(properties.mass)
+        elif kind == "wire":
+            density = numerics.shortest_decimal(properties.linear_density)
         else:
-            is_wire = kind == "wire"
-            density = (
-                numerics.shortest_decimal(properties.linear_density)
-                if is_wire
-                else object_density(properties, scene)
-            )
+            density = object_density(properties, scene)
+    thickness = options.thickness
+    if thickness is None:
+        thickness = numerics.shortest_decimal(properties.thickness) * unit
+    printed = measurement.PrintSettings()
+    if kind == "printed":
+        printed = print_settings(properties)._replace(**dict(options.printed))
     return measurement.Settings(
         kind=kind,
         density=density,
         mass=mass,
-        thickness=numerics.shortest_decimal(properties.thickness) * unit
-        if options.thickness is None
-        else options.thickness,
+        thickness=thickness,
         overlap=options.overlap or properties.overlap.lower(),
         wall=options.wall or properties.wall.lower(),
         unit=unit,
-        printed=print_settings(properties)._replace(**dict(options.printed))
-        if kind == "printed"
-        else measurement.PrintSettings(),
+        printed=printed,
         order=options.order,
         surface=options.surface,
         compare=options.compare,

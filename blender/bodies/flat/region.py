@@ -17,7 +17,7 @@ from typing import ClassVar
 import bpy
 import numpy as np
 
-from ....core import bodies, flat, inertia, measurement, nurbs, solid, verdict
+from ....core import bodies, flat, inertia, measurement, nurbs, polyhedron, solid, verdict
 from ....core.flat import (
     SECTION_NOT_FLAT,
     Plane,
@@ -31,7 +31,7 @@ from ....core.flat import (
     projection_rounding,
     region_moments,
 )
-from ....core.moments import Measure, Moments, affine_matrices, monomial_count, monomials
+from ....core.moments import Measure, Moments, affine_matrices, monomials
 from ....core.numerics import Array, Index
 from ...read import objects, visibility
 from ...read.findings import FLAT_UNSUITABLE, NOT_FILLED, RENDER_DIFFERS, SECTION_FILL
@@ -305,9 +305,9 @@ class RegionBody(measurement.Body):
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments]:
         """Return zero moments of the volume, and the moments of the area."""
-        volume = Moments(np.zeros(monomial_count(order)), self.area.about, Measure.VOLUME)
-        of_region = nurbs.plane_moments(self.boundary, self.normal, order, self.area.about)
-        return volume, bodies.extend_input_error(of_region, self.area)
+        area_moments = nurbs.plane_moments(self.boundary, self.normal, order, self.area.about)
+        area_moments = bodies.extend_input_error(area_moments, self.area)
+        return polyhedron.nothing(order, self.area.about)[0], area_moments
 
 
 def read(request: Request) -> RegionReading | None:
@@ -344,7 +344,7 @@ def body(reading: RegionReading, request: Request) -> measurement.Body:
     reach = max(float(np.abs(curve.points - area.about).max()) for curve in curves)
     area = replace(area, input_error=2.0 * reading.stored * boundary_length * reach**DEGREE)
     return RegionBody(
-        Moments(np.zeros_like(area.raw), area.about, Measure.VOLUME),
+        polyhedron.nothing(area.order, area.about)[0],
         area,
         verdict.MeshHealth(closed=False, components=len(curves)),
         verdict.Method(verdict.Procedure.SHELL, verdict.Source.NURBS),

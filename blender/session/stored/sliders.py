@@ -25,6 +25,7 @@ from ...bodies.request import Request, measurement_of
 from ...bodies.stack import Measured
 from ...settings import hooks
 from ...settings.density import grid_key
+from ...settings.options import MeasureOptions
 from .. import memory
 from ..tracking import staleness, stamps
 from . import density
@@ -162,7 +163,7 @@ def _store(obj: Object, scene: Scene, cached: _Kept, body: Callable[[Request], B
     """Write the numbers of a body to the object; return False if there are none; the panel and
     Measure then say why.
     """
-    request = Request.resolve(obj, unit=cached.unit)
+    request = Request.resolve(obj, given=MeasureOptions(unit_scale=cached.unit))
     try:
         measurement = measurement_of(cached.reading, body(request), request)
     except verdict.MeasureError:

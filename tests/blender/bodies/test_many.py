@@ -134,19 +134,6 @@ def test_stacked_shards_equal_single_measurements():
         assert_same(found, alone(obj, depsgraph))
 
 
-def test_options_hold_for_each_stacked_object():
-    objects = shards(2)
-    for options in (
-        MeasureOptions(density=2700.0, unit_scale=0.001),
-        MeasureOptions(mass=3.0),
-        MeasureOptions(kind="shell", thickness=0.001),
-        MeasureOptions(overlap="union"),
-    ):
-        pairs, depsgraph = all_outcomes(objects, options)
-        for obj, found in pairs:
-            assert_same(found, alone(obj, depsgraph, options))
-
-
 @pytest.mark.parametrize("name", MESHES)
 def test_the_corpus_together_is_the_corpus_alone(name):
     scenes.SCENES[name]()
@@ -226,14 +213,15 @@ def test_object_settings_and_options_hold_in_stacks(settings):
     for name, value in settings.items():
         setattr(obj.body_moments, name, value)
     bpy.context.view_layer.update()
-    own = {"kind": "solid", "overlap": "signed"}
     for options in (
         {},
         {"mass": 5.0},
         {"mass": 0.0},
-        {"density": 7.0},
+        {"density": 7.0, "unit_scale": 0.001},
         {"density": 0.0},
-        own,
+        {"kind": "solid", "overlap": "signed"},
+        {"kind": "shell", "thickness": 0.001},
+        {"overlap": "union"},
         {"order": 2},
     ):
         pairs, depsgraph = all_outcomes([obj], MeasureOptions(**options))

@@ -205,18 +205,6 @@ def test_snapping_of_a_cloud(tmp_path):
     assert obj.matrix_world == matrix
 
 
-def test_settings_are_copied_and_survive_a_file(tmp_path):
-    obj = chosen(tmp_path)
-    obj.body_moments.values_from, obj.body_moments.spline_order = "TABLE", 4
-    box = cube()
-    box.body_moments.density_from = "VOLUME"
-    box.body_moments.density_volume = obj
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "a.blend"))
-    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "a.blend"))
-    assert bpy.data.objects["Cube"].body_moments.density_volume == bpy.data.objects["Cloud"]
-    assert bpy.data.objects["Cloud"].body_moments.spline_order == 4
-
-
 def test_source_of_refused_values_is_named(tmp_path):
     volume = cloud(tmp_path, np.full((4, 4, 4), -1.0, np.float32))
     box = cube(location=(1.5, 1.5, 1.5))
