@@ -100,7 +100,7 @@ def reading_findings(obj, gathered: InstanceCollector, depsgraph) -> Iterator[Fi
     yield from _mode_findings(obj)
     exact = {evaluated.original for evaluated, splines in gathered.splines.items() if splines}
     for source in dict.fromkeys((obj, *gathered.sources)):
-        for result in _render_findings(source, depsgraph.scene, source in exact):
+        for result in render_findings(source, depsgraph.scene, source in exact):
             yield attribute_to_source(result, source.name, obj.name)
     if gathered.collections:
         yield from _member_findings(gathered.collections)
@@ -115,20 +115,20 @@ def modifier_findings(obj, scene) -> Iterator[Finding]:
     """Yield the findings about an object's modifiers: differences in the render, and errors of node
     trees.
     """
-    yield from _render_findings(obj, scene)
+    yield from render_findings(obj, scene)
     yield from _node_errors(obj)
 
 
-def _render_findings(obj, scene, exact: bool = False) -> Iterator[Finding]:
+def render_findings(obj, scene, exact: bool = False) -> Iterator[Finding]:
+    """Yield a finding if Blender would render another body; resolutions are ignored for `exact`
+    objects.
+    """
     differences = list(_render_differences(obj, scene, exact))
     if differences:
-        # Blender's default
+        # Levels differ by Blender's defaults already.
         are_levels = all(difference.code == RENDER_LEVELS_DIFFER for difference in differences)
-        yield finding(
-            RENDER_DIFFERS,
-            slight=are_levels,
-            differences=[found.as_record() for found in differences],
-        )
+        records = [difference.as_record() for difference in differences]
+        yield finding(RENDER_DIFFERS, slight=are_levels, differences=records)
 
 
 def _member_findings(collections) -> Iterator[Finding]:
@@ -145,11 +145,11 @@ def _member_findings(collections) -> Iterator[Finding]:
         }
         for switch in ("hide_viewport", "hide_render")
     )
-    for treatment, here, there in (
+    for treatment, members, other_members in (
         ("Left out, as only the render shows them", rendered, shown),
         ("Measured, although the render does not show them", shown, rendered),
     ):
-        names = [member.name for member in here if member not in there]
+        names = [member.name for member in members if member not in other_members]
         if names:
             yield finding(MEMBERS_DIFFER_IN_RENDER, treatment=treatment, objects=names)
 
@@ -211,10 +211,10 @@ def _render_differences(obj, scene, exact: bool = False) -> Iterator[Finding]:
             place = "viewport" if shown else "render"
             yield finding(RENDER_MODIFIER_DIFFERS, modifier=modifier.name, place=place)
         elif shown:
-            here, there = _levels(modifier, scene.render)
+            viewport, render = _levels(modifier, scene.render)
             quoted = "“{}”".format(modifier.name)
-            if here != there:
-                yield finding(RENDER_LEVELS_DIFFER, name=quoted, viewport=here, render=there)
+            if viewport != render:
+                yield finding(RENDER_LEVELS_DIFFER, name=quoted, viewport=viewport, render=render)
             system = getattr(modifier, "particle_system", None)
             if system is not None and system.settings.display_percentage < 100:
                 share = "{:d}%".format(system.settings.display_percentage)
@@ -247,11 +247,13 @@ def _levels(modifier, render) -> tuple[int, int]:
         "OCEAN": ("viewport_resolution", "resolution"),
     }
     names = names_by_type.get(modifier.type)
-    here, there = (getattr(modifier, name) for name in names) if names else (0, 0)
+    if names is None:
+        return 0, 0
+    viewport_level, render_level = (getattr(modifier, name) for name in names)
     if render.use_simplify and modifier.type in {"SUBSURF", "MULTIRES"}:
-        here = min(here, render.simplify_subdivision)
-        there = min(there, render.simplify_subdivision_render)
-    return here, there
+        viewport_level = min(viewport_level, render.simplify_subdivision)
+        render_level = min(render_level, render.simplify_subdivision_render)
+    return viewport_level, render_level
 
 
 def _names(items) -> list[str]:

@@ -21,14 +21,13 @@ from ...core.numerics import Array, Index, Mask, NDArray, polar_rotation
 from ...core.nurbs import Curve
 from ...core.verdict import Finding, ReadError, finding
 from .curves import read_curves, text_curves
+from .decisions import render_findings
 from .findings import (
     EXTRUDED,
     FILL_MODIFIED,
     FLAT_UNSUITABLE,
     MODIFIERS_LEFT_OUT,
     NOT_FILLED,
-    RENDER_DIFFERS,
-    RENDER_LEVELS_DIFFER,
     SECTION_FILL,
     SECTION_SPLINES_OPEN,
     WRONG_TYPE,
@@ -218,25 +217,19 @@ def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
         loops=loops,
         facing=facing,
         drawn_area=drawn_area,
-        findings=list(_outline_findings(obj, open_splines)),
+        findings=list(_outline_findings(obj, depsgraph.scene, open_splines)),
     )
 
 
-def _outline_findings(obj, open_splines: int) -> Iterator[Finding]:
+def _outline_findings(obj, scene, open_splines: int) -> Iterator[Finding]:
     if open_splines:
         yield finding(SECTION_SPLINES_OPEN, count=open_splines)
     if obj.data.fill_mode == "NONE":
         yield finding(SECTION_FILL, treatment=NOT_FILLED)
-    if obj.type != "FONT" and all(spline.type == "POLY" for spline in obj.data.splines):
-        return
-    yield finding(DRAWN_AS_POLYGONS)
-    shown = obj.data.resolution_u
-    rendered = obj.data.render_resolution_u
-    if rendered not in (0, shown):
-        difference = finding(
-            RENDER_LEVELS_DIFFER, name="Resolution U", viewport=shown, render=rendered
-        )
-        yield finding(RENDER_DIFFERS, slight=True, differences=[difference.as_record()])
+    is_polygonal = obj.type != "FONT" and all(spline.type == "POLY" for spline in obj.data.splines)
+    if not is_polygonal:
+        yield finding(DRAWN_AS_POLYGONS)
+    yield from render_findings(obj, scene, exact=is_polygonal)
 
 
 def _spline_outlines(obj, resolution: int | None) -> tuple[NDArray[np.float32], list[Index], int]:

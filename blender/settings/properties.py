@@ -338,10 +338,8 @@ def density_field_name(scene: Scene) -> str:
     """Return the name of the property that shows an object's or a material's density in the scene's
     unit.
     """
-    return (
-        "density_"
-        + density_unit(scene.body_moments.density_unit, scene.unit_settings.system).lower()
-    )
+    unit = density_unit(scene.body_moments.density_unit, scene.unit_settings.system)
+    return "density_" + unit.lower()
 
 
 def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
@@ -349,10 +347,10 @@ def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
     changed = False
     for name in COPIED_PROPERTIES:
         value = getattr(source, name)
-        different = comparable(getattr(target, name)) != comparable(value)
-        if different or source.is_property_set(name) and not target.is_property_set(name):
+        is_different = comparable(getattr(target, name)) != comparable(value)
+        if is_different or source.is_property_set(name) and not target.is_property_set(name):
             setattr(target, name, value)
-        changed = changed or different
+        changed = changed or is_different
     return changed
 
 
@@ -371,9 +369,8 @@ def apply_options(settings: PropertyGroup, options, scene: Scene) -> None:
     if options.density is not None and not is_point_mass(settings.id_data):
         settings.mass_from = "DENSITY"
         settings.density_from = "VALUE"
-        setattr(
-            settings, "linear_density" if settings.kind == "WIRE" else "density", options.density
-        )
+        name = "linear_density" if settings.kind == "WIRE" else "density"
+        setattr(settings, name, options.density)
         if settings.id_data.type == "VOLUME":
             settings.values_from = "FACTOR"
             settings.value_density = options.density

@@ -139,7 +139,9 @@ def flat_region(
     findings = [
         finding
         for finding in polygons.findings
-        if finding.code not in (bodies.DRAWN_AS_POLYGONS, RENDER_DIFFERS)
+        if finding.code != bodies.DRAWN_AS_POLYGONS
+        # Resolutions change nothing, but modifiers do.
+        and not (finding.code == RENDER_DIFFERS and finding.values.get("slight"))
     ]
     return replace(
         polygons, curves=curves, stored=max(stored, polygons.stored), findings=tuple(findings)

@@ -156,6 +156,17 @@ def test_touching_outlines_are_measured_despite_wrong_fill():
     assert "section_fill_wrong" in said(findings)
 
 
+@pytest.mark.parametrize("kind", ["POLY", "NURBS"])
+def test_modifier_that_only_renders_is_reported(kind):
+    obj = add(curve_of(square(0, 0, 2), kind=kind))
+    obj.modifiers.new("Bend", "SIMPLE_DEFORM").show_viewport = False
+    bpy.context.view_layer.update()
+    region = flat_region(obj, bpy.context.evaluated_depsgraph_get())
+    for findings in (section_of(obj)[2], region.findings):
+        (difference,) = said(findings)["render_differs"]["differences"]
+        assert difference["code"] == "render_modifier_differs"
+
+
 @pytest.mark.parametrize(
     "outlines, code",
     [
