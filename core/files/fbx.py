@@ -136,25 +136,28 @@ def _read_value(data: Data, at: int, node: FbxNode) -> int:
 
 def _read_text(data: Data, root: FbxNode) -> None:
     """Add the nodes of a text file to its root."""
-    line = [root]
-    last = None
+    open_nodes = [root]
+    array = None  # The node whose numbers go on to the next node.
     start = 0
     for match in _TEXT_NODE.finditer(data):
-        if last is not None and last.name == "a":
-            last.source = bytes(data[start : match.start()])
-        last = None
-        if match[4]:
-            if len(line) > 1:
-                line.pop()
+        name, text, opens, closes = match.groups()
+        if array is not None:
+            array.source = bytes(data[start : match.start()])
+            array = None
+        if closes:
+            if len(open_nodes) > 1:
+                open_nodes.pop()
             continue
-        last = FbxNode(match[1].decode())
-        line[-1].children.append(last)
-        start = match.start(2)
-        if last.name != "a":
-            last.values = [_text_value(*value) for value in _TEXT_VALUE.findall(match[2])]
-        if match[3]:
-            line.append(last)
-        if len(line) > _MAX_DEPTH:
+        node = FbxNode(name.decode())
+        open_nodes[-1].children.append(node)
+        if node.name == "a":
+            array = node
+            start = match.start(2)
+        else:
+            node.values = [_text_value(*value) for value in _TEXT_VALUE.findall(text)]
+        if opens:
+            open_nodes.append(node)
+        if len(open_nodes) > _MAX_DEPTH:
             raise ValueError("nodes")
 
 

@@ -103,15 +103,12 @@ class GltfFile:
         """
         kind = np.dtype(_TYPES[accessor["componentType"]])
         width = _WIDTHS[accessor["type"]]
-        view = (
-            self.document["bufferViews"][accessor["bufferView"]]
-            if "bufferView" in accessor
-            else None
-        )
-        if view is None or any(
-            "meshopt_compression" in name for name in view.get("extensions", {})
-        ):
-            return np.empty((0, width), kind)
+        nothing = np.empty((0, width), kind)
+        if "bufferView" not in accessor:
+            return nothing
+        view = self.document["bufferViews"][accessor["bufferView"]]
+        if any("meshopt_compression" in name for name in view.get("extensions", {})):
+            return nothing
         data = self._buffer(view.get("buffer", 0))
         start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
         size = width * kind.itemsize

@@ -84,13 +84,6 @@ class Hull:
             chosen, shares = _nearest_shares(shifted, [*chosen, lowest], np.append(shares, 0.0))
         return bound
 
-    def spread_limit(self, center: NDArray, directions: NDArray) -> Array:
-        """Return the (k,) largest possible variances of mass with a center along (k, 3) unit
-        directions, in m².
-        """
-        heights = (self.points - center) @ directions.T
-        return np.maximum(heights.max(axis=0), 0.0) * np.maximum(-heights.min(axis=0), 0.0)
-
 
 def impossible(stated: StatedInertial, hull: Hull | None) -> list[Finding]:
     """Return all reasons why no body, or no body within a known hull, has an inertial; empty if it
@@ -157,14 +150,13 @@ def _nearest_shares(points: NDArray, chosen: list[int], shares: NDArray) -> tupl
         wanted = np.append(1.0 - rest.sum(), rest)
         if (wanted > 0.0).all():
             return chosen, wanted
+        # Go towards the foot until the first falling share is zero.
         falls = wanted <= 0.0
-        way = float(
-            (shares[falls] / np.maximum(shares[falls] - wanted[falls], np.finfo(float).tiny)).min()
-        )
-        shares = shares + way * (wanted - shares)
-        kept = shares > 1e-14  # This drops at least one falling share, which is zero to rounding.
-        chosen = [one for one, keep in zip(chosen, kept) if keep]
-        shares = shares[kept] / shares[kept].sum()
+        rates = np.maximum(shares[falls] - wanted[falls], np.finfo(float).tiny)
+        shares = shares + float((shares[falls] / rates).min()) * (wanted - shares)
+        stays = shares > 1e-14  # False for at least that share, which is zero to rounding.
+        chosen = [index for index, is_used in zip(chosen, stays) if is_used]
+        shares = shares[stays] / shares[stays].sum()
 
 
 def _excess_spread(stated: StatedInertial, hull: Hull, is_outside: bool) -> list[Finding]:
@@ -174,11 +166,12 @@ def _excess_spread(stated: StatedInertial, hull: Hull, is_outside: bool) -> list
     second = second_of_inertia(stated.inertia) / stated.mass
     directions = np.concatenate([np.linalg.eigh(second)[1].T, spread_directions(DIRECTIONS)])
     variance = np.einsum("ki,ij,kj->k", directions, second, directions)
-    # The center may be off by its own tolerance.
+    heights = (hull.points - stated.center) @ directions.T
     if is_outside:  # Half of the mass at either end has the largest variance about any center.
-        limit = (np.ptp(hull.points @ directions.T, axis=0) / 2.0) ** 2
+        limit = (np.ptp(heights, axis=0) / 2.0) ** 2
     else:
-        limit = hull.spread_limit(stated.center, directions)
+        limit = np.maximum(heights.max(axis=0), 0.0) * np.maximum(-heights.min(axis=0), 0.0)
+    # The center may be off by its own tolerance.
     tolerance = SPREAD_RTOL * limit + CENTER_RTOL * hull.size**2
     worst = int(np.argmax((variance - limit) / (limit + tolerance)))
     if variance[worst] > limit[worst] + tolerance[worst]:

@@ -397,36 +397,41 @@ def _joint(prim: Prim, path: str, links: Mapping[str, StatedLink], unit: float) 
 
     ValueError if a number is wrong.
     """
-    names = []
-    frames = []
-    for end in "01":
-        words = prim.values.get("physics:body" + end, "").strip("[]<> ")
-        name = words.strip("/")
-        while name and name not in links:  # A prim in a body is a part of it.
-            name = name.rpartition("/")[0]
-        names.append(name)
-        place = prim.vector("physics:localPos" + end, (0.0, 0.0, 0.0))
-        turn = prim.vector("physics:localRot" + end, (1.0, 0.0, 0.0, 0.0))
-        local = links[name].local if name else None
-        place = place if local is None else local[:3, :3] @ place
-        frames.append(Pose(place * unit, rotation_matrix(turn if turn.any() else [1, 0, 0, 0])))
-    is_reversed = bool(names[0]) and not names[1]
-    ends = [*zip(names, frames)]
-    (parent, first), (child, second) = reversed(ends) if is_reversed else ends
+    first, second = (_end(prim, end, links, unit) for end in "01")
+    # The world may be either body.
+    is_reversed = bool(first[0]) and not second[0]
+    parent, in_parent = second if is_reversed else first
+    child, in_child = first if is_reversed else second
     pose = None
-    outer, inner = (links[name].pose if name in links else None for name in (parent, child))
+    outer = links[parent].pose if parent else None
+    inner = links[child].pose if child else None
     if outer is not None and inner is not None:
-        pose = first @ second.inverse()
+        pose = in_parent @ in_child.inverse()
         placed = outer.inverse() @ inner
         apart = np.abs(pose.matrix - placed.matrix).max()
         # The prims' places have more digits than the frames.
         if apart <= SINGLE_RTOL * max(1.0, np.abs(placed.position).max()):
             pose = None
     axis = prim.values.get("physics:axis", '"X"').strip("\"'")
-    column = second.rotation[:, "XYZ".index(axis) if axis in JOINT_AXES else 0]
+    column = in_child.rotation[:, "XYZ".index(axis) if axis in JOINT_AXES else 0]
     sign = -1.0 if is_reversed else 1.0
-    motion = Motion(prim.name, JOINTS[prim.kind], sign * column, second.position)
+    motion = Motion(prim.name, JOINTS[prim.kind], sign * column, in_child.position)
     return StatedJoint(path, parent, child, pose, (motion,), Place(prim.line))
+
+
+def _end(prim: Prim, end: str, links: Mapping[str, StatedLink], unit: float) -> tuple[str, Pose]:
+    """Return the name of the body "0" or "1" of a joint, "" for the world, and the joint's frame in
+    it, m.
+    """
+    name = prim.values.get("physics:body" + end, "").strip("[]<> ").strip("/")
+    while name and name not in links:  # A prim in a body is a part of it.
+        name = name.rpartition("/")[0]
+    place = prim.vector("physics:localPos" + end, (0.0, 0.0, 0.0))
+    turn = prim.vector("physics:localRot" + end, (1.0, 0.0, 0.0, 0.0))
+    local = links[name].local if name else None
+    if local is not None:
+        place = local[:3, :3] @ place
+    return name, Pose(place * unit, rotation_matrix(turn if turn.any() else [1, 0, 0, 0]))
 
 
 def _placed(prim: Prim, above: NDArray) -> Array:
@@ -440,25 +445,32 @@ def _placed(prim: Prim, above: NDArray) -> Array:
         values = prim.numbers(name)
         if values is None:
             continue
-        step = np.eye(4)
-        kind = name.split(":")[1]
-        if not (np.abs(values) <= MOST).all():
-            raise ValueError(prim.values[name])
-        if kind == "translate" and len(values) == 3:
-            step[:3, 3] = values
-        elif kind == "scale" and len(values) == 3:
-            step[:3, :3] = np.diag(values)
-        elif kind == "orient" and len(values) == 4 and np.abs(values).max() >= LEAST:
-            step[:3, :3] = rotation_matrix(values)
-        elif kind == "transform" and len(values) == 16:
-            step = values.reshape(4, 4).T
-        elif kind.startswith("rotate") and len(values) == len(kind) - 6 and {*kind[6:]} <= {*"XYZ"}:
-            for axis, angle in zip(kind[6:], np.radians(values)):  # rotateXYZ turns about x first
-                step[:3, :3] = rotation_about(np.eye(3)["XYZ".index(axis)], angle) @ step[:3, :3]
-        else:
+        step = _operation(name.split(":")[1], values)
+        if step is None or not (np.abs(values) <= MOST).all():
             raise ValueError(prim.values[name])
         matrix = matrix @ (np.linalg.inv(step) if inverse else step)
     return np.asarray(matrix, np.float64)
+
+
+def _operation(kind: str, values: Array) -> Array | None:
+    """Return the (4, 4) matrix of an operation such as "rotateXYZ"; None if it is unknown, or the
+    count of its values is wrong.
+    """
+    step = np.eye(4)
+    if kind == "translate" and len(values) == 3:
+        step[:3, 3] = values
+    elif kind == "scale" and len(values) == 3:
+        step[:3, :3] = np.diag(values)
+    elif kind == "orient" and len(values) == 4 and np.abs(values).max() >= LEAST:
+        step[:3, :3] = rotation_matrix(values)
+    elif kind == "transform" and len(values) == 16:
+        step = values.reshape(4, 4).T
+    elif kind.startswith("rotate") and len(values) == len(kind) - 6 and {*kind[6:]} <= {*"XYZ"}:
+        for axis, angle in zip(kind[6:], np.radians(values)):  # rotateXYZ turns about x first
+            step[:3, :3] = rotation_about(np.eye(3)["XYZ".index(axis)], angle) @ step[:3, :3]
+    else:
+        return None
+    return step
 
 
 def _turn(matrix: NDArray) -> Array:

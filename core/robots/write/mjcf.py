@@ -6,7 +6,7 @@ MuJoCo's test that no principal moment exceeds the sum of the others has no tole
 moments of a `fullinertia` are off by rounding, so that it refuses thin plates.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from operator import mul
 from xml.etree.ElementTree import Element, SubElement
 
@@ -96,28 +96,28 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
         if link.inertial is not None:
             body.append(_inertial(link.inertial))
         for shape in () if inertial_only else link.shapes:
-            mass = {"mass": number(shape.mass) if shape.mass else "0"}
-            is_collider = shape.collides and not shape.sheet
-            if shape.seen:
-                drawn = {"group": "2", "contype": "0", "conaffinity": "0"}
-                _add_geom(body, shape, meshes, drawn | ({"mass": "0"} if is_collider else mass))
-            if is_collider:
-                _add_geom(body, shape, meshes, {"group": "3"} | mass)
-    mimics = []
-    for joint in () if inertial_only else robot.joints:
-        if joint.mimic is not None:
-            leader, multiplier, offset = joint.mimic
-            both = {"joint1": joint_names[joint.name], "joint2": joint_names[leader]}
-            powers = numbers((offset, multiplier, 0.0, 0.0, 0.0))
-            mimics.append(element("joint", **both, polycoef=powers))
+            _add_geoms(body, shape, meshes)
+    mimics = [] if inertial_only else [*_mimics(robot, joint_names)]
     if mimics:
         root.append(element("equality", *mimics))
     return document(root, "mjcf", remarks)
 
 
+def _mimics(robot: Robot, names: dict[str, str]) -> Iterator[Element]:
+    """Yield the equality of each joint that follows another one. names: of the joints in the
+    file.
+    """
+    for joint in robot.joints:
+        if joint.mimic is not None:
+            leader, multiplier, offset = joint.mimic
+            both = {"joint1": names[joint.name], "joint2": names[leader]}
+            powers = numbers((offset, multiplier, 0.0, 0.0, 0.0))
+            yield element("joint", **both, polycoef=powers)
+
+
 def _name(text: str) -> str:
     text = xml_name(text)
-    # The root that contains all bodies has this name.
+    # The element that contains all bodies has this name.
     return text + "_" if text == "world" else text
 
 
@@ -196,6 +196,18 @@ def _inertial(inertial: Inertial) -> Element:
 def inertial_text(inertial: StatedInertial, *_: object) -> str:
     """Return the element of a repaired inertial."""
     return element_text(_inertial(inertial.principal()))
+
+
+def _add_geoms(body: Element, shape: Shape, meshes: dict[tuple, str]) -> None:
+    """Add a geom that is only seen, and one that collides, which has the mass of both."""
+    mass = number(shape.mass) if shape.mass else "0"
+    is_collider = shape.collides and not shape.sheet
+    if shape.seen:
+        own_mass = "0" if is_collider else mass
+        drawn = {"group": "2", "contype": "0", "conaffinity": "0", "mass": own_mass}
+        _add_geom(body, shape, meshes, drawn)
+    if is_collider:
+        _add_geom(body, shape, meshes, {"group": "3", "mass": mass})
 
 
 def _add_geom(body: Element, shape: Shape, meshes: dict[tuple, str], role: dict[str, str]) -> None:
