@@ -7,6 +7,7 @@ evenly.
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
+from functools import cached_property
 from math import asin, degrees, hypot, sqrt
 
 import numpy as np
@@ -142,10 +143,13 @@ class Reference:
         inertia.
         """
         change = np.linalg.norm(stated.inertia / stated.mass - self.inertia)
-        apart = float(change / np.linalg.norm(self.inertia))
-        return max(self.compare_centers(stated), apart)
+        return max(self.compare_centers(stated), float(change / self._norm))
 
-    @property
+    @cached_property
+    def _norm(self) -> float:
+        return float(np.linalg.norm(self.inertia))
+
+    @cached_property
     def radius(self) -> float:
         """The radius of gyration about the center, m."""
         return float(np.sqrt(np.trace(self.inertia) / 2.0))
