@@ -157,6 +157,7 @@ def _selected_faces(obj, depsgraph) -> SectionReading:
 
 
 def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
+    """Read the outlines of a flat curve or text; a text on a curve by its fill."""
     curve = obj.data
     is_spatial = obj.type == "CURVE" and curve.dimensions != "2D"
     has_bevel = curve.bevel_depth or (curve.bevel_mode == "OBJECT" and curve.bevel_object)
@@ -176,10 +177,7 @@ def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
     place = locate(obj, depsgraph)
     linear = place.matrix[:3, :3]
     facing = np.cross(linear[:, 0], linear[:, 1]) * np.sign(np.linalg.det(linear) or 1.0)
-    evaluated = obj.evaluated_get(depsgraph)
-    mesh = evaluated.to_mesh()
-    filled = mesh_surface(mesh, edges=False) if mesh is not None and len(mesh.polygons) else None
-    evaluated.to_mesh_clear()
+    filled = _drawn_fill(obj, depsgraph)
     drawn_area = None
     if obj.type == "FONT" and obj.data.follow_curve is not None:
         # Only the evaluated text follows its curve, and only its fill is there to be read.
@@ -219,6 +217,15 @@ def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
         drawn_area=drawn_area,
         findings=list(_outline_findings(obj, depsgraph.scene, open_splines)),
     )
+
+
+def _drawn_fill(obj, depsgraph) -> Surface | None:
+    """Return the faces with which Blender fills outlines, in the object's coordinates, or None."""
+    evaluated = obj.evaluated_get(depsgraph)
+    mesh = evaluated.to_mesh()
+    filled = mesh_surface(mesh, edges=False) if mesh is not None and len(mesh.polygons) else None
+    evaluated.to_mesh_clear()
+    return filled
 
 
 def _outline_findings(obj, scene, open_splines: int) -> Iterator[Finding]:

@@ -155,22 +155,11 @@ def _by_material(
             parts.extend(_sheet_moments(reading, i, values, request, order))
     else:
         for i, (solid, matrices) in enumerate(body.solids):
-            face_slots, slots = face_densities.slots[i]
-            slot_names = [*(material.name if material else "" for material in slots), ""]
-            face_names = np.array(slot_names, object)[face_slots]  # slot -1 takes the last name
-            volume = solid.volume
-            if order > volume.order:
-                volume = polyhedron.polyhedron_moments(
-                    solid.repaired_surface,
-                    order,
-                    about=volume.about,
-                    threads=request.settings.threads,
-                    allow_open=True,
-                )[0]
-            weighed, findings = _solid_moments(
-                solid, volume, matrices, face_densities.values[i], face_names
+            volume = _volume_moments(solid, order, request.settings.threads)
+            moments, findings = _solid_moments(
+                solid, volume, matrices, face_densities.values[i], face_densities.face_names(i)
             )
-            parts += weighed
+            parts += moments
             by_part.append((reading.parts[i].source_object_name, findings))
     findings = [*face_densities.missing_note(), *bodies.findings_by_part(by_part, reading.name)]
     health = body.health
@@ -183,6 +172,16 @@ def _by_material(
         findings,
         face_densities.names,
     )
+
+
+def _volume_moments(solid: SolidIntegrals, order: int, threads: int) -> Moments:
+    """Return the moments of a solid to an order, beyond the measured ones if necessary."""
+    volume = solid.volume
+    if order <= volume.order:
+        return volume
+    return polyhedron.polyhedron_moments(
+        solid.repaired_surface, order, about=volume.about, threads=threads, allow_open=True
+    )[0]
 
 
 class _FaceDensities:
@@ -225,6 +224,12 @@ class _FaceDensities:
     @property
     def names(self) -> tuple[str, ...]:
         return tuple(material.name_full for material in self.materials)
+
+    def face_names(self, i: int) -> NDArray:
+        """Return the (f,) names of the materials of a part's faces, "" without a material."""
+        face_slots, slots = self.slots[i]
+        names = [*(material.name if material else "" for material in slots), ""]
+        return np.array(names, object)[face_slots]  # slot -1 takes the last name
 
     def missing_note(self) -> Iterator[Finding]:
         """Yield a finding about faces without a material density, which have the object's
