@@ -165,7 +165,7 @@ def _image_coefficients(forms: NDArray, order: int) -> Iterator[tuple[slice, Arr
 
 def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> Array:
     """Return (..., rows, rows) coefficients of the images of a degree's monomials. table: those one
-    degree lower.
+    degree lower; forms: (..., 3, 3) the images of x, y and z.
     """
     if degree == 1:
         return forms
@@ -174,6 +174,8 @@ def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> Array:
     padded = np.concatenate([table, np.zeros((*table.shape[:-1], 1))], axis=-1)
     raised = padded[..., quotient_indices(degree, below)]  # times x, y, z: (..., below, 3, rows)
     grown = np.empty((*table.shape[:-2], count, count))
+    # In storage order: all lower monomials times x, the last `degree` of them times y (without
+    # x), and the last one times z (a power of z).
     for axis, old, new in (
         (0, slice(0, below), slice(0, below)),
         (1, slice(below - degree, below), slice(below, count - 1)),
@@ -193,20 +195,20 @@ def _terms(
 ) -> list[tuple[Index, Index, Array, Index]]:
     """Return, by axis, the terms of all shifted monomials: (t,) old indices, powers, binomials;
     (K,) first terms.
+
+    By the axis x: (x + t)^p y^q z^r = Σ_k binomial(p, k) t^(p-k) x^k y^q z^r.
     """
-    powers = monomials(order)
+    exponents = monomials(order)
     tables = []
     for axis in range(3):
-        count = powers[:, axis] + 1
-        target = np.repeat(np.arange(len(powers)), count)
-        old = powers[target]
-        raised = powers[target, axis]
-        old[:, axis] = segment_ranges(count)
-        sources = monomial_index(*old.T)
-        binomials = np.array(
-            [float(math.comb(n, k)) for n, k in zip(raised.tolist(), old[:, axis].tolist())]
-        )
-        tables.append((sources, raised - old[:, axis], binomials, segment_starts(count)))
+        counts = exponents[:, axis] + 1
+        monomial = np.repeat(np.arange(len(exponents)), counts)
+        p = exponents[monomial, axis]
+        k = segment_ranges(counts)
+        source = exponents[monomial]
+        source[:, axis] = k
+        binomials = np.array([float(math.comb(*pair)) for pair in zip(p.tolist(), k.tolist())])
+        tables.append((monomial_index(*source.T), p - k, binomials, segment_starts(counts)))
     return tables
 
 
@@ -256,14 +258,15 @@ def are_singular(linear: NDArray) -> Mask:
 
 def absolute_moments(raw: NDArray, order: int) -> Array:
     """Return (..., K) upper bounds of ∫ |x^p y^q z^r|; of odd highest order they are estimates."""
-    out = np.abs(raw)
+    bounds = np.abs(raw)
+    # By degree: ∫ |x|^n, ∫ |y|^n or ∫ |z|^n, whichever is largest, bounds all of that degree.
     largest = [
-        out[..., [monomial_index(n, 0, 0), monomial_index(0, n, 0), monomial_index(0, 0, n)]].max(
-            axis=-1
-        )
+        bounds[
+            ..., [monomial_index(n, 0, 0), monomial_index(0, n, 0), monomial_index(0, 0, n)]
+        ].max(axis=-1)
         for n in range(order + 1)
     ]
-    for n in range(1, order + 1, 2):
+    for n in range(1, order + 1, 2):  # odd powers cancel
         if n < order:
             largest[n] = np.sqrt(largest[n - 1]) * np.sqrt(largest[n + 1])
         elif n > 1:
@@ -272,8 +275,8 @@ def absolute_moments(raw: NDArray, order: int) -> Array:
             largest[n] = HIGHEST_ODD * largest[n - 1] * np.where(np.isfinite(reach), reach, 0.0)
     for n in range(1, order + 1):
         part = slice(monomial_count(n - 1), monomial_count(n))
-        out[..., part] = np.maximum(out[..., part], largest[n][..., None])
-    return out
+        bounds[..., part] = np.maximum(bounds[..., part], largest[n][..., None])
+    return bounds
 
 
 def are_similarities(linear: NDArray) -> Mask:

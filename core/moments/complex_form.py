@@ -22,10 +22,11 @@ from ..verdict import MeasureError
 from .affine_maps import apply_translation
 from .exponents import monomial_index, monomials
 from .findings import NORMALIZATION_UNDEFINED
-from .raw import Measure, Moments, U
+from .raw import SECOND_MOMENT_INDEX, Measure, Moments, U
 from .solid_harmonics import circular_coefficients
 
 SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
+SQUARES = SECOND_MOMENT_INDEX.diagonal()  # indices of x², y² and z²
 SUM_ROUNDINGS = 8  # rounding of a sum of a few products, in units u, besides one for each term
 
 
@@ -80,13 +81,13 @@ def complex_moments(
     `rounding_error`.
     """
     bounds = moments.rounding_error if bounds is None else bounds
-    found = {}
-    for (p, q), positions, factors in _expansions(moments.order):
+    complex_by_powers = {}
+    for powers, positions, factors in _expansions(moments.order):
         terms = factors * moments.raw[positions]
-        off = float((np.abs(factors) * bounds[positions]).sum())
-        off += (SUM_ROUNDINGS + len(factors)) * U * float(np.abs(terms).sum())
-        found[p, q] = ComplexBound(complex(terms.sum()), off)
-    return found
+        error = float((np.abs(factors) * bounds[positions]).sum())
+        error += (SUM_ROUNDINGS + len(factors)) * U * float(np.abs(terms).sum())
+        complex_by_powers[powers] = ComplexBound(complex(terms.sum()), error)
+    return complex_by_powers
 
 
 @lru_cache
@@ -200,32 +201,31 @@ def normalize(moments: Moments, by: str = "size") -> Moments:
         raise MeasureError(NORMALIZATION_UNDEFINED)
     body = moments.about_center()
     n = monomials(moments.order).sum(axis=1)
-    trace = float(body.raw[[4, 7, 9]].sum()) if by == "gyration" else 1.0
+    trace = float(body.raw[SQUARES].sum()) if by == "gyration" else 1.0
     if by == "gyration":
         factor = (trace / body.total) ** (-n / 2.0) / body.total
     else:
         factor = body.total ** -(1.0 + n / dimension)
     bounds = []
-    # Bounds of the total, the trace, and the center's place.
-    for delta in (body.rounding_error, body.rounding_error + body.input_error):
-        total = body.total / (body.total - delta[0])
-        off = (np.abs(body.raw[1:4]) + delta[1:4]) / (body.total - delta[0]) + 2.0 * U * np.abs(
+    for error in (body.rounding_error, body.rounding_error + body.input_error):
+        size = np.abs(body.raw) + error
+        least_total = body.total - error[0]
+        total_ratio = body.total / least_total
+        center_error = (np.abs(body.raw[1:4]) + error[1:4]) / least_total + 2.0 * U * np.abs(
             body.about
         )
-        size = np.abs(body.raw) + delta
-        away = (
-            apply_translation(size[None], moments.order, off[None])[0] - size + 8.0 * U * n * size
-        )
+        shifted = apply_translation(size[None], moments.order, center_error[None])[0]
+        center_effect = shifted - size + 8.0 * U * n * size
         if by == "gyration":
-            spread = delta[[4, 7, 9]].sum() + away[[4, 7, 9]].sum()
-            if not trace > 2.0 * spread:
+            trace_error = error[SQUARES].sum() + center_effect[SQUARES].sum()
+            if not trace > 2.0 * trace_error:
                 raise MeasureError(NORMALIZATION_UNDEFINED)
-            stretch = total ** np.abs(n / 2.0 - 1.0) * (trace / (trace - spread)) ** (n / 2.0)
+            trace_ratio = trace / (trace - trace_error)
+            stretch = total_ratio ** np.abs(n / 2.0 - 1.0) * trace_ratio ** (n / 2.0)
         else:
-            stretch = total ** (1.0 + n / dimension)
-        bounds.append(
-            factor * (stretch * (delta + away) + (stretch - 1.0 + (8.0 + 4.0 * n) * U) * size)
-        )
+            stretch = total_ratio ** (1.0 + n / dimension)
+        own = stretch * (error + center_effect)
+        bounds.append(factor * (own + (stretch - 1.0 + (8.0 + 4.0 * n) * U) * size))
     return Moments(
         body.raw * factor,
         np.zeros(3),

@@ -26,12 +26,10 @@ class Verdict(StrEnum):
 
 def find_verdict(method: Method | None, findings: Iterable[Finding]) -> Verdict:
     """Return the verdict on up-to-date numbers, by their method and findings."""
-    warnings = [declared(found.code) for found in findings if severity(found) != Severity.NOTE]
-    if (
-        method is None
-        or method.procedure == Procedure.OPEN
-        or not all(code.is_repair for code in warnings)
-    ):
+    warnings = [declared(item.code) for item in findings if severity(item) != Severity.NOTE]
+    if method is None or method.procedure == Procedure.OPEN:
+        return Verdict.DOUBTFUL
+    if not all(code.is_repair for code in warnings):
         return Verdict.DOUBTFUL
     return Verdict.REPAIRED if warnings or method.procedure in REPAIRED else Verdict.EXACT
 

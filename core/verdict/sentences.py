@@ -120,14 +120,12 @@ def sentence(
     entry = declared(finding.code)
     values = finding.values
     count = values.get("count")
-    elements = (
-        truncate_list(finding.elements, count, translate)
-        if len(finding.elements)
-        else "{}".format(count)
-    )
+    elements = "{}".format(count)
+    if len(finding.elements):
+        elements = truncate_list(finding.elements, count, translate)
     text = fill(entry.text, entry.plural, {**values, "elements": elements}, translate, lengths)
-    sources = values.get("sources")
-    text = "{}: {}".format(truncate_list(sources, translate=translate), text) if sources else text
+    if sources := values.get("sources"):
+        text = "{}: {}".format(truncate_list(sources, translate=translate), text)
     return translate(ACCEPTED).format(text) if values.get("accepted") else text
 
 
@@ -218,17 +216,20 @@ def grouped(findings: Iterable[tuple[str, Finding]]) -> list[Group]:
     """Return groups of the findings of objects, given with their full names; the most severe
     first.
     """
-    together: dict[tuple[Severity, str], list[tuple[str, Finding]]] = {}
-    for name, found in findings:
-        together.setdefault((severity(found), found.code), []).append((name, found))
+    by_code: dict[tuple[Severity, str], list[tuple[str, Finding]]] = {}
+    for name, item in findings:
+        by_code.setdefault((severity(item), item.code), []).append((name, item))
     groups = []
-    for members in together.values():
-        values = dict(members[0][1].values)
-        for key, join in JOINED if len(members) > 1 else ():
-            numbers = [
-                found.values[key] for _, found in members if found.values.get(key) is not None
-            ]
-            values |= {key: join(numbers)} if numbers else {}
+    for members in by_code.values():
+        _, first = members[0]
+        values = dict(first.values)
+        if len(members) > 1:
+            for key, join in JOINED:
+                numbers = [
+                    item.values[key] for _, item in members if item.values.get(key) is not None
+                ]
+                if numbers:
+                    values[key] = join(numbers)
         names = dict.fromkeys(name for name, _ in members)
-        groups.append(Group(replace(members[0][1], values=values), tuple(filter(None, names))))
+        groups.append(Group(replace(first, values=values), tuple(filter(None, names))))
     return sorted(groups, key=lambda group: -tuple(Severity).index(severity(group.finding)))

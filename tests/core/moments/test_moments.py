@@ -5,7 +5,6 @@
 The oracle is rational arithmetic on boxes and simplices.
 """
 
-import json
 import math
 import re
 from fractions import Fraction
@@ -242,13 +241,7 @@ def test_normalized_moments_have_no_unit_and_know_no_place(by, size):
 
 
 def test_measure_is_one_of_four_names():
-    assert Moments(np.ones(1), np.zeros(3)).measure is Measure.VOLUME
-    area = Moments(np.ones(1), np.zeros(3), "area")
-    assert (
-        area.measure is Measure.AREA
-        and "{:s}".format(area.measure) == "area"
-        and json.dumps(area.measure) == '"area"'
-    )
+    assert Moments(np.ones(1), np.zeros(3), "area").measure is Measure.AREA
     with pytest.raises(ValueError):
         Moments(np.ones(1), np.zeros(3), "weight")
 

@@ -54,15 +54,9 @@ def test_values_come_back_from_json_and_equal_findings_are_one():
 
 def test_combined_verdict_is_the_worst_of_the_solids():
     order = ["open", "capped", "reoriented", "exact", "union", "shell", "wire", "given", "assembly"]
-    assert [str(verdict) for verdict in Procedure] == order and least_trusted([]) == Procedure.OPEN
+    assert least_trusted([]) == Procedure.OPEN
     for worse, better in zip(order, order[1:]):
         assert least_trusted([Procedure(better), Procedure(worse), Procedure(better)]) == worse
-    assert [verdict for verdict in Procedure if verdict.is_closed] == [
-        "capped",
-        "reoriented",
-        "exact",
-        "union",
-    ]
     for verdict in Procedure:
         for source in Source:
             method = Method(verdict, source)
