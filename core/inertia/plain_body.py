@@ -324,9 +324,9 @@ class Reference:
         rounded = 2.0 * U * sum(map(abs, (*body.center, *self.origin)))
         size = hypot(*body.inertia, *body.inertia[3:]) + sqrt(2.0) * body.mass * distance * distance
         bounds = []
-        for bound, own in ((body.error_bound, rounded), (body.error_bound["input"], 0.0)):
+        for bound, arm_error in ((body.error_bound, rounded), (body.error_bound["input"], 0.0)):
             mass = bound["volume"] * body.density
-            center = bound["center_of_mass"] + own
+            center = bound["center_of_mass"] + arm_error
             inertia = bound["inertia"] + sqrt(2.0) * distance * distance * mass
             inertia += body.mass * (6.0 * distance * center + 2.0 * center * center)
             bounds.append({"mass": mass, "center": center, "inertia": inertia})

@@ -134,11 +134,11 @@ def check_document(document: Any) -> None:
     level = [document]
     for _ in range(MAX_DEPTH):
         lists = [
-            list(one.values()) if isinstance(one, dict) else one
-            for one in level
-            if isinstance(one, (dict, list))
+            list(value.values()) if isinstance(value, dict) else value
+            for value in level
+            if isinstance(value, (dict, list))
         ]
-        level = [value for values in lists for value in values]
+        level = [entry for entries in lists for entry in entries]
     if level:
         raise ValueError("it is nested too deeply")
 

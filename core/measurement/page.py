@@ -117,8 +117,8 @@ def to_html(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
     )
     yield "<p>{:%Y-%m-%d %H:%M} UTC</p>\n".format(datetime.now(UTC))
     yield from (
-        "<p>{}: {}</p>\n".format(counted(n, "file"), html.escape(visible(one)))
-        for one, n in origins.items()
+        "<p>{}: {}</p>\n".format(counted(number, "file"), html.escape(visible(origin)))
+        for origin, number in origins.items()
     )
     yield "<details><summary>{}</summary><ul>\n".format(counted(len(codes), "finding"))
     yield from (
@@ -240,19 +240,22 @@ def _row(
     values: dict[str, float | None],
     remarks: Sequence[tuple[str, str]],
 ) -> str:
+    """Return a row of the table. methods: verdict and method. remarks: class and text of each."""
     words = " ".join([file, name, *methods, status, *(text for _, text in remarks)]).lower()
     cells = ["<td>{}</td>".format(picture)]
     for text, kind in ((file, ""), (name, ""), (status, status), *((text, "") for text in methods)):
-        shown = html.escape(visible(text))
-        cells.append('<td class="{}" data-key="{}">{}</td>'.format(html.escape(kind), shown, shown))
+        escaped = html.escape(visible(text))
+        cells.append(
+            '<td class="{}" data-key="{}">{}</td>'.format(html.escape(kind), escaped, escaped)
+        )
     for column in ("mass", "volume", "area", "size", "bound"):
         value = values.get(column)
-        key, shown = ("", "") if value is None else (repr(value), "{:.6g}".format(value))
-        cells.append('<td class="number" data-key="{}">{}</td>'.format(key, shown))
-    said = "".join(
+        key, number = ("", "") if value is None else (repr(value), "{:.6g}".format(value))
+        cells.append('<td class="number" data-key="{}">{}</td>'.format(key, number))
+    paragraphs = "".join(
         '<p class="{}">{}</p>'.format(kind, html.escape(visible(text))) for kind, text in remarks
     )
-    cells.append('<td data-key="{}">{}</td>'.format(len(remarks), said))
+    cells.append('<td data-key="{}">{}</td>'.format(len(remarks), paragraphs))
     head = '<tr data-status="{}" data-text="{}">'.format(
         html.escape(status), html.escape(visible(words))
     )
@@ -273,15 +276,17 @@ def _picture(entry: dict[str, Any]) -> str:
         return ""
     half = sum(moments) / 2.0
     # Half sides of a box.
-    sides = [math.sqrt(max(6.0 * (half - one) / mass, 0.0)) / 2.0 for one in moments]
+    sides = [math.sqrt(max(6.0 * (half - moment) / mass, 0.0)) / 2.0 for moment in moments]
     scale = 40.0 / (max(sides) * 1.8 or 1.0)
     columns = [[row[number] for row in axes] for number in range(3)]
 
     def flat(point: Sequence[float]) -> str:
+        """Return the place in the picture, seen from above and the side."""
         x, y, z = point
         return "{:.2f},{:.2f}".format(0.8 * x - 0.6 * y, -(0.36 * x + 0.48 * y + 0.8 * z))
 
     def along(*factors: float) -> list[float]:
+        """Return a point of the box, in half sides from its middle."""
         return [
             sum(f * s * column[i] for f, s, column in zip(factors, sides, columns)) * scale
             for i in range(3)
@@ -290,10 +295,10 @@ def _picture(entry: dict[str, Any]) -> str:
     corners = {(a, b, c): flat(along(a, b, c)) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)}
     edges = [pair for pair in combinations(corners, 2) if sum(a != b for a, b in zip(*pair)) == 1]
     lines = ["M{}L{}".format(corners[one], corners[other]) for one, other in edges]
-    shown = '<path d="{}" fill="none" stroke="#888"/>'.format("".join(lines))
+    paths = '<path d="{}" fill="none" stroke="#888"/>'.format("".join(lines))
     for column, color in zip(columns, ("#d64040", "#48a048", "#4860d6")):
         end = [42.0 * value for value in column]
-        shown += '<path d="M{}L{}" stroke="{}" stroke-width="2"/>'.format(
+        paths += '<path d="M{}L{}" stroke="{}" stroke-width="2"/>'.format(
             flat([-v for v in end]), flat(end), color
         )
-    return '<svg viewBox="-50 -50 100 100">{}</svg>'.format(shown)
+    return '<svg viewBox="-50 -50 100 100">{}</svg>'.format(paths)

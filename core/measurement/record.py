@@ -297,13 +297,13 @@ def flat_record(
     if invariants:
         entry["invariants"] = [
             {
-                "name": one.name,
-                "real": one.value.real,
-                "imaginary": one.value.imag,
-                "error": one.rounding_error,
-                "input": one.input_error,
+                "name": invariant.name,
+                "real": invariant.value.real,
+                "imaginary": invariant.value.imag,
+                "error": invariant.rounding_error,
+                "input": invariant.input_error,
             }
-            for one in invariants
+            for invariant in invariants
         ]
     entry |= more or {}
     rounding = _bounds(central, central.rounding_error, U * float(np.linalg.norm(centroid)))

@@ -25,8 +25,8 @@ def intersecting_pairs(
     work = 0
     while pieces:
         pair, a, b = pieces.pop()
-        going = ~intersects[pair]
-        pair, a, b = (values[going] for values in (pair, a, b))
+        is_open = ~intersects[pair]
+        pair, a, b = (values[is_open] for values in (pair, a, b))
         work += len(pair)
         if work > MAX_BOX_PAIRS:
             for rest, *_ in [*pieces, (pair,)]:
@@ -38,13 +38,16 @@ def intersecting_pairs(
         )
         pair, a, b = (values[meet] for values in (pair, a, b))
         child_a, child_b = tree.child[a], tree.child[b]
-        both = (child_a == -1) & (child_b == -1)
-        if both.any():
-            for of, left, right in cut(
-                pair[both], a[both], b[both], size=PAIRS_PER_BATCH // TRIANGLES_PER_LEAF**2
+        are_leaves = (child_a == -1) & (child_b == -1)
+        if are_leaves.any():
+            for leaf_pair, leaf_a, leaf_b in cut(
+                pair[are_leaves],
+                a[are_leaves],
+                b[are_leaves],
+                size=PAIRS_PER_BATCH // TRIANGLES_PER_LEAF**2,
             ):
-                _intersect_leaves(tree, of, left, right, tolerance, intersects, vertex)
-            pair, a, b, child_a, child_b = (x[~both] for x in (pair, a, b, child_a, child_b))
+                _intersect_leaves(tree, leaf_pair, leaf_a, leaf_b, tolerance, intersects, vertex)
+            pair, a, b, child_a, child_b = (x[~are_leaves] for x in (pair, a, b, child_a, child_b))
         # The larger box is opened; a leaf never is.
         size_a = (tree.high[a] - tree.low[a]).max(axis=1)
         size_b = (tree.high[b] - tree.low[b]).max(axis=1)

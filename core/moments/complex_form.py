@@ -101,8 +101,9 @@ def _expansions(
     for n in range(order + 1):
         for q in range(n // 2 + 1):
             factors = np.array(circular_coefficients(n - q, q))
-            (kept,) = np.nonzero(factors)
-            expansions.append(((n - q, q), monomial_index(n - kept, kept, 0 * kept), factors[kept]))
+            (y_powers,) = np.nonzero(factors)
+            positions = monomial_index(n - y_powers, y_powers, 0 * y_powers)
+            expansions.append(((n - q, q), positions, factors[y_powers]))
     return expansions
 
 
@@ -126,11 +127,11 @@ def hu_invariants(moments: Moments) -> list[Invariant]:
         Invariant(
             "φ{:d}".format(i + 1),
             2 if i < 2 else 3,
-            complex(own.value.real),
-            own.bound,
-            with_input.bound - own.bound,
+            complex(rounded.value.real),
+            rounded.bound,
+            with_input.bound - rounded.bound,
         )
-        for i, (own, with_input) in enumerate(_both(moments, products))
+        for i, (rounded, with_input) in enumerate(_both(moments, products))
     ]
 
 
@@ -152,12 +153,12 @@ def flusser_invariants(moments: Moments) -> list[Invariant]:
         Invariant(
             _name(p, q),
             max(p + q, 2 if p == q else 3),
-            own.value,
-            own.bound,
-            with_input.bound - own.bound,
+            rounded.value,
+            rounded.bound,
+            with_input.bound - rounded.bound,
             p > q,
         )
-        for (p, q), (own, with_input) in zip(names, _both(moments, products))
+        for (p, q), (rounded, with_input) in zip(names, _both(moments, products))
     ]
 
 

@@ -58,7 +58,7 @@ def phase_factors(q: NDArray, x: NDArray) -> Complex:
     """
     total, rest = two_product(q[:, 0], x[0])
     for axis in range(1, q.shape[1]):
-        product, low = two_product(q[:, axis], x[axis])
-        total, more = two_sum(total, product)
-        rest = rest + (low + more)
+        product, product_error = two_product(q[:, axis], x[axis])
+        total, sum_error = two_sum(total, product)
+        rest = rest + (product_error + sum_error)
     return np.exp(-1j * total) * (1.0 - 1j * rest)

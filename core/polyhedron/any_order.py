@@ -41,7 +41,7 @@ from ..moments import (
     quotient_indices,
     unchecked_moments,
 )
-from ..numerics import Array, NDArray, batches, cross, dot, indices_in_range
+from ..numerics import Array, NDArray, batches, cross, dot, indices_in_range, segment_starts
 from ..verdict import MeasureError, check_size
 from .any_order_kernel import SLICES, UNDERFLOW_BOUND, absolute_sums, coefficient_sums
 from .faces import NO_VERTEX, Faces, box_center, face_blocks, finite_box
@@ -261,12 +261,12 @@ def extend_small_moments(
     sizes = []
     for part in batches(counts, TRIANGLES_PER_BLOCK):
         rows = triangles[ends[part.start] - counts[part.start] : ends[part.stop - 1]]
-        own = counts[part]
+        number = counts[part]
         corners = coordinates.take(rows.T, axis=1).astype(np.float64, copy=False)
-        corners = corners - np.repeat(volume.about[part].T, own, axis=1)[:, None]
+        corners = corners - np.repeat(volume.about[part].T, number, axis=1)[:, None]
         a, b, c = corners.swapaxes(0, 1)
         det = dot(a, cross(b - a, c - a))
-        starts = np.cumsum(own) - own
+        starts = segment_starts(number)
         sums.append(coefficient_sums(corners, det[None, None], starts, order)[0, known:].T)
         sizes.append(np.add.reduceat(np.abs(det), starts))
     raw = np.concatenate(sums) * factors

@@ -53,14 +53,14 @@ def coefficient_sums(corners: Array, weights: Array, starts: Index, order: int) 
     corners: (3, 3 or 4, t) of triangles a, b, c, perhaps a, c, d. weights: (w, 1 or 2, t).
     """
     first = corners[:, 0]
-    vectors = corners[:, 1:, None]
-    both = np.add.reduce(weights, axis=1)[:, None]
+    vectors = corners[:, 1:, None]  # b, c, perhaps d
+    pair_weights = np.add.reduce(weights, axis=1)[:, None]  # of both triangles
     below = count_of_degree(order - 1)
     powers = np.empty((count_of_degree(order), corners.shape[2]))
     powers[0] = 1.0
     levels = np.empty((vectors.shape[1], below, corners.shape[2]))  # S, D and S
     levels[:, 0] = 1.0
-    sums = [np.add.reduceat(both, starts, axis=2)]
+    sums = [np.add.reduceat(pair_weights, starts, axis=2)]
     for degree in range(1, order):
         count = count_of_degree(degree)
         raise_powers(powers, degree, first)
@@ -70,10 +70,10 @@ def coefficient_sums(corners: Array, weights: Array, starts: Index, order: int) 
         sums.append(_scalar_products(weights, levels[::2, :count], starts))
     # The sums of the last degree need no S and no D of that degree.
     raise_powers(powers, order, first)
-    last = multinomials(order) * _scalar_products(both, powers[None], starts)
+    last = multinomials(order) * _scalar_products(pair_weights, powers[None], starts)
     level_weights = np.empty((len(weights), *levels[:, 0].shape))
     level_weights[:, ::2] = weights
-    level_weights[:, 1:2] = both
+    level_weights[:, 1:2] = pair_weights
     for axis, quotients in enumerate(quotient_indices(order, below)):
         products = _scalar_products(level_weights * corners[axis, 1:], levels, starts)
         rows = np.flatnonzero(quotients < below)

@@ -377,8 +377,8 @@ def closes(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = No
         return True
     ridges = np.concatenate([np.delete(corners, k, axis=1) for k in range(corners.shape[1])])
     uses = np.concatenate([parity * (-1.0) ** k for k in range(corners.shape[1])])
-    _, which = np.unique(ridges, axis=0, return_inverse=True)
-    return not np.bincount(which.reshape(-1), uses).any()
+    _, number = np.unique(ridges, axis=0, return_inverse=True)
+    return not np.bincount(number.reshape(-1), uses).any()
 
 
 def outer_facets(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = None) -> Index:
@@ -402,10 +402,11 @@ def _sorted_corners(
     corners = place.reshape(-1)[simplices]
     signs = np.ones(len(corners)) if signs is None else np.asarray(signs, np.float64)
     order = np.argsort(corners, axis=1)
-    parity = signs.copy()
+    # Each pair of corners in the wrong order changes the sign of the permutation.
+    orientation = signs.copy()
     for first in range(order.shape[1]):
         for second in range(first + 1, order.shape[1]):
-            parity[order[:, first] > order[:, second]] *= -1.0
+            orientation[order[:, first] > order[:, second]] *= -1.0
     corners = np.take_along_axis(corners, order, 1)
-    solid = (np.diff(corners, axis=1) > 0).all(axis=1)  # the others have no extent
-    return simplices[solid], corners[solid], parity[solid]
+    has_extent = (np.diff(corners, axis=1) > 0).all(axis=1)
+    return simplices[has_extent], corners[has_extent], orientation[has_extent]

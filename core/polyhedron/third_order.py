@@ -43,7 +43,16 @@ from ..moments import (
     monomials,
     unchecked_moments,
 )
-from ..numerics import NEXT_AXIS, PREVIOUS_AXIS, Array, Index, NDArray, batches, indices_in_range
+from ..numerics import (
+    NEXT_AXIS,
+    PREVIOUS_AXIS,
+    Array,
+    Index,
+    NDArray,
+    batches,
+    indices_in_range,
+    segment_starts,
+)
 from ..verdict import check_size
 from .faces import NO_VERTEX, Faces, box_center, face_blocks, finite_box
 
@@ -206,7 +215,7 @@ def small_moments(
         lengths = block.lengths() if area else None
         number = counts[part]
         middle = np.repeat(center[part].T, number, axis=1)
-        starts = np.cumsum(number) - number
+        starts = segment_starts(number)
         sums.append(_face_sums(block, lengths, middle, starts, number, False, area_moments, True))
     return _moments(
         sums,
@@ -368,9 +377,9 @@ def _moments(
     if not area:
         return volume, Moments(np.zeros((len(starts), 1)), center, Measure.AREA)
     raw = total(of_area) / (DIVISORS / AREA_FACTORS) if area_moments else bounds[:, 1:] / 2.0
-    kept = raw.shape[1]
-    error = rounding[1, :, :kept] / 2.0 + 8.0 * U * np.abs(raw)
-    return volume, unchecked_moments(raw, center, Measure.AREA, error, inputs[1, :, :kept])
+    count = raw.shape[1]
+    error = rounding[1, :, :count] / 2.0 + 8.0 * U * np.abs(raw)
+    return volume, unchecked_moments(raw, center, Measure.AREA, error, inputs[1, :, :count])
 
 
 def nothing(order: int, about: NDArray | None) -> tuple[Moments, Moments]:

@@ -122,12 +122,13 @@ def measure_stack(
         check_type("surface", surface, Surface)
     fits = SurfaceStack.takes(surfaces, 0 if shell else MAX_SMALL_TRIANGLES)
     counts = np.array([surface.triangle_count for surface in surfaces]) * fits
-    which = np.flatnonzero(fits & (np.cumsum(counts) <= MAX_STACKED_TRIANGLES)).tolist()
+    stacked = np.flatnonzero(fits & (np.cumsum(counts) <= MAX_STACKED_TRIANGLES)).tolist()
     solids: dict[int, SolidIntegrals | Finding] = {}
-    if which:
-        small = measure_small([surfaces[i] for i in which])
-        measured = np.flatnonzero(small.is_measured).tolist()
-        solids = {which[row]: SmallSolid(small, row, surfaces[which[row]]) for row in measured}
+    if stacked:
+        small = measure_small([surfaces[i] for i in stacked])
+        for row in np.flatnonzero(small.is_measured).tolist():
+            i = stacked[row]
+            solids[i] = SmallSolid(small, row, surfaces[i])
     for i in set(range(len(surfaces))).difference(solids):
         try:
             solids[i] = measure_alone(surfaces[i], shell, threads)

@@ -366,14 +366,16 @@ def _component_findings(
 
 
 def _all_but_largest(mesh: RepairedMesh, which: Mask) -> Mask:
-    """Return a mask without its component of the largest area: the others contain the shared
+    """Return a (c,) mask without its component of the largest area: the rest contains the shared
     volume.
     """
-    rows = which[mesh.component]
-    areas = np.bincount(mesh.component[rows], triangle_areas(mesh.points, mesh.triangles[rows]))
-    others = which.copy()
-    others[np.argmax(areas)] = False
-    return others
+    is_included = which[mesh.component]
+    areas = np.bincount(
+        mesh.component[is_included], triangle_areas(mesh.points, mesh.triangles[is_included])
+    )
+    rest = which.copy()
+    rest[np.argmax(areas)] = False
+    return rest
 
 
 def _intersection_findings(intersection: SelfIntersection, volume: float) -> list[Finding]:
