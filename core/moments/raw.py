@@ -256,9 +256,9 @@ class Moments:
         shifted = apply_translation(
             as_rows(values), self.order, as_rows([offset, away, away, away])
         )
-        raw, error, moved, size = (shifted[..., i, :] for i in range(4))
+        raw, error, inputs, size = (shifted[..., i, :] for i in range(4))
         rounding = (4.0 * monomials(self.order).sum(axis=1) + 16.0) * U
-        return unchecked_moments(raw, point, self.measure, error + rounding * size, moved)
+        return unchecked_moments(raw, point, self.measure, error + rounding * size, inputs)
 
     def about_center(self) -> Moments:
         """Return the central moments."""
@@ -375,7 +375,9 @@ def image(moments: Moments, matrices: NDArray, center: NDArray | None = None) ->
     tolerance = 6 * U * (reach + stretch * np.abs(about).max(axis=-1, keepdims=True))
     weight_error = weight_error + (1 + 6 * order + 8) * U * weight
     away = np.abs(offset)
-    rows = [
+    # The moments; bounds, which the absolute values of the map carry on: of both errors, of the
+    # moments' size, and for uneven maps of ∫ |x^α|.
+    functionals = [
         moments.raw,
         moments.rounding_error,
         moments.input_error,
@@ -383,21 +385,21 @@ def image(moments: Moments, matrices: NDArray, center: NDArray | None = None) ->
     ]
     shifts = [offset, away, away, away + tolerance]
     if uneven.any():
-        rows.append(
+        functionals.append(
             absolute_moments(moments.raw, order) + moments.rounding_error + moments.input_error
         )
         shifts.append(away + tolerance)
-    shifted = as_rows(rows)
+    images = as_rows(functionals)
     if order:
-        shifted = apply_translation(apply_linear(shifted, order, linear), order, as_rows(shifts))
-    mapped, error, mapped_input, size = [shifted[..., i, :] for i in range(4)]
+        images = apply_translation(apply_linear(images, order, linear), order, as_rows(shifts))
+    mapped, error, mapped_input, size = [images[..., i, :] for i in range(4)]
     rounding = weight * error + (weight_error + (4.0 * order + 50.0) * U * weight) * size
     for axis, raised in enumerate(product_indices(order) if order else ()):
         moved = monomials(order)[raised, axis] * tolerance * weight * size[..., : len(raised)]
         rounding[..., raised] += moved
     if uneven.any():
-        # a face at a time, some more and some less
-        rounding = rounding + weight * uneven * shifted[..., -1, :]
+        # Some faces grow by more than the weight, and some by less.
+        rounding = rounding + weight * uneven * images[..., -1, :]
     return unchecked_moments(
         weight * mapped, center, moments.measure, rounding, weight * mapped_input
     )
