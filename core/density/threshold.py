@@ -308,10 +308,8 @@ class _Sums:
             inexact = [self._add_exact_cells(*batch, allowed) for batch in _batches(cells)]
             cells = Cells.join(inexact).cut_in_eight()
             inside = cells.corners >= 0.0
-            is_whole = np.asarray(inside.all(axis=(1, 2, 3)))
-            self._add_boxes(cells[is_whole])
             remaining_parts -= len(cells)
-            cells = cells[~is_whole & inside.any(axis=(1, 2, 3))]
+            cells = cells[np.asarray(inside.any(axis=(1, 2, 3)))]
             if remaining_parts < 0 or (cells.size**3).sum() < allowed[0]:
                 allowed[:] = np.inf
 
@@ -397,34 +395,11 @@ class _Sums:
         for node, weight in zip(*gauss_legendre((self.order + 1) // 2 + 1)):
             z = columns.level + node * height
             amounts = floor * size * np.abs(height) * weight * (bottom + rise * z)
-            self._add_points(MASS, amounts, [x, y, z0 + size * z], turn)
-
-    def _add_points(
-        self, measure: int, amounts: NDArray, points: list[NDArray], turn: tuple = TURNS[2]
-    ) -> None:
-        """Add amounts of a measure at points, x, y and z, which are the axes `turn` of the grid."""
-        xs, ys, zs = (power_table(values, self.order) for values in points)
-        for number, (p, q, r) in enumerate(self.powers[:, turn].tolist()):
-            term = amounts * xs[p] * ys[q] * zs[r]
-            self.totals[measure, number] += term.sum()
-            self.sizes[measure, number] += np.abs(term).sum()
-
-    def _add_boxes(self, cells: Cells) -> None:
-        """Add parts of cells that lie entirely inside the body."""
-        if not len(cells):
-            return
-        nodes, weights = gauss_legendre((self.order + 1) // 2 + 1)
-        for node_indices in np.ndindex(*[len(nodes)] * 3):
-            u, v, w = nodes[list(node_indices)]
-            points = list((cells.origin + cells.size[:, None] * np.array([u, v, w])).T)
-            volumes = weights[list(node_indices)].prod() * cells.size**3
-            self._add_points(VOLUME, volumes, points)
-            if self.with_density:
-                above = np.einsum(
-                    "nijk,i,j,k->n", cells.corners, (1.0 - u, u), (1.0 - v, v), (1.0 - w, w)
-                )
-                self._add_points(MASS, volumes * (self.threshold + above), points)
-        self.terms += len(cells)
+            xs, ys, zs = (power_table(values, self.order) for values in (x, y, z0 + size * z))
+            for number, (p, q, r) in enumerate(self.powers[:, turn].tolist()):
+                term = amounts * xs[p] * ys[q] * zs[r]
+                self.totals[MASS, number] += term.sum()
+                self.sizes[MASS, number] += np.abs(term).sum()
 
     def _add_largest(self, sums: Array, cells: Cells, volumes: NDArray, areas: NDArray) -> None:
         """Add to (3, K) sums the largest moments that (n,) volumes and areas within n cells may

@@ -354,34 +354,3 @@ def test_surface_area_is_exact_along_a_constant_axis(axis, level):
     assert close(found.volume.center[axis], 0.5, rel=1e-11) and close(
         found.area.center[axis], 0.5, rel=1e-9
     )
-
-
-@pytest.mark.parametrize("order", [0, 1, 2, 3, 4, 5])
-def test_inner_parts_of_cells_are_integrated_exactly(order):
-    """A box with a density that rises along all axes at once."""
-    sums = threshold._Sums(order, 3.0, True, False, np.eye(3))
-    i, j, k = np.ogrid[:2, :2, :2]
-    corners = (1.0 + i) * (2.0 - j) * (1.0 + 3.0 * k)
-    origin, size = np.array([0.25, -0.5, 1.0]), 0.5
-    sums._add_boxes(threshold.Cells(corners[None], origin[None], np.array([size])))
-
-    def mean(at, start, slope, power):
-        """Integrate (start + slope u) (at + size u)^power over u from 0 to 1."""
-        line = (
-            np.polynomial.Polynomial([start, slope]) * np.polynomial.Polynomial([at, size]) ** power
-        )
-        return line.integ()(1.0)
-
-    volume, mass = np.zeros((2, len(monomials(order))))
-    for number, powers in enumerate(monomials(order).tolist()):
-        plain = [mean(at, 1.0, 0.0, power) for at, power in zip(origin, powers)]
-        rising = [
-            mean(at, *line, power)
-            for at, line, power in zip(origin, ((1, 1), (2, -1), (1, 3)), powers)
-        ]
-        volume[number] = size**3 * np.prod(plain)
-        mass[number] = size**3 * (3.0 * np.prod(plain) + np.prod(rising))
-    for measure, truth in ((threshold.VOLUME, volume), (threshold.MASS, mass)):
-        found = sums.totals[measure]
-        assert (np.abs(found - truth) <= 1e-14 * sums.sizes[measure]).all()
-        assert close(found[0], truth[0], rel=1e-15 * 8)
