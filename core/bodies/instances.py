@@ -102,45 +102,39 @@ class _Images:
 
 def _place_solids(solids: Sequence[tuple[SolidIntegrals, Array]]) -> _Images:
     """Return the images of solids under (k, 4, 4) maps each."""
-    corners = []
-    triangles = []
-    component = []
-    owner = []
-    place = []
-    is_closed = []
+    images_of_solids = []
     corner_count = component_count = place_count = 0
     displacement = 0.0
     for number, (solid, matrices) in enumerate(solids):
         parts = solid.parts()
         linear = matrices[:, :3, :3]
-        images = parts.points.astype(np.float64) @ linear.transpose(0, 2, 1)
-        corners.append((images + matrices[:, None, :3, 3]).reshape(-1, 3))
+        corners = parts.points.astype(np.float64) @ linear.transpose(0, 2, 1)
+        corners += matrices[:, None, :3, 3]
         # A mirrored image keeps its faces outward.
         is_mirrored = np.linalg.det(linear)[:, None, None] < 0.0
         faces = np.where(is_mirrored, parts.triangles[:, ::-1], parts.triangles).astype(np.intp)
         copies = np.arange(len(matrices))
         first_corner = corner_count + len(parts.points) * copies
         first_component = component_count + parts.number * copies
-        triangles.append((faces + first_corner[:, None, None]).reshape(-1, 3))
-        component.append((parts.part + first_component[:, None]).ravel())
         own_components = np.tile(np.arange(parts.number), len(copies))
-        owner.append(np.stack([np.full_like(own_components, number), own_components], axis=1))
-        place.append(np.repeat(place_count + copies, parts.number))
-        is_closed.append(np.tile(solid.oriented.solid & ~solid.oriented.mesh.open, len(copies)))
+        images_of_solids.append(
+            (
+                corners.reshape(-1, 3),
+                (faces + first_corner[:, None, None]).reshape(-1, 3),
+                (parts.part + first_component[:, None]).ravel(),
+                np.stack([np.full_like(own_components, number), own_components], axis=1),
+                np.repeat(place_count + copies, parts.number),
+                np.tile(solid.oriented.solid & ~solid.oriented.mesh.open, len(copies)),
+            )
+        )
         error = np.abs(linear) @ solid.repaired_surface.coordinate_error
         displacement = max(displacement, float(np.linalg.norm(error, axis=1).max()))
         corner_count += len(copies) * len(parts.points)
         component_count += len(copies) * parts.number
         place_count += len(copies)
-    return _Images(
-        np.concatenate(corners),
-        np.concatenate(triangles),
-        np.concatenate(component),
-        np.concatenate(owner),
-        np.concatenate(place),
-        np.concatenate(is_closed),
-        displacement,
-    )
+    arrays = [np.concatenate(of_solids) for of_solids in zip(*images_of_solids)]
+    corners, triangles, component, owner, place, is_closed = arrays
+    return _Images(corners, triangles, component, owner, place, is_closed, displacement)
 
 
 def compare_places(solids: Sequence[tuple[SolidIntegrals, Array]]) -> PlaceComparison:
