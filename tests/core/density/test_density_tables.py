@@ -83,17 +83,6 @@ def test_theorem_4_2_with_repeated_knots():
 
 
 @pytest.mark.parametrize("order", range(1, 7))
-def test_production_agrees_with_the_theorem(order):
-    knots = random_knots(order, 11)
-    table = full_support_integrals(knots, order, 3)
-    exact = [Fraction(knot) for knot in knots]
-    for power in range(4):
-        for i in range(2):
-            expected = float(integral_of_basis(exact, i, order, power, exact[i + order]))
-            assert table[power, i] == pytest.approx(expected, rel=1e-13, abs=1e-13 * table[0, i])
-
-
-@pytest.mark.parametrize("order", range(1, 7))
 def test_a_uniform_function_has_variance_k_twelfths(order):
     knots = SplineAxis.uniform(1, order).knots / 2.0
     table = full_support_integrals(knots, order, 4)[:, 0]

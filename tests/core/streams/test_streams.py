@@ -2,15 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Moments and closedness of meshes read in blocks, compared with meshes in memory."""
 
-from io import BytesIO
-
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.streams import measure_stream, open_mesh_file, ply_rows
 from body_moments.core.streams import stl as stl_module
-from body_moments.core.streams.ply_rows import Element, Property
 
 from tests.close import close
 from tests.core.bodies import (
@@ -217,16 +214,6 @@ def test_wrong_word_in_the_last_facet_is_refused(tmp_path, small_blocks):
         at = text.rindex(word)
         with refused("line_misread"):
             measured(tmp_path, "a.stl", text[:at] + b"_" + text[at + 1 :])
-
-
-@pytest.mark.parametrize("length, is_looked_for", [(1 << 26, True), ((1 << 26) + 1, False)])
-def test_a_list_has_up_to_two_to_the_twenty_sixth_numbers(length, is_looked_for):
-    """The rest of a file is looked through for so many, and not for more."""
-    file = BytesIO(length.to_bytes(4, "little") + bytes(2 * ply_rows.BYTES_PER_BLOCK))
-    face = Element("face", 1, (Property("vertex_indices", "u1", "u4"),))
-    with pytest.raises(ply_rows.RowsError):
-        next(ply_rows.RowReader(file, "<").read_rows(face))
-    assert (file.read(1) == b"") == is_looked_for
 
 
 @pytest.mark.parametrize("name", FORMS)
