@@ -190,20 +190,22 @@ def stack_planarity(stack: SurfaceStack) -> StackPlanarity:
     non_planar = np.zeros(face_count, bool)
     degenerate = np.zeros(face_count, bool)
     scaled_spread = np.zeros(count)
+    is_quad = np.zeros(face_count, bool)
+    is_quad[stack.quad_faces] = True
     if len(stack.quads):
         volumes, is_degenerate = classify(stack.quads, stack.quad_faces, QUAD)
         non_planar[stack.quad_faces] = volumes > 0.0
         degenerate[stack.quad_faces] = is_degenerate
         scaled_spread += np.bincount(face_owner[stack.quad_faces], volumes, count)
     # the halves of quads are among the triangles
-    rows = np.flatnonzero(sizes[stack.triangle_faces] != 4) if len(stack.quads) else slice(None)
+    rows = np.flatnonzero(~is_quad[stack.triangle_faces]) if len(stack.quads) else slice(None)
     faces = stack.triangle_faces[rows]
     if len(faces):
         _, is_degenerate = classify(stack.triangles[rows], faces, TRIANGLE)
         pieces = np.bincount(faces, minlength=face_count)
         degenerate_pieces = np.bincount(faces[is_degenerate], minlength=face_count)
         degenerate |= (degenerate_pieces > 0) & (degenerate_pieces == pieces)
-    polygons = np.flatnonzero(sizes > 4)
+    polygons = np.flatnonzero((sizes > 3) & ~is_quad)
     if len(polygons):
         first_corner = segment_starts(stack.corner_counts) - segment_starts(sizes)[stack.first_face]
         begin = (segment_starts(sizes) + first_corner[face_owner])[polygons]

@@ -287,6 +287,24 @@ def test_warped_quads_are_compared_as_drawn():
 
 
 @pytest.mark.filterwarnings("error")
+def test_halved_quads_are_bent_beside_whole_quads():
+    points = CORNERS.astype(float)
+    points[7] += [0, 0, 0.2]
+    whole_quads = mesh(points, SIDES)
+    quads = whole_quads.quads
+    halved = replace(
+        whole_quads,
+        triangles=np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]),
+        quads=quads[:0],
+        triangle_faces=np.tile(np.arange(6), 2),
+        quad_faces=np.zeros(0, int),
+    )
+    stack = measure_stack([whole_quads, halved])
+    for i, surface in enumerate((whole_quads, halved)):
+        assert_alike(stack, i, surface)
+        assert [found.code for found in stack[i].findings] == ["non_planar_faces"]
+
+
 @pytest.mark.parametrize("size", [2.0**-40, 2.0**15, 2.0**90, 2.0**125])
 def test_stack_of_any_size_gives_no_numpy_warning(size):
     stack = measure_stack([mesh(CORNERS * size, SIDES, np.float32)] * 2)
