@@ -76,17 +76,13 @@ def exported_links(path):
 
 
 def _stated(link, roots):
-    corners = [_corners(shape, roots) for shape in link.shapes if shape.role == "collision"]
-    corners = np.concatenate(corners) if corners else np.zeros((0, 3, 3))
-    return ExportedLink(link.inertial.mass, link.inertial.center, link.inertial.inertia, corners)
-
-
-def _corners(stated, roots):
-    surface, pose = (
-        stated.shape.surface or read_mesh(roots.find(stated.shape.file))[0],
-        stated.shape.pose,
-    )
-    return surface.points[surface.all_triangles()[0]] @ pose.rotation.T + pose.position
+    corners = [np.zeros((0, 3, 3))]
+    for shape in (stated.shape for stated in link.shapes if stated.role == "collision"):
+        surface = shape.surface or read_mesh(roots.find(shape.file))[0]
+        points = surface.points @ shape.pose.rotation.T + shape.pose.position
+        corners.append(points[surface.all_triangles()[0]])
+    inertial = link.inertial
+    return ExportedLink(inertial.mass, inertial.center, inertial.inertia, np.concatenate(corners))
 
 
 def _osim_link(body, roots):

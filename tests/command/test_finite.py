@@ -83,10 +83,6 @@ def said(path, count, code, **place):
     )
 
 
-def ply_head(format, *elements):
-    return "\n".join(["ply", f"format {format} 1.0", "comment nan", *elements, "end_header"]) + "\n"
-
-
 AXES = [f"property float {axis}" for axis in "xyz"]
 
 
@@ -101,14 +97,9 @@ def texts(word):
         "v {} {} {}\nvn nan 0 1e99\n".format(*corner) for corner in corners
     )
     obj += files.obj_text()[files.obj_text().index("f ") :]
-    ply = ply_head(
-        "ascii",
-        "element vertex 4",
-        *AXES,
-        "element face 4",
-        "property list uchar int vertex_indices",
-    )
-    ply += "".join("{} {} {}\n".format(*corner) for corner in corners)
+    head = ["ply", "format ascii 1.0", "comment nan", "element vertex 4", *AXES]
+    head += ["element face 4", "property list uchar int vertex_indices", "end_header", ""]
+    ply = "\n".join(head) + "".join("{} {} {}\n".format(*corner) for corner in corners)
     ply += "".join("3 {} {} {}\n".format(*face) for face in files.FACES)
     return {"t.stl": (stl, 5), "t.obj": (obj, 7), "t.ply": (ply, 13)}
 

@@ -53,13 +53,6 @@ def _turn(cosine):
     return [[cosine, -sine, 0], [sine, cosine, 0], [0, 0, 1]], float(atan2(sine, cosine))
 
 
-def _placed(turn, scale, move, point):
-    return [
-        sum(entry * factor * value for entry, factor, value in zip(row, scale, point)) + along
-        for row, along in zip(turn, move)
-    ]
-
-
 @pytest.mark.parametrize("far", [Fraction(1, 3), Fraction(12345678), Fraction(24691357, 3)])
 @pytest.mark.parametrize("rotation_mode", ["XYZ", "QUATERNION", "AXIS_ANGLE"])
 def test_turned_and_scaled_chain_is_within_its_bound(tmp_path, far, rotation_mode):
@@ -79,7 +72,10 @@ def test_turned_and_scaled_chain_is_within_its_bound(tmp_path, far, rotation_mod
         else:
             obj.rotation_axis_angle = angle, 0, 0, 1
         obj.scale, obj.location = list(map(float, scale)), list(map(float, move))
-        point = _placed(turn, scale, move, point)
+        point = [
+            sum(entry * factor * value for entry, factor, value in zip(row, scale, point)) + along
+            for row, along in zip(turn, move)
+        ]
         above = bpy.data.objects.new("Above", None)
         bpy.context.scene.collection.objects.link(above)
         obj.parent = above

@@ -59,7 +59,8 @@ def collect(folder: Path) -> dict[str, object]:
     names = {}
     for name in scenes.SCENES:
         table |= _operators(folder, name)
-        names[name] = _asked(name)
+        is_asked = scenes.NAMED.get(name, lambda _: False)
+        names[name] = sorted(obj.name for obj in bpy.context.scene.objects if is_asked(obj.name))
     for name, (options, wanted) in RUNS.items():
         table |= _measured(folder, name, options, [folder / (scene + ".blend") for scene in wanted])
     for name in scenes.NAMED:
@@ -104,11 +105,6 @@ def _operators(folder: Path, name: str) -> dict[str, object]:
         if stored:
             found["properties/{}/{}".format(name, obj.name)] = stored
     return found
-
-
-def _asked(name: str) -> list[str]:
-    wanted = scenes.NAMED.get(name, lambda _: False)
-    return sorted(obj.name for obj in bpy.context.scene.objects if wanted(obj.name))
 
 
 def _plain(value):

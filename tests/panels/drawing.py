@@ -142,10 +142,6 @@ def check(function, options):
     assert options.get("icon", "NONE") in ICONS
 
 
-def sidebar_panel(name):
-    return getattr(bpy.types, "_".join(filter(None, ("VIEW3D_PT_body_moments", name))))
-
-
 def shown(closed=(), without=()):
     """The record of the main panel and its sub-panels in Blender's own context, in their order, all
     open.
@@ -155,7 +151,7 @@ def shown(closed=(), without=()):
     layout = Layout(closed=closed)
     body.VIEW3D_PT_body_moments.draw(SimpleNamespace(layout=layout), bpy.context)
     for name in places.ORDER:
-        panel = sidebar_panel(name)
+        panel = getattr(bpy.types, "_".join(filter(None, ("VIEW3D_PT_body_moments", name))))
         if name not in without and (not hasattr(panel, "poll") or panel.poll(bpy.context)):
             layout.label(text=panel.bl_label)
             panel.draw(SimpleNamespace(layout=layout), bpy.context)

@@ -38,10 +38,6 @@ def blender_command() -> str | None:
     return os.environ.get("BLENDER") or shutil.which("blender")
 
 
-def missing_tools() -> list[str]:
-    return [tool for tool in TOOLS if shutil.which(tool) is None]
-
-
 class Window:
     """A running Blender with its window; use it in a `with`.
 

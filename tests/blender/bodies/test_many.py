@@ -93,10 +93,6 @@ def _is_stacked(found):
     return not isinstance(found, Exception) and found.index is not None
 
 
-def _is_together(found):
-    return isinstance(found.shapes[found.member.shape], SmallSolid)
-
-
 def all_outcomes(objects, options=AS_SET):
     depsgraph = bpy.context.evaluated_depsgraph_get()
     pairs = [
@@ -113,7 +109,9 @@ def test_stacked_shards_equal_single_measurements():
     pairs, depsgraph = all_outcomes(objects)
     stacked = {obj.name.split()[0] for obj, found in pairs if _is_stacked(found)}
     together = {
-        obj.name.split()[0] for obj, found in pairs if _is_stacked(found) and _is_together(found)
+        obj.name.split()[0]
+        for obj, found in pairs
+        if _is_stacked(found) and isinstance(found.shapes[found.member.shape], SmallSolid)
     }
     assert together >= {"shard", "box", "cylinder", "L", "two", "scattered"}
     assert together >= {"open", "tube", "holed", "halves", "warped"}

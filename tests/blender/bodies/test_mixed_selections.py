@@ -115,11 +115,6 @@ def refused(findings):
     return [found.values for found in findings if found.code == "failure"]
 
 
-def stored_warnings(obj):
-    found = sentences.of_severity(properties.findings(obj), Severity.WARNING, Severity.ERROR)
-    return [one.as_record() for one in found]
-
-
 def assert_equal(found, expected):
     assert found.keys() == expected.keys()
     for key, value in expected.items():
@@ -145,7 +140,12 @@ def test_a_mixed_selection_is_each_measured_by_itself(seed, tmp_path, reported):
     measure()
     together, total = {obj: stored_on(obj) for obj in objects}, displayed.total(bpy.context)
     groups = outcome.last().groups
-    warned = {obj.name_full for obj in objects if obj.library is None and stored_warnings(obj)}
+    warned = {
+        obj.name_full
+        for obj in objects
+        if obj.library is None
+        and sentences.of_severity(properties.findings(obj), Severity.WARNING, Severity.ERROR)
+    }
     shown = [group for group in total.groups if sentences.severity(group.finding) != Severity.NOTE]
     assert {name for group in shown for name in group.objects} == warned
     assert 0 < total.count < len(objects) and total.missing

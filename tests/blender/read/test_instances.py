@@ -157,10 +157,6 @@ def test_instances_nest_as_deep_as_blender_shows_them():
     check(empty("Instancer", inner), 7)
 
 
-def host_of(members):
-    return placed(empty("Instancer", members))
-
-
 def test_self_instancing_collection_is_read_once():
     members = collection("Members")
     cube("Body", members)
@@ -209,7 +205,7 @@ def test_instances_on_vertices_inside_a_collection_instance():
     parent = placed(cube("Parent", members))
     parent.instance_type = "VERTS"
     cube("Child", members).parent = parent
-    instancer = host_of(members)
+    instancer = placed(empty("Instancer", members))
     check(instancer, 10)
     parent.show_instancer_for_viewport = False
     check(instancer, 9)

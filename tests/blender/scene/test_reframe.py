@@ -78,10 +78,6 @@ def target_of(obj, turn=0.5, shift=(1.0, 2.0, 3.0)):
     return matrix
 
 
-def carry_out(*plans):
-    return reframe.reframe(bpy.context, list(plans))
-
-
 def parented(parent_type):
     parent = add(mesh_body("Parent"), "Parent", (0.5, 1, 2), (0.2, 0.1, 0.4), (2, 2, 2))
     obj = add(mesh_body(), location=(3, 0, 0))
@@ -104,7 +100,7 @@ def parented(parent_type):
 def test_below_a_parent_of_each_kind_the_body_stays(parent_type):
     obj = parented(parent_type)
     before, target = seen(obj), target_of(obj)
-    done, refusals = carry_out(Plan(obj, target, 3.0, False))
+    done, refusals = reframe.reframe(bpy.context, [Plan(obj, target, 3.0, False)])
     assert [plan.obj for plan in done] == [obj] and refusals == []
     assert np.abs(place(obj) - target).max() < 1e-5 and np.abs(seen(obj) - before).max() < 2e-5
 

@@ -33,11 +33,13 @@ def torus(n):
     return 0.31 - np.sqrt((np.hypot(x, y) - 0.55) ** 2 + z**2)
 
 
-def touching_balls(n):
-    return np.maximum(ball(n, 0.45, (-0.45, 0.03, 0.0)), ball(n, 0.45, (0.45, 0.03, 0.0)))
-
-
-BODIES = {"ball": ball, "torus": torus, "touching balls": touching_balls}
+BODIES = {
+    "ball": ball,
+    "torus": torus,
+    "touching balls": lambda n: np.maximum(
+        ball(n, 0.45, (-0.45, 0.03, 0.0)), ball(n, 0.45, (0.45, 0.03, 0.0))
+    ),
+}
 
 
 # The oracle: columns along x, whatever the density does along them; double exponential rules

@@ -26,11 +26,6 @@ from tests.core.findings import refused
 polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)
 
 
-def half_grid(half):
-    along = np.arange(-half, half + 1)
-    return np.stack(np.meshgrid(along, along, along[half:], indexing="ij"), axis=-1).reshape(-1, 3)
-
-
 @pytest.mark.parametrize("width", range(4, 15))
 def test_the_fast_sums_are_within_the_bound_of_their_aliasing(width):
     rng, half = np.random.default_rng(width), 6
@@ -39,7 +34,8 @@ def test_the_fast_sums_are_within_the_bound_of_their_aliasing(width):
     spreading = Spreading(half, width, 2)
     spreading.add(angles[:, :25], strengths[:, :25])
     spreading.add(angles[:, 25:], strengths[:, 25:])
-    k = half_grid(half)
+    along = np.arange(-half, half + 1)
+    k = np.stack(np.meshgrid(along, along, along[half:], indexing="ij"), axis=-1).reshape(-1, 3)
     waves = np.exp(-1j * (k @ angles))
     share = aliasing(half, width)[np.abs(k)].sum(axis=1)
     for found, strength in zip(spreading.sums(), strengths):

@@ -344,16 +344,12 @@ def test_a_section_survives_the_file_and_clear_takes_it_away(tmp_path):
     assert stored(obj) is None and "body_section" not in obj
 
 
-def region_of(obj, **options):
-    bpy.context.view_layer.update()
-    return flat_region(obj, bpy.context.evaluated_depsgraph_get(), **options)
-
-
 def test_curve_region_moments_overflow_is_refused():
     bpy.ops.curve.primitive_bezier_circle_add()
     obj = bpy.context.object
     obj.data.dimensions, obj.data.fill_mode, obj.scale = "2D", "BOTH", (1e15, 1e15, 1.0)
-    region = region_of(obj)
+    bpy.context.view_layer.update()
+    region = flat_region(obj, bpy.context.evaluated_depsgraph_get())
     assert region.curves and close(region.moments(2).total, np.pi * 1e30, rel=1e-3)
     with refusal("moments_overflow", order=24):
         region.moments(24)
