@@ -184,6 +184,7 @@ class IgesReader:
         """
         matrix = outer_matrix @ self._places.matrix(entry)
         faces: list[Face] = []
+        # Parts are shells and faces, which hold no subfigures, so no path is needed.
         for part, is_outward in self._parts(entry):
             part_faces = self._place(part, matrix, ())
             faces += (

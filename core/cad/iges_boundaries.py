@@ -71,6 +71,7 @@ class BoundaryReader:
             pieces = self._curves.read(curve, matrix)
             in_space.append(reverse_curves(pieces) if pieces and sense == AGAINST_CURVE else pieces)
             pointers = integers(fields[at + 3 :], parameter_count)
+            # None: a curve without parameters leaves those of the boundary unknown.
             parameters += self._parameter_curves(pointers) or [None]
             at += 3 + parameter_count
         return Boundary(_join_curves(in_space), _join_curves(parameters))
@@ -103,7 +104,7 @@ class BoundaryReader:
     ) -> list[Curve] | None:
         """Return an edge of a list, by its index from 1, in the direction of its use."""
         entry = self._text.entry(pointer, EDGES)
-        curve = 0
+        curve = 0  # no entity: an unknown curve
         if index > 0:
             # An edge has five numbers, the first of which points to its curve.
             (curve,) = integers(self._text.fields(entry)[1 + 5 * (index - 1) :], 1)

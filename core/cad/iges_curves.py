@@ -148,6 +148,7 @@ def _ellipse_arc(form: NDArray, z: float, begin: NDArray, end: NDArray) -> list[
     """
     square = form[:2, :2]
     center = -np.linalg.solve(2.0 * square, 2.0 * form[2, :2])
+    # Scaled so that (p - center) @ square @ (p - center) is 1 on the ellipse.
     square = square / (center @ square @ center - form[2, 2])
     if not np.trace(square) > 0.0:
         return None
@@ -168,6 +169,8 @@ def _open_arc(form: NDArray, z: float, begin: NDArray, end: NDArray) -> list[Cur
     if not meet[2]:
         return None
     meet /= meet[2]
+    # The tangents and both ends leave the form of first + 2 w meet + last at
+    # 2 first @ form @ last + 4 w² meet @ form @ meet, which is zero on the conic.
     squared_weight = -float(first @ form @ last) / (2.0 * float(meet @ form @ meet) or math.inf)
     if not squared_weight > 0.0:
         return None

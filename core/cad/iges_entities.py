@@ -171,6 +171,7 @@ def _global_fields(text: str) -> tuple[str, str, list[str]]:
 
     ValueError if damaged.
     """
+    # Each mark is a string of one character, such as “1H,”; a comma and a semicolon if left out.
     delimiter, rest = (text[2:3], text[3:]) if text.startswith("1H") else (",", text)
     if not rest.startswith(delimiter):
         raise ValueError("no delimiter")
@@ -186,6 +187,7 @@ def _unit(fields: list[str]) -> float:
 
     FileError if the unit is unknown, ValueError if a field is wrong.
     """
+    # The parameters 13 to 15 of the section, whose first two are the marks.
     scale_word, flag_word, name = padded(fields[10:], 3)
     scale = float(numbers([scale_word])[0]) or 1.0
     flag = _integer(flag_word) or 1

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -39,18 +39,6 @@ from .iges_types import (
 from .surfaces import SurfaceRefusedError, bezier_surface, placed_surface
 from .sweeps import join_pieces, revolve, revolved_quadric, rule
 from .trimmed import face_within, flat_region, is_flat, patch_sides
-
-
-@dataclass(frozen=True, eq=False)
-class _UncertainQuadric:
-    """A quadric; moved: effect of the decimals of its place and sizes on its points; tilt: that of
-    its directions, at a unit's distance. has_seam: whether its angle of zero is given.
-    """
-
-    quadric: Quadric
-    moved: float
-    tilt: float
-    has_seam: bool
 
 
 class SurfaceReader:
@@ -116,8 +104,7 @@ class SurfaceReader:
         self, surface: Entry, matrix: NDArray, boundaries: Sequence[Boundary], turning: float
     ) -> Face:
         """Return a part of a cylinder, cone, sphere or torus."""
-        uncertain = self._quadric(surface, matrix)
-        quadric = uncertain.quadric
+        quadric, has_seam, moved, tilt = self._quadric(surface, matrix)
         # The file's angles are in degrees; the second parameter of a line is a length.
         degrees = np.diag([TURN / 360.0, TURN / 360.0 if quadric.minor else 1.0, 1.0, 1.0])
         in_radians = [
@@ -127,18 +114,21 @@ class SurfaceReader:
             )
             for boundary in boundaries
         ]
-        loops = loops_in_space(in_radians, quadric if uncertain.has_seam else None)
+        loops = loops_in_space(in_radians, quadric if has_seam else None)
         face = face_within(quadric, loops, self._places.rounding)
         # A turn moves a sphere along itself, and a torus or a cylinder as it is long.
         reach = quadric.radius if quadric.minor or quadric.slope else 0.0
         if not quadric.minor:
             heights = quadric.project(face.points.reshape(-1, 3))[:, 1]
             reach += float(np.abs(heights).max())
-        self._places.note_rounding(uncertain.moved + (uncertain.tilt + turning) * reach)
+        self._places.note_rounding(moved + (tilt + turning) * reach)
         return face
 
-    def _quadric(self, surface: Entry, matrix: NDArray) -> _UncertainQuadric:
-        """Return a whole cylinder, cone, sphere or torus, placed by a (4, 4) matrix."""
+    def _quadric(self, surface: Entry, matrix: NDArray) -> tuple[Quadric, bool, float, float]:
+        """Return a whole cylinder, cone, sphere or torus, placed by a (4, 4) matrix, and whether
+        its angle of zero is given; the effect of the decimals of its place and sizes on its points,
+        and of those of its directions at a unit's distance.
+        """
         fields = self._text.fields(surface)
         if surface.type == BALL:
             location, axis, toward = integers([fields[0], *padded(fields[2:], 2)], 3)
@@ -170,13 +160,10 @@ class SurfaceReader:
             minor = last_size
         elif surface.type == CONE:
             slope = math.tan(math.radians(last_size))
+            # The angle is no size: it turns the lines of the cone.
             tilt += math.radians(self._text.rounding([sizes.pop()]))
-        return _UncertainQuadric(
-            quadric=Quadric(matrix @ frame, radius, minor, slope),
-            moved=self._text.rounding([*place, *sizes]),
-            tilt=tilt,
-            has_seam=bool(axis and toward),
-        )
+        moved = self._text.rounding([*place, *sizes])
+        return Quadric(matrix @ frame, radius, minor, slope), bool(axis and toward), moved, tilt
 
     def _swept_faces(
         self,
@@ -191,7 +178,7 @@ class SurfaceReader:
         reach = float(lengths(local_patch.points).max())
         self._places.note_rounding(self._curves.take_rounding() + turning * reach)
         patches = bezier_surface(local_patch.transform(matrix), (None, None), False)
-        # Parameters of other surfaces than splines are those of no exact form.
+        # The file's parameters, such as an angle, are not those of the patches in exact form.
         in_space = [replace(boundary, parameters=None) for boundary in boundaries]
         quadric = local_quadric.transform(matrix) if local_quadric else None
         return _trimmed_faces(quadric, patches, in_space, has_outer, self._places.rounding)

@@ -76,7 +76,7 @@ def has_surfaces(path: str | Path) -> bool:
         while block := file.read(1 << 20):
             if _WORD.search(rest + block):
                 return True
-            rest = block[-1024:]
+            rest = block[-1024:]  # A line may begin in one block and end in the next.
     return False
 
 
@@ -112,8 +112,8 @@ class ObjReader:
         bodies: dict[str, list[Face]] = {}
         for element in self._elements:
             make = partial(_faces, element, points, weights, self._for_blender)
-            made = self._refusals.keep(KIND, element.name, make)
-            bodies.setdefault(element.body, []).extend(made)
+            patches = self._refusals.keep(KIND, element.name, make)
+            bodies.setdefault(element.body, []).extend(patches)
         return self._refusals.file(
             [SurfaceBody(name, tuple(patches)) for name, patches in bodies.items()]
         )
@@ -298,9 +298,12 @@ def read_obj_meshes(path: Path) -> list[FileMesh]:
     points, corners, sides, starts = read_obj_faces(path)
     ends = np.append(0, np.cumsum(sides))
     meshes = []
+    # Of an object the faces from begin to end, and the vertices from first to last, where the next
+    # object begins.
     for i, (end, last, _) in enumerate([*starts[1:], (len(sides), len(points), "")]):
         begin, first, name = starts[i]
-        # Later faces may use the first vertices.
+        # An object without faces is left out if it has no vertices, or if it is what stands before
+        # the first “o”, whose vertices later faces may use.
         if begin == end and (first == last or i == 0 < len(starts) - 1):
             continue
         own = corners[ends[begin] : ends[end]]

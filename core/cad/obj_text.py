@@ -66,6 +66,7 @@ def check_obj_text(data: Data) -> None:
         for at, before in _find_suspects(lines):
             fault = _find_fault(text[at : text.index(b"\n", at)], before)
             if fault is not None:
+                # Find the statement's line in the file, where joined lines (\v) are apart.
                 for _ in range(text.count(b"\n", 0, at) + text.count(b"\v", 0, at)):
                     start = data.find(b"\n", start) + 1
                 refuse_line(data, start, fault)
@@ -129,11 +130,14 @@ class Lines:
         absolute values.
         """
         letters = self.letters[:-3]
+        # Unsigned: letters below "0" become large.
         is_part = (letters - ord("0") < 10) | (letters == ord("-")) | (letters == ord("+"))
         is_part &= np.repeat(is_indexed, self.ends - self.starts + 1)
         at = np.flatnonzero(is_part & ~np.append(False, is_part[:-1]))
         text = np.where(is_part, letters, np.uint8(ord(" "))).tobytes()
         value = np.abs(np.fromstring(text, np.int64, sep=" "))
+        # The kind is the number of slashes since the first index of a word; of two slashes without
+        # an index between them, the count is 2.
         is_first = self._is_word[at]
         slashes = np.cumsum(np.where(is_first, 0, 1 + (letters[at - 2] == ord("/"))))
         return at, slashes - np.maximum.accumulate(np.where(is_first, slashes, 0)), value
@@ -150,10 +154,12 @@ def _find_suspects(lines: Lines) -> list[tuple[int, NDArray]]:
         at = lines.text.index(b"\n", at) + 1
     is_indexed = lines.has_kind("flp") & ~is_odd
     if is_indexed.any():
-        at, role, value = lines.indices(is_indexed)
+        offsets, role, value = lines.indices(is_indexed)
+        # First a quick choice, by the counts before the first such line: others are no lower.
         least = lines.before[:, np.argmax(is_indexed)]
-        at, role, value = (row[(value == 0) | (value > least[role])] for row in (at, role, value))
-        line = np.searchsorted(lines.starts, at, "right") - 1
+        is_suspect = (value == 0) | (value > least[role])
+        offsets, role, value = offsets[is_suspect], role[is_suspect], value[is_suspect]
+        line = np.searchsorted(lines.starts, offsets, "right") - 1
         limit = lines.before[role, line]
         # Importers ignore vt and vn if there are none.
         is_odd[line[((value == 0) | (value > limit)) & ((role == 0) | (limit > 0))]] = True
@@ -198,6 +204,7 @@ def _find_index_fault(word: bytes, before: Sequence[int] | NDArray) -> Fault | N
     if not re.fullmatch(_ANY_INDEX, word):
         return shorten(word), WHOLE
     for role, (number, count) in enumerate(zip(word.split(b"/"), before)):
+        # Longer numbers are above any count; `int` refuses those of thousands of digits.
         is_there = len(number) < 19 and 0 < abs(int(number or 0)) <= count
         if number and not is_there and (count or not role):
             return shorten(word), VERTEX

@@ -45,6 +45,11 @@ class _Name(str):
     """The name of an entity or a type, before its values."""
 
 
+def untyped(value: Any) -> Any:
+    """Return an attribute's value without its type, the single one of a pair of type and values."""
+    return value[1][0] if isinstance(value, tuple) else value
+
+
 class Part21:
     """The instances of a STEP file.
 
@@ -89,12 +94,11 @@ class Part21:
 
     def extract(self, *lines: str) -> bytes:
         """Return a file of these statements and of all instances that they need."""
-        last = "".join(lines).encode()
         needed: set[int] = set()
-        texts = [last]
-        for text in texts:
-            found = set(map(int, _REFERENCE.findall(text))) - needed
-            for number in found & self._spans.keys():
+        texts = ["".join(lines).encode()]
+        for text in texts:  # which grow by the instances that a text refers to
+            references = set(map(int, _REFERENCE.findall(text))) - needed
+            for number in references & self._spans.keys():
                 needed.add(number)
                 texts.append(b"#%d=%s;\n" % (number, self._data[slice(*self._spans[number])]))
         return b"ISO-10303-21;\n%sEND-ISO-10303-21;\n" % b"".join(texts)
@@ -134,6 +138,7 @@ def _parts(text: str) -> Parts:
             stack[-1].append((stack[-1].pop().upper(), values) if is_named else values)
     if len(stack) != 1 or len(stack[0]) != 1:
         raise ValueError("damaged")
+    # One entity is a pair of its name and attributes, several are a list of such pairs.
     return dict(stack[0][0] if isinstance(stack[0][0], list) else stack[0])
 
 

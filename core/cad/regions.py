@@ -116,7 +116,7 @@ def curved_region(
     seam_points = np.concatenate(
         [no_points, *(samples[k][len(samples[k]) // 2][None] for k in seams)]
     )
-    if beyond is not None:
+    if beyond is not None:  # Points near the loops tell nothing about their sides.
         around = np.concatenate([no_points, *(samples[k] for k in boundary)])
         apart = np.linalg.norm(beyond[:, None] - around, axis=2).min(axis=1, initial=np.inf)
         beyond = beyond[apart > CLEAR_RTOL * size]
@@ -130,13 +130,14 @@ def curved_region(
     face = TrimmedFace(
         chart,
         tuple(track.curves for track in region.tracks),
+        # First an array of no pieces, for a face without loops.
         np.concatenate([sample_pieces([])[..., :2], *(track.pieces for track in region.tracks)]),
         np.concatenate([np.zeros((0, 2, 2)), *track_lines, *region.whole_surface]),
         axis,
         region.base,
         deviation,
     )
-    # A seam that is in other pieces each way shows no side of it.
+    # A seam in other pieces each way is no pair of curves: along it, loops bound a face of no area.
     is_unsure = chart.is_closed and tracks and beyond is None and not len(seam_points)
     thin = SEAM_RTOL * size * face.perimeter
     if is_unsure and face.area_moments(0, controls[0]).total <= thin:
@@ -150,12 +151,13 @@ def _follow_sides(chart: SplineChart, tracks: Sequence[Track], rounding: float) 
         return True
     places = np.concatenate([track.pieces.reshape(-1, 2) for track in tracks])
     ends = np.array([space.domain for space in chart.patch.spaces])
+    # (n, 2, 2) relative distances from the begin and the end of both parameters
     away = np.abs(places[:, :, None] - ends) / np.ptp(ends, axis=1)[:, None]
     away[:, np.array(chart.periods) > 0.0] = np.inf
     axis, end = np.divmod(away.reshape(-1, 4).argmin(axis=1), 2)
     on_side = places.copy()
     np.put_along_axis(on_side, axis[:, None], ends[axis, end][:, None], axis=1)
-    apart = np.subtract(*(chart.evaluate(*row.T)[0] for row in (places, on_side)))
+    apart = np.subtract(*(chart.evaluate(*at.T)[0] for at in (places, on_side)))
     tolerance = WELDING_RTOL * patches_size([chart.patch]) + 4.0 * rounding
     return bool(np.linalg.norm(apart, axis=0).max() <= tolerance)
 
@@ -301,6 +303,7 @@ def _closed_surface_region(
         }
         if len(are_inside) > 1 or not are_inside and beyond is not None:
             raise SurfaceRefusedError(SURFACE_TRIMMED)
+        # Seams should be inside and points beyond outside, else the loops are reversed.
         if are_inside == {not has_seam}:
             tracks = [track.reverse() for track in tracks]
             bounds_rest = not bounds_rest

@@ -25,7 +25,7 @@ from ..nurbs import Curve, Face, close_pairs, patches_size, reverse_curves
 from ..verdict import WELDING_RTOL, FileError, finding
 from .findings import CURVES_LEFT_OUT, SURFACE_DAMAGED, SURFACES_HIDDEN
 from .iges_entities import MAX_DEPTH
-from .part21 import Part21, Reference
+from .part21 import Part21, Reference, untyped
 from .step_shapes import EntityError, Shapes, blame
 from .surfaces import MISSING, RECURSION, Refusals, SurfaceBody, SurfaceFile, refuse
 
@@ -171,16 +171,20 @@ class StepReader:
 
     def _take_usage(self, _: int, values: list[Any]) -> None:
         """Take the part that a relationship places: the related one of a usage."""
+        # The shape's definition is the usage, whose fifth attribute is the part.
         self._relations[values[0]] = self._attribute(self._attribute(values[1], 2), 4)
 
     def _take_twins(self, number: int, values: list[Any]) -> None:
         """Take two representations in the same coordinates."""
         if "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION" not in self._text[number]:
-            for one, other in (values[2:4], values[3:1:-1]):
-                self._twins.setdefault(one, []).append(other)
+            first, second = values[2:4]
+            self._twins.setdefault(first, []).append(second)
+            self._twins.setdefault(second, []).append(first)
 
     def _take_placed_part(self, number: int, values: list[Any]) -> None:
-        """Take a placed part of an assembly: by custom the first representation."""
+        """Take a placed part of an assembly: by custom the first representation, or the second if
+        only that belongs to the product of the part.
+        """
         _, _, child, parent = self._text[number]["REPRESENTATION_RELATIONSHIP"]
         _, frames = self._shapes.pick(values[0], ("ITEM_DEFINED_TRANSFORMATION",))
         part = self._relations.get(number)
@@ -204,10 +208,11 @@ class StepReader:
 
     def _take_hidden(self, _: int, values: list[Any]) -> None:
         """Take the items of hidden styles and layers."""
-        for one in values[0]:
-            with self._noting(one):
+        for style_or_layer in values[0]:
+            with self._noting(style_or_layer):
                 kinds = "STYLED_ITEM", "PRESENTATION_LAYER_ASSIGNMENT"
-                items = self._shapes.pick(one, kinds)[1][2]
+                # Of both, the items are the third attribute.
+                items = self._shapes.pick(style_or_layer, kinds)[1][2]
                 self._hidden.update(items if isinstance(items, list) else [items])
 
     def _take_style(self, _: int, values: list[Any]) -> None:
@@ -219,7 +224,7 @@ class StepReader:
     def _color(self, value: Any, seen: set[int]) -> tuple[float, ...] | None:
         """Return the first color to which attributes lead, or None. seen: references on the way."""
         if isinstance(value, (list, tuple)):
-            return next(filter(None, (self._color(one, seen) for one in value)), None)
+            return next(filter(None, (self._color(member, seen) for member in value)), None)
         if not isinstance(value, Reference) or value in seen or len(seen) > MAX_STYLES:
             return None
         seen.add(value)
@@ -233,8 +238,8 @@ class StepReader:
     def _group(self, number: int) -> list[int]:
         """Return the representations in the same coordinates as one, itself first."""
         group = [number]
-        for one in group:
-            group += [twin for twin in self._twins.get(one, ()) if twin not in group]
+        for member in group:  # which grows by the twins of its members
+            group += [twin for twin in self._twins.get(member, ()) if twin not in group]
         return group
 
     def _units(self, number: int) -> tuple[float, float, float]:
@@ -275,10 +280,11 @@ class StepReader:
 
     def _measure(self, number: int) -> tuple[float, int]:
         """Return the value of a measure and its unit."""
-        values = self._text[number].values()
-        value, unit = next(attributes for attributes in values if len(attributes) > 1)[:2]
+        # Of several entities only MEASURE_WITH_UNIT has more than one attribute: first these two.
         # OpenCascade leaves out the type of the value in AP203.
-        return float(value[1][0] if isinstance(value, tuple) else value), unit
+        entities = self._text[number].values()
+        value, unit = next(attributes for attributes in entities if len(attributes) > 1)[:2]
+        return float(untyped(value)), unit
 
     def _matrix(self, frame: int, representation: int) -> Array:
         """Return the (4, 4) matrix of a placement in a representation, in the file's unit."""
@@ -317,6 +323,7 @@ class StepReader:
             return any(
                 name.endswith(BODIES) for k in parts["GEOMETRIC_SET"][1] for name in self._text[k]
             )
+        # The last attribute of a tessellated solid is the exact one.
         is_shown = parts.get("TESSELLATED_SOLID", [None])[-1] in self._items
         return not is_shown and any(name.endswith(BODIES) for name in parts)
 
@@ -372,6 +379,7 @@ class StepReader:
         """Return the name of the product that has a representation, or an empty text."""
         for twin in self._group(number):
             if twin in self._owners:
+                # A definition is of a formation, which is of a product.
                 product = self._attribute(self._attribute(self._owners[twin], 2), 2)
                 return self._attribute(product, 1) or self._attribute(product, 0)
         return ""
@@ -435,7 +443,7 @@ class StepReader:
             return []
         curves: list[Curve] = []
         if name == "POLY_LOOP":
-            points = np.array([self._shapes.point(one) for one in values[1]])
+            points = np.array([self._shapes.point(corner) for corner in values[1]])
             pairs = np.stack([points, np.roll(points, -1, axis=0)], axis=1)
             curves = [Curve(clamped_space(2), pair) for pair in pairs]
         else:
@@ -455,10 +463,9 @@ class StepReader:
         """Return the curves of an edge from its first to its last vertex."""
         if number not in self._edges:
             with blame(number):
-                _, values = self._shapes.pick(number, ("EDGE_CURVE",))
-                _, *vertices, curve, same = values
+                _, (_, *vertices, curve, same) = self._shapes.pick(number, ("EDGE_CURVE",))
                 ends = [
-                    self._shapes.point(self._shapes.pick(vertex, ("VERTEX_POINT",))[1][1])
+                    self._shapes.point(self._shapes.attribute(vertex, "VERTEX_POINT", 1))
                     for vertex in vertices
                 ]
                 curves = self._shapes.curve(curve, ends if same else ends[::-1])

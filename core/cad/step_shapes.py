@@ -30,7 +30,7 @@ from ..nurbs import (
 from ..verdict import FileError, MeasureError
 from .findings import SURFACE_UNSUPPORTED
 from .iges_entities import MAX_DEPTH
-from .part21 import Part21, Reference
+from .part21 import Part21, Reference, untyped
 from .regions import MISS_RTOL
 from .surfaces import RECURSION, SurfaceRefusedError, bezier_surface, placed_surface, reason, refuse
 from .sweeps import conic_pieces, join_pieces, revolve, revolved_quadric, rule
@@ -84,9 +84,13 @@ class Shapes:
             raise SurfaceRefusedError(SURFACE_UNSUPPORTED, base=max(parts, key=len))
         return name, parts[name]
 
+    def attribute(self, number: int, name: str, index: int) -> Any:
+        """Return an attribute of the entity of a name."""
+        return self.pick(number, (name,))[1][index]
+
     def triple(self, number: int, name: str) -> Array:
         """Return the (3,) coordinates of a point or a direction."""
-        values = np.array(self.pick(number, (name,))[1][1], np.float64)
+        values = np.array(self.attribute(number, name, 1), np.float64)
         if values.shape != (3,):
             raise ValueError("not in space")
         return values
@@ -105,12 +109,12 @@ class Shapes:
 
     def along(self, number: int) -> Array:
         """Return a (3,) direction of length 1 of a vector."""
-        return self.direction(self.pick(number, ("VECTOR",))[1][1])
+        return self.direction(self.attribute(number, "VECTOR", 1))
 
     def frame(self, number: int) -> Array:
         """Return the (4, 4) matrix of a placement."""
         name, values = self.pick(number, ("AXIS2_PLACEMENT_3D", "AXIS1_PLACEMENT"))
-        axis, toward = (*values[2:], None, None)[:2]
+        axis, toward = (*values[2:], None, None)[:2]  # None if left out
         matrix = np.eye(4)
         z = matrix[:3, 2] if axis is None else self.direction(axis)
         # Without a direction of reference: first_proj_axis of ISO 10303-42.
@@ -155,12 +159,13 @@ class Shapes:
             if isinstance(trim, Reference):
                 return self.point(trim)
         name, values = self.pick(base, _CURVES)
-        at = trims[0][1][0] if isinstance(trims[0], tuple) else trims[0]
+        at = untyped(trims[0])
         if name == "LINE":
-            length = self.pick(values[2], ("VECTOR",))[1][2]
+            length = self.attribute(values[2], "VECTOR", 2)
             return self.point(values[1]) + at * length * self.along(values[2])
         if name in ("CIRCLE", "ELLIPSE"):
             angle = self.angle * at
+            # A circle has one size, its last attribute; an ellipse has two.
             place = values[2] * math.cos(angle), values[-1] * math.sin(angle), 0.0, 1.0
             return (self.frame(values[1]) @ place)[:3]
         (curve,) = self.curve(base, None)
@@ -168,6 +173,7 @@ class Shapes:
 
     def _moved_to_vertices(self, curves: list[Curve], ends: Sequence[Array]) -> list[Curve]:
         """Return curves end to end whose first and last point are moved to vertices."""
+        # 0 and -1: the first point of the first curve, and the last point of the last one.
         gap = max(float(np.linalg.norm(curves[k].points[k] - ends[k])) for k in (0, -1))
         size = max(float(np.ptp(curve.points, axis=0).max()) for curve in curves)
         if gap > max(MISS_RTOL * size, UNCERTAINTIES * self.uncertainty):
@@ -192,6 +198,7 @@ class Shapes:
         with self._nested():
             if name in _SURFACES:
                 return _SURFACES[name](self, self.text[number], values, loops)
+            # A rectangular part of a surface: the loops bound it again.
             return self.surface(values[1], loops)
 
 
@@ -207,6 +214,7 @@ def _line(shapes: Shapes, _: Any, values: list[Any], ends: Ends) -> list[Curve]:
 def _conic(shapes: Shapes, values: list[Any], ends: Ends, kind: str) -> list[Curve]:
     """Return pieces of a conic between points, or all of an ellipse."""
     frame = shapes.frame(values[1])
+    # A circle and a parabola have one size, which is the last attribute too.
     x_size, y_size = values[2], values[-1]
     if not min(x_size, y_size) > 0.0:
         raise ValueError("a conic without size")
@@ -250,6 +258,7 @@ def _knots(
 
 def _spline_values(parts: dict[str, list[Any]], kind: str) -> tuple[list[Any], Any]:
     """Return the attributes of a B-spline after its name, and its weights or None."""
+    # Of a single entity, all attributes follow its name; of several, each has its own.
     knots = parts.get("B_SPLINE_{}_WITH_KNOTS".format(kind), [])
     values = (
         next(iter(parts.values()))[1:] if len(parts) == 1 else [*parts["B_SPLINE_" + kind], *knots]
@@ -276,7 +285,7 @@ def _composite(shapes: Shapes, _: Any, values: list[Any], ends: Ends) -> list[Cu
     """Return the curves of a chain of trimmed curves."""
     curves: list[Curve] = []
     for segment in values[1]:
-        _, same, curve = shapes.pick(segment, ("COMPOSITE_CURVE_SEGMENT",))[1]
+        _, (_, same, curve) = shapes.pick(segment, ("COMPOSITE_CURVE_SEGMENT",))
         segment_curves = shapes.curve(curve, None)
         curves += segment_curves if same else reverse_curves(segment_curves)
     gaps = [
@@ -293,13 +302,17 @@ def _composite(shapes: Shapes, _: Any, values: list[Any], ends: Ends) -> list[Cu
 
 
 def _part(curve: Curve, ends: Ends) -> list[Curve]:
-    """Return the pieces of a spline from the first to the second of two points, or all of it."""
+    """Return the pieces of a spline from the first to the second of two points, or all of it; of a
+    closed spline, past its begin if the second point comes first.
+    """
     if ends is None:
         return [curve]
     low, high = curve.space.domain
     samples = curve.evaluate(np.linspace(low, high, SAMPLES))
     size = float(np.ptp(samples, axis=0).max())
     start, end = nearest_parameters(curve, samples, np.array(ends), 1e-9 * size).tolist()
+    # Chosen, far above rounding and below what files draw: shorter pieces are none, and ends nearer
+    # than a millionth of the size close the curve.
     shortest = 1e-9 * (high - low)
     is_closed = np.linalg.norm(samples[0] - samples[-1]) <= 1e-6 * size
     parts = [(start, high), (low, end)] if is_closed and end <= start + shortest else [(start, end)]
@@ -357,6 +370,7 @@ def _torus(shapes: Shapes, parts: Any, values: list[Any], loops: Loops) -> Any:
     """
     torus = _quadric_of(3)(shapes, parts, values, loops)
     inner = replace(torus, radius=-torus.radius)
+    # A degenerate torus has a fifth attribute, True for the outer part.
     is_inner = len(values) > 4 and not values[4]
     if torus.minor > torus.radius and len(values) == 4:
         if not loops:
@@ -378,6 +392,7 @@ def _offset(shapes: Shapes, _: Any, values: list[Any], loops: Loops) -> Any:
     if not isinstance(surface, Quadric):
         raise SurfaceRefusedError(SURFACE_UNSUPPORTED, base="OFFSET_SURFACE")
     side = np.sign(np.linalg.det(surface.frame))  # -1.0 if the normal points inward
+    # Off a cone of slope k the radius grows by sqrt(1 + k²) times the distance.
     away = side * float(values[2]) * math.hypot(1.0, surface.slope)
     size = (surface.minor or surface.radius) + away
     if size <= 0.0 and not surface.slope:
@@ -393,7 +408,7 @@ def _extrusion(shapes: Shapes, _: Any, values: list[Any], loops: Loops) -> Any:
     """
     along = shapes.along(values[2])
     if shapes.pick(values[1], (*_CURVES, *_BASES))[0] == "LINE":
-        return np.cross(shapes.along(shapes.pick(values[1], ("LINE",))[1][2]), along)
+        return np.cross(shapes.along(shapes.attribute(values[1], "LINE", 2)), along)
     profile = join_pieces(shapes.curve(values[1], None))
     heights = np.concatenate([curve.points for loop in loops for curve in loop]) @ along
     profile_heights = profile.points @ along

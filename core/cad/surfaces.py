@@ -91,7 +91,7 @@ def reason(error: Exception) -> tuple[str, Mapping[str, Any]]:
     if isinstance(error, SurfaceRefusedError):
         return error.finding.code, error.finding.values
     if isinstance(error, MeasureError):
-        # It is about the control points.
+        # Other errors of measurements can only be about the control points here.
         return SURFACE_POINTS, {"cause": error.finding}
     is_missing = isinstance(error, KeyError) and isinstance(error.args[0], int)
     fault = MISSING if is_missing else "numbers that are missing or not possible"
@@ -223,6 +223,7 @@ def is_storable(face: Face) -> bool:
     return (
         isinstance(face, Patch)
         and max(space.order for space in face.spaces) <= MAX_ORDER
+        # With margin above the smallest float32, 1e-38, for weights relative to the largest.
         and (face.weights is None or bool(face.weights.min() >= 1e-30 * face.weights.max()))
     )
 

@@ -90,6 +90,7 @@ def lifted(surface: Patch | Quadric, parameters: Sequence[Curve]) -> list[Curve]
     chart = surface if isinstance(surface, Quadric) else SplineChart(surface)
     if isinstance(chart, SplineChart):
         _check_domain(chart, parameters)
+    # Chebyshev's extrema, at which interpolation is almost as near as can be.
     nodes = (1.0 - np.cos(np.pi * np.arange(LIFTED_ORDER) / (LIFTED_ORDER - 1.0))) / 2.0
     between = (nodes[1:] + nodes[:-1]) / 2.0
     space = clamped_space(LIFTED_ORDER)

@@ -34,7 +34,7 @@ VOLUME_RTOL = 4e-15  # Relative to the largest possible moment: about the unavoi
 ROUNDING = (
     64.0  # Estimated rounding: units roundoff of the sum of absolute values, per order of a basis.
 )
-# along s and t the points of a Gauss rule, or of two side by side
+# For s and for t: the point count of one Gauss rule, or the counts of two, whose points are joined.
 Rule = tuple[tuple[int, ...], tuple[int, ...]]
 Weights = tuple[Array, Array]
 # Up to this many cells of a patch keep a common anchor: none is so small that rounding by the
@@ -114,8 +114,10 @@ class BezierCells:
         s_basis, s_weights = bernstein(k, rule[0], most, ends)
         t_basis, t_weights = bernstein(kk, rule[1], most, ends)
         m, n = s_basis.shape[1], t_basis.shape[1]
+        # half[j]: the j-th derivatives by t at the n points along t, for k control points along s.
         half = np.matmul(self.net.reshape(-1, kk), t_basis.swapaxes(1, 2)).reshape(-1, d, k, c * n)
         s_basis = s_basis.reshape(-1, k)
+        # blocks[j][:, i]: its i-th derivative by s, with i + j ≤ most.
         blocks = [
             np.matmul(s_basis[: (most + 1 - j) * m], half[j]).reshape(d, -1, m, c, n)
             for j in range(most + 1)
@@ -154,13 +156,15 @@ def _cells_of_group(
     (3,).
     """
     u, v = len(spaces[0].spans), len(spaces[1].spans)
-    step = max(1, MAX_CELLS // (u * v))
+    patches_per_step = max(1, MAX_CELLS // (u * v))
     spans_per_step = max(1, MAX_CELLS // v)
-    for first in range(0, len(group), step):
-        some = group[first : first + step]
+    for first in range(0, len(group), patches_per_step):
+        some = group[first : first + patches_per_step]
         nets = np.array([patch.points for patch in some])
         anchor = nets[:, 0, 0].copy()
-        nets -= anchor[:, None, None]  # first: far from `about` the differences would be rounded
+        # The anchor is subtracted before `about`: far from this, the small differences of a patch's
+        # points would be rounded.
+        nets -= anchor[:, None, None]
         anchor -= about
         control_points = nets + anchor[:, None, None]
         reach = math.sqrt(
@@ -184,8 +188,11 @@ def cells_of_nets(
     reach: float,
 ) -> BezierCells:
     """Return the Bézier cells of control nets (g, count_s, count_t, 3 or 4) over knot spans.
-    anchor: (g, 3) origins.
+
+    anchor: (g, 3) origins of the nets. spans: u and v indices along s and t. constant_weights,
+    reach: as in BezierCells.
     """
+    # k, kk: orders; d: coordinates of a control point.
     s = spaces[0].bezier_extraction[spans[0]]
     active_rows = spaces[0].active_controls[spans[0]]
     t = spaces[1].bezier_extraction[spans[1]]
@@ -249,9 +256,11 @@ def halves(order: int) -> tuple[Array, Array]:
 
 
 def quotient_derivatives(derivatives: list[NDArray]) -> list[Array]:
-    """Return derivatives of a quotient in place, from those of numerator (rows 0 to 2) and
-    denominator (row 3).
+    """Return derivatives of a quotient, from those of numerator (rows 0 to 2) and denominator (row
+    3), which are overwritten.
     """
+    # Of q = p / w: q_s = (p_s - q w_s) / w, and q_st = (p_st - q_s w_t - q_t w_s - q w_st) / w.
+    # The pairs below are the rows of the first derivatives in q_ss, q_st and q_tt, from row 3 on.
     inverse = 1.0 / derivatives[0][3]
     result = [row[:3] for row in derivatives]
     bottom = [row[3] for row in derivatives]
@@ -288,6 +297,8 @@ def weighted_monomials(place: NDArray, density: NDArray, order: int, more: int =
     terms[0] = density
     if order:
         np.multiply(place, density, out=terms[1:4])
+    # Monomials by degree; those of the next one are x times all of this one, y times the ones
+    # without x, the last degree + 1, and z times the very last.
     start = 1
     for degree in range(1, order):
         end = monomial_count(degree)
@@ -308,13 +319,14 @@ def sum_over_points(terms: NDArray, weights: Weights) -> Array:
     count, m, c, n = terms.shape
     s_weights, t_weights = weights
     half = (terms.reshape(-1, n) @ t_weights).reshape(count, m, -1)
+    # Two rules are joined along s or along t; the other direction has a single column of weights.
     sums = np.matmul(s_weights.T, half).reshape(count, s_weights.shape[1], c, -1)
     return sums.transpose(1, 3, 0, 2).reshape(-1, count, c)
 
 
 def undersampled_areas(cells: BezierCells, steep: float) -> Array:
-    """Return (c,) squared diagonals of cells whose weights differ by a factor above `steep`, else
-    0.
+    """Return (c,) estimates of the areas that a rule may miss: squared diagonals of cells whose
+    weights differ by a factor above `steep`, else 0.
     """
     lost = np.zeros(len(cells))
     if len(cells.net) == 4:

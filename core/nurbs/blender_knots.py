@@ -43,8 +43,9 @@ def blender_knots(count: int, order: int, cyclic: bool, bezier: bool, endpoint: 
     """Return the knot vector of a valid direction: count + order knots, and order - 1 more if it is
     cyclic.
     """
-    # Knots with equal values: `head` at the begin, then `repeat` of each value, one higher than the
-    # one before; the last `tail` ones go on with the distances of the first knots.
+    # As makeknots: `head` equal knots, then `repeat` knots of each next whole number. The last
+    # `tail` knots go on from there with the distances of the first ones. With both *Endpoint* and
+    # *Cyclic* a single 0 stands before all, and the others begin at 1.
     repeat = order - 1 if bezier else 1
     head = min(2, repeat)
     tail = 0
@@ -99,6 +100,9 @@ def display_parameters(space: SplineSpace, resolution: int) -> Array:
 def display_table(space: SplineSpace, parameters: NDArray) -> Array:
     """Return (n, count) weights of the control points in Blender's display mesh at n parameters."""
     table = space.collocation_matrix(np.minimum(parameters, space.domain[1]))
+    # Float32 sums may drift past the domain; Blender then evaluates the same functions beyond it.
+    # Knots after the last make them known there, and the functions that these add are left out.
+    # (The last parameter of a cyclic space is a whole step before the end.)
     past = (parameters > space.domain[1]) & (space.knots[-1] > space.domain[1])
     if past.any():
         knots = space.knots + tuple(space.knots[-1] + 1.0 + i for i in range(space.order))
@@ -135,8 +139,8 @@ def bezier_patches(
 
 
 def bezier_curves(curve: Curve, part: tuple[float, float] | None = None) -> list[Curve]:
-    """Convert a part (low, high) of a curve, None for all of it, in the same way, into curves
-    without jumps.
+    """Convert a part (low, high) of a curve, None for all of it, as `bezier_patches` does, into
+    curves without jumps.
     """
     net = homogeneous(curve.points, curve.weights)
     return [
@@ -172,6 +176,8 @@ def _pieces(space: SplineSpace, part: tuple[float, float] | None) -> Iterator[Ar
     for edge, block, columns in zip(edges, weights, controls):
         dense = np.zeros((space.order, space.count))
         np.add.at(dense.T, columns, block.T)
+        # At a knot of the order's multiplicity the curve may jump; at others, the first control
+        # point of a Bézier piece is the last one of the piece before.
         if rows and np.count_nonzero(knots == edge[0]) >= space.order:
             yield np.concatenate(rows)
             rows = []

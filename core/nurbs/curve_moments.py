@@ -78,6 +78,7 @@ def length_moments(curves: Sequence[Curve], order: int = 3) -> Moments:
         curves, length, 1.0, order, about, reach, LENGTH_TOLERANCE, kinks=True
     )
     powers = reach ** degree.astype(np.float64)
+    # 8: chosen, above the order of most curves.
     error = estimate * powers + ROUNDING * U * 8 * (size * powers)
     return Moments(values, about, Measure.LENGTH, error)
 
@@ -101,6 +102,7 @@ def plane_moments(
 
     values, estimate, size = _integrate(curves, flux, reach, order, center, reach, VOLUME_RTOL)
     powers = reach ** (degree + 1.0)
+    # The estimate has the factor `reach` of the flux already. 8: as for lengths.
     error = (estimate / max(reach, 1e-300) * powers + ROUNDING * U * 8 * size * powers) / (
         degree + 2.0
     )
@@ -208,6 +210,7 @@ def _doubtful_lengths(net: NDArray, kinks: bool, largest: float) -> Array:
     edges = np.diff(net[..., :3] / net[..., 3:] if net.shape[2] == 4 else net, axis=1)
     length = np.sqrt((edges**2).sum(axis=2)).sum(axis=1)
     doubtful = np.zeros(len(net))
+    # A piece can turn back only if an edge of its control polygon points against the sum of all.
     if kinks:
         doubtful += length * ~(np.einsum("ckd,cd->ck", edges, edges.sum(axis=1)).min(axis=1) >= 0.0)
     if net.shape[2] == 4:

@@ -128,6 +128,7 @@ class FlatFace:
         degree = monomials(order).sum(axis=1)
         height = float((self.center - about) @ self.normal)
         reach = float(np.sqrt(((self.points - about) ** 2).sum(axis=-1).max()))
+        # 16: chosen, a margin over the few roundings of a height.
         error = abs(height) * area.rounding_error + 16.0 * U * area.total * reach ** (degree + 1.0)
         return Moments(
             height * area.raw / (degree + 3.0), about, Measure.VOLUME, error / (degree + 3.0)
@@ -137,6 +138,7 @@ class FlatFace:
         """Return the volume moments of a slab on the region, from its sections at heights (n,) with
         weights (n,).
         """
+        # A section at a height is the region, about a point that is as much lower.
         sections = [self.area_moments(order, about - height * self.normal) for height in heights]
         raw = sum(step * section.raw for step, section in zip(steps, sections))
         error = sum(step * section.rounding_error for step, section in zip(steps, sections))
@@ -238,6 +240,7 @@ def planar_loops(
             fault="The curves are not in one plane and bound no flat region. Flatten them",
         )
     normal = axes[2]
+    # Of a unit vector one component is at least 0.57; those below 1e-6 may be rounding.
     leading = next(axis for axis in (2, 1, 0) if abs(normal[axis]) > 1e-6)
     normal = normal * np.sign(normal[leading])
     frame = np.stack([axes[0], np.cross(normal, axes[0])], axis=1)
@@ -300,6 +303,8 @@ def self_intersects(loop: NDArray, tolerance: float) -> bool:
     """Return whether a polygon (n, 2) crosses itself, along an edge or at a corner; touching does
     not count.
     """
+    # Where a loop crosses itself at a corner, no edges cross, but two corners coincide; there the
+    # polygon through the middles of its edges crosses itself along edges.
     loop = _without_repeats(loop, tolerance)
     return chords_cross([loop], tolerance, touch=False) or (
         chords_cross([loop], tolerance)

@@ -67,7 +67,6 @@ MIN_REVERSED_NORMAL = (
 )
 RULES = (16, 24, 36)  # points along each direction; each rule is compared with the one before
 COARSE_RULES = (8, 12, 18)  # Used for tolerances from `AREA_RTOL` upward.
-MIN_DIVISOR = 1e-300  # Divisors are at least this.
 MAX_DEPTH = 14  # Limit of successive cuts of a cell.
 MAX_POINTS = 6_000_000  # Limit of evaluated points.
 # Gauss points in a span, and spans at a time, for the area's gradient
@@ -92,8 +91,8 @@ def volume_moments(
     order: int = 3,
     about: NDArray | None = None,
 ) -> tuple[Moments, bool]:
-    """Return the volume moments, about the box's middle, of the body in outward patches, and
-    whether they converged.
+    """Return the volume moments of the body in outward patches, and whether they converged; about:
+    a point (3,), by default the middle of the control points' box.
     """
     about = patches_center(faces) if about is None else np.asarray(about, np.float64)
     patches, flat = split_faces(faces)
@@ -112,8 +111,8 @@ def volume_moments(
         if len(part.net) == 4:
             rational.append(part)
             continue
-        points = exact_points(part.orders[0], order), exact_points(part.orders[1], order)
-        sums = np.add.reduce(integrand_in_blocks(part, (points[:1], points[1:]), flux)[0], axis=1)
+        rule = (exact_points(part.orders[0], order),), (exact_points(part.orders[1], order),)
+        sums = np.add.reduce(integrand_in_blocks(part, rule, flux)[0], axis=1)
         values += sums[:-1]
         size += float(sums[-1])
     unit = reach ** (degree + 1.0)
@@ -190,6 +189,7 @@ def _reversed_areas(normal: NDArray, weights: Weights, rule: Rule) -> Array:
     miss such kinks.
     """
     total = np.zeros(normal.shape[2])
+    # First between neighbors along s, then, with s and t exchanged, along t.
     for (points,), other_weights in zip(rule, weights[::-1]):
         nodes, _ = gauss_legendre_with_ends(points)
         length = _length(normal)
@@ -198,6 +198,7 @@ def _reversed_areas(normal: NDArray, weights: Weights, rule: Rule) -> Array:
             dot(normal[:, :-1], normal[:, 1:])
             < -MIN_REVERSED_NORMAL * np.maximum(length[:-1], length[1:]) ** 2
         )
+        # The trapezoid rule along one direction, then the Gauss weights of the other one.
         size = np.where(over, length[:-1] + length[1:], 0.0) * np.diff(nodes)[:, None, None] / 2.0
         total += size.sum(axis=0) @ other_weights[:, 0]
         normal = normal.swapaxes(1, 3)
@@ -254,8 +255,11 @@ def _slope_tiles(space: SplineSpace) -> tuple[tuple[NDArray, NDArray, NDArray, N
 def _slope_of_tile(
     along: tuple[NDArray, NDArray], across: tuple[NDArray, NDArray], weights: NDArray, net: NDArray
 ) -> Array:
-    """Return the (3, k, k') gradient of the area by control points, which are times their weights
-    if rational.
+    """Return the (3, k, k') gradient of the area by the control points, times their weights if
+    rational, of a tile.
+
+    along, across: values and slopes of the basis, (m, k) and (n, k'). weights: (m, n), of the
+    points. net: (3 or 4, k, k') homogeneous control points.
     """
     (s, s_slope), (t, t_slope) = along, across
     place, by_s, by_t = (
@@ -274,9 +278,11 @@ def _slope_of_tile(
     normal = np.stack(cross(by_s, by_t))
     length = _length(normal)
     unit = normal / np.where(length > 0.0, length, 1.0) * weights
+    # The change of the area is (dS_s x S_t + S_s x dS_t) · u = dS_s · (S_t x u) + dS_t · (u x S_s).
     s_force = np.stack(cross(by_t, unit))
     t_force = np.stack(cross(unit, by_s))
     parts = [(s_slope, s_force, t), (s, t_force, t_slope)]
+    # Of P / w with a moved P: dS_s = (dP_s - dP w_s / w) / w; the weights have the last divisor.
     if s_bottom is not None and t_bottom is not None:
         parts.append((s, -(s_force * s_bottom + t_force * t_bottom), t))
     products = (
@@ -329,6 +335,7 @@ def sheet_terms(
     length = _length(normal)
     divisor = np.where(length > 0.0, length, 1.0)
     unit = normal / divisor
+    # The derivatives of the unit normal by s and by t; second: S_ss, S_st, S_tt.
     turning = []
     for k in (0, 1):
         slope = np.stack(cross(second[k], across)) + np.stack(cross(along, second[k + 1]))
@@ -356,6 +363,7 @@ def vector_area(patches: Sequence[Patch]) -> Array:
     """
     total = np.zeros(3)
     for cells in cells_of(patches, np.zeros(3)):
+        # S_s x S_t of a polynomial of degree d has degree 2 d - 1: d points are exact.
         s, t = (
             (max(1, order - 1) if same else RULES[0],)
             for order, same in zip(cells.orders, cells.constant_weights)
@@ -387,11 +395,12 @@ def stored_area_moments(faces: Sequence[Face], order: int, *, stored: float) -> 
     return with_area_error(area, area_slope(faces), stored, patches_size(faces) + 4.0 * stored)
 
 
-def exact_points(order: int, degree: int) -> int:
-    """Return the Gauss points per span of a polynomial direction that make moments of this degree
-    exact.
+def exact_points(spline_order: int, order: int) -> int:
+    """Return the Gauss points per span that make moments to an order exact, along a polynomial
+    direction: ceil(((n + 3) d - 1) / 2) for moments of order n and a spline of degree d.
     """
-    return max(1, ceil(((degree + 3) * (order - 1) - 1) / 2))
+    n, d = order, spline_order - 1
+    return max(1, ceil(((n + 3) * d - 1) / 2))
 
 
 def integrate_adaptively(
@@ -399,26 +408,27 @@ def integrate_adaptively(
     integrand: Integrand,
     unit: NDArray,
     tolerance: float,
-    degree: int | None = None,
+    order: int | None = None,
     thickness: float = 1.0,
 ) -> Integral:
     """Integrate over patches, cell by cell, by the first rule that agrees with the one before.
 
     integrand: returns for each rule (K + 1, c) contributions and sizes of cells, and optionally a
     row of areas that count as error. unit: (K,) factors from a cell's size to bounds of its
-    moments. degree: of the moments, if fewer points are exact along directions of constant weights;
-    else None. thickness: the factor from areas to sizes. Rules agree if they differ by at most the
-    tolerance, relative to the cell's size or to the mean size of all cells.
+    moments. order: of the moments, if `exact_points` are enough along directions of constant
+    weights; else None. thickness: the factor from areas to sizes. Rules agree if they differ by at
+    most the tolerance, relative to the cell's size or to the mean size of all cells.
     """
     k = len(unit)
-    divisor = np.maximum(unit, MIN_DIVISOR)[:, None]
+    divisor = np.maximum(unit, 1e-300)[:, None]
     is_fine = tolerance < AREA_RTOL
     points = RULES if is_fine else COARSE_RULES
     max_points = MAX_POINTS if is_fine else MAX_POINTS // 2
     values = np.zeros(k)
     estimate = 0.0
     converged = True
-    # Areas that no rule may have seen: of the cells that are left at the end, at most of all.
+    # Estimates of the area that no rule may have seen: in the cells that disagree at the end, and,
+    # as boxes of cut cells overlap, at most in all cells before any cut.
     unseen = 0.0
     most_unseen = thickness * sum(
         float(undersampled_areas(part, MAX_WEIGHT_RATIOS[0]).sum()) for part in cells
@@ -432,15 +442,15 @@ def integrate_adaptively(
     while work:
         compared = []
         for part, coarse, level in work:
-            rules = _rules(part.orders, part.constant_weights, points[level : level + 2], degree)
+            rules = _rules(part.orders, part.constant_weights, points[level : level + 2], order)
             # A joined rule gives both estimates at once.
             estimates = [
                 rule_values
                 for rule in (rules if coarse is None else rules[-1:])
                 for rule_values in integrand_in_blocks(part, rule, integrand)
             ]
-            new_rules = points[level + (coarse is not None) : level + 2]
-            spent_points += len(part) * sum(number**2 for number in new_rules)
+            new_counts = points[level + (coarse is not None) : level + 2]
+            spent_points += len(part) * sum(count**2 for count in new_counts)
             compared.append(
                 (part, estimates[0] if coarse is None else coarse, estimates[-1], level)
             )
@@ -480,17 +490,20 @@ def integrate_adaptively(
 
 @lru_cache(maxsize=256)
 def _rules(
-    orders: tuple[int, int], steady: tuple[bool, bool], points: tuple[int, int], degree: int | None
+    spline_orders: tuple[int, int],
+    constant_weights: tuple[bool, bool],
+    points: tuple[int, int],
+    order: int | None,
 ) -> tuple[Rule, ...]:
     """Return two rules to compare, of `points` or fewer if exact; joined into one if equal along s
     or along t.
     """
     coarse, fine = (
         tuple(
-            min(number, exact_points(order, degree)) if same and degree is not None else number
-            for order, same in zip(orders, steady)
+            min(count, exact_points(spline_order, order)) if same and order is not None else count
+            for spline_order, same in zip(spline_orders, constant_weights)
         )
-        for number in points
+        for count in points
     )
     if coarse[0] == fine[0]:
         return ((fine[:1], (coarse[1], fine[1])),)

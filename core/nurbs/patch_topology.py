@@ -159,6 +159,9 @@ def _find_loops(
 ) -> list[tuple[list[int], bool]]:
     """Join open sides to chains; return the side indices of each chain, and True if it is
     closed.
+
+    points: (n, m, 3) samples of all sides. free: indices of the open ones. forward: (n,) whether a
+    chain runs along the side's curve, not against it.
     """
     is_ahead = forward[free]
     begin = points[free, np.where(is_ahead, 0, -1)]
@@ -195,7 +198,11 @@ def _cap_loop(
     forward: Mask,
     tolerance: float,
 ) -> BoundaryLoop:
-    """Close a loop by the cone to its centroid, and return the loop with its caps."""
+    """Close a loop by the cone to its centroid, and return the loop with its caps.
+
+    points: (k, m, 3) samples of the k sides' curves. forward: (k,) whether the oriented patch is on
+    the left of the curve; then the loop runs along it.
+    """
     run = np.concatenate(
         [samples if ahead else samples[::-1] for samples, ahead in zip(points, forward)]
     )
@@ -207,11 +214,14 @@ def _cap_loop(
     caps = []
     for curve, ahead in zip(curves, forward):
         apex = np.broadcast_to(center, curve.points.shape)
+        # A patch on the left of its curve has the cap on the right: with S_t leftward, from the
+        # apex to the curve, S_s x S_t is the patch's normal. On the right of it, all is reversed.
         net = np.stack([apex, curve.points] if ahead else [curve.points, apex], axis=1)
         weights = None if curve.weights is None else np.stack([curve.weights] * 2, axis=1)
         caps.append(Patch((curve.space, clamped_space(2)), net, weights))
     is_planar = bool(np.abs(arms @ axes[2]).max() <= tolerance)
-    # A path there and back has no net area; for a loop in space only its cone's area shows that.
+    # A flat loop without net area runs there and back, so its hole is closed. A loop in space may
+    # bound a hole without a net area: only a cone without any area tells that there is none.
     if is_planar:
         area = float(np.linalg.norm(vector_area(caps)))
     else:

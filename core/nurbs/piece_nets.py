@@ -36,9 +36,10 @@ def _raised_extraction(space: SplineSpace, order: int) -> Array:
     """
     table = space.bezier_extraction
     for degree in range(space.order, order):
+        # Point i of the higher degree n is i / n times point i - 1, plus 1 - i / n times point i.
         share = (np.arange(degree + 1) / degree)[:, None]
-        first, last = (np.pad(table, ((0, 0), ends, (0, 0))) for ends in ((1, 0), (0, 1)))
-        table = share * first + (1.0 - share) * last
+        before, same = (np.pad(table, ((0, 0), ends, (0, 0))) for ends in ((1, 0), (0, 1)))
+        table = share * before + (1.0 - share) * same
     return table
 
 
@@ -57,6 +58,8 @@ def evaluate_nets(nets: NDArray, at: NDArray, origin: NDArray) -> tuple[Array, A
     powers = np.arange(degree)
     choose = np.array([math.comb(degree - 1, k) for k in range(degree)], np.float64)
     t, rest = at[..., None], 1.0 - at[..., None]
+    # The last step of de Casteljau: a point divides the line between two curves of one degree less,
+    # whose difference is the slope.
     lower = choose * t**powers * rest ** powers[::-1]
     begin, end = lower @ nets[:, :-1], lower @ nets[:, 1:]
     values = np.moveaxis(rest * begin + t * end, -1, 0)

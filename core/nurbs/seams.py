@@ -72,15 +72,14 @@ def join_sides(
     coinciding_sides = [side for pair in coincident for side in (pair.first, pair.second)]
     times = np.bincount(np.array(coinciding_sides, np.intp))
     pairs, turned = _pair_sides(coincident, times, points, owner, forward, patches)
-    gap, left, right, same = np.array(pairs, np.float64).reshape(-1, 4).T
-    left = left.astype(np.intp)
-    right = right.astype(np.intp)
+    left, right = np.array([(pair.first, pair.second) for pair in pairs], np.intp).reshape(-1, 2).T
+    gap = np.array([pair.distance for pair in pairs], np.float64)
     free[left] = free[right] = False
     return Sides(
         points=points,
         left=left,
         right=right,
-        same=same > 0.0,
+        same=np.array([pair.same for pair in pairs], bool),
         turned=turned,
         free=free,
         open_length=float(length[free].sum()),
@@ -153,6 +152,7 @@ def _cut_parameters(curve: Curve, samples: NDArray, ends: NDArray, tolerance: fl
         miss = np.linalg.norm(rest - curve.evaluate(nearest), axis=1)
         parameters = np.unique(np.concatenate([parameters, nearest[miss <= tolerance]]))
     low, high = curve.space.domain
+    # The first parameter is no begin of the side: its own ends are left out (`_ends_near_sides`).
     cuts = [low]
     for parameter in parameters.tolist():
         length = np.linalg.norm(np.diff(curve.evaluate([cuts[-1], parameter]), axis=0))
@@ -227,7 +227,7 @@ class _Merging:
         self.pairs: list[_Pair] = []
 
     def root(self, patch: int) -> tuple[int, bool]:
-        """Return the first patch of a group, and whether a patch of it is turned against that."""
+        """Return the root of a patch's group, and whether the patch is turned against the root."""
         is_turned = False
         while self._parent[patch] != patch:
             is_turned ^= self._is_odd[patch]
@@ -290,8 +290,8 @@ def _pair_sides(
             crowded.append(pair)
     arms = _arms(points, owner, patch_count)
     angles = {pair: float(np.linalg.norm(arms[pair.first] - arms[pair.second])) for pair in crowded}
-    firsts, seconds = (np.array([pair[k] for pair in crowded], np.intp) for k in (1, 2))
-    meeting_of_side, _ = connected_components(len(owner), firsts, seconds)
+    crowded_sides = np.array([(pair.first, pair.second) for pair in crowded], np.intp)
+    meeting_of_side, _ = connected_components(len(owner), *crowded_sides.reshape(-1, 2).T)
     meetings: dict[int, list[_Pair]] = {}
     for pair in crowded:
         meetings.setdefault(int(meeting_of_side[pair.first]), []).append(pair)
@@ -322,7 +322,8 @@ def close_pairs(keys: NDArray, limit: float) -> tuple[Index, Index]:
     limit.
     """
     keys = keys - keys[:1]
-    # Along a skew line, close rows are close too, and few others: only neighbors are compared.
+    # Along a skew line, close rows are close too, and few others: only neighbors are compared. No
+    # ratio of two slopes is simple, so that rows of a grid seldom share a place on the line.
     slope = 1.0 / np.sqrt(np.arange(2.0, 2.0 + keys.shape[1]))
     line = (keys * slope).sum(axis=1)
     order = np.argsort(line, kind="stable")
@@ -366,7 +367,7 @@ def _pairs_by_points(
     ):
         nearest = nearest_parameters(curve, samples, others, tolerance)
         gaps.append(float(np.linalg.norm(others - curve.evaluate(nearest), axis=1).max()))
-        # negative if they run against it
+        # The sum of steps along tangents is negative if the curves run against each other.
         tangents = curve.derivatives(nearest[:-1])[1]
         ways.append(float((np.diff(others, axis=0) * tangents).sum()))
         if gaps[-1] > tolerance:
@@ -382,6 +383,7 @@ def nearest_parameters(curve: Curve, samples: NDArray, points: NDArray, toleranc
     steps = low + (high - low) * np.linspace(0.0, 1.0, len(samples))
     closed = np.linalg.norm(samples[-1] - samples[0]) <= 2.0 * tolerance
     t = steps[np.argmin(((points[:, None] - samples[None]) ** 2).sum(axis=2), axis=1)]
+    # Gauss-Newton steps, none longer than the distance of samples; 12 are enough from so near.
     for _ in range(12):
         place, slope = curve.derivatives(t)
         square = (slope**2).sum(axis=1)
@@ -398,7 +400,7 @@ def sharpest_crease(faces: Sequence[Face], topology: PatchTopology) -> float:
     there is none.
     """
     worst = max(map(_inner_crease_angle, split_faces(faces)[0]), default=0.0)
-    # The face of each side, its number there, and its curve.
+    # Of each side: the index of its face, its number among the sides of this, and its curve.
     sides = [
         (index, number, curve)
         for index, face in enumerate(faces)
@@ -417,9 +419,7 @@ def sharpest_crease(faces: Sequence[Face], topology: PatchTopology) -> float:
 
 
 def _along_side(patch: Face, number: int) -> Array:
-    """Return (m, 3) a face's unit normals along a side, at the samples of the side's curve; zero at
-    poles.
-    """
+    """Return the (m, 3) unit normals of a face at the samples of a side's curve; zero at poles."""
     if isinstance(patch, FlatFace):
         parameters = patch.curves[number].space.uniform_parameters(CREASE_SAMPLES)
         return np.tile(patch.normal, (len(parameters), 1))

@@ -190,6 +190,7 @@ def assess(
     if volume.total < 0.0:
         part_signs = -part_signs
         volume = replace(volume, raw=-volume.raw)
+    # The box's diagonal grows by twice the displacement; 4 leaves a margin.
     reach = size + 4.0 * stored
     # Caps move with their boundaries: their area counts too.
     skin = area.total + sum(loop.area for loop in topology.loops)
@@ -274,6 +275,7 @@ def _compare_parts(
         return None
     components, relations = _classify_parts(parts, solid, SAMPLES_PER_SPAN, tolerance)
     crossing = np.unique(relations.intersecting)
+    # Faces within curves count as patches with the spans of their first two curves: an estimate.
     spans = sum(
         math.prod(len(space.spans) for space in face.spaces[:2])
         for k in crossing
@@ -355,6 +357,8 @@ def _classify_parts(
     components = sort_components(
         all_points, np.concatenate(triangles), np.concatenate(owners), len(parts)
     )
+    # Finer samples, which look again at parts that seem to cross, show a crossing only if it is
+    # deeper than the distances of both parts from their samples.
     if each != SAMPLES_PER_SPAN:
         tolerance = max(tolerance, 2.0 * distance)
     return components, classify_pairs(all_points, components, solid, tolerance)
@@ -388,6 +392,8 @@ def _sagitta(grid: NDArray, each: int) -> float:
     """Return the largest distance of a surface from the chords of its samples along the first axis,
     bends ignored.
     """
+    # With steps h the second difference is h² S'', and the sagitta of a chord h² S'' / 8. A second
+    # difference at a knot, between two spans, shows a bend.
     bend = np.linalg.norm(np.diff(grid, 2, axis=0), axis=2) / 8.0
     bend[each - 1 :: each] = 0.0
     return float(bend.max())
@@ -415,24 +421,30 @@ def _orientation_findings(
         if topology.non_manifold_sides:
             findings.append(finding(AMBIGUOUS_PATCH_SIDES, count=int(topology.non_manifold_sides)))
     if turned:
-        values = {"count": len(turned), "total": int(topology.number)}
-        findings.append(finding(INVERTED_PATCH_COMPONENTS, slight=are_slight(turned), **values))
+        findings.append(
+            finding(
+                INVERTED_PATCH_COMPONENTS,
+                slight=are_slight(turned),
+                count=len(turned),
+                total=int(topology.number),
+            )
+        )
     return findings
 
 
 def _closing_findings(
-    closure: PatchTopology, solid: Mask, area: float, volume: float, size: float
+    topology: PatchTopology, solid: Mask, area: float, volume: float, size: float
 ) -> list[Finding]:
     """Return findings about open, flat and capped parts; solid: (c,) the parts with a volume."""
     findings = []
-    if closure.unclosable.any():
+    if topology.unclosable.any():
         findings.append(finding(OPEN_PATCH_SIDES))
     if not solid.any():
-        return findings if closure.unclosable.any() else [finding(FLAT_SURFACE)]
-    flattened = int((~solid & ~closure.unclosable).sum())
+        return findings if topology.unclosable.any() else [finding(FLAT_SURFACE)]
+    flattened = int((~solid & ~topology.unclosable).sum())
     if flattened:
-        findings.append(finding(FLAT_COMPONENTS, count=flattened, total=int(closure.number)))
-    loops = [loop for loop in closure.loops if solid[loop.component]]
+        findings.append(finding(FLAT_COMPONENTS, count=flattened, total=int(topology.number)))
+    loops = [loop for loop in topology.loops if solid[loop.component]]
     caps = [loop for loop in loops if not loop.zero_area]
     if caps:
         cap_area = sum(loop.area for loop in caps)

@@ -112,6 +112,7 @@ class SplineChart:
             place, *slopes = self.evaluate(*at.T)
             arms = points.T - place
             away = dot(arms, arms)
+            # The margins are rounding, of squared distances and of squared coordinates.
             is_nearer = away <= (1.0 + 1e-10) * nearest + 1e-28 * np.square(self._net).max()
             best = np.where(is_nearer[:, None], at, best)
             nearest = np.where(is_nearer, away, nearest)
@@ -120,7 +121,8 @@ class SplineChart:
             is_held = open_ends & (((at <= low) & (ahead < 0.0)) | ((at >= high) & (ahead > 0.0)))
             if is_held.any():
                 ahead = _solve(*(np.where(is_held.T[:, None], 0.0, slopes)), arms, flat)
-            # A step that led away is tried again, shorter.
+            # A step that led away is tried again, a quarter as long; none is longer than a quarter
+            # of the domain, both chosen.
             step = np.where(is_nearer[:, None], ahead, 0.25 * step)
             step = np.clip(step, -0.25 * (high - low), 0.25 * (high - low))
             at = best + step
@@ -157,12 +159,15 @@ def follow(chart: Quadric | SplineChart, points: NDArray, velocity: NDArray, at:
     """
     place, along, across, *second = chart.evaluate(*at.T, most=2)
     away = points.T - place
-    return _solve(along, across, velocity.T, np.stack([dot(away, one) for one in second]))
+    # At nearest points, `away` is normal to both slopes. The derivative of this by time gives the
+    # normal equations of the velocity, less the products of `away` and the second derivatives.
+    return _solve(along, across, velocity.T, np.stack([dot(away, bend) for bend in second]))
 
 
 def _solve(along: NDArray, across: NDArray, target: NDArray, bend: NDArray) -> Array:
-    """Return (n, 2) the combinations of two (3, n) slopes nearest to (3, n) targets; bend: (3, n)
-    to subtract from the products of the slopes.
+    """Return the (n, 2) factors of two (3, n) slopes whose sum is nearest to (3, n) targets.
+
+    bend: (3, n), subtracted from the products of the slopes: along², along · across and across².
     """
     # Normal equations: a u + b v = p, b u + c v = q.
     a = dot(along, along) - bend[0]
@@ -170,7 +175,7 @@ def _solve(along: NDArray, across: NDArray, target: NDArray, bend: NDArray) -> A
     c = dot(across, across) - bend[2]
     p, q = dot(along, target), dot(across, target)
     determinant = a * c - b * b
-    # At a pole one slope is zero, and only the other coordinate can move.
+    # At a pole one slope is zero, by 1e-12 of the other, and only the other coordinate can move.
     is_pole = ~(determinant > 1e-24 * (a + c) ** 2)
     determinant = np.where(is_pole, 1.0, determinant)
     first_at_pole = np.where(a > c, p / np.maximum(a, 1e-300), 0.0)

@@ -20,7 +20,8 @@ from ..verdict import MeasureError, check_size
 from .findings import CONTROL_POINTS_INVALID, NON_FINITE, NON_POSITIVE_WEIGHTS
 
 Face: TypeAlias = "Patch | FlatFace | TrimmedFace"
-# (fixed axis, end, run forward), counter-clockwise
+# Of a patch, counter-clockwise: the axis that is fixed (0 for s), at its begin (0) or end (1), and
+# whether the patch is on the left of the side's curve.
 SIDES = (
     (1, 0, True),
     (0, 1, True),
@@ -150,7 +151,8 @@ class Curve:
 
     def reverse(self) -> Curve:
         """Return the same curve, run backward."""
-        # In this order the first point of the reversed curve is that of function 0.
+        # Function j of a cyclic curve has the control point j % count. Run backward, function 0 is
+        # the one that was last.
         if self.space.function_count > self.space.count:
             order = (self.space.function_count - 1 - np.arange(self.space.count)) % self.space.count
         else:
@@ -309,7 +311,7 @@ def _sample_table(space: SplineSpace, each: int) -> Array:
 def control_box(patches: Sequence[Face]) -> tuple[Array, Array]:
     """Return the least (3,) and the largest (3,) coordinates of all control points."""
     for patch in patches:
-        if not hasattr(patch, "sides"):
+        if not hasattr(patch, "sides"):  # no face of any kind: raise TypeError
             check_type("patches", patch, Patch)
     points = np.concatenate([patch.points.reshape(-1, 3) for patch in patches])
     return points.min(axis=0), points.max(axis=0)

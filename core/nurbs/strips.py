@@ -92,6 +92,7 @@ class Strips:
         )
         first, last = self.first[selection], self.last[selection]
         between = (first + last) / 2.0
+        # In turn: the first half of all segments with both halves of the height, then the second.
         return Strips(
             piece=np.tile(self.piece[segments], 2),
             ends=halves,
@@ -172,8 +173,10 @@ class StripIntegrator:
         return -1.0 if self._axis else 1.0
 
     def _gap_integrals(self, terms: Terms, about: NDArray) -> tuple[Array, Array, float]:
-        """Return (K,) integrals over the gaps between loops and surface, to be counted as strips
-        are, their truncation and size.
+        """Return (K,) integrals over the gaps between loops and surface, to be added to those of
+        strips before their sign, their truncation and size.
+
+        A gap is a ruled surface: from the surface's nearest points, across, to the loop.
         """
         is_curve = self._strips.piece < len(self._tracks)
         widths = np.diff(self._strips.ends[is_curve], axis=1)[..., None]
@@ -189,9 +192,11 @@ class StripIntegrator:
             spots -= about[:, None, None, None]
             change = places.velocities[:, is_curve] - surface_velocity
             velocity = surface_velocity[..., None] + across * change[..., None]
+            # Points and their derivatives across the gap and along the loop.
             values = terms([spots, np.broadcast_to(gap, velocity.shape), velocity])
             sums.append((values * weights).sum(axis=(1, 2, 3)))
         coarse, fine = sums
+        # `integrate` multiplies all by the sign of strips, which gaps have not.
         return self._sign * fine[:-1], fine[:-1] - coarse[:-1], float(fine[-1])
 
     def _strip_integrals(
@@ -217,6 +222,7 @@ class StripIntegrator:
                 first = strips.first[block, None]
                 part = strips.last[block, None] - first
                 width = np.where(np.isnan(high), tops[segment], high) - low
+                # (strips, 1 or points along the segment, points across)
                 shares = first + part * nodes
                 swept = low[..., None] + width[..., None] * shares[:, None]
                 other = others[segment][..., None]

@@ -36,7 +36,8 @@ def region_tiles(
 ) -> Array:
     """Return (n, 4, 2) coordinates of the corners of quadrilaterals that fill a region.
 
-    tracks, lines, axis, base: as for `TrimmedFace`. each: steps to a span or a quarter of a turn.
+    tracks, lines, axis, base: as for `TrimmedFace`. each: steps to a span or a quarter of a turn;
+    not 3 or 5, with which no whole number of steps between samples would reach a track's end.
     """
     other = 1 - axis
     samples = tracks[:, :: max(1, (SAMPLES - 1) // each)]
@@ -105,10 +106,10 @@ def _crossed_cells(
 def _full_rows(
     places: NDArray, heights: NDArray, rows: NDArray, empty: Index, base: float, period: float
 ) -> Index:
-    """Return those rows without edges that are in the region: those around which the edges on the
-    other side of them than the base line wind an odd number of times. places, heights, rows: as
-    for `_crossed_cells`.
+    """Return the rows without edges that are in the region: those beyond which, seen from the base
+    line, edges wind an odd number of times. places, heights, rows: as for `_crossed_cells`.
     """
+    # All heights are whole grains, so half a grain decides on which side of the base a row is.
     bottom, top = rows[:, empty, None]
     level = heights.mean(axis=0)
     is_beyond = np.where(bottom >= base - 0.5, level > bottom, level < top)

@@ -199,6 +199,7 @@ class IncrementalPatchMoments:
         step = max(1, MAX_CELLS // max(1, len(t_spans)))
         for start in range(0, len(s_spans) if len(t_spans) else 0, step):
             spans = s_spans[start : start + step], t_spans
+            # A fixed rule needs neither the constant weights nor the reach.
             cells = cells_of_nets(net[None], anchor, self.spaces, spans, (False, False), 0.0)
             sums = integrand_in_blocks(cells, self._rule, self._flux)[0]
             self._sums[:, spans[0][:, None], t_spans] = sums.reshape(len(sums), len(spans[0]), -1)

@@ -124,7 +124,8 @@ class TrimmedFace:
 
     @cached_property
     def _blur(self) -> float:
-        """The same per unit of length of an edge.
+        """A bound of the volume that the edges' distance from the surface leaves uncertain, per
+        unit of length of an edge.
 
         Surfaces meet beside edges near them, at most at the root of distance times size if they
         touch there. Of edges farther off, either the edges or the surfaces may be right.
@@ -171,6 +172,8 @@ class TrimmedFace:
     def _tiles(self, each: int) -> tuple[Array, Array]:
         """Return (n, 4, 2) coordinates of the corners of `quads`, and the corners."""
         tiles = region_tiles(self.chart, self.tracks, self.lines, self.axis, self.base, each)
+        # As coordinates, tiles run counter-clockwise if strips run along the second one, else
+        # clockwise; on a face they run counter-clockwise, seen from its side.
         if (self.facing < 0.0) == (self.axis == 1):
             tiles = tiles[:, ::-1]
         return tiles, np.moveaxis(self.chart.evaluate(*np.moveaxis(tiles, -1, 0))[0], 0, -1)
