@@ -143,10 +143,10 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
 def _joint_value(text: str) -> tuple[str, float]:
     """Return the name and the position of a joint."""
-    name, _, value = text.rpartition("=")
+    name, _, position = text.rpartition("=")
     if not name:
         raise argparse.ArgumentTypeError("{!r} is not NAME=VALUE".format(text))
-    return name, option_types.number(value)
+    return name, option_types.number(position)
 
 
 def _mass(text: str) -> float:
@@ -165,6 +165,9 @@ def _part(text: str) -> float:
 
 
 def _check_repair(options: argparse.Namespace, parser: Parser) -> None:
+    """End with a message if --repair is no folder, or a copy in it would replace a file that is
+    read, or another copy.
+    """
     if not options.repair.is_dir():
         parser.error("--repair: {} is no folder".format(options.repair))
     here = os.path.realpath(options.repair)
@@ -182,7 +185,9 @@ def _check_repair(options: argparse.Namespace, parser: Parser) -> None:
 
 
 def _find_files(paths: list[Path]) -> Iterator[tuple[Path, Path]]:
-    """Yield the named files and those in named folders, each with its path below --repair."""
+    """Yield the named files and the robot descriptions in named folders, each with the path of its
+    repaired copy in the folder of --repair.
+    """
     for path in paths:
         if not path.is_dir():
             yield path, Path(path.name)
@@ -201,14 +206,14 @@ def answer(options: argparse.Namespace) -> tuple[list[str], int]:
     """
     documents = []
     internal = False
-    listed = {path for path in options.files if not path.is_dir()}
+    named_files = {path for path in options.files if not path.is_dir()}
     progress = Progress(len(options.names))
     for path, document in zip(options.names, _documents(options)):
         codes = {reason["code"] for reason in document["errors"]}
         internal |= internal_error.CODE in codes
         ignored_codes = OTHER_FILES if path.suffix == ".xml" else OTHER_FILES - {XML_ENTITIES}
         is_empty = not codes and not document["links"]
-        if path not in listed and (is_empty or codes & ignored_codes):
+        if path not in named_files and (is_empty or codes & ignored_codes):
             continue  # A folder holds other files of these types, too.
         documents.append(document)
         for reason in document["errors"]:
@@ -262,6 +267,9 @@ def _audit_file(task: tuple[Path, Path, argparse.Namespace, dict]) -> dict[str, 
 
 
 def _write_copy(name: Path, audit: Audit, options: argparse.Namespace) -> str | None:
+    """Write a repaired copy of an audited file, and return its path; None if there are no repairs,
+    or they are not requested. name: its path in the folder of --repair. Raises FileError.
+    """
     repairs = audit.repairs()
     folder = options.repair
     if folder is None or not repairs:

@@ -21,7 +21,10 @@ Key = tuple[str, str, str]  # file, link and code
 
 
 def apply(document: dict[str, Any], options: Namespace) -> dict[str, Any]:
-    """Return the document of a file after `--ignore`, `--light-links` and `--baseline`."""
+    """Return the document of a file after `--ignore`, `--light-links` and `--baseline`.
+
+    Findings about the whole model are treated as those of a link without name and mass.
+    """
     model_entry = {"name": "", "mass": None, "findings": document["findings"]}
     known_keys = {key for key in options.known or () if key[2] != AUDIT_TOTAL}
     links = []
@@ -95,6 +98,7 @@ def write_baseline(path: Path, documents: Sequence[dict[str, Any]]) -> None:
 
 
 def _key(record: dict[str, Any], link: dict[str, Any], baseline: Path) -> Key:
+    """Return the key of a link's finding. baseline: the file from whose folder names start."""
     folder = os.path.dirname(os.path.abspath(baseline))
     try:
         file = os.path.relpath(record["file"], folder)

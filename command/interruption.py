@@ -60,7 +60,7 @@ class Progress:
         self, file: str, unit_name: str, report: Callable[[str, str], None] = print_message
     ) -> None:
         self._file = file
-        self._what = unit_name
+        self._unit_name = unit_name
         self._report = report
         self._count = 0
         self._due = time.monotonic() + PERIOD
@@ -70,5 +70,5 @@ class Progress:
         if time.monotonic() >= self._due:
             self._due = time.monotonic() + PERIOD
             self._report(
-                self._file, "{:.3g} {} read. Ctrl+C ends it".format(self._count, self._what)
+                self._file, "{:.3g} {} read. Ctrl+C ends it".format(self._count, self._unit_name)
             )

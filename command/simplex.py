@@ -83,6 +83,7 @@ def _measure(options: argparse.Namespace) -> dict[str, Any]:
         )
     facets = simplices
     if simplices.shape[1] == dimension + 1:
+        # The facets come in blocks: one facet of each simplex, then another one of each.
         facets, facet_signs = polyhedron.facets_of(points, simplices)
         signs = facet_signs if signs is None else facet_signs * np.tile(signs, dimension + 1)
     is_closed = polyhedron.closes(points, facets, signs)
@@ -119,6 +120,7 @@ def _point(text: str) -> list[float]:
 
 
 def _as_record(moments: polyhedron.SimplexMoments) -> dict[str, dict[str, float]]:
+    """Return the moments and their bounds by the powers of the coordinates, such as "2,0,1"."""
     keys = [
         ",".join(map(str, row))
         for row in polyhedron.multi_indices(len(moments.about), moments.order).tolist()
@@ -130,6 +132,10 @@ def _as_record(moments: polyhedron.SimplexMoments) -> dict[str, dict[str, float]
 
 
 def _read(path: Path) -> tuple[Array, Integers, NDArray | None]:
+    """Return (m, n) points, (k, n) or (k, n + 1) simplices and (k,) signs, or None.
+
+    Raises UsageError, MeasureError and OSError.
+    """
     arrays = scans.read_arrays(path, ("points", "simplices", "signs"), files.file_limits())
     if not {"points", "simplices"} <= arrays.keys():
         raise UsageError("The file is no .npz archive with the arrays “points” and “simplices”")

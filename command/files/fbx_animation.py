@@ -16,16 +16,16 @@ from ...core.rig import rotation_values, rotations
 
 ORDERS = ("XYZ", "XZY", "YZX", "YXZ", "ZXY", "ZYX")  # the first letter's rotation acts first
 RARE = "it has curves or layers of a rare kind: bake the animation"
-_SAME_TIME = 1e-6  # seconds
-# flags of keys
-_CONSTANT, _CUBIC = 0x2, 0x8
-_OF_NEXT = 0x100
-_TCB, _USER = 0x200, 0x400
-_CLAMPED, _TIMELESS, _PROGRESSIVE = 0x1000, 0x2000, 0x4000
-_WEIGHTED, _LEFT_WEIGHTED = 0x1000000, 0x2000000
+_SAME_TIME = 1e-6  # Chosen, in seconds: far below a frame, far above the rounding of times.
+# Flags of keys.
+_CONSTANT, _CUBIC = 0x2, 0x8  # the section after the key; else it is linear
+_OF_NEXT = 0x100  # A constant section has the value of its end.
+_TCB, _USER = 0x200, 0x400  # tangents by tension, continuity and bias, or as stored; else automatic
+_CLAMPED, _TIMELESS, _PROGRESSIVE = 0x1000, 0x2000, 0x4000  # kinds of automatic tangents
+_WEIGHTED, _LEFT_WEIGHTED = 0x1000000, 0x2000000  # of the section after the key: its start, its end
 _VELOCITIES = 0x30000000
 _LEVEL = 1e-3  # a difference of values, up to which some programs level clamped tangents
-_NO_BIAS = 1e-4
+_NO_BIAS = 1e-4  # Chosen: an automatic tangent with a larger stored slope may be read differently.
 
 
 class RareError(Exception):
@@ -66,6 +66,7 @@ class FbxAnimation:
                 self._parts.setdefault(parent, {}).setdefault(names[0], []).append(child)
             elif kind == "AnimationCurveNode":
                 layer_of[child] = parent
+        # By layer: the number of its animation, its place among the layers of this, and itself.
         ranks = {
             layer: (number, rank, layer)
             for number, line in enumerate(layers.values())
@@ -73,25 +74,26 @@ class FbxAnimation:
         }
         # Programs leave out all other layers, also those of other properties.
         self._has_solo = any(nodes[layer].properties().get("Solo", (0,))[0] for layer in ranks)
-        # the number of its animation, its place among the layers of this, its layer
         self._ranks = {part: ranks[layer] for part, layer in layer_of.items() if layer in ranks}
 
     def animate(self, number: int, properties: dict[str, Any]) -> bool:
-        """Change the properties of a node to those of the time; return whether it is known."""
+        """Change the properties of a node to their values at the time, as far as the first
+        animation that moves the node animates them. Return False if a value is not certain.
+        """
         parts = {
-            name: sorted(self._ranks[part] + (part,) for part in several if part in self._ranks)
+            name: [(*self._ranks[part], part) for part in several if part in self._ranks]
             for name, several in self._parts.get(number, {}).items()
         }
-        first = min((line[0][0] for line in parts.values() if line), default=0)
+        first = min((animation for line in parts.values() for animation, *_ in line), default=0)
         try:
             for name, line in parts.items():
-                line = [
+                layered_parts = [
                     (rank, layer, part)
-                    for animation, rank, layer, part in line
+                    for animation, rank, layer, part in sorted(line)
                     if animation == first
                 ]
-                if line:
-                    properties[name] = self._blended(line, name, properties)
+                if layered_parts:
+                    properties[name] = self._blended(layered_parts, name, properties)
         except RareError:
             return False
         return True
@@ -99,9 +101,10 @@ class FbxAnimation:
     def _blended(
         self, parts: list[tuple[int, int, int]], name: str, properties: dict[str, Any]
     ) -> Array:
-        """Return the values of a property.
+        """Return the (k,) values of a property. Raises RareError.
 
-        parts: its values in layers, each after the place of the layer and the layer.
+        parts: for each layer, lowest first, its place, its number and that of the values in it.
+        properties: of the node, not animated where layers state nothing.
         """
         rest = properties.get(name, (float(name == "Lcl Scaling"),) * 3)
         total = np.array(rest, np.float64)
@@ -121,6 +124,7 @@ class FbxAnimation:
             blending = layer.get("BlendMode", (0,))[0]
             if blending not in (0, 1, 2) or blending == 1 and weight < 1.0:
                 raise RareError
+            # Modes 0 to 2 add to the layers below, replace them, or do so by the weight.
             kept_share = 1.0 if blending == 0 else 1.0 - weight
             is_turn = name == "Lcl Rotation"
             if is_turn and not layer.get("RotationAccumulationMode", (0,))[0]:
@@ -133,7 +137,7 @@ class FbxAnimation:
                 total = np.degrees(rotation_values(below[None], mode, np.radians(total))[0])
                 is_composed = True
             elif is_turn and is_composed and kept_share:
-                raise RareError  # Its angles are not the only ones of the rotation.
+                raise RareError  # Several triples of angles are equal to the composed rotation.
             elif name == "Lcl Scaling" and not layer.get("ScaleAccumulationMode", (0,))[0]:
                 total = _power(total, kept_share) * _power(values, weight)
             else:
@@ -141,7 +145,7 @@ class FbxAnimation:
         return total
 
     def _values(self, part: int) -> Array:
-        """Return the numbers of a property in one layer."""
+        """Return the one or three numbers of a property in one layer. Raises RareError."""
         rests = {
             name: rest[0]
             for name, rest in self._nodes[part].properties().items()
@@ -157,7 +161,7 @@ class FbxAnimation:
 
 
 def _ticks_per_second(header: FbxNode) -> float:
-    """Return the unit of a file's times: the newer one, if its header says so."""
+    """Return the ticks of a file's times in a second: the newer count, if its header says so."""
     is_stated = header.child("FBXHeaderVersion").first(0) >= 1004
     definition = header.child("OtherFlags").child("TCDefinition").first(127)
     return 141120000.0 if is_stated and definition != 127 else 46186158000.0
@@ -170,7 +174,11 @@ def _power(values: Array, exponent: float) -> Array:
 
 
 class _Curve:
-    """The keys of a curve. has_bits: text states numbers of float32 by their bits."""
+    """The (n,) keys of a curve: times in seconds, values, flags, and (n, 4) float32 data: the slope
+    after the key, the slope before the next key, and the weights of both in the bits of the third.
+
+    has_bits: a text states the data by their bits as whole numbers.
+    """
 
     def __init__(self, node: FbxNode, ticks: float, has_bits: bool) -> None:
         self._node = node
@@ -215,6 +223,8 @@ class _Curve:
             return float((1.0 - share) * values[index] + share * values[index + 1])
         if flags & _VELOCITIES:
             raise RareError
+        # A Bézier curve whose inner points are at these shares of the section. Its parameter is the
+        # root, of the cubic polynomial of the time, that lies between 0 and 1.
         leaving, arriving = self._weights(index)
         start, end = leaving, 1.0 - arriving
         roots = np.roots(
@@ -231,7 +241,9 @@ class _Curve:
         )
 
     def _weights(self, index: int) -> tuple[float, float]:
-        """Return the lengths, as shares of a section, of the tangents at its start and its end."""
+        """Return the lengths, as shares of a section, of the tangents at its start and its end: a
+        third, or as stored in units of 1e-4.
+        """
         flags = int(self._flags[index])
         bits = int(self._data[index, 2:3].view(np.uint32)[0])
         return (
@@ -240,16 +252,19 @@ class _Curve:
         )
 
     def _slope(self, index: int, is_after: bool) -> float:
-        """Return the slope after or before a key; there the curve is cubic."""
+        """Return the slope, per second, after or before a key; there the curve is cubic.
+
+        Raises RareError.
+        """
         flags = int(self._flags[index])
         previous = int(self._flags[index - 1])
         stored_slope = float(self._data[index, 0] if is_after else self._data[index - 1, 1])
         is_inner = 0 < index < len(self._times) - 1
-        section = slice(max(index - 1, 0), index + 2)
-        times, changes = np.diff(self._times[section]), np.diff(self._values[section])
+        near_keys = slice(max(index - 1, 0), index + 2)
+        # Of the sections before and after the key, of one at the ends of the curve.
+        times, changes = np.diff(self._times[near_keys]), np.diff(self._values[near_keys])
         slopes = changes / times
-        is_tcb = bool(flags & _CUBIC and flags & _TCB)
-        if is_tcb:
+        if flags & _CUBIC and flags & _TCB:  # a Kochanek-Bartels spline
             before = slopes[0] if index else 0.0
             after = slopes[-1] if index < len(self._times) - 1 else 0.0
             tension, continuity, bias = map(float, self._data[index, :3])
@@ -274,9 +289,9 @@ class _Curve:
         if not is_inner:
             return 0.0 if flags & _PROGRESSIVE else float(slopes[0])
         slope = changes.sum() / times.sum()
-        if not flags & _TIMELESS:
+        if not flags & _TIMELESS:  # half of the mean slope, weighted by the other section's time
             slope = 0.5 * slope + 0.5 * (slopes @ times[::-1]) / times.sum()
-        if flags & _PROGRESSIVE:
+        if flags & _PROGRESSIVE:  # The tangents do not pass the values of the next keys.
             weights = self._weights(index - 1)[1], self._weights(index)[0]
             limits = np.sign(slope) * slopes / weights
             slope = np.sign(slope) * min(abs(slope), max(limits.min(), 0.0))

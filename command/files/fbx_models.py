@@ -41,9 +41,10 @@ class Place(NamedTuple):
 class FbxModel:
     """A model, with its properties, those of its kind included.
 
-    is_rare: its animation may be read differently. geometry: its mesh, None without one. clusters:
-    of the mesh, each with the bone that moves its points. shapes: of the mesh, their names and
-    weights, NaN if programs may read them differently.
+    parent, children: the models above and below it. geometry: its mesh, None without one. is_rare:
+    its animation may be read differently. clusters: of the mesh, each with the bone that moves its
+    points. shapes: of the mesh, their names and weights, NaN if programs may read them differently.
+    is_lod_group: its children are levels of detail of one thing.
     """
 
     name: str
@@ -57,11 +58,11 @@ class FbxModel:
     is_lod_group: bool = False
 
     def vector(self, name: str, rest: float = 0.0) -> Array:
-        """Return three numbers of a property."""
+        """Return three numbers of a property, three times `rest` if it is not stated."""
         return np.array(self.properties.get(name, (rest,) * 3)[:3], np.float64)
 
     def whole(self, name: str) -> int:
-        """Return a whole number of a property."""
+        """Return a whole number of a property, 0 if it is not stated."""
         return int(self.properties.get(name, (0,))[0])
 
     @property
@@ -72,12 +73,14 @@ class FbxModel:
 
     @property
     def to_pivot(self) -> Array:
-        """The (4, 4) translation to the point of the mesh that stays when the model turns."""
+        """The (4, 4) translation to the point of the mesh that stays when the model turns: the one
+        that offset and scaling about their own pivot bring to the pivot of rotations.
+        """
         center = self.vector("ScalingPivot")
         apart = self.vector("RotationPivot") - center - self.vector("ScalingOffset")
         scale = self.vector("Lcl Scaling", 1.0)
-        safe = np.where(scale == 0.0, 1.0, scale)
-        return _matrix(np.eye(3), center + apart / safe)
+        divisor = np.where(scale == 0.0, 1.0, scale)  # No point is there if the scale is 0.
+        return _matrix(np.eye(3), center + apart / divisor)
 
     @property
     def moves_rarely(self) -> bool:
@@ -106,7 +109,7 @@ class FbxModel:
             matrix = bone.place.matrix @ to_bone.reshape(4, 4).T
             index = indices.astype(int)
             np.add.at(moved_points, index, shares[:, None] * (homogeneous[index] @ matrix.T))
-        free = moved_points[:, 3] == 0.0
+        free = moved_points[:, 3] == 0.0  # Points that no bone moves follow the model.
         moved_points[free] = homogeneous[free] @ self.place.matrix.T
         return moved_points[:, :3] / moved_points[:, 3:]
 
@@ -125,7 +128,12 @@ class FbxModel:
 
     @cached_property
     def place(self) -> Place:
-        """Its place in the world."""
+        """Its place in the world.
+
+        Each InheritType but RSrs turns by all rotations before it scales. Programs agree on the
+        inherited scale only if it is one for each axis (RrSs), or none (Rrs, which leaves out the
+        parent's own scale).
+        """
         above = Place(np.eye(4), np.eye(3), None) if self.parent is None else self.parent.place
         order = self.whole("RotationOrder")
         pre, post = self.vector("PreRotation"), self.vector("PostRotation")
@@ -146,8 +154,8 @@ class FbxModel:
             if is_apart and self.parent is not None:
                 inherited = inherited / self.parent.vector("Lcl Scaling", 1.0)
             matrix[:3, :3] = above.rotation @ turn @ inherited * scale
-            rest = inherited - np.diag(np.ones(3) if is_apart else np.diag(inherited))
-            if np.abs(rest).max() > _SAME * np.abs(inherited).max():
+            agreed = np.diag(np.ones(3) if is_apart else np.diag(inherited))
+            if np.abs(inherited - agreed).max() > _SAME * np.abs(inherited).max():
                 doubt = "a node inherits some scales of the nodes above it"
         if not self.whole("RotationActive") and (order or np.any([pre, post])):
             doubt = "a node has pre-rotations that are switched off"
@@ -164,6 +172,7 @@ def _matrix(linear: Array, move: Array) -> Array:
 
 
 def _turn(degrees: Array, order: str = "XYZ") -> Array:
+    """Return the (3, 3) rotation by (3,) angles about x, y and z. order: as in `ORDERS`."""
     return rotations(np.radians(degrees)[None], order)[0]
 
 
@@ -213,7 +222,7 @@ def fbx_models(root: FbxNode, seconds: float) -> list[FbxModel]:
         model.is_rare = not animation.animate(number, model.properties)
     below_of: dict[int, list[int]] = {}  # the deformers of a mesh, the parts and shapes of these
     bones: dict[int, FbxModel] = {}
-    ordered = []
+    ordered = []  # the numbers of meshes, and their models
     for child_number, parent_number, *_ in links:
         child, parent = nodes.get(child_number), nodes.get(parent_number)
         below, above = models.get(child_number), models.get(parent_number)
@@ -245,13 +254,17 @@ def fbx_models(root: FbxNode, seconds: float) -> list[FbxModel]:
 
 
 def _weight(channel: FbxNode, shapes: int, animation: FbxAnimation, number: int) -> float:
-    """Return the weight of a channel's last shape; NaN if programs may read it differently."""
+    """Return the weight of a channel's last shape; NaN if programs may read it differently.
+
+    channel: the node with the number, which is animated. shapes: how many it has, one after the
+    other up to the full weight.
+    """
     percent = channel.child("DeformPercent").first(0.0)
     properties = {"DeformPercent": [percent]} | channel.properties()
     if not animation.animate(number, properties):
         return nan
     weight = properties["DeformPercent"][0] / 100.0
-    # In files of Blender, these are weights of vertices.
+    # The full weight of each shape; in files of Blender, weights of vertices, of another count.
     limits = channel.child("FullWeights").numbers()
     is_partial = shapes > 1 and weight not in (0.0, 1.0)
     return nan if is_partial or len(limits) == shapes and limits[-1] != 100.0 else weight

@@ -43,18 +43,23 @@ def check_fbx(data: files.Data, _path: str) -> None:
         return
     for vertices in _FBX_VERTICES.finditer(data):
         with suppress(*files.MALFORMED):
-            count, first = 0, 0
+            count = first_vertex = 0
             for begin, numbers in files.fbx_array(data, vertices.end()):
                 fault_count, row = bad_in_table(numbers[:, None])
-                first = first if count else (begin + row) // 3
+                first_vertex = first_vertex if count else (begin + row) // 3
                 count += fault_count
-            files.refuse_non_finite(count, "vertex", first)
+            files.refuse_non_finite(count, "vertex", first_vertex)
 
 
 def _check_ascii_fbx(data: files.Data) -> None:
+    """Raise FileError if a vertex in a text file is not finite.
+
+    The expression passes over numbers without a fault; the next word is checked by itself.
+    """
     for array in _FBX_ARRAY.finditer(data):
-        is_named = data[max(0, array.start() - 100) : array.start()].rpartition(b"\n")[2].strip()
-        numbers = None if is_named else _FBX_NUMBERS.match(data, array.end())
+        # A node begins its line. Chosen: more than 100 letters of indentation do not occur.
+        _, _, before = data[max(0, array.start() - 100) : array.start()].rpartition(b"\n")
+        numbers = None if before.strip() else _FBX_NUMBERS.match(data, array.end())
         while numbers and (word := _FBX_WORD.match(data, numbers.end())):
             fault = files.find_number_fault(word[0], True)
             if fault is not None:
@@ -72,7 +77,7 @@ def check_gltf(data: files.Data, path: str) -> None:
             _check_values(mesh, "mesh", number)
         for number, mesh in _placing_accessors(file.document).items():
             where = "accessor {}".format(number) if mesh is None else "mesh “{}”".format(mesh)
-            with suppress(*files.MALFORMED):  # others may be whole
+            with suppress(*files.MALFORMED):  # The other accessors are checked after a damaged one.
                 accessor = file.document["accessors"][number]
                 count, first = bad_in_table(file.table(accessor))
                 sparse_rows, values = file.sparse(accessor)
@@ -84,6 +89,9 @@ def check_gltf(data: files.Data, path: str) -> None:
 
 
 def _check_values(entry: dict[str, Any], kind: str, number: int) -> None:
+    """Raise FileError if a number of a node or mesh is not finite. kind: its name in the message.
+    number: its index, which stands for a missing name.
+    """
     count = sum(
         not abs(value) < files.MAX_FLOAT32 for key in _VALUES for value in entry.get(key, ())
     )
@@ -121,7 +129,7 @@ def bad_in_table(table: NDArray) -> tuple[int, int]:
     row with such a number.
     """
     with np.errstate(over="ignore", invalid="ignore"):
-        # The smallest and the largest are NaN if one of the numbers is.
+        # If a number is NaN, so are the smallest and the largest, and no comparison holds.
         if (
             table.dtype.kind != "f"
             or not table.size

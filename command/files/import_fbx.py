@@ -23,7 +23,8 @@ from .references import Opened
 # What the importer adds to the name of a model: for a mesh that others share, or a name is taken.
 _ADDED = re.compile(r"(_GeomAdjust)?(\.\d{3,})?$")
 _SHORT = 50  # letters of a name that Blender does not cut
-_SAME_POINT = 1e-6  # relative to the largest coordinate; larger than the rounding of float32
+# Chosen, relative to the largest coordinate: larger than the rounding of float32, 6e-8.
+_SAME_POINT = 1e-6
 
 
 def import_fbx(path: str, frame: float | None) -> Opened:
@@ -63,8 +64,8 @@ def import_fbx(path: str, frame: float | None) -> Opened:
 
 
 def _groups(models: list[FbxModel]) -> list[tuple[list[Object], list[FbxModel]]]:
-    """Return mesh objects and the models with their names, in the same order: one pair for a name
-    that is unique.
+    """Return groups of mesh objects and of the models with a mesh that have the same name, both in
+    the order of Blender's numbers: of one pair if the name is unique.
     """
     by_name: dict[str, list[FbxModel]] = {}
     for model in models:
@@ -79,7 +80,9 @@ def _groups(models: list[FbxModel]) -> list[tuple[list[Object], list[FbxModel]]]
 
 
 def _set_weights(obj: Object, model: FbxModel) -> bool:
-    """Give shape keys the weights that a file states; return False if some cannot be."""
+    """Give shape keys the weights that a file states. Return False if a weight is NaN or too large,
+    or the keys are not those of the file.
+    """
     if obj.data.shape_keys is None:
         return True
     obj.data.shape_keys.animation_data_clear()
@@ -99,8 +102,8 @@ def _set_weights(obj: Object, model: FbxModel) -> bool:
 
 
 def _correct(groups: list[tuple[list[Object], list[FbxModel]]], to_scene: Array) -> dict[str, str]:
-    """Bring objects to the places that a file states, and return the reasons to doubt those of
-    others.
+    """Bring objects to the places that a file states, and return the reasons to doubt the places of
+    other objects, by their names.
     """
     doubts: dict[str, str] = {}
     places: dict[str, Array] = {}
@@ -115,20 +118,22 @@ def _correct(groups: list[tuple[list[Object], list[FbxModel]]], to_scene: Array)
                 doubts[obj.name] = RARE
                 continue
             points_and_place = _place(obj, model, to_scene, is_mixed=bool(bones))
-            unsure = [
+            if points_and_place is None:
+                doubts[obj.name] = "its points are not those of the file"
+                continue
+            points, place = points_and_place
+            reasons = [
                 related_model.place.doubt
                 for related_model in (model, *bones)
                 if related_model.place.doubt is not None
             ]
-            if points_and_place is None:
-                doubts[obj.name] = "its points are not those of the file"
-            elif not bones and is_at(obj, points_and_place[1]) or len(models) == 1 and not unsure:
-                places[obj.name] = points_and_place[1]
+            # An object where the file says is right, whichever of its models it is.
+            if not bones and is_at(obj, place) or len(models) == 1 and not reasons:
+                places[obj.name] = place
                 if bones:
-                    points = model.skinned(points_and_place[0]) @ to_scene[:3, :3].T
-                    skinned.append((obj, points))
+                    skinned.append((obj, model.skinned(points) @ to_scene[:3, :3].T))
             else:
-                doubts[obj.name] = "".join(unsure[:1]) or "names are not unique"
+                doubts[obj.name] = "".join(reasons[:1]) or "names are not unique"
     place_objects(places)
     for obj, points in skinned:
         show_points(obj, points, np.eye(4))
@@ -152,7 +157,8 @@ def _place(
     world = to_scene @ model.place.matrix
     to_pivot = model.to_pivot
     # Blender's importer moves the points by the matrix of the mesh, and their origin to the pivot,
-    # if no other model shares the mesh.
+    # if no other model shares the mesh. So `inner` moves the file's points to the object's, and
+    # `outer` those to the world; the first pair whose points agree is the importer's.
     for inner, outer in (
         (np.linalg.inv(to_pivot) @ model.geometric, world @ to_pivot),
         (model.geometric, world),

@@ -119,6 +119,9 @@ def _extension(node: Any, name: str) -> dict[str, Any]:
 
 
 def _node_of(vnode: Any, gltf: Any) -> _Shown:
+    """Return the node whose mesh an object shows. vnode: the importer's node of the object; of an
+    instance (EXT_mesh_gpu_instancing), it is below the node, and has no number of its own.
+    """
     number = vnode.mesh_node_idx
     if number is not None:
         return _Shown(number, np.eye(4), gltf.data.nodes[number].skin is not None)
@@ -191,9 +194,10 @@ class _Pose:
                     points[:, :3] += weight * self._file.numbers(target["POSITION"])
             moved_points = np.zeros_like(points) if "skin" in node else points
             for name in (name for name in arrays if "skin" in node and name[0] == "J"):
-                shares = arrays["WEIGHTS" + name[6:]]
+                shares = arrays["WEIGHTS" + name.removeprefix("JOINTS")]
                 for joint, share in zip(arrays[name].T.astype(int), shares.T):
                     moved_points += share[:, None] * (joints[joint] @ points[..., None])[..., 0]
+            # Blender has only the vertices that faces use.
             used_indices = np.arange(len(points))
             if "indices" in part:
                 used_indices = np.unique(self._file.numbers(part["indices"])).astype(int)
@@ -215,10 +219,14 @@ def _target(target: dict[str, Any]) -> tuple[int, str] | None:
 
 
 def _sampled(file: GltfFile, sampler: dict[str, Any], seconds: float, part: str) -> Array:
-    """Return the values of a sampler of an animation at a time: constant outside of its keys."""
+    """Return the (k,) values of a sampler of an animation at a time: constant outside of its keys.
+
+    Rotations are unit quaternions, between which the shorter arc is followed.
+    """
     times = file.numbers(sampler["input"])[:, 0]
     values = file.numbers(sampler["output"])
     kind = sampler.get("interpolation", "LINEAR")
+    # A key of a cubic spline has an arriving tangent, a value and a leaving tangent.
     key_values = values.reshape(len(times), 3 if kind == "CUBICSPLINE" else 1, -1)
     first = max(bisect_right(times, seconds) - 1, 0)
     last = min(first + 1, len(times) - 1)
@@ -238,7 +246,9 @@ def _sampled(file: GltfFile, sampler: dict[str, Any], seconds: float, part: str)
         angle = 0.0
         if part == "rotation":
             end = -end if start @ end < 0.0 else end
+            # Chord and sum of unit vectors are 2 sin and 2 cos of half the angle between them.
             angle = 2.0 * math.atan2(np.linalg.norm(end - start), np.linalg.norm(end + start))
+        # The arc lacks the divisor sin(angle), as rotations are normalized in the end.
         value = (
             (math.sin((1.0 - share) * angle) * start + math.sin(share * angle) * end)
             if math.sin(angle) > 0.0

@@ -21,7 +21,8 @@ from ...core.verdict import FileError, Finding, finding
 from ..findings import FILE_HIDES, FRAME_MEASURED, USD_CAGE, USD_UNREAD
 from . import placing, references
 
-_SHEAR = 1e-6  # cosine of the angle between two axes; larger than the rounding of float32
+# Chosen, cosine of the angle between two axes: larger than the rounding of float32, 6e-8.
+_SHEAR = 1e-6
 
 
 class _Prim(NamedTuple):
@@ -30,7 +31,8 @@ class _Prim(NamedTuple):
     hidden: the reason why a renderer does not show it. scheme: the subdivision of a mesh that is a
     cage. solid: the arguments of `revolved_solid`. place: (4, 4) its matrix in the scene.
     is_member: of an instance. points: (n, 3) of a mesh that moves. members: of an instancer, the
-    objects that it shows, each with its (k, 4, 4) places relative to it.
+    names of the objects that it shows, each with its (k, 4, 4) places relative to it. Each is None
+    if it does not apply.
     """
 
     hidden: str | None
@@ -63,18 +65,23 @@ def import_usd(path: str, frame: float | None) -> references.Opened:
 
 
 def _is_special(prim: _Prim) -> bool:
+    """Return whether an object needs a correction of its own, which a member of an instance cannot
+    have.
+    """
     axes = prim.place[:3, :3]
     lengths = np.linalg.norm(axes, axis=0)
-    off = np.abs(axes.T @ axes - np.diag(lengths**2))
-    is_sheared = (off > _SHEAR * np.outer(lengths, lengths)).any()
+    products = np.abs(axes.T @ axes - np.diag(lengths**2))  # of different axes
+    is_sheared = (products > _SHEAR * np.outer(lengths, lengths)).any()
     return bool(prim.hidden or prim.scheme or is_sheared or prim.points is not None)
 
 
 def _import(
     path: str, frame: float | None, **options: bool
 ) -> tuple[dict[str, _Prim], tuple[Finding, ...], float | None]:
-    """Run Blender's importer, and return the prims of objects by name, and a finding about missing
-    references.
+    """Run Blender's importer at a frame, set the scene's unit, and return the prims of objects by
+    name, findings about missing references and shapes, and the frame, None without animation.
+
+    options: of the importer. Raises FileError.
     """
     # Objects left out by the importer would be missed in silence, and scaled ones have float32
     # matrices.
@@ -114,15 +121,17 @@ def _import(
     if unread:
         missing = (*missing, finding(USD_UNREAD, names=unread))
     bpy.context.scene.unit_settings.scale_length = unit
+    # Blender clamps a unit beyond its limits, and rounds others to float32, by 6e-8 at most.
     if not abs(bpy.context.scene.unit_settings.scale_length - unit) <= 1e-6 * unit:
         raise FileError(files.FILE_UNREADABLE, error="its metersPerUnit is {}".format(unit))
     return prims, missing, start
 
 
 class _Stage:
-    """An open stage at a frame, in meters per `unit`. start: that frame, None without animation.
+    """An open stage at a frame. unit: of its lengths, in meters. start: the frame, None without
+    animation.
 
-    It is gone when Blender's importer returns.
+    The stage is gone when Blender's importer returns.
     """
 
     def __init__(self, stage: Any, frame: float | None) -> None:
@@ -206,7 +215,7 @@ class _Stage:
         paths = {
             str(path)
             for path, data_blocks in blocks.items()
-            if any(getattr(b, "type", "") != "EMPTY" for b in data_blocks)
+            if any(getattr(block, "type", "") != "EMPTY" for block in data_blocks)
         }
         return [
             "{} ({})".format(prim.GetPath(), prim.GetTypeName())
@@ -218,6 +227,9 @@ class _Stage:
         ]
 
     def _facts(self, prim: Any, names: Mapping[Any, str]) -> _Prim:
+        """Return the facts about a prim, without moving points. names: of objects, by the paths of
+        their prims.
+        """
         mesh = self._geom.Mesh(prim)
         scheme = mesh.GetSubdivisionSchemeAttr().Get() if mesh else None
         members = None
@@ -277,6 +289,9 @@ class _Stage:
             yield from self._shapes(child, root)
 
     def _why_hidden(self, imageable: Any) -> str | None:
+        """Return the reason why a renderer does not show a prim, or None. A prim below an instancer
+        is a prototype.
+        """
         above = imageable.GetPrim().GetParent()
         if imageable.ComputeVisibility(self._time) == self._geom.Tokens.invisible:
             return "it is invisible"
@@ -288,6 +303,9 @@ class _Stage:
         return purpose
 
     def _solid(self, prim: Any) -> tuple[float, float, float, str, bool] | None:
+        """Return the radii at bottom and top, the height and the axis of a round solid, and whether
+        its ends are round; None for other prims.
+        """
         kind = prim.GetTypeName().removesuffix("_1")
         if kind not in ("Sphere", "Capsule", "Cylinder", "Cone"):
             return None
@@ -304,6 +322,11 @@ class _Stage:
 def _correct(
     prims: Mapping[str, _Prim], missing: tuple[Finding, ...], start: float | None
 ) -> references.Opened:
+    """Correct the imported objects by their prims, and return the findings.
+
+    missing, start: as of `_import`. Solids, points and places come first; members of instancers are
+    copies of the corrected objects.
+    """
     bpy.context.view_layer.update()
     hidden: dict[str, Finding] = {}
     notes = () if start is None else (finding(FRAME_MEASURED, frame=start),)
@@ -334,12 +357,12 @@ def _correct(
     for name, prim in prims.items():
         if prim.members is not None:
             _show_members(name, prim)
-            about = [
+            member_findings = [
                 member_finding
                 for member in prim.members
                 for member_finding in findings.get(member, ())
             ]
-            findings[name] = tuple(dict.fromkeys(about))
+            findings[name] = tuple(dict.fromkeys(member_findings))
         elif prim.hidden is None and not prim.is_member:
             obj = bpy.data.objects[name]
             top = bpy.context.scene.collection

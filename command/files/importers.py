@@ -26,8 +26,11 @@ from .references import Opened
 
 # Numbers of vertices with a meaning of their own; Blender makes attributes of all others.
 _KNOWN = {*("x", "y", "z", "nx", "ny", "nz", "s", "t"), *("red", "green", "blue", "alpha")}
-_MOVED = 1e-6  # by float32, relative to the body's size
-_SHEAR = 1e-6  # relative to the largest entry of a matrix; larger than the rounding of float32
+# Chosen, a shift of points by float32 relative to the body's size: the rounding of float32, 6e-8,
+# exceeds it if the origin is more than about 16 sizes away.
+_MOVED = 1e-6
+# Chosen, relative to the largest entry of a matrix: larger than the rounding of float32.
+_SHEAR = 1e-6
 _OBJ_MESH = re.compile(rb"[ \t]*(?:f|l|curv)[ \t]")  # the elements that Blender's importer reads
 
 
@@ -86,7 +89,7 @@ def import_3mf(path: str) -> Opened:
     meshes: dict[tuple[str, str], bpy.types.Mesh] = {}
     errors: list[Finding] = []
     notes: dict[str, tuple[Finding, ...]] = {}
-    for part, negative in _without_negative_parts(placed, errors):
+    for part, negative_names in _without_negative_parts(placed, errors):
         if part.key not in meshes:
             meshes[part.key] = _mesh(part)
         obj = bpy.data.objects.new(part.name, meshes[part.key])
@@ -98,7 +101,7 @@ def import_3mf(path: str) -> Opened:
             obj.body_moments.density = print_settings.pop("density")
         set_print(obj.body_moments, print_settings)
         unread = [finding(UNCHECKED, subject=PRINT_SETTINGS)] * (part.print_settings is None)
-        cut = [finding(streams.NEGATIVE_PARTS_CUT, names=negative)] if negative else []
+        cut = [finding(streams.NEGATIVE_PARTS_CUT, names=negative_names)] if negative_names else []
         notes[obj.name] = (*unread, *cut)
         if part.hidden:
             hidden[obj.name] = finding(FILE_HIDES, cause=part.hidden)
@@ -107,7 +110,7 @@ def import_3mf(path: str) -> Opened:
             np.abs(np.array(obj.matrix_basis) - part.matrix).max()
             > _SHEAR * np.abs(part.matrix).max()
         ):
-            obj.matrix_basis = Matrix()  # an object's own channels hold no shear
+            obj.matrix_basis = Matrix()  # The channels of an object hold no shear, its mesh does.
             obj.data = _mesh(
                 replace(part, points=part.points @ part.matrix[:3, :3].T + part.matrix[:3, 3])
             )
@@ -118,8 +121,10 @@ def import_3mf(path: str) -> Opened:
 def _without_negative_parts(
     placed: list[streams.Placed], errors: list[Finding]
 ) -> Iterator[tuple[streams.Placed, list[str]]]:
-    """Yield the meshes with negative parts cut away, and the names of these; a mesh that cannot be
-    cut is left out, with an error.
+    """Yield the meshes with negative parts cut away, each with the names of its negative parts. A
+    mesh that cannot be cut is left out, and an error is added to `errors`.
+
+    Negative parts themselves are yielded as hidden. A cut mesh has a key of its own.
     """
     for number, solid_part in enumerate(placed):
         if solid_part.is_negative:

@@ -29,7 +29,7 @@ from .import_usd import import_usd
 from .importers import import_3mf, import_cad, import_mesh, import_obj
 from .references import Opened
 
-_OLDEST = (2, 50)  # reading files of older versions can damage their content
+_OLDEST = (2, 50)  # Reading files of older versions can damage their content.
 _KNOWN_FORMAT = 1  # version of the .blend format
 _TRACEBACK = "Traceback (most recent call last)"
 _BLEND_WORD = re.compile(r"\.blend\d*$", re.IGNORECASE)
@@ -72,10 +72,13 @@ def open_file(path: str | None, frame: float | None = None) -> Opened:
 
 
 def _imported(path: str, kind: str, frame: float | None) -> Opened:
+    """Import a file into an empty scene, and return the findings about it; objects that it does not
+    show are not rendered. Raises FileError, OSError and RuntimeError.
+    """
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     try:
         findings = _ANIMATED[kind](path, frame) if kind in _ANIMATED else _IMPORTERS[kind](path)
-    except AttributeError as error:
+    except AttributeError as error:  # `bpy.ops` has no such operator.
         fault = "it has no importer for {} files".format(kind)
         raise FileError(FILE_UNREADABLE, error=fault) from error
     opened = findings if isinstance(findings, Opened) else Opened()
@@ -143,7 +146,7 @@ def reason(error: Exception) -> str:
     lines = [line.strip() for line in str(error).splitlines() if line.strip()]
     if not lines:
         return type(error).__name__
-    # the exception's line follows the indented ones of its frames
+    # In a traceback, the exception's line follows the indented lines of its frames.
     if any(_TRACEBACK in line for line in lines):
         lines = [line.rstrip() for line in str(error).splitlines()]
         last = max(

@@ -31,7 +31,7 @@ _BEGINNING = re.compile(
 _SPECTRUM = {name + ".npy" for name in measurement.SPECTRUM_ARRAYS}
 _FLAT_SPECTRUM = _SPECTRUM | {name + ".npy" for name in measurement.FLAT_SPECTRUM_ARRAYS}
 _COLUMNS = next(csv.reader(measurement.to_csv([])))
-_LAST = 2  # columns at the end, behind optional ones
+_LAST = 2  # columns of a table at the end, behind optional ones
 Fail = Callable[[str], NoReturn]  # ends a command with the reason and its usage
 
 
@@ -120,11 +120,12 @@ def is_result(path: Path) -> bool:
         head = file.read(_HEAD)
     if _BEGINNING.match(head) or robots.is_ours(head) or robots.is_audit(head):
         return True
-    columns = head.split(b"\n", 1)[0].rstrip(b"\r").decode("utf-8", "replace").split(",")
     with suppress(zipfile.BadZipFile), zipfile.ZipFile(path) as arrays:
         return {*arrays.namelist()} in (_SPECTRUM, _FLAT_SPECTRUM)
-    table_columns = _COLUMNS[:-_LAST], _COLUMNS[-_LAST:]
-    return (columns[: len(table_columns[0])], columns[-_LAST:]) == table_columns
+    first_line, _, _ = head.partition(b"\n")
+    columns = first_line.rstrip(b"\r").decode("utf-8", "replace").split(",")
+    first_columns = _COLUMNS[:-_LAST]
+    return columns[: len(first_columns)] == first_columns and columns[-_LAST:] == _COLUMNS[-_LAST:]
 
 
 def guard(force: bool) -> Callable[[Path], None]:
@@ -162,7 +163,9 @@ def check_targets(
 
 
 def _find_refusal(target: Path, read: Sequence[str | Path], force: bool) -> str:
-    """Return the reason why a result must not be written, or an empty text. Raises OSError."""
+    """Return the reason why a result must not be written, or an empty text: the first reason that
+    holds. Raises OSError.
+    """
     folder = os.path.dirname(os.path.realpath(target))
     is_read = target.exists() and any(
         os.path.exists(path) and target.samefile(path) for path in read
@@ -173,7 +176,7 @@ def _find_refusal(target: Path, read: Sequence[str | Path], force: bool) -> str:
     refusals = {
         "no folder {}".format(target.parent): not target.parent.is_dir(),
         "{} is a folder".format(target): target.is_dir(),
-        "": is_stream(target),  # written to as it is
+        "": is_stream(target),  # A pipe or a device has none of the faults below.
         "no file can be written in {}. Use another folder".format(folder): (
             not os.access(folder, os.W_OK)
         ),

@@ -17,7 +17,9 @@ from ..findings import FRAME_MEASURED
 
 ANCHOR = "Imported Places"  # an empty at the world's origin
 MOST_WEIGHT = 10.0  # Blender's limit of the value of a shape key
-_AGREEMENT = 1e-5  # of an axis, and of a location: larger than the rounding along chains of parents
+# Chosen, relative difference of an axis, and of a location: larger than the rounding of float32,
+# 6e-8, along chains of parents.
+_AGREEMENT = 1e-5
 
 
 def set_frame(frame: float) -> None:
@@ -27,7 +29,7 @@ def set_frame(frame: float) -> None:
 
 
 def shown_seconds(first: float = 0.0) -> float:
-    """Return the time of the evaluated frame, in seconds from the first one."""
+    """Return the time of the evaluated frame, in seconds from frame `first`."""
     scene = bpy.context.scene
     return (scene.frame_current_final - first) * scene.render.fps_base / scene.render.fps
 
@@ -48,15 +50,21 @@ def measure_at(frame: float | None) -> tuple[Finding, ...]:
 
 
 def is_at(obj: bpy.types.Object, place: Array) -> bool:
-    """Return whether Blender shows an object at a (4, 4) place."""
-    size = np.abs(place[:3]).max(axis=0)
-    size = np.maximum(size, [*[size[:3].max()] * 3, 1e-30])
+    """Return whether Blender shows an object at a (4, 4) place.
+
+    Axes are compared relative to the longest one, the location relative to its largest coordinate.
+    """
+    column_sizes = np.abs(place[:3]).max(axis=0)
+    # 1e-30 is practically 0: a location at the origin must agree exactly.
+    sizes = np.maximum(column_sizes, [*[column_sizes[:3].max()] * 3, 1e-30])
     apart = np.abs(float64_matrix(obj.matrix_world)[:3] - place[:3])
-    return bool((apart <= _AGREEMENT * size).all())
+    return bool((apart <= _AGREEMENT * sizes).all())
 
 
 def place_objects(places: Mapping[str, Array]) -> None:
-    """Give objects their (4, 4) places, and move those to them that stand elsewhere."""
+    """Record the exact (4, 4) places of objects, and move the objects that Blender shows elsewhere,
+    without constraints, animation and parent.
+    """
     bpy.context.view_layer.update()
     objects = bpy.data.objects
     for name, place in places.items():
@@ -66,7 +74,7 @@ def place_objects(places: Mapping[str, Array]) -> None:
         return
     anchor = objects.new(ANCHOR, None)
     bpy.context.scene.collection.objects.link(anchor)
-    # The objects below move with them.
+    # The objects below the wrong ones move with them.
     moved_objects = {*wrong, *(child for parent in wrong for child in parent.children_recursive)}
     for obj in (obj for obj in moved_objects if obj.name in places):
         obj.constraints.clear()
@@ -88,6 +96,7 @@ def show_points(obj: bpy.types.Object, points: Array, place: Array) -> None:
         raise ValueError("points")
     obj.modifiers.clear()
     obj.shape_key_clear()
+    # Around their mean, points have small coordinates, which float32 rounds less.
     middle = np.eye(4)
     middle[:3, 3] = points.mean(axis=0)
     local = (points - middle[:3, 3]).astype(np.float32)

@@ -63,7 +63,7 @@ def reported_references(import_file: Callable[[], object]) -> tuple[Finding, ...
             text = printed.read()
             with open(2, "wb", closefd=False) as again:
                 again.write(text)
-    # each a file, with the path of a prim that is missing in it
+    # Each report is about a file, with the path of a prim if that is missing in it.
     reports = {
         "".join(asset.groups("")) if asset else report
         for report in _REPORT.findall(text.decode("utf-8", "replace"))

@@ -71,7 +71,7 @@ class Place:
         _save(self.path, self._check, compress=self.is_packed)
 
     def _check(self) -> None:
-        # the folder alone decides whether a file can be replaced
+        # Replacing a file takes only the right to write in its folder.
         if not os.access(self.path, os.W_OK):
             raise OSError("it is gone, or read-only")
         if Place.of_file(str(self.path)) != self:
@@ -80,7 +80,9 @@ class Place:
 
 
 def _save(target: Path, check: Callable[[], None] = lambda: None, **options: bool) -> None:
-    """Save the open scene, whole or not at all; check: raises an error if the target must stay."""
+    """Save the open scene to a file, whole or not at all. check: raises an error if the file must
+    stay as it is. options: of Blender's operator. Raises FileError.
+    """
     try:
         with partial_file(target) as partial:
             bpy.ops.wm.save_as_mainfile(
@@ -142,6 +144,7 @@ def _without_numbers(measured_roots: set[read.assembly.Root]) -> Iterator[Findin
 
 
 def _has_geometry(root: read.assembly.Root) -> bool:
+    """Return whether an object or a collection shows geometry, its own or that of instances."""
     if isinstance(root, bpy.types.Collection):
         return any(map(_has_geometry, root.all_objects))
     return root.type in _WITH_GEOMETRY or settings.given.shows_collection(root)

@@ -52,11 +52,9 @@ from ..supervisor import listing, processes
 from .entries import Contents, cut_entries, failure, floating_entry, is_open_sheet, picture
 
 BYTES_PER_FACE = 500  # approximate memory for reading and measuring a mesh
-# Least bytes for each face: a file's size limits its faces.
-BYTES_OF_FILE = {
-    ".stl": 50,
-    ".ply": 19,
-}
+# Least bytes for each face, so that a file's size limits its faces: in .stl a binary record, in
+# .ply a counter of 1 byte, three indices of 4, and half a vertex of 12.
+BYTES_OF_FILE = {".stl": 50, ".ply": 19}
 UP = (0.0, 0.0, 1.0)
 DEFAULT_DENSITY = 1000.0  # kg/m³
 DEFAULT_THICKNESS = 0.001  # m, as of an object
@@ -137,6 +135,9 @@ class BareFile:
         )
 
     def _mesh_settings(self) -> tuple[Settings, list[Finding]]:
+        """Return the settings with the unit of a mesh file and a density, and findings about
+        these.
+        """
         settings = replace(self._settings(), unit=self.options.unit_scale or 1.0)
         findings = [*checks.file_findings(self._path, self.options)]
         if settings.density is None and settings.mass is None:
@@ -157,6 +158,9 @@ class BareFile:
         return ((name, body) for name, body in bodies.items() if name in requested_names)
 
     def _measure_whole(self, contents: Contents) -> None:
+        """Measure a scan, or a mesh that is read in blocks, as one body; a scan with --label as a
+        body for each label.
+        """
         is_scan = self._is_scan
         name = os.path.basename(self._path)[: -len(file_suffix(self._path))]
         if is_scan and self.options.label is not None:
@@ -173,23 +177,20 @@ class BareFile:
             if is_scan
             else self._measure_stream(name, progress)
         )
-        requested = [name for name in ("pose", "signature") if getattr(self.options, name)]
-        shapeless = [finding(SHAPE_OF_GRID)] * bool(requested)
-        shapeless = shapeless if is_scan else checks.unused(requested)
-        floats = ["float"] * bool(self.options.float)
-        empty_entries = (
-            *requested,
-            *["thumbnail"] * bool(self.options.thumbnails),
-            *["floating"] * len(floats),
-        )
-        self._add(
-            contents,
-            measurement,
-            [*shapeless, *checks.unused(floats)],
-            dict.fromkeys(empty_entries),
-        )
+        # These entries of the record need a surface in memory, and are None.
+        shape_options = [name for name in ("pose", "signature") if getattr(self.options, name)]
+        entries: dict[str, Any] = dict.fromkeys(shape_options)
+        if self.options.thumbnails:
+            entries["thumbnail"] = None
+        findings = [finding(SHAPE_OF_GRID)] * bool(is_scan and shape_options)
+        findings += checks.unused([] if is_scan else shape_options)
+        if self.options.float:
+            entries["floating"] = None
+            findings += checks.unused(["float"])
+        self._add(contents, measurement, findings, entries)
 
     def _measure_labels(self, name: str, contents: Contents) -> None:
+        """Measure the labels of a scan, each as a body. name: of the file. Raises MeasureError."""
         options = self.options
         settings, findings = self._mesh_settings()
         table = {}
@@ -197,18 +198,19 @@ class BareFile:
             table_name = options.label_table.name
             with contents.attempt(table_name), about_file(table_name):
                 table = read_label_table(options.label_table, options.limits)
-            if not table:
+            if not table:  # The contents have the error.
                 return
         requested_labels = None if options.label == "all" else [options.label]
-        array = self._array_options()
+        array = self._array_options()  # It has the unit, so that the settings' unit is meters.
         measured = measure_labels(
             self._path, name, array, replace(settings, unit=1.0), requested_labels, table
         )
-        absent = [entries["label"]["value"] for _, entries in measured]
-        absent = [label for label in absent if label not in table]
+        measured_labels = [entries["label"]["value"] for _, entries in measured]
+        absent = [label for label in measured_labels if label not in table]
         if options.label_table is not None and absent:
             values = {"labels": absent, "others": sorted(table), "remedy": "--label-table"}
             raise FileError(LABEL_ABSENT, file=options.label_table.name, **values)
+        # The unit of a scan, and its options, are not those of a mesh file.
         findings = [
             file_finding
             for file_finding in findings
@@ -236,19 +238,22 @@ class BareFile:
         return ArrayOptions(**{name: value for name, value in values.items() if value is not None})
 
     def _measure_stream(self, name: str, progress: Callable[[int], None]) -> Measurement:
+        """Measure a mesh that is read in blocks. Raises MeasureError, also for options that need
+        all of it in memory.
+        """
         check_file(self._path)
         options = self.options
-        given_options = [
-            name_of_option
-            for name_of_option in _NOT_OF_STREAMS
-            if getattr(options, name_of_option) not in (None, "thin", "value")
-        ]
-        given_options += [
+        refused_options = [
+            *(
+                option
+                for option in _NOT_OF_STREAMS
+                if getattr(options, option) not in (None, "thin", "value")
+            ),
             *arguments.boolean_and_wire(options),
             *["kind"] * (options.kind == "printed"),
         ]
-        if given_options:
-            raise QueryError(STREAM_OPTIONS, options=arguments.words(given_options))
+        if refused_options:
+            raise QueryError(STREAM_OPTIONS, options=arguments.words(refused_options))
         settings, findings = self._mesh_settings()
         return measure_mesh_file(self._path, name, settings, tuple(findings), progress)
 
@@ -286,7 +291,10 @@ class BareFile:
     def _measure_mesh(
         self, reading: Reading, settings: Settings, findings: list[Finding], contents: Contents
     ) -> None:
-        sheet = []
+        """Add the measurement of one mesh, of an open sheet as a shell, and the requested entries
+        of its record. findings: about its file. Raises MeasureError.
+        """
+        sheet_findings = []
         try:
             body = body_of_mesh(reading, settings)
             measurement = measure_reading(reading, body, settings)
@@ -297,11 +305,11 @@ class BareFile:
             shell = replace(settings, kind="shell", thickness=thickness)
             body = body_of_mesh(reading, shell)
             measurement = measure_reading(reading, body, shell)
-            sheet = [finding(MEASURED_AS_SHELL)]
+            sheet_findings = [finding(MEASURED_AS_SHELL)]
         extra_entries, floating_findings = {}, ()
         if self.options.float:
             mass_properties = measurement.mass_properties
-            settled = partial(
+            settle = partial(
                 floating.settle,
                 [body],
                 mass_properties.mass,
@@ -311,7 +319,7 @@ class BareFile:
                 center_error=measurement.center_bounds,
             )
             extra_entries, floating_findings = floating_entry(
-                settled, measurement, self.options, contents
+                settle, measurement, self.options, contents
             )
         if self.options.thumbnails:
             extra_entries["thumbnail"] = picture(reading.join(), measurement, settings.unit)
@@ -319,7 +327,7 @@ class BareFile:
         self._add(
             contents,
             measurement,
-            (*findings, *sheet, *floating_findings, *cut_findings),
+            (*findings, *sheet_findings, *floating_findings, *cut_findings),
             extra_entries | cuts,
         )
 
@@ -346,14 +354,14 @@ class BareFile:
 
 
 def _with_own_names(meshes: Iterable[Named]) -> dict[str, Named]:
-    """Return meshes or bodies by name, later ones of a name with numbers behind it, as in
-    Blender.
+    """Return meshes or bodies by name. If several have one name, later ones get numbers behind it,
+    as in Blender.
     """
     by_name: dict[str, Named] = {}
     for mesh in meshes:
         numbered = ("{}.{:03d}".format(mesh.name, number) for number in count(1))
-        name = next(name for name in chain([mesh.name], numbered) if name not in by_name)
-        by_name[name] = replace(mesh, name=name)
+        own_name = next(name for name in chain([mesh.name], numbered) if name not in by_name)
+        by_name[own_name] = replace(mesh, name=own_name)
     return by_name
 
 
@@ -378,7 +386,9 @@ def is_bare(path: str, options: Namespace, memory: int | None) -> bool:
 
 
 def is_streamed(path: str, options: Namespace, memory: int | None) -> bool:
-    """Return whether the faces of a file are read in blocks."""
+    """Return whether the faces of a file are read in blocks: if requested, or if all at once might
+    take more than `memory` bytes, None for any.
+    """
     suffix = file_suffix(path)
     if suffix not in STREAMED or options.stream != "auto":
         return suffix in STREAMED and options.stream == "always"

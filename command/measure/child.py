@@ -53,12 +53,15 @@ def serve(line: Lifeline) -> None:
 
 
 def _measure(run: Run, path: str, line: Lifeline) -> None:
-    faults = run.internal_errors
-    before = state(path)
+    """Measure a file, and answer with its document; with the count of internal errors, the state of
+    the file that the document is about, and the states of the files that it refers to.
+    """
+    faults_before = run.internal_errors
+    state_before = state(path)
     document = run.document(path)
     head: dict[str, Any] = {
-        "faults": run.internal_errors - faults,
-        "state": state(path) if run.has_saved else before,
+        "faults": run.internal_errors - faults_before,
+        "state": state(path) if run.has_saved else state_before,
     }
     names = sorted(map(os.fspath, references(path, run.opened)))
     head["reads"] = {name: state(name) for name in names}

@@ -23,8 +23,8 @@ from .entries import Contents
 
 @dataclass(frozen=True, eq=False)
 class Combined:
-    """Measurements of assemblies and rigs; unit: meters per Blender unit; more: entries of the
-    assemblies' records.
+    """Measurements of assemblies and rigs. unit: meters per Blender unit. more: further entries of
+    the assemblies' records, by their objects or collections.
     """
 
     unit: float = 1.0
@@ -56,7 +56,8 @@ class Combined:
                 more={"armature": rig.armature.name},
             )
             for rig in self.rigs
-            for place_error in [self.unit * _place_error(rig)]
+            for mesh_error in [max(map(read.places.place_error, rig.objects), default=0.0)]
+            for place_error in [self.unit * (mesh_error + read.places.place_error(rig.armature))]
             for part in rig.parts
             if part.measurement is not None
         ]
@@ -73,11 +74,6 @@ class Combined:
         for rig in self.rigs:
             with contents.attempt(rig.armature.name):
                 stored.results.store_rig(rig)
-
-
-def _place_error(rig: bodies.rig.Rig) -> float:
-    mesh_error = max(map(read.places.place_error, rig.objects), default=0.0)
-    return mesh_error + read.places.place_error(rig.armature)
 
 
 def measure_combined(

@@ -38,8 +38,9 @@ from ..options.arguments import RIM
 class Contents:
     """Measured entries of a file's document.
 
-    internal: returns the entry about an unexpected error. measured: names, objects in Blender and
-    measurements, in the order of `objects`. caveats: about the total.
+    internal: returns the entry about an unexpected error. objects: the records of bodies. measured:
+    their names, objects in Blender (None without it) and measurements, in the same order. flats:
+    the records of flat shapes. caveats: about the total.
     """
 
     internal: Callable[[str | None, Exception], dict[str, Any]]
@@ -67,8 +68,8 @@ def failure(name: str | None, reason: Finding) -> dict[str, Any]:
 
 
 def said_once(entries: Sequence[dict[str, Any]], code: str) -> Iterator[Finding]:
-    """Yield the finding with a code, to be said once of a file, if several records all have it; it
-    leaves them.
+    """If several records all have the finding with a code, remove it from them and yield it, once
+    for all of them with equal values.
     """
     matches = [
         (entry, record)
@@ -120,6 +121,7 @@ def cut_entries(
 
 
 def _below(measurement: Measurement, body: Body, level: float) -> dict[str, Any]:
+    """Return the entry `below` of a record. level: in meters. Raises MeasureError."""
     if measurement.kind != "solid" and body.wall is None:
         raise MeasureError(LEVEL_UNAVAILABLE, fault=SURFACE_NEEDED)
     if body.method.procedure is Procedure.OPEN:
@@ -134,6 +136,10 @@ def _cut_fill(
     against: float | str,
     against_object: Callable[[str, Surface], CutFill] | None,
 ) -> CutFill:
+    """Return cut and fill of a body against a height, its rim or the object of a name.
+
+    Raises MeasureError.
+    """
     if not body.has_surface:
         raise MeasureError(CUT_FILL_UNAVAILABLE, fault=SURFACE_NEEDED)
     surface = join_surfaces([*body.surfaces(True)])
@@ -165,7 +171,7 @@ def floating_entry(
 
     settle: returns its position of rest. measurement: its axes are those of heel and trim.
     """
-    with contents.attempt(measurement.name):
+    with contents.attempt(measurement.name):  # It stops errors, so that the last line is reached.
         rest = settle()
         angles = np.radians(options.gz or ())
         entry = float_record(rest, measurement, options.frame, angles, rest.body.find_rests([rest]))

@@ -73,7 +73,7 @@ def complete(
     failed = []
     if not (options.no_meshes or options.inertial_only or is_stream(options.output)):
         surface_of = partial(scene_links.surface, bpy.context)
-        read = Path(document["file"]) if document["file"] else None
+        source = Path(document["file"]) if document["file"] else None
         try:
             robot_with_colliders = (
                 without_collision(scene_links.robot)
@@ -85,7 +85,7 @@ def complete(
                 options.format,
                 surface_of,
                 options.output,
-                read,
+                source,
                 options.force,
                 options.mesh_format,
             )

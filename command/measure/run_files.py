@@ -149,8 +149,8 @@ class _Places:
                 os.replace(path, _old(path))
 
     def restore(self) -> None:
-        """Put back an older result that was set aside. Raises OSError."""
-        for path in self._replaced[1:]:
+        """Put back an older result, but not its journal, that was set aside. Raises OSError."""
+        for path in self._replaced[1:]:  # The first is the journal.
             if not path.exists() and _old(path).exists():
                 os.replace(_old(path), path)
 

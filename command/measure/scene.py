@@ -79,6 +79,7 @@ class Scene:
         self._path, self.options = path, options
         self._wanted = measure_options(options, threads)
         self._combined = combined.Combined()
+        # The objects of each floating body, by the first of them that is measured.
         self._afloat: dict[bpy.types.Object, list[bpy.types.Object]] = {}
         self._is_open = self.has_saved = False
         self.opened: Sequence[str] = ()
@@ -175,6 +176,9 @@ class Scene:
         opened: references.Opened,
         contents: Contents,
     ) -> None:
+        """Add the measurements of the objects, or errors about them, with findings about the file
+        and the object.
+        """
         file_notes = (
             *opened.notes,
             *file_findings(self._path, self.options),

@@ -69,23 +69,25 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
 
 
 def _rules(options: argparse.Namespace, file_needed: bool) -> Iterator[tuple[bool, str]]:
-    """Yield whether options exclude each other, and the reason."""
+    """Yield faults of the options: whether each is there, and its message. file_needed: as of
+    `parse`.
+    """
     has_files = bool(options.files or options.manifest)
     yield file_needed and not has_files, "a FILE is needed"
-    robot = robots.FORMATS.get(options.format)
-    if robot is not None:
+    robot_format = robots.FORMATS.get(options.format)
+    if robot_format is not None:
         yield len(options.files) > 1, ONE_FILE.format(options.format)
-        bone = "--links bone takes what the bones' settings say, and no --{}"
+        bone_text = "--links bone takes what the bones' settings say, and no --{}"
         for name in ("kind", "thickness", "wall", "overlap"):
             is_given = getattr(options, name) is not None
-            yield options.links == "bone" and is_given, bone.format(name)
-        text = "argument --output: {} is written as text. Use .gltf, .usd or .usda"
+            yield options.links == "bone" and is_given, bone_text.format(name)
+        binary_text = "argument --output: {} is written as text. Use .gltf, .usd or .usda"
         suffix = "" if options.output is None else options.output.suffix.lower()
-        yield suffix in robot.binary_suffixes, text.format(options.format)
+        yield suffix in robot_format.binary_suffixes, binary_text.format(options.format)
+    alone_text = "argument --{}: applies to FILEs that are measured by other processes"
+    is_alone = options.no_supervisor or not has_files
     for name in ("jobs", "memory_mb", "timeout", "blender", "resume"):
-        text = "argument --{}: applies to FILEs that are measured by other processes"
-        is_alone = options.no_supervisor or not has_files
-        yield is_alone and bool(getattr(options, name)), text.format(name.replace("_", "-"))
+        yield is_alone and bool(getattr(options, name)), alone_text.format(name.replace("_", "-"))
     is_stored = options.write or options.asset_metadata
     axes = [axis for axis, _ in options.positions or ()]
     yield from (
@@ -154,7 +156,9 @@ def words(names: Iterable[str]) -> list[str]:
 
 
 def of_numbers(options: argparse.Namespace) -> dict[str, Any]:
-    """Return the options that influence records by name, as JSON would return them."""
+    """Return the options that influence records by name, as JSON would return them. The format does
+    for robots, whose text is in the documents.
+    """
     names = _defaults().keys() - _OF_RUNS | (
         {"format"} if options.format in robots.FORMATS else set()
     )
@@ -201,14 +205,16 @@ def files_of_options(
 
 
 def name_frames(argv: list[str]) -> list[str]:
-    """Write a `--frame` with a number as `--at-frame`."""
-    words = list(argv)
+    """Return the words with `--at-frame` in place of each `--frame` that has a number: with a word,
+    it names axes.
+    """
+    renamed = list(argv)
     for number, word in enumerate(argv):
         option, equals, value = word.partition("=")
         value = value if equals else "".join(argv[number + 1 : number + 2])
         if option == "--frame" and re.fullmatch(r"[+-]?\.?\d\S*", value):
-            words[number] = "--at-frame" + word.removeprefix("--frame")
-    return words
+            renamed[number] = "--at-frame" + word.removeprefix("--frame")
+    return renamed
 
 
 def join_negative_values(argv: list[str]) -> list[str]:
@@ -217,6 +223,7 @@ def join_negative_values(argv: list[str]) -> list[str]:
     """
     joined: list[str] = []
     for word in argv:
+        # A value is a minus, and a digit or a point.
         if (
             joined
             and joined[-1] in {"--origin", "--spacing", "--about", "--below", "--against"}
@@ -230,15 +237,15 @@ def join_negative_values(argv: list[str]) -> list[str]:
 
 def options_of_blender(options: argparse.Namespace, is_scan: bool) -> list[str]:
     """Return the given options for which a mesh, or a scan, has to be an object in Blender."""
-    robot = ["format"] * (options.format in robots.FORMATS)
+    robot_option = ["format"] * (options.format in robots.FORMATS)
     if is_scan:
-        return robot
+        return robot_option
     names_object = isinstance(options.against, str) and options.against != RIM
     return [
         *(name for name in _OF_OBJECTS if getattr(options, name)),
         *["against"] * names_object,
         *boolean_and_wire(options),
-        *robot,
+        *robot_option,
     ]
 
 

@@ -20,11 +20,11 @@ from ..parser import COMMANDS
 MAX_ORDER = 30
 MAX_SPLINE_ORDER = 16
 MAX_FRAME = 1_048_574  # Blender's limit
-MIN_HEEL_STEP = 0.1  # degrees
+MIN_HEEL_STEP = 0.1  # degrees: 3601 angles at most
 MAX_GRID = 256  # frequencies along an axis: its arrays take a few gigabytes
 T = TypeVar("T")
 ABOUT = ("center", "origin", "world")
-# by source: True if a name follows
+# Sources of density: True if a colon and a name follow.
 _NAMED = {
     "value": False,
     "materials": False,
@@ -184,6 +184,8 @@ def heel_angles(text: str) -> tuple[float, ...]:
             and MIN_HEEL_STEP <= parts[2] < math.inf
         ),
     )(text)
+    # Chosen: the last angle is B if the rounding of the quotient, of the order of 1e-13 for 3600
+    # steps, alone prevents it.
     count = math.floor((last - first) / step + 1e-9) + 1
     return tuple(first + i * step for i in range(count))
 
@@ -193,7 +195,7 @@ def _ends(text: str) -> tuple[int, int | None]:
     return _whole(begin or "0"), _whole(end) if end else None
 
 
-# The files from number A up to B - 1, counted from 0; 0 and None if left out.
+# The files from number A up to B - 1, counted from 0.
 file_range = _checked(
     _ends,
     "A:B, two whole numbers, of which B is no smaller",

@@ -7,7 +7,7 @@ Standard library only.
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 from ...core.measurement import bound_of, radius_of_gyration
 
@@ -16,7 +16,14 @@ _DOMAINS = ("volume", "surface", "length", "mass", "area")  # domains of moments
 _LINE = "{:<5} {}: {:<18} {:>12.6g} {:>12.6g}  difference {:.2e}, allowed {:.2e}"
 
 Matrix = list[list[float]]
-Number = tuple[float | None, float, float]  # value, the size that a tolerance is relative to, bound
+
+
+class Number(NamedTuple):
+    """A number of a record. size: what a tolerance is relative to. bound: of its error."""
+
+    value: float | None
+    size: float = 0.0
+    bound: float = 0.0
 
 
 def differences(
@@ -88,16 +95,15 @@ def _numbers(
     else:
         values, second_values = (_values(entry, align) for entry in (first, second))
     for name in dict.fromkeys((*values, *second_values)):
-        (value, size, bound), (second_value, _, second_bound) = (
-            of.get(name, (None, 0.0, 0.0)) for of in (values, second_values)
-        )
+        value, size, bound = values.get(name, Number(None))
+        second_value, _, second_bound = second_values.get(name, Number(None))
         if value is None or second_value is None:
             if value != second_value:
                 yield "FAIL  {}: {} is {} and {}".format(label, name, value, second_value), False
             continue
         allowed = tolerance * size + bound + second_bound
         difference = abs(value - second_value)
-        if difference:
+        if difference:  # NaN differs, and fails.
             passes = difference <= allowed
             yield (
                 _LINE.format(
@@ -116,7 +122,7 @@ def _numbers(
 def _values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
     """Return the numbers of a body's record by their names. align: in the body's own pose."""
     numbers: dict[str, Number] = {
-        name: (entry[name], abs(entry[name] or 0.0), _bound(entry, name))
+        name: Number(entry[name], abs(entry[name] or 0.0), _bound(entry, name))
         for name in _SCALARS
         if name in entry
     }
@@ -129,14 +135,14 @@ def _values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
             distance = math.dist(*(map(_number, point) for point in (about["point"], center)))
             numbers |= _tensor("inertia_about", about["inertia"], _bound_about(entry, distance))
     else:
+        # R x + t brings a point x into the pose, and R I Rᵀ a tensor I.
         pose_rows, inertia = (
-            [[*map(_number, row)] for row in of] for of in (entry["pose"]["matrix"][:3], inertia)
+            [[*map(_number, row)] for row in rows]
+            for rows in (entry["pose"]["matrix"][:3], inertia)
         )
         center = [sum(a * _number(b) for a, b in zip(row, center)) + row[3] for row in pose_rows]
-        pose_rows = [row[:3] for row in pose_rows]
-        inertia = _product(
-            _product(pose_rows, inertia), [list(column) for column in zip(*pose_rows)]
-        )
+        rotation = [row[:3] for row in pose_rows]
+        inertia = _product(_product(rotation, inertia), [list(column) for column in zip(*rotation)])
     bound = _bound(entry, "inertia")
     return (
         numbers
@@ -159,21 +165,22 @@ def _values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
 def _flat_values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
     """Return the numbers of a flat shape. align: only numbers that do not depend on its place."""
     area = entry["area"]
-    numbers: dict[str, Number] = {"area": (area, area or 0.0, bound_of(entry, "area") or 0.0)}
+    area_bound = bound_of(entry, "area") or 0.0
+    numbers = {"area": Number(area, area or 0.0, area_bound)}
     for invariant in entry.get("invariants", ()):
         size = math.hypot(invariant["real"] or 0.0, invariant["imaginary"] or 0.0)
         bound = (invariant["error"] or 0.0) + (invariant["input"] or 0.0)
         for part in ("real", "imaginary"):
-            numbers["{} {}".format(invariant["name"], part)] = (invariant[part], size, bound)
+            numbers["{} {}".format(invariant["name"], part)] = Number(invariant[part], size, bound)
     if align:
         return numbers
     second = entry["second_moments"]
-    square = (second["xx"] or 0.0) + (second["yy"] or 0.0)
-    gyration = math.sqrt(max(square / area, 0.0)) if area else 0.0
+    polar_moment = (second["xx"] or 0.0) + (second["yy"] or 0.0)
+    gyration = math.sqrt(max(polar_moment / area, 0.0)) if area else 0.0
     bound = bound_of(entry, "centroid") or 0.0
     numbers |= _named("centroid", zip("xyz", entry["centroid"]), gyration, bound)
-    # The axes are known to that accuracy at best.
-    axes_error = numbers["area"][2] / area if area else 0.0
+    # The axes have no bound of their own. They are no more accurate than the area.
+    axes_error = area_bound / area if area else 0.0
     for name in ("x", "y", "normal"):
         numbers |= _named("plane." + name, zip("xyz", entry["plane"][name]), 1.0, axes_error)
     bound = bound_of(entry, "second_moments") or 0.0
@@ -185,7 +192,7 @@ def _named(
     name: str, values: Iterable[tuple[str, float | None]], size: float, bound: float
 ) -> dict[str, Number]:
     """Return the components of a vector or a tensor by their names."""
-    return {"{}[{}]".format(name, key): (value, size, bound) for key, value in values}
+    return {"{}[{}]".format(name, key): Number(value, size, bound) for key, value in values}
 
 
 def _tensor(name: str, tensor: Matrix, bound: float) -> dict[str, Number]:
@@ -202,6 +209,9 @@ def _number(value: float | None) -> float:
 
 
 def _moments(moments: dict[str, Any]) -> dict[str, Number]:
+    """Return the moments of a record by their names. Each is relative to the largest moment of its
+    degree.
+    """
     numbers: dict[str, Number] = {}
     for domain in (name for name in _DOMAINS if name in moments):
         bounds = [moments.get(part, {}).get(domain, {}) for part in ("error", "input")]
@@ -211,10 +221,10 @@ def _moments(moments: dict[str, Any]) -> dict[str, Number]:
         for values in degrees.values():
             size = _largest(values.values())
             numbers |= {
-                "moments.{}[{}]".format(domain, powers): (
+                "moments.{}[{}]".format(domain, powers): Number(
                     value,
                     size,
-                    sum(of.get(powers) or 0.0 for of in bounds),
+                    sum(errors.get(powers) or 0.0 for errors in bounds),
                 )
                 for powers, value in values.items()
             }
@@ -226,7 +236,9 @@ def _product(first: Matrix, second: Matrix) -> Matrix:
 
 
 def _bound(entry: dict[str, Any], name: str) -> float:
-    # A given value has no bound, and does not differ.
+    """Return the bound of a number's error. Mass and density have the relative bound of the volume,
+    else of the area: either may follow from it, and a given one does not differ.
+    """
     if name in ("mass", "density", "linear_density"):
         measure = "volume" if entry["volume"] else "area"
         size = entry[measure]
@@ -235,6 +247,9 @@ def _bound(entry: dict[str, Any], name: str) -> float:
 
 
 def _bound_about(entry: dict[str, Any], distance: float) -> float:
+    """Return the bound of an inertia about a point at a distance d from the center: of I + m d²,
+    to the first order, with d as uncertain as the center.
+    """
     shift = distance * _bound(entry, "mass") + 2.0 * (entry["mass"] or 0.0) * _bound(
         entry, "center_of_mass"
     )

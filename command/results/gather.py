@@ -95,8 +95,8 @@ def _documents(options: argparse.Namespace) -> list[dict[str, Any]]:
 
 
 def _merge(options: argparse.Namespace) -> tuple[Iterable[str], int]:
-    """Return the documents of results of one run; a later document replaces one about the same
-    file.
+    """Return JSON lines of the documents of one run, and exit code 0; a later document replaces one
+    about the same file. Raises UsageError.
     """
     documents: dict[str | None, dict[str, Any]] = {}
     counts: Counter[str] = Counter()
@@ -105,14 +105,15 @@ def _merge(options: argparse.Namespace) -> tuple[Iterable[str], int]:
         for document, _ in _read_file(path):
             run_options = document.get("run", {}).get("options", {})
             first = first or (path, run_options)
-            if run_options != first[1]:
+            first_path, first_options = first
+            if run_options != first_options:
                 text = "{} was made with other options than {}: {}. Merge results of one run"
                 names = {
                     name
-                    for name in (run_options | first[1])
-                    if run_options.get(name) != first[1].get(name)
+                    for name in (run_options | first_options)
+                    if run_options.get(name) != first_options.get(name)
                 }
-                raise UsageError(text.format(path, first[0], ", ".join(sorted(names))))
+                raise UsageError(text.format(path, first_path, ", ".join(sorted(names))))
             documents[document["file"]] = document
             counts[os.path.abspath(document["file"] or "")] += 1
     if options.manifest is not None:
@@ -145,7 +146,7 @@ def _read_file(path: str) -> Iterator[Entry]:
         with open(path, encoding="utf-8-sig", errors="surrogateescape") as file:
             begin = file.read(2)
             file.seek(0)
-            if begin[:1] == "[" or begin == "{\n":
+            if begin[:1] == "[" or begin == "{\n":  # An indented object; others are one line each.
                 content = measurement.parse_json(file.read())
                 for number, entry in enumerate(
                     content if isinstance(content, list) else [content], 1
@@ -201,16 +202,17 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
     statuses = Counter(document["status"] for document, _ in entries)
     methods = Counter(entry.get("method", "flat") for _, entry in objects)
     codes = sum((measurement.count_findings(document) for document, _ in entries), Counter())
-    slowest = [
+    times = [
         (float(about["seconds"]), str(document["file"] or "-"))
         for document, about in entries
         if about.get("seconds") is not None
     ]
-    shares = [(_share(entry), "{}: {}".format(file, entry["name"])) for file, entry in objects]
-    widest = [(share, name) for share, name in shares if share is not None]
-    slowest, widest = (
-        sorted(section_rows, reverse=True)[:_LISTED] for section_rows in (slowest, widest)
-    )
+    shares = [
+        (share, "{}: {}".format(file, entry["name"]))
+        for file, entry in objects
+        for share in [_share(entry)]
+        if share is not None
+    ]
     failed = [
         "{}  {}: {}".format(
             document["status"],
@@ -226,9 +228,11 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
         "Findings, by how many objects or files have them:": [
             "{:>8}  {:<8} {}".format(count, *row) for row, count in codes.most_common()
         ],
-        "Slowest, in seconds:": ["{:>10.3f}  {}".format(*row) for row in slowest],
+        "Slowest, in seconds:": [
+            "{:>10.3f}  {}".format(*row) for row in sorted(times, reverse=True)[:_LISTED]
+        ],
         "Widest bounds of the volume or area, of its size:": [
-            "{:>10.1e}  {}".format(*row) for row in widest
+            "{:>10.1e}  {}".format(*row) for row in sorted(shares, reverse=True)[:_LISTED]
         ],
     }
     lines = [
@@ -252,6 +256,9 @@ def _share(entry: dict[str, Any]) -> float | None:
 
 
 def _compare(options: argparse.Namespace) -> tuple[Iterable[str], int]:
+    """Return the lines of a comparison of two results, and exit code 1 if they differ by more than
+    allowed, else 0. Raises UsageError.
+    """
     if len(options.paths) != 2:
         raise UsageError("“compare” takes two results")
     first, second = ([document for document, _ in _read([path])] for path in options.paths)

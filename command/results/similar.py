@@ -76,6 +76,9 @@ def answer(options: argparse.Namespace) -> tuple[list[str], int]:
 
 
 def _entry_by_name(entries: list[shape.Entry], name: str) -> shape.Entry:
+    """Return the entry of a body by its name, else by its label, FILE:NAME. UsageError if there is
+    none, or several.
+    """
     matches = [entry for entry in entries if entry.name == name] or [
         entry for entry in entries if entry.label == name
     ]

@@ -63,6 +63,7 @@ class Entry:
         """Return the reason for measuring the file again, as a part of a sentence, or None if there
         is none.
         """
+        # The first reason that holds is given, so that the order of the reasons matters.
         changed = {name for name in key if self.head["key"].get(name) != key[name]}
         earlier_options = self.options
         names = sorted(
@@ -95,9 +96,10 @@ class Journal:
         self.entries: dict[str, Entry] = {}
         self._file = open(path, "a+b")  # noqa: SIM115
         self._file.seek(0)
-        self._end, self._torn = 0, False
+        self._end = 0  # offset of the next line
+        self._torn = False  # whether the last line lacks its end
         for line in self._file:
-            # torn, damaged or foreign
+            # A line that is torn, damaged or foreign counts as none.
             with suppress(ValueError, KeyError, TypeError, AttributeError, RecursionError):
                 record = json.loads(line)
                 self._add(record, len(line), **_read_back(record["document"]))
@@ -106,6 +108,7 @@ class Journal:
         self._synced = time.monotonic()
 
     def _add(self, record: dict[str, Any], length: int, **read_back: Any) -> None:
+        """Add the entry of a line of `length` bytes at `_end`. read_back: as of `_read_back`."""
         head = {name: record[name] for name in ("key", "status", "limits", "reads")}
         if record["schema"] == SCHEMA:
             self.entries[head["key"]["path"]] = Entry(head, self._end, length, **read_back)
@@ -143,7 +146,9 @@ class Journal:
 
 
 def _read_back(document: dict[str, Any]) -> dict[str, Any]:
-    """Return what an entry keeps of a document that an earlier run has recorded."""
+    """Return the fields `options` or `is_damaged` of an entry, from the document that an earlier
+    run has recorded.
+    """
     try:
         check_document(document)
     except ValueError:

@@ -112,14 +112,14 @@ class Pool:
         self._events: queue.SimpleQueue[tuple[_Child, dict[str, Any] | None, bytes]] = (
             queue.SimpleQueue()
         )
+        # Chosen: readers of children that have ended may still wait for the end of a pipe.
         self._readers = ThreadPoolExecutor(max_workers=4 * count + 8)
         self._early: list[TaskOutcome] = []  # outcomes before the first step
         self._started = self._failed_starts = 0
         self._watched = 0.0
         self.about: dict[str, Any] = {}  # report of the children when they are ready
-        self.notes: list[
-            tuple[str, str]
-        ] = []  # Files and sentences that children send while they work.
+        # Files and sentences that children send while they work.
+        self.notes: list[tuple[str, str]] = []
 
     def __enter__(self) -> Pool:
         self._work.mkdir(parents=True)
@@ -163,12 +163,18 @@ class Pool:
         return outcomes
 
     def _pause(self) -> float:
+        """Return the seconds to wait for an event: to the next deadline or look at the memory."""
         now = time.monotonic()
         deadlines = [child.deadline - now for child in self._children]
         is_watched = self._limits.memory and any(child.task for child in self._children)
         return max(0.001, min([_STEP, *deadlines, *[_WATCH] * bool(is_watched)]))
 
     def _refill(self) -> None:
+        """Start the children that are missing, and give tasks to idle ones.
+
+        There are enough if each task has an idle child, and each second attempt a fresh one. One is
+        started even without tasks, to learn about Blender.
+        """
         idle = [child for child in self._children if child.task is None]
         fresh = sum(child.is_fresh for child in idle)
         missing = max(len(self._tasks) + len(self._again) - len(idle), len(self._again) - fresh)
@@ -181,22 +187,23 @@ class Pool:
                 self._give(child)
 
     def _start(self) -> None:
-        name = self._work / str(self._started)
+        """Start a child, and send it the setup. Raises ChildError."""
+        folder = self._work / str(self._started)
         self._started += 1
-        log = name.with_suffix(".log")
+        log = folder.with_suffix(".log")
         try:
-            process = processes.start(self._command, name, log)
+            process = processes.start(self._command, folder, log)
         except OSError as error:
             raise ChildError("{}: {}".format(self._command[0], error.strerror)) from error
         assert process.stdin is not None and process.stdout is not None
         now = time.monotonic()
-        child = _Child(process, process.stdin, process.stdout, name, log, now, now + START_LIMIT)
+        child = _Child(process, process.stdin, process.stdout, folder, log, now, now + START_LIMIT)
         self._children.append(child)
         self._readers.submit(self._read, child)
         self._send(child, self._setup)
 
     def _send(self, child: _Child, message: dict[str, Any]) -> None:
-        with suppress(OSError):  # it has died, which its reader finds out
+        with suppress(OSError):  # The child has ended; its reader reports that.
             child.requests.write(json.dumps(message).encode() + b"\n")
             child.requests.flush()
 
@@ -217,11 +224,14 @@ class Pool:
     def _receive(
         self, child: _Child, head: dict[str, Any] | None, data: bytes
     ) -> list[TaskOutcome]:
+        """Take an event of a child: an answer, or its end if `head` is None. Return the outcome of
+        its task, if this is known now. Raises ChildError and SetupError.
+        """
         if child not in self._children:
             return []
         if head is None:
             return self._ended(child)
-        if child.doomed:  # it was late
+        if child.doomed:  # The answer came too late.
             return []
         if "usage" in head:
             raise SetupError(head["usage"])
@@ -248,6 +258,7 @@ class Pool:
         return TaskOutcome(child.task, status, attempts + 1, seconds, said=stderr_tail, **more)
 
     def _give(self, child: _Child) -> None:
+        """Give a ready child a task, if one waits; second attempts go to fresh children only."""
         child.deadline = float("inf")
         tasks = self._again if self._again and child.is_fresh else self._tasks
         if tasks:
@@ -258,7 +269,10 @@ class Pool:
             self._send(child, {"measure": child.task})
 
     def _ended(self, child: _Child) -> list[TaskOutcome]:
-        processes.kill([child.process])  # Its descendants, too.
+        """Remove a child that has ended, and return the outcome of its task after the last attempt;
+        before, the task waits for a fresh child. Raises ChildError.
+        """
+        processes.kill([child.process])  # This ends its descendants, too.
         self._children.remove(child)
         how = processes.how_it_ended(child.process.returncode)
         stderr_tail = self._stderr_tail(child)
@@ -293,12 +307,15 @@ class Pool:
                     self._doom(child, "memory")
 
     def _doom(self, child: _Child, why: str, *, gently: bool = False) -> None:
+        """End a child. why: the status of its task, "timeout" or "memory"."""
         child.doomed = why
         child.deadline = float("inf")
         processes.kill([child.process], gently=gently)
 
     def _stderr_tail(self, child: _Child) -> str:
-        """Return the end of a child's standard error since the beginning of its current file."""
+        """Return the end of a child's standard error about its current file. The child empties it
+        before each file.
+        """
         try:
             with open(child.log, "rb") as file:
                 file.seek(max(0, os.fstat(file.fileno()).st_size - _LOG_TAIL))

@@ -109,7 +109,9 @@ def _signal(process: subprocess.Popen[bytes], number: int) -> None:
 
 
 def how_it_ended(code: int | None) -> str:
-    """Return a text about a process's end: the name of the signal, or the exit code."""
+    """Return a text about a process's end: the name of the signal, which is a negative code, or the
+    exit code. Codes of Windows' exceptions are known as hexadecimal numbers.
+    """
     if code is None:
         return "no answer"
     try:
@@ -127,7 +129,7 @@ def memory_of(pid: int) -> int | None:
             words = ["ps", "-o", "rss=", "-p", str(pid)]
             return 1024 * int(subprocess.run(words, capture_output=True, timeout=_TOOL).stdout)
         status = Path("/proc/{}/status".format(pid)).read_bytes().splitlines()
-        kinds = (b"RssAnon:", b"RssShmem:", b"VmSwap:")
+        kinds = (b"RssAnon:", b"RssShmem:", b"VmSwap:")  # in kilobytes
         sizes = [1024 * int(line.split()[1]) for line in status if line.startswith(kinds)]
         return sum(sizes) if sizes else None
     return None
@@ -168,7 +170,8 @@ class WholeRun:
     def __init__(self, words: Sequence[str], output: Path, blender: str | None) -> None:
         command = run_command(blender, ["measure", *words, "--output", str(output)])
         self._journal = output.with_name(output.name + ".journal")
-        self._place, self._lines = 0, 0
+        self._place = 0  # offset in the journal up to which lines were counted
+        self._lines = 0
         nowhere = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.DEVNULL)
         environment = os.environ | {WINDOW: "1"}
         self._process = subprocess.Popen(

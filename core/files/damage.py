@@ -35,12 +35,14 @@ MALFORMED = (
 
 
 def damaged(path: Path, code: str, **values: Any) -> FileError:
-    """Return the error for a damaged file, with the code of the fault."""
+    """Return the error for a damaged file. code, values: of the finding that names the fault."""
     return FileError(FILE_DAMAGED, file=path.name, cause=finding(code, **values).as_record())
 
 
 def wrong_field(format: str, name: str, wanted: str, *values: float) -> FileError:
-    """Return the error for numbers of a header's field."""
+    """Return the error for numbers of a header's field. format: of the file. name: of the field.
+    wanted: what its numbers should be, in words. values: the numbers that it has.
+    """
     return FileError(
         HEADER_FIELD,
         format=format,
@@ -67,8 +69,10 @@ def check_length(path: Path, held: int, wanted: int) -> None:
 
 
 def refuse_non_finite(count: int, element: str, row: int | str) -> None:
-    """Raise FileError if the count is not zero. row: the first element with such a number, or its
-    name.
+    """Raise FileError if numbers of a file are not finite.
+
+    count: of these numbers. element: what the file has in rows, such as “vertex”. row: the number
+    or the name of the first element with such a number.
     """
     if count:
         place = finding(AT_ROW, element=element, row=row).as_record()

@@ -19,7 +19,8 @@ from .text_fields import BLOCK, Data
 FBX_MAGIC = b"Kaydara FBX Binary  \0\x1a\0"
 _ARRAYS = {b"d": "<f8", b"f": "<f4", b"l": "<i8", b"i": "<i4", b"b": "i1", b"c": "i1"}
 _SCALARS = {b"Y": "<h", b"C": "<b", b"B": "<b", b"I": "<i", b"F": "<f", b"D": "<d", b"L": "<q"}
-_MAX_DEPTH = 64
+_MAX_DEPTH = 64  # Chosen: more than files need, and far fewer than the calls that Python nests.
+_ARRAY_HEAD = 13  # bytes before an array's numbers: its type, and three whole numbers of four bytes
 # a node of a text file, or the end of one
 _TEXT_NODE = re.compile(
     rb"^[ \t]*(?:([A-Za-z_][\w|+-]*)[ \t]*:([^\n\"{}]*(?:\"[^\"]*\"[^\n\"{}]*)*)(\{)?|(\}))",
@@ -30,7 +31,11 @@ _TEXT_VALUE = re.compile(rb'"([^"]*)"|([^,\s"]+)')
 
 @dataclass
 class FbxNode:
-    """A node: its name, its values, and the nodes in it. source: of its array, None without one."""
+    """A node: its name, its values, and the nodes in it.
+
+    source: of its array, the data and the offset of its type in them, or the text of its numbers;
+    None without an array.
+    """
 
     name: str
     values: list[Any] = field(default_factory=list)
@@ -42,43 +47,45 @@ class FbxNode:
         return next((node for node in self.children if node.name == name), FbxNode(""))
 
     def first(self, other: Any) -> Any:
-        """Return its first value, or another one if it has none."""
+        """Return its first value, or `other` if it has none."""
         return self.values[0] if self.values else other
 
     def properties(self) -> dict[str, Any]:
-        """Return the values of its properties."""
+        """Return the values of its properties by their names, without type, label and flags."""
         return {line.values[0]: line.values[4:] for line in self.child("Properties70").children}
 
     def numbers(self) -> Array:
-        """Return the numbers of its array, none if it has none."""
+        """Return the (n,) numbers of its array, n = 0 if it has none."""
         if isinstance(self.source, bytes):
             return np.array(self.source.replace(b",", b" ").split(), np.float64)
-        if self.source is None:
+        if self.source is None:  # In a text, the array is in a node “a” inside.
             return self.child("a").numbers() if self.children else np.empty(0)
         blocks = [block for _, block in fbx_array(*self.source)]
         return np.concatenate([np.empty(0), *blocks])
 
 
 def fbx_array(data: Data, at: int) -> Iterator[tuple[int, NDArray]]:
-    """Yield the numbers of a binary array in blocks, each after the count of numbers before it."""
+    """Yield the numbers of a binary array in (n,) blocks, each after the count of numbers before
+    it. at: the offset of the array's type.
+    """
     kind = np.dtype(_ARRAYS[data[at : at + 1]])
-    count, packed, size = struct.unpack_from("<3I", data, at + 1)
-    at += 13
-    if not packed:
-        yield 0, np.frombuffer(data, kind, count, at)
+    count, is_packed, size = struct.unpack_from("<3I", data, at + 1)  # size: in packed bytes
+    start = at + _ARRAY_HEAD
+    if not is_packed:
+        yield 0, np.frombuffer(data, kind, count, start)
         return
     unpacker = zlib.decompressobj()
-    rest = b""
+    rest = b""  # the beginning of a number that a block cuts
     done = 0
-    for begin in range(at, at + size, BLOCK):
-        piece = data[begin : min(begin + BLOCK, at + size)]
+    for begin in range(start, start + size, BLOCK):
+        piece = data[begin : min(begin + BLOCK, start + size)]
         while piece and done < count:
             block = rest + unpacker.decompress(piece, BLOCK)
             piece = unpacker.unconsumed_tail
             whole = len(block) // kind.itemsize
             yield done, np.frombuffer(block, kind, whole)
             rest = block[whole * kind.itemsize :]
-            done = done + whole
+            done += whole
 
 
 def fbx_tree(data: Data) -> FbxNode:
@@ -96,7 +103,11 @@ def fbx_tree(data: Data) -> FbxNode:
 def _read_binary(
     data: Data, at: int, stop: int, head: struct.Struct, parent: FbxNode, depth: int
 ) -> None:
-    """Add the nodes of a part of a binary file to the node that they are in."""
+    """Add the nodes of a part of a binary file, from `at` to `stop`, to the node that they are in.
+
+    head: the form of a node's first bytes: where it ends, the count and the size of its values, and
+    the length of its name. An end of 0 marks the end of a list of nodes.
+    """
     if depth > _MAX_DEPTH:
         raise ValueError("nodes")
     while at + head.size <= stop:
@@ -116,20 +127,23 @@ def _read_binary(
 
 
 def _read_value(data: Data, at: int, node: FbxNode) -> int:
-    """Add a value of a binary file to its node, and return where the next one begins."""
+    """Add the value at an offset of a binary file to its node, and return where the next value
+    begins.
+    """
     kind = data[at : at + 1]
     if kind in _SCALARS:
         node.values += struct.unpack_from(_SCALARS[kind], data, at + 1)
         return at + 1 + struct.calcsize(_SCALARS[kind])
     if kind in _ARRAYS:
         node.source = data, at
-        count, packed, size = struct.unpack_from("<3I", data, at + 1)
-        return at + 13 + (size if packed else count * np.dtype(_ARRAYS[kind]).itemsize)
+        count, is_packed, size = struct.unpack_from("<3I", data, at + 1)
+        array_size = size if is_packed else count * np.dtype(_ARRAYS[kind]).itemsize
+        return at + _ARRAY_HEAD + array_size
     if kind not in (b"S", b"R"):
         raise ValueError("value")
     (size,) = struct.unpack_from("<I", data, at + 1)
     text = data[at + 5 : at + 5 + size] if kind == b"S" else b""
-    # The class stands behind the name, and in text files before it.
+    # The name ends before its class; in text files it follows the class.
     node.values.append(text.partition(b"\0\1")[0].decode("utf-8", "replace"))
     return at + 5 + size
 
@@ -137,7 +151,7 @@ def _read_value(data: Data, at: int, node: FbxNode) -> int:
 def _read_text(data: Data, root: FbxNode) -> None:
     """Add the nodes of a text file to its root."""
     open_nodes = [root]
-    array = None  # The node whose numbers go on to the next node.
+    array = None  # the node of an array whose numbers, from `start` on, go on to the next node
     start = 0
     for match in _TEXT_NODE.finditer(data):
         name, text, opens, closes = match.groups()
@@ -162,6 +176,7 @@ def _read_text(data: Data, root: FbxNode) -> None:
 
 
 def _text_value(text: bytes, bare: bytes) -> Any:
+    """Return the value of a word, `text` in quotation marks or `bare`: the other one is empty."""
     if not bare:
         return text.decode("utf-8", "replace").rpartition("::")[2].replace("&quot;", '"')
     try:

@@ -19,7 +19,7 @@ from .text_fields import Data, map_file
 
 _HEAD = struct.Struct("<4sIIII")  # magic, version, size; length and kind of the first chunk
 _MAGIC = b"glTF"
-_JSON = 0x4E4F534A
+_JSON = 0x4E4F534A  # the letters “JSON”
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 _TYPES = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 
@@ -54,6 +54,9 @@ def replace_gltf_document(data: bytes, document: dict[str, Any]) -> bytes:
 
 
 def _end_of_text(data: Data) -> int:
+    """Return the offset behind the JSON text of a .glb file. ValueError if it does not begin with
+    one.
+    """
     if len(data) < _HEAD.size:
         raise ValueError("glTF")
     *_, length, kind = _HEAD.unpack_from(data)
@@ -72,9 +75,10 @@ def _unquote(uri: str) -> str:
 
 def node_matrix(node: dict[str, Any]) -> NDArray:
     """Return the (4, 4) place of a node in the node above it."""
-    if "matrix" in node:
+    if "matrix" in node:  # by columns
         return np.array(node["matrix"], np.float64).reshape(4, 4).T
     matrix = np.eye(4)
+    # Quaternions are x, y, z, w in the file.
     rotation = np.roll(node.get("rotation", (0.0, 0.0, 0.0, 1.0)), 1)
     matrix[:3, :3] = rotation_matrix(rotation) * np.array(node.get("scale", (1.0,) * 3), np.float64)
     matrix[:3, 3] = node.get("translation", (0.0, 0.0, 0.0))
@@ -98,8 +102,8 @@ class GltfFile:
                 yield _unquote(uri)
 
     def table(self, accessor: dict[str, Any]) -> NDArray:
-        """Return the (n, k) numbers of an accessor without sparse ones; none if an extension has
-        compressed them.
+        """Return the (n, k) numbers of an accessor without sparse ones, n = 0 if the file has no
+        other, or an extension has compressed them.
         """
         kind = np.dtype(_TYPES[accessor["componentType"]])
         width = _WIDTHS[accessor["type"]]
@@ -118,12 +122,15 @@ class GltfFile:
         return np.ndarray((accessor["count"], width), kind, data, start, (stride, kind.itemsize))
 
     def sparse(self, accessor: dict[str, Any]) -> tuple[NDArray, NDArray]:
-        """Return the rows of an accessor that are given by themselves, and their (n, k) numbers."""
+        """Return the (n,) rows of an accessor whose numbers are replaced, and their (n, k)
+        numbers.
+        """
         if "sparse" not in accessor:
             return np.empty(0, np.intp), np.empty((0, 1))
         sparse = accessor["sparse"]
         size = {"count": sparse["count"]}
         rows = self.table({"type": "SCALAR"} | sparse["indices"] | size)[:, 0]
+        # The accessor's own offset is one in another buffer view.
         return rows, self.table(accessor | {"byteOffset": 0} | sparse["values"] | size)
 
     def numbers(self, number: int) -> NDArray:
@@ -139,7 +146,7 @@ class GltfFile:
             raise ValueError("compressed")
         rows, values = self.sparse(accessor)
         full[rows] = values
-        if accessor.get("normalized"):
+        if accessor.get("normalized"):  # By the format, the least of 8 bits is -1, not -128/127.
             full = np.maximum(full / np.iinfo(table.dtype).max, -1.0)
         return full
 
@@ -154,8 +161,9 @@ class GltfFile:
             name = "BIN"
             if self._data[:4] != _MAGIC:
                 raise FileError(MISSING_REFERENCES, names=[name])
-            rest = memoryview(self._data)[_end_of_text(self._data) :]
-            data = rest[8 : 8 + int.from_bytes(rest[:4], "little")]
+            # The second chunk: its length, its kind, its bytes.
+            chunk = memoryview(self._data)[_end_of_text(self._data) :]
+            data = chunk[8 : 8 + int.from_bytes(chunk[:4], "little")]
         elif uri.startswith("data:"):
             name = "data:"
             data = base64.b64decode(uri.partition(",")[2])

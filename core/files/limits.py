@@ -40,11 +40,11 @@ class Limits:
         """
         names = [field.name for field in fields(cls) if field.type == "int"]
         given = {}
-        for part in filter(None, text.replace(",", " ").split()):
+        for part in text.replace(",", " ").split():
             name, _, number = part.partition("=")
             try:
                 given[name] = int(parse_number(number))
-            except (ValueError, OverflowError):
+            except (ValueError, OverflowError):  # no number, NaN, infinity
                 given[name] = 0
             if name not in names or given[name] < 1:
                 raise QueryError(LIMITS_UNRECOGNIZED, text=part[:60], names=names)
@@ -54,14 +54,15 @@ class Limits:
         """Raise FileError if a count of a file exceeds the limit with that name."""
         limit = getattr(self, name)
         if count > limit:
-            wanted = max(int(count), 2 * limit)
+            # The message suggests a limit with which the next files pass, too.
+            suggested_limit = max(int(count), 2 * limit)
             raise FileError(
                 FILE_EXCEEDS_LIMIT,
                 file=path.name,
                 name=name,
                 count=int(count),
                 limit=limit,
-                next=wanted,
+                next=suggested_limit,
             )
 
 

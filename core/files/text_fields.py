@@ -19,12 +19,15 @@ from ..verdict import FileError
 from .findings import LINE_MISREAD
 from .number_text import parse_number, parse_whole
 
-MAX_FLOAT32 = 3.4028235677973366e38  # larger numbers are infinite in float32
+# Numbers from this one on are infinite in float32: it is halfway between the largest of these,
+# 2^128 - 2^104, and 2^128, and rounds to the latter.
+MAX_FLOAT32 = 3.4028235677973366e38
 MAX_TEXT = 60  # letters of a line that are shown
 BLOCK = 1 << 18  # bytes
 MARK = b"\xef\xbb\xbf"  # byte order mark
-# Decimal numbers that are so short that they are below 1e38 without being computed; the same, or
-# NaN. A repeated group is held by (?>...): Python before 3.11.5 lets a group with *+, ++ or ?+
+# Decimal numbers that are so short that they are below 1e38 without being computed: less than 1e8,
+# times 1e29 at most; the same, or NaN; whole numbers that fit into int64. A repeated group is held
+# by (?>...): Python before 3.11.5 lets a group with *+, ++ or ?+
 # match more than the group itself does (python/cpython#106052).
 SHORT = (
     rb"[+-]?(?:[0-9]{1,8}+(?>(?:\.[0-9]*+)?)|\.[0-9]++)"
@@ -53,7 +56,7 @@ def map_file(path: str | Path) -> mmap.mmap:
 
 def find_number_fault(word: bytes, places_point: bool) -> Fault | None:
     """Return the fault of a word that is no number, or None. places_point: it must be finite in
-    float32, too.
+    float32, too; if it is False, C's forms of NaN and infinity are numbers.
     """
     try:
         value = parse_number(word.decode("utf-8", "replace"))
@@ -79,7 +82,7 @@ def count_fault(words: list[bytes]) -> Fault:
 
 
 def shorten(text: bytes) -> str:
-    """Return the beginning of a text for a message."""
+    """Return the beginning of a text for a message. A letter has four bytes at most."""
     return text[: 4 * MAX_TEXT].decode("utf-8", "replace")[:MAX_TEXT]
 
 
@@ -98,11 +101,14 @@ def parse_decimals(text: bytes) -> tuple[Array, Index]:
     """
     letters = np.frombuffer(text, np.uint8)
     before = np.append(np.uint8(_SPACE), letters[:-1])
+    # Digits, signs and points are between the space and the nine. The other characters there are
+    # refused by NumPy.
     is_part = (letters > _SPACE) & (letters <= _NINE)
     follows = (before > _SPACE) & (before <= _NINE)
-    is_exponent = follows & (letters | 32 == ord("e"))
+    is_exponent = follows & ((letters | 32) == ord("e"))  # 32: lower case
     starts = np.flatnonzero(is_part & (before <= _SPACE))
     words = np.where(is_part | is_exponent, letters, np.uint8(_SPACE)).tobytes().split()
+    # A number behind a letter is a word without a start; the rest finds a letter behind a number.
     if len(words) != len(starts) or (follows & (letters > _NINE) & ~is_exponent).any():
         raise ValueError("no decimal numbers")
     return np.array(words, np.float64), starts

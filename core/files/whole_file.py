@@ -41,12 +41,9 @@ def partial_file(path: Path) -> Iterator[Path]:
     try:
         yield partial
     finally:
-        # Blender writes the second one while it saves
-        for leftover in (
-            partial,
-            Path("{}@".format(partial)),
-        ):
-            leftover.unlink(missing_ok=True)
+        partial.unlink(missing_ok=True)
+        # Blender writes to this name while it saves.
+        Path("{}@".format(partial)).unlink(missing_ok=True)
 
 
 def hidden_path(path: Path, ending: str) -> Path:

@@ -18,7 +18,9 @@ def _refuse(*_: object) -> None:
 
 
 def xml_parser(namespace_separator: str | None = None) -> expat.XMLParserType:
-    """Return a parser without handlers of elements and text, for `parse_xml`."""
+    """Return a parser without handlers of elements and text, for `parse_xml`. It refuses document
+    types. namespace_separator: stands between namespace and tag in names; None leaves prefixes.
+    """
     parser = expat.ParserCreate(namespace_separator=namespace_separator)
     parser.buffer_text = True
     parser.StartDoctypeDeclHandler = _refuse

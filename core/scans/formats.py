@@ -97,6 +97,7 @@ def read_scan(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> Scan:
     limits.check(path, "samples", scan.samples.size)
     rows = scan.matrix[:3]
     scaling = (scan.slope, scan.intercept)
+    # "Not greater", so that a determinant of NaN is refused, too.
     if not np.isfinite(rows).all() or not abs(np.linalg.det(rows[:, :3])) > 0.0:
         raise wrong_field(
             scan_suffix(path),
@@ -143,6 +144,7 @@ def sample_matrix(
     check_type("scan", scan, Scan)
     findings = []
     matrix = float_array("scan.matrix", scan.matrix, 4, 4).copy()
+    # The header's own matrix is in its unit; given values, below, are in `unit_scale`.
     matrix[:3] *= scan.unit or unit_scale or scan.usual_unit or 1.0
     if scan.unit is not None and unit_scale is not None:
         findings.append(finding(SCAN_OWN_UNIT))
@@ -188,9 +190,10 @@ def read_positions(path: str | Path, axis: str, count: int) -> Array:
 
 
 def read_all_positions(files: Mapping[str, str | Path], shape: Sequence[int]) -> Positions:
-    """Return the positions along each axis that has a file.
+    """Return the positions along each axis, None for an axis without a file.
 
-    Raises the errors of `read_positions`.
+    files: by the axis, "x", "y" or "z". shape: of the samples. Raises the errors of
+    `read_positions`.
     """
     x, y, z = (
         read_positions(files[axis], axis, count) if axis in files else None
@@ -209,16 +212,17 @@ def place_samples(matrix: NDArray, positions: Positions, unit: float) -> tuple[A
     keep all digits: sample k stands at matrix @ (…, positions[k], 1).
     """
     matrix = matrix.copy()
-    if all(row is None for row in positions):
+    if all(coordinates is None for coordinates in positions):
         return matrix, positions
     directions = matrix[:3, :3] / np.linalg.norm(matrix[:3, :3], axis=0)
-    origin = np.linalg.solve(directions, matrix[:3, 3])  # along the directions
+    # Coordinates of the first sample along the directions, which need not be perpendicular.
+    origin = np.linalg.solve(directions, matrix[:3, 3])
     relative: list[Array | None] = [None, None, None]
-    for axis, row in enumerate(positions):
-        if row is not None:
+    for axis, coordinates in enumerate(positions):
+        if coordinates is not None:
             matrix[:3, axis] = directions[:, axis] * unit
-            origin[axis] = row[0] * unit
-            relative[axis] = row - row[0]
+            origin[axis] = coordinates[0] * unit
+            relative[axis] = coordinates - coordinates[0]
     matrix[:3, 3] = directions @ origin
     x, y, z = relative
     return matrix, (x, y, z)

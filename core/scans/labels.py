@@ -24,8 +24,10 @@ MOST_LABELS = 256  # different numbers; scans of 8 bits may have as many, but ch
 MAX_CHANGING = 0.5  # share of neighbors that differ, of those that are not both background
 
 # Rows of tables in text files, by ITK-SNAP and by FreeSurfer.
-_ITK_SNAP = re.compile(r'(?P<label>\d+)((?:\s+\d+){3})\s+[\d.]+\s+[01]\s+[01]\s+"(?P<name>.*)"')
-_FREESURFER = re.compile(r"(?P<label>\d+)\s+(?P<name>\S.*?)((?:\s+\d+){3})\s+\d+(\s.*)?")
+_ITK_SNAP = re.compile(
+    r'(?P<label>\d+)(?P<color>(?:\s+\d+){3})\s+[\d.]+\s+[01]\s+[01]\s+"(?P<name>.*)"'
+)
+_FREESURFER = re.compile(r"(?P<label>\d+)\s+(?P<name>\S.*?)(?P<color>(?:\s+\d+){3})\s+\d+(\s.*)?")
 # Names of the columns of tables in .csv files; the first that a table has counts.
 _COLUMNS = {
     "label": ("labelvalue", "value", "index", "id", "no", "number", "label"),
@@ -84,7 +86,9 @@ def _misread(number: int, line: str, expected: str = _TABLE) -> FileError:
 
 
 def _columns(number: int, line: str) -> tuple[dict[str, int], str]:
-    """Return the places of the columns that a .csv file's first line names, and its delimiter."""
+    """Return the places of the columns that a .csv file's first line names, by the keys of
+    `_COLUMNS`, and its delimiter. number: of the line, from 1.
+    """
     delimiter = max(",;\t", key=line.count)
     try:
         words = _split(line, delimiter)
@@ -92,9 +96,10 @@ def _columns(number: int, line: str) -> tuple[dict[str, int], str]:
         raise _misread(number, line) from error
     names = [re.sub(r"[^a-z0-9]", "", word.lower().replace("³", "3")) for word in words]
     places: dict[str, int] = {}
-    for column, known in _COLUMNS.items():
-        free = [names.index(name) for name in known if name in names]
-        free = [place for place in free if place not in places.values()]
+    for column, known_names in _COLUMNS.items():
+        matches = [names.index(name) for name in known_names if name in names]
+        # “label” may be the name of a label whose number has a column of its own.
+        free = [place for place in matches if place not in places.values()]
         if free:
             places[column] = free[0]
     if "label" not in places or not places.keys() & {"name", "density"}:
@@ -108,7 +113,9 @@ def _split(line: str, delimiter: str) -> list[str]:
 
 
 def _csv_row(line: str, columns: Mapping[str, int], delimiter: str) -> tuple[int, Label]:
-    """Return a label and its entry. Raises ValueError, IndexError and csv.Error."""
+    """Return a label and its entry, from a row of a .csv file. columns: the place of each column
+    that the file has. Raises ValueError, IndexError and csv.Error.
+    """
     words = _split(line, delimiter)
     texts = {column: words[place] for column, place in columns.items()}
     colors = [texts[name] for name in ("red", "green", "blue") if texts.get(name)]
@@ -121,17 +128,20 @@ def _csv_row(line: str, columns: Mapping[str, int], delimiter: str) -> tuple[int
 
 
 def _text_row(line: str) -> tuple[int, Label]:
-    """Return a label and its entry. Raises ValueError."""
-    for pattern, group in ((_ITK_SNAP, 2), (_FREESURFER, 3)):
-        if found := pattern.fullmatch(line):
-            color = read_color(map(float, found.group(group).split()))
-            return int(found["label"]), Label(found["name"], color)
+    """Return a label and its entry, from a row of a text file. Raises ValueError."""
+    for pattern in (_ITK_SNAP, _FREESURFER):
+        if row := pattern.fullmatch(line):
+            color = read_color(map(float, row["color"].split()))
+            return int(row["label"]), Label(row["name"], color)
     label, name = line.split(None, 1)
     return parse_whole(label), Label(name.strip('"'))
 
 
 def read_color(values: Iterable[float]) -> tuple[float, ...]:
-    """Return a color from 0 to 1; values may be up to 255. Raises ValueError."""
+    """Return a color from 0 to 1. If a value is greater than 1, all are taken as 0 to 255.
+
+    Raises ValueError.
+    """
     channels = [*values]
     if not np.isfinite(channels).all():
         raise ValueError("a color is not finite")
@@ -143,11 +153,12 @@ def segment_labels(fields: Mapping[str, str]) -> dict[int, Label]:
     """Return the labels of the segments that the keys of an NRRD header describe."""
     labels = {}
     for key, text in fields.items():
-        if found := re.fullmatch(r"=(Segment\d+_)LabelValue", key):
-            name = fields.get("={}Name".format(found[1]), "")
+        if segment := re.fullmatch(r"=(Segment\d+_)LabelValue", key):
+            name = fields.get("={}Name".format(segment[1]), "")
             color = None
-            with suppress(ValueError):  # a remark in the header, without effect on sums
-                r, g, b = map(parse_number, fields.get("={}Color".format(found[1]), "").split())
+            # Names and colors are remarks, without effect on sums: unreadable ones are left out.
+            with suppress(ValueError):
+                r, g, b = map(parse_number, fields.get("={}Color".format(segment[1]), "").split())
                 color = read_color((r, g, b))
             with suppress(ValueError):
                 labels[parse_whole(text)] = Label(name, color)
@@ -157,9 +168,11 @@ def segment_labels(fields: Mapping[str, str]) -> dict[int, Label]:
 def count_labels(values: NDArray) -> int:
     """Return the count of different numbers in a (nx, ny, nz) grid that looks like labels, else 0.
 
-    Labels are three or more whole numbers in regions; the background is the first sample's.
+    Labels are three or more whole numbers in regions, so that few neighbors along y differ. The
+    background has the first sample's number.
     """
     labels = np.zeros(0)
+    background = values[0, 0, 0]
     neighbors = changes = 0
     for slab in values:
         numbers = np.unique(slab)
@@ -168,7 +181,6 @@ def count_labels(values: NDArray) -> int:
             return 0
         before = slab[:, :-1]
         after = slab[:, 1:]
-        background = values[0, 0, 0]
         neighbors += np.count_nonzero((before != background) | (after != background))
         changes += np.count_nonzero(before != after)
     return len(labels) if len(labels) > 2 and changes <= MAX_CHANGING * neighbors else 0

@@ -81,8 +81,9 @@ SPACE_KINDS = {
     "none",
     "???",
 }
-# Allowed difference of an axis' maximum and minimum from the spacing times the count of samples,
-# relative to it.
+# Allowed difference of an axis' extent (maximum minus minimum) from the one by its spacing, as a
+# share of that. Chosen: more than the rounding of any header's decimals, less than one sample of
+# most axes.
 SAME_EXTENT_RTOL = 1e-3
 TYPES = {
     name: dtype
@@ -131,16 +132,17 @@ _WORD = re.compile(r'"([^"]*)"|([^\s"]+)')
 
 
 def read_header(path: Path, limits: Limits) -> tuple[dict[str, str], int | None]:
-    """Return the fields by lower-case names, and keys with “=” before their names; and the samples'
-    offset, None if the file ends before them.
+    """Return the fields of a header, and the samples' offset, None if the file ends before them.
 
-    Raises FileError.
+    Fields have names in lower case. Keys, which have names of any case, are among them with “=”
+    before the name. Raises FileError.
     """
     head = bytearray()
     end = None
     with open(path, "rb") as file:
         while not end and (block := file.read(HEADER_BLOCK)):
-            unsearched = max(0, len(head) - 3)  # The end may be cut by the last block's.
+            # An empty line, of up to four bytes, may begin in the block before.
+            unsearched = max(0, len(head) - 3)
             head += block
             if not re.match(rb"NRRD000[1-5]\r?\n", head):
                 raise FileError(FILE_UNRECOGNIZED, format="NRRD")
@@ -180,8 +182,8 @@ def read_nrrd(path: Path, limits: Limits) -> Scan:
     elif space and not is_anatomical and space not in _OTHER_SPACES:
         raise _wrong(fields, "space", "a space of NRRD, such as left-posterior-superior")
     line_skip = _skip(fields, "line skip", 0)
-    # The samples are the last bytes of a file if the skip is -1; compressed ones are counted from
-    # their start.
+    # A skip of -1 means that raw samples are the last bytes of the file. Of compressed samples,
+    # unpacked bytes are skipped.
     byte_skip = _skip(fields, "byte skip", -1 if encoding == "raw" else 0)
     source, start = _samples_start(path, fields.get("data file"), start, limits)
     if line_skip:
@@ -200,7 +202,9 @@ def read_nrrd(path: Path, limits: Limits) -> Scan:
 
 
 def _take_shape(fields: dict[str, str]) -> tuple[int, int, int]:
-    """Return the sizes of the three axes in space, and drop other axes from all fields."""
+    """Return the sizes of the three axes in space, and drop other axes from all fields that state a
+    word for each axis.
+    """
     sizes = _numbers(fields, "sizes", parse_whole)
     if not sizes:
         raise _wrong(fields, "sizes", "three numbers")
@@ -215,7 +219,7 @@ def _take_shape(fields: dict[str, str]) -> tuple[int, int, int]:
 
 
 def _sample_type(fields: dict[str, str]) -> tuple[np.dtype, str]:
-    """Return the type of the samples, and one of the values of ENCODINGS."""
+    """Return the type of the samples, with its byte order, and one of the values of ENCODINGS."""
     kind = TYPES.get(fields.get("type", "").lower())
     if kind is None:
         raise FileError(SCAN_SAMPLE_TYPE, type=fields.get("type", "“”"))
@@ -232,13 +236,16 @@ def _sample_type(fields: dict[str, str]) -> tuple[np.dtype, str]:
 def _samples_start(
     path: Path, name: str | None, start: int | None, limits: Limits
 ) -> tuple[Path, int]:
-    """Return the file that has the samples, and their offset in it. name: of a separate file, None
-    for this one.
+    """Return the file that has the samples, and their offset in it.
+
+    path: of the header. name: of a separate file, None if the samples follow the header. start:
+    their offset then, None if the file ends with the header.
     """
     if name is None:
         if start is None:
             raise damaged(path, DAMAGE_CUT_SHORT, part="header")
         return path, start
+    # Three forms of several files: a list, a pattern such as slice%03d, a pattern with its range.
     if name.upper().startswith("LIST") or "%" in name or len(name.split()) > 3:
         raise FileError(SCAN_IN_SEVERAL_FILES, suffix=".nrrd")
     source = path.parent / name
@@ -275,6 +282,9 @@ def _skip(fields: dict[str, str], name: str, least: int) -> int:
 
 
 def _skip_lines(path: Path, start: int, count: int, limits: Limits) -> int:
+    """Return the offset behind `count` lines from byte `start` on. FileError if there are fewer, or
+    a line is longer than a header may be.
+    """
     with open(path, "rb") as file:
         file.seek(start)
         for _ in range(count):
@@ -286,11 +296,11 @@ def _skip_lines(path: Path, start: int, count: int, limits: Limits) -> int:
 def _sample_matrix(
     fields: dict[str, str], shape: tuple[int, int, int]
 ) -> tuple[Array, bool, float | None]:
-    """Return the matrix of the sample positions, whether the header states the spacing, and the
-    matrix's unit.
+    """Return the (4, 4) matrix from sample indices to positions, whether the header states the
+    spacing, and the matrix's unit in meters, None if it is not stated.
     """
     matrix = np.eye(4)
-    name = "space units" if "space units" in fields else "units"
+    name = "space units" if "space units" in fields else "units"  # of the space, else of the axes
     units = _units(fields, name)
     if "space directions" in fields:
         words = re.findall(r"none|\([^()]*\)|\S", fields["space directions"])
@@ -307,19 +317,22 @@ def _sample_matrix(
         spacings, matrix[:3, 3] = _even_axes(fields, shape)
         is_placed = spacings is not None
         matrix[:3, :3] = np.diag([1.0, 1.0, 1.0] if spacings is None else spacings)
-    if units is None:
-        return matrix, is_placed, None
-    if len(set(units)) == 1:
+    if units is not None and len(set(units)) == 1:
         return matrix, is_placed, units[0]
-    if "space directions" in fields and name == "units":
-        # Different units of the axes do not tell those of their directions' coordinates.
+    # Different units of the axes say nothing about the coordinates of their directions.
+    if units is None or "space directions" in fields and name == "units":
         return matrix, is_placed, None
+    # Row i has the coordinates along axis i of the space. Without directions, these are the axes of
+    # the samples.
     matrix[:3] = matrix[:3] * np.array(units)[:, None]
     return matrix, is_placed, 1.0
 
 
 def _units(fields: dict[str, str], name: str) -> list[float] | None:
-    """Return the units of three axes in meters, or None if one is unknown."""
+    """Return the units of three axes in meters, or None if one is not stated.
+
+    name: of the field. FileError for units of time, or unknown words.
+    """
     words = [
         (quoted or word).strip() for quoted, word in _WORD.findall(fields.get(name, "").lower())
     ]
@@ -332,14 +345,16 @@ def _units(fields: dict[str, str], name: str) -> list[float] | None:
 def _even_axes(
     fields: dict[str, str], shape: tuple[int, int, int]
 ) -> tuple[list[float] | None, list[float]]:
-    """Return the spacing along each axis, None if the header states none, and the position of the
-    first sample.
+    """Return the spacing along each axis, None if the header states none, and the (3,) position of
+    the first sample, zeros if it is not stated for each axis.
 
     A spacing that is not stated follows from the axis' minimum and maximum: they are the outer
     faces of the first and last sample on axes of cells, and their centers on axes of nodes. If
-    neither is stated, the distance of the minimum and maximum tells them apart; without spacing,
-    cells are assumed, as by the format's own library. The last resort is the thickness.
+    neither cells nor nodes are stated, but minimum, maximum and spacing are, their distance tells
+    them apart; without spacing, cells are assumed, as by the format's own library. The last resort
+    is the thickness.
     """
+    # Of NaN, where a field states nothing, follow NaN and False below.
     stated, lows, highs, thicknesses = (
         _three_numbers(fields, name)
         for name in ("spacings", "axis mins", "axis maxs", "thicknesses")
@@ -363,7 +378,7 @@ def _even_axes(
             spacing = (high - low) / steps if steps else math.nan
         else:
             stated_steps = (high - low) / spacing
-            if centers[axis] not in ("cell", "node"):
+            if centers[axis] not in ("cell", "node"):  # Nearer to the steps of cells, or of nodes?
                 steps = count if stated_steps > count - 0.5 else count - 1
             if abs(stated_steps - steps) > SAME_EXTENT_RTOL * count:
                 raise _wrong(fields, "axis maxs", "in agreement with “spacings”")
@@ -379,7 +394,7 @@ def _even_axes(
 
 
 def _three_numbers(fields: dict[str, str], name: str) -> list[float]:
-    """Return the first three numbers of a field, NaN if there are fewer."""
+    """Return the first three numbers of a field, three times NaN if it has fewer."""
     numbers = _numbers(fields, name, parse_number)
     return numbers[:3] if len(numbers) >= 3 else [math.nan] * 3
 
@@ -393,6 +408,7 @@ def _vector(text: str, name: str) -> list[float] | None:
     """Return the vector “(x,y,z)” of a field, or None for “none”."""
     if text == "none":
         return None
+    # A fourth number stays in the last word, and is refused.
     words = text[1:-1].split(",", 3) if text[0] + text[-1] == "()" else []
     try:
         vector = [parse_number(word.strip()) for word in words]

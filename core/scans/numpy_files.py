@@ -51,7 +51,7 @@ def map_array(path: Path) -> NDArray:
     Raises OSError, and FileError for other contents.
     """
     with open(path, "rb") as file:
-        start = file.read(12)
+        start = file.read(12)  # to the end of the header's length
     with _damage(path, "NumPy array"):
         _check_array_header(start)
         array = np.lib.format.open_memmap(path, mode="r")
@@ -99,7 +99,7 @@ def _archive(
 ) -> Iterator[tuple[zipfile.ZipFile, dict[str, tuple[int, ...]]]]:
     """Yield an open archive, and the shapes of its arrays by name.
 
-    Exceptions in the block become FileErrors.
+    Exceptions in the block become FileErrors, but MemoryError. Raises OSError.
     """
     with (
         open(path, "rb") as file,
@@ -138,6 +138,9 @@ def _unpack(archive: zipfile.ZipFile, path: Path, name: str, limits: Limits) -> 
 def _check_array_header(start: bytes) -> None:
     """Raise ValueError if an array's header is too long, because NumPy would read gigabytes of it
     before it refuses.
+
+    start: at least the first 12 bytes: six of magic, two of the version, and the length of the
+    header, of two bytes in version 1 and four in later ones.
     """
     length = start[8 : 10 if start[6:7] == b"\1" else 12]
     if int.from_bytes(length, "little") > MAX_ARRAY_HEADER:
@@ -145,9 +148,9 @@ def _check_array_header(start: bytes) -> None:
 
 
 def _npz_header(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> tuple[int, ...]:
-    """Return an array's shape.
+    """Return the shape of the array in an entry, without reading its numbers.
 
-    ValueError if its entry is longer, because reading would not reach the checksum.
+    ValueError if the entry is longer than the array, because reading would not reach the checksum.
     """
     with cast(zipfile.ZipExtFile, archive.open(entry)) as file:  # has `peek`
         _check_array_header(file.peek(12))
@@ -190,5 +193,9 @@ def read_named_raw(path: Path, limits: Limits) -> Scan:
     if not layout:
         raise FileError(RAW_WITHOUT_LAYOUT)
     return read_raw(
-        path, [int(size[:20]) for size in layout.groups()[:3]], layout[4].lower(), limits=limits
+        # `int` refuses thousands of digits; twenty are too many for a possible size already.
+        path,
+        [int(size[:20]) for size in layout.groups()[:3]],
+        layout[4].lower(),
+        limits=limits,
     )

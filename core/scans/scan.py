@@ -72,13 +72,16 @@ class Scan:
 
 
 def space_axes(sizes: Sequence[int]) -> list[int]:
-    """Return the indices of the three axes in space: of more, the last or the first axes of one
-    sample are none. FileError if the sizes are not possible.
+    """Return the indices of the three axes in space. If there are more than three, axes of one
+    sample are left out at the end, else at the beginning.
+
+    FileError if three axes are not left, or their sizes are not possible.
     """
     axes = list(range(len(sizes)))
     while len(axes) > 3 and 1 in (sizes[axes[-1]], sizes[axes[0]]):
         del axes[-1 if sizes[axes[-1]] == 1 else 0]
     space = [int(sizes[axis]) for axis in axes]
+    # Chosen: more samples fit into no file, and their bytes, up to 8 times as many, into int64.
     if len(axes) != 3 or min(space) < 1 or max(space) > 1 << 40 or math.prod(space) > 1 << 48:
         raise FileError(SCAN_SIZE, samples=list(sizes))
     return axes
@@ -91,7 +94,9 @@ def shape_of(sizes: Sequence[int]) -> tuple[int, int, int]:
 
 
 def real_samples(array: NDArray) -> NDArray:
-    """Return the array, without further axes, if it can be a scan of densities, or FileError."""
+    """Return the array as (nx, ny, nz), without other axes. FileError if it has no real numbers, or
+    no three axes in space.
+    """
     if array.dtype.kind not in "biuf":
         raise FileError(SCAN_SAMPLE_TYPE, type=str(array.dtype))
     return array.reshape(shape_of(array.shape), order="A")
@@ -100,8 +105,10 @@ def real_samples(array: NDArray) -> NDArray:
 def map_samples(
     path: Path, dtype: np.dtype, shape: tuple[int, int, int], offset: int, from_end: bool = False
 ) -> NDArray:
-    """Return a memory map of samples, x fastest, from byte `offset` on, or at the end of the file
-    if `from_end`.
+    """Return a memory map of samples, x fastest, from byte `offset` to the end of the file.
+
+    from_end: they are the last bytes of the file, and `offset` is the first that they may be.
+    FileError if there are more or fewer bytes.
     """
     size = path.stat().st_size
     byte_count = dtype.itemsize * math.prod(shape)
@@ -120,13 +127,15 @@ def unpack_samples(
     limits: Limits,
     packing: str = "gzip",
 ) -> NDArray:
-    """Return samples, x fastest, packed from byte `start` on, without the first `skip` bytes; check
-    all checksums. packing: gzip or bzip2.
+    """Return samples, x fastest, that are packed from byte `start` on; check all checksums.
+
+    skip: count of unpacked bytes before the samples. packing: gzip or bzip2. FileError if there are
+    more or fewer bytes.
     """
     byte_count = dtype.itemsize * math.prod(shape)
     total = skip + byte_count
     largest = MAX_RATIOS[packing] * path.stat().st_size
-    if total > largest:
+    if total > largest:  # before memory is taken for them
         raise damaged(path, DAMAGE_SIZE, bytes=max(0, largest - skip), total=byte_count)
     limits.check(path, "unpacked_bytes", total)
     unpacked = np.empty(total, np.uint8)
@@ -135,7 +144,7 @@ def unpack_samples(
         part = np.frombuffer(block, np.uint8)[: total - done]
         unpacked[done : done + len(part)] = part
         done += len(block)
-        if done > total:  # a small file may hold a thousand times its size
+        if done > total:  # There are too many bytes, by how many does not matter.
             break
     check_length(path, max(0, done - skip), byte_count)
     return unpacked[skip:].view(dtype).reshape(shape, order="F")
@@ -164,7 +173,9 @@ def unpacked_blocks(path: Path, start: int, packing: str) -> Iterator[bytes]:
 def parse_samples(
     path: Path, start: int, dtype: np.dtype, shape: tuple[int, int, int], limits: Limits
 ) -> NDArray:
-    """Return samples, x fastest, that are a text from byte `start` on."""
+    """Return samples, x fastest, that are a text from byte `start` on, separated by spaces or
+    commas.
+    """
     limits.check(path, "text_bytes", path.stat().st_size - start)
     with open(path, "rb") as file:
         file.seek(start)

@@ -1,9 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files of scans: limits on their demands, their suffixes, and the names of the sample types.
-
-A small file can ask for terabytes: by a sparse file, by compression, by its header.
-"""
+"""Files of scans: their suffixes, and the names of the sample types."""
 
 from __future__ import annotations
 

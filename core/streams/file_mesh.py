@@ -14,7 +14,7 @@ from ..files import refuse_non_finite
 from ..mesh import Surface, first_at_equal_position
 from ..numerics import Array, Index, Mask, NDArray, segment_starts
 
-CORNERS_PER_BLOCK = 1 << 18
+CORNERS_PER_BLOCK = 1 << 18  # of polygons that are cut into triangles at a time
 
 Box = tuple[Array, Array]
 
@@ -43,7 +43,7 @@ class FileMesh:
         triangles: list[NDArray[np.integer]] = [np.zeros((0, 3), np.int32)]
         triangle_faces = [np.zeros(0, np.int32)]
         quads = np.zeros((0, 4), np.int32)
-        quad_faces = triangle_faces[0]
+        quad_faces = np.zeros(0, np.int32)
         for count in np.unique(self.sides).tolist():
             faces = np.flatnonzero(self.sides == count).astype(np.int32)
             corners = self.corners[starts[faces, None] + np.arange(count)].astype(np.int32)
@@ -69,14 +69,18 @@ def name_of_file(path: Path) -> str:
 
 
 class Polygons:
-    """Faces that come in blocks of (n, k) corners, in any order."""
+    """Faces that come in blocks of (n, k) corners, each with the (n,) places of its faces in the
+    file.
+    """
 
     def __init__(self) -> None:
         self._blocks: list[tuple[Index, NDArray[np.integer]]] = []
         self._count = 0
 
     def add(self, corners: NDArray[np.integer], numbers: Index | None = None) -> None:
-        """Add faces. numbers: (n,) their places among all faces, by default behind the others."""
+        """Add (n, k) corners of faces. numbers: (n,) their places among all faces, by default
+        behind the faces that were added before.
+        """
         numbers = self._count + np.arange(len(corners)) if numbers is None else numbers
         self._blocks.append((numbers, corners))
         self._count = max(self._count, int(numbers.max(initial=-1)) + 1)
@@ -85,7 +89,7 @@ class Polygons:
         """Return corners and sides of all faces, without repeated corners and without faces of two
         corners.
         """
-        sides = np.zeros(self._count, np.int64)
+        sides = np.zeros(self._count, np.int64)  # stays 0 for faces that were not added
         for numbers, corners in self._blocks:
             sides[numbers] = corners.shape[1]
         starts = segment_starts(sides)
@@ -99,11 +103,13 @@ def without_repeats(
     corners: NDArray[np.int64], sides: NDArray[np.int64]
 ) -> tuple[NDArray, NDArray]:
     """Return corners and sides of faces (`FileMesh`) without corners that repeat the one before,
-    and without faces of two corners.
+    and without the faces that this leaves with one or two corners.
+
+    Each face has at least three corners.
     """
     starts = segment_starts(sides)
     before = np.arange(len(corners)) - 1
-    before[starts] += sides  # The first corner of a face follows its last one.
+    before[starts] += sides  # The corner before a face's first one is its last one.
     keep = corners != corners[before]
     if keep.all():
         return corners, sides
@@ -116,15 +122,17 @@ def merge_equal(points: NDArray[np.float32]) -> tuple[NDArray[np.float32], Index
     """Return the different points among (n, 3), in the order of their first places, and the (n,)
     index of each point among them.
     """
-    points = points + np.float32(0.0)  # -0.0 equals 0.0
+    points = points + np.float32(0.0)  # This turns -0.0 into 0.0, which equals it.
     first = first_at_equal_position(points)
     is_first = first == np.arange(len(points))
     return points[is_first], (np.cumsum(is_first) - 1)[first]
 
 
 def box_of_blocks(blocks: Iterable[NDArray[np.floating]], element: str) -> Box:
-    """Return the least and the largest coordinates of (n, 3) or (n, 3, 3) blocks, zeros if there
-    are none; FileError that names the first element that is not finite.
+    """Return the least and the largest coordinates, (3,) each, of (n, 3) or (n, 3, 3) blocks, zeros
+    if they have no rows.
+
+    FileError, with the number of the first row that is not finite. element: the name of a row.
     """
     low = np.full(3, np.inf)
     high = np.full(3, -np.inf)
@@ -147,7 +155,7 @@ def box_of_blocks(blocks: Iterable[NDArray[np.floating]], element: str) -> Box:
 
 
 def strip_triangles(strip: NDArray[np.integer]) -> NDArray[np.integer]:
-    """Return the (n, 3) triangles of strips of vertices, which -1 separates."""
+    """Return the (n, 3) triangles of strips: (m,) vertices, with -1 between two strips."""
     corners = np.stack([strip[:-2], strip[1:-1], strip[2:]], axis=1)
     after_separator = np.where(strip < 0, np.arange(1, len(strip) + 1), 0)
     strip_starts = np.maximum.accumulate(after_separator)[:-2]
@@ -188,19 +196,22 @@ def tessellate(points: NDArray[np.floating], polygons: NDArray[np.integer]) -> N
 
 
 def _flatten(corners: Array) -> Array:
-    """Return the (n, k, 2) corners of (n, k, 3) polygons seen against their normals, stretched by
-    any factor.
+    """Return the (n, k, 2) corners of (n, k, 3) polygons in the planes of their mean normals, so
+    that each is counter-clockwise; zeros for a polygon without area.
     """
-    about = corners - corners[:, :1]
-    normal = np.cross(about, np.roll(about, -1, axis=1)).sum(axis=1)
-    # The axis that is farthest from the normal.
+    from_first = corners - corners[:, :1]
+    normal = np.cross(from_first, np.roll(from_first, -1, axis=1)).sum(axis=1)
+    # The coordinate axis that is farthest from the normal is never parallel to it.
     axis = np.zeros_like(normal)
     axis[np.arange(len(normal)), np.abs(normal).argmin(axis=1)] = 1.0
     right = np.cross(axis, normal)
+    # The smallest float keeps zero vectors zero.
     right /= np.maximum(np.linalg.norm(right, axis=1), np.finfo(float).tiny)[:, None]
     normal /= np.maximum(np.linalg.norm(normal, axis=1), np.finfo(float).tiny)[:, None]
     up = np.cross(normal, right)
-    return np.stack([np.einsum("nki,ni->nk", about, axis) for axis in (right, up)], axis=2)
+    return np.stack(
+        [np.einsum("nki,ni->nk", from_first, direction) for direction in (right, up)], axis=2
+    )
 
 
 class _Ears:
@@ -238,11 +249,14 @@ class _Ears:
             after[polygons, previous] = following
             before[polygons, following] = previous
             self._is_left[polygons, ear] = False
-            for corner in (previous, following):  # A convex corner stays convex.
+            # The angles at both neighbors of the ear shrink, so that convex corners stay convex.
+            for corner in (previous, following):
                 sign = self._sign[polygons, corner]
                 self._sign[polygons, corner] = np.where(
                     sign > 0, sign, self._signs(polygons, corner)
                 )
+            # The next search begins one corner beyond the ear's neighbor; if that corner is no
+            # ear, one further on, in the other direction.
             start = np.where(is_backward, before[polygons, previous], after[polygons, following])
             turns_back = self._sign[polygons, start] <= 0
             beyond = np.where(is_backward, before[polygons, start], after[polygons, start])
@@ -258,10 +272,11 @@ class _Ears:
         """Return the (n,) ears: convex corners, else straight ones, else those that are not
         concave, else any.
 
-        start: (n,) the corners with which the search begins.
+        start: (n,) the corners with which the search begins. is_backward: (n,) its direction.
+        corners_left: the number of corners of each polygon.
         """
-        ears = start.copy()
-        waiting = self._polygons
+        ears = start.copy()  # the answer for polygons in which no pass finds an ear
+        waiting = self._polygons  # the polygons without an ear so far
         for least_sign, largest_sign, is_checked in ((1, 1, True), (0, 0, True), (0, 1, False)):
             tip = start[waiting]
             for _ in range(corners_left):
@@ -281,8 +296,10 @@ class _Ears:
         return ears
 
     def _holds_corner(self, polygons: Index, tip: Index) -> Mask:
-        """Return whether another corner that is not convex lies in the triangle at a corner, or on
-        its edges.
+        """Return for each tip whether another corner that is not convex lies in the triangle of the
+        tip and its neighbors, or on its edges.
+
+        Convex corners need no test: if one lies in the triangle, so does one that is not convex.
         """
         ends = self._before[polygons, tip], tip, self._after[polygons, tip]
         others = self._is_left[polygons] & (self._sign[polygons] <= 0)

@@ -17,7 +17,9 @@ from ..verdict import FileError
 from .ply import PlyFile
 from .stl import StlFile
 
-MAX_REACH_RATIO = 2.0  # Largest reach of a body, relative to the box of its sampled faces.
+# Largest reach of a body, relative to the box of its sampled faces. Chosen: up to it, the center is
+# still in or near the body, and `polyhedron_moments` needs only a rough reach.
+MAX_REACH_RATIO = 2.0
 # A mesh whose faces can be read in blocks, any number of times.
 MeshFile = PlyFile | StlFile
 KINDS = {".stl": StlFile, ".ply": PlyFile}
@@ -74,7 +76,10 @@ def _measure_about(
     threads: int,
     progress: Callable[[int], None] | None,
 ) -> StreamIntegrals | None:
-    """Measure a mesh about the center of a box; None if a piece reaches much farther."""
+    """Measure a mesh about the center of a box, (3,) `low` to (3,) `high`; None if a piece reaches
+    more than MAX_REACH_RATIO times as far.
+    """
+    # `box_center` rounds to float32, if it can, so that subtracting the center is exact.
     is_large = max(np.abs(low).max(), np.abs(high).max()) > np.finfo(np.float32).max
     center = box_center(low, high, np.dtype(np.float64 if is_large else np.float32))
     reach = float(np.maximum(high - center, center - low).max())

@@ -64,11 +64,11 @@ LENGTHS = range(9)
 FEW_ROWS = 16
 MANY_PROPERTIES = 100
 _BLANK = rb"[ \t]*+"
-_REST = re.compile(rb"[^\s\0\x1a]")
+_REST = re.compile(rb"[^\s\0\x1a]")  # Zeros and Ctrl+Z are padding.
 
 
 class PlyFile:
-    """The faces of a .ply file."""
+    """The faces of a .ply file. is_loose: False, as faces share points."""
 
     is_loose = False
 
@@ -79,7 +79,8 @@ class PlyFile:
         try:
             self._header = header = parse_header(start)
             for element in header.elements:
-                # Lists may be empty, so that their counters are all that a row needs.
+                # Lists may be empty, so that their counters are all that a row needs: in a text
+                # one digit for each number, and a space before the next.
                 kinds = [field.counter or field.type for field in element.properties]
                 row_size = 2 * len(kinds) - 1
                 if header.order:
@@ -120,6 +121,7 @@ class PlyFile:
 
     @cached_property
     def _points(self) -> NDArray[np.floating]:
+        """The (n, 3) points of all vertices, finite or not."""
         points = self._empty_points()
         for _, rows, columns in self._blocks(self._vertices):
             self._fill_points(points, rows, columns)
@@ -132,7 +134,9 @@ class PlyFile:
     sampled_box = box
 
     def pieces(self) -> Iterator[Surface]:
-        """Yield surfaces of the faces: triangles, quads, and those of larger polygons."""
+        """Yield surfaces of the faces: triangles, quads, and the triangles of larger polygons. Each
+        has only the vertices in the range of its faces, or copies of those that they use.
+        """
         faces, list_index = self._faces
         for _, _, columns in self._blocks(faces):
             if columns[list_index].shape[1] < 3:
@@ -175,11 +179,12 @@ class PlyFile:
         )
 
     def _corners(self, numbers: NDArray) -> tuple[NDArray[np.integer], int, int]:
-        """Return vertex indices as integers, their least, and their largest plus one.
+        """Return vertex indices as integers, their least, and their largest plus one: 0 and 1 if
+        there are none.
 
-        FileError if one is wrong.
+        FileError if one is no whole number, or beyond the vertices.
         """
-        with np.errstate(invalid="ignore"):  # a text may have NaN
+        with np.errstate(invalid="ignore"):  # The cast warns of NaN, which a text may have.
             corners = np.ascontiguousarray(
                 numbers, np.int32 if numbers.dtype == np.int32 else np.int64
             )
@@ -227,7 +232,10 @@ class PlyFile:
 
 
 def check_ply_text(data: Data, header: Header) -> None:
-    """Raise FileError if an importer would misread a row."""
+    """Raise FileError if an importer would misread a row of a text, or anything follows its rows.
+
+    Each row is one line, so that an element ends with the line of its last row.
+    """
     vertex_count = next(
         (element.rows for element in header.elements if element.name == "vertex"), 0
     )
@@ -254,13 +262,16 @@ class _RowCheck:
         self._is_face = element.name == "face"
         self._is_vertex = element.name == "vertex"
         uses_expression = element.rows > FEW_ROWS and len(element.properties) < MANY_PROPERTIES
-        row = _pattern_of(element) if uses_expression else rb"(?!)"  # which never matches
+        row = _pattern_of(element) if uses_expression else rb"(?!)"  # This never matches.
         self._pattern = re.compile(rb"(?>(?:%b%b[ \t\r]*+(?:\n|\Z))*)" % (_BLANK, row))
-        only_lists = all(map(_is_whole, element.properties))
-        self._type = np.dtype(np.int64 if only_lists else np.float64)
+        has_only_wholes = all(map(_is_whole, element.properties))
+        self._type = np.dtype(np.int64 if has_only_wholes else np.float64)
 
     def check(self, start: int, end: int) -> None:
-        """Raise FileError if a row from byte `start` to byte `end` has a fault."""
+        """Raise FileError if a row from byte `start` to byte `end` has a fault.
+
+        The expression passes over the rows that it matches; the next row is checked word by word.
+        """
         while start < end:
             match = self._pattern.match(self._data, start, end)
             stop = match.end() if match else start
@@ -271,8 +282,10 @@ class _RowCheck:
             start = stop
 
     def _check_indices(self, start: int, end: int) -> None:
-        """Check the faces of a block row by row only if one of its numbers, of any meaning, can be
-        no index.
+        """Raise FileError if a face from byte `start` to byte `end` has a wrong index.
+
+        Most blocks pass at once: if each of their numbers, counters and others too, could be an
+        index, so could each index. Only other blocks are checked row by row.
         """
         while start < end:
             stop = self._data.find(b"\n", min(start + BLOCK, end - 1), end) + 1 or end
@@ -291,8 +304,8 @@ class _RowCheck:
         return line
 
     def _find_fault(self, words: list[bytes]) -> Fault | None:
-        """Return the first fault of a row, or None."""
-        start = 0
+        """Return the first fault of the words of a row, or None."""
+        start = 0  # the first word of the next property
         for field in self._properties:
             count = 1
             if field.counter:
@@ -324,8 +337,8 @@ class _RowCheck:
 
 
 def _is_whole(field: Property) -> bool:
-    """Return whether importers read a property as a list of whole numbers; they read single values
-    as numbers.
+    """Return whether importers read a property as whole numbers: only a list is; single values, of
+    whole types too, are read as decimal numbers.
     """
     return bool(field.counter) and (field.type[0] in "iu" or field.name in INDICES)
 
@@ -351,7 +364,7 @@ def _line(data: Data, start: int, end: int) -> bytes:
 
 
 def _find_end(data: Data, start: int, rows: int) -> int:
-    """Return the offset behind the next `rows` lines, or the end of the file."""
+    """Return the offset behind the `rows` lines from `start` on, or the end of the file."""
     while rows and start < len(data):
         block = np.frombuffer(data[start : start + BLOCK], np.uint8)
         ends = np.flatnonzero(block == ord("\n"))

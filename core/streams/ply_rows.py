@@ -14,7 +14,7 @@ import numpy as np
 
 from ..numerics import Array, Index, NDArray
 
-BYTES_PER_BLOCK = 1 << 22  # of a text a quarter
+BYTES_PER_BLOCK = 1 << 22  # A text is read by a quarter of this: its numbers take more as float64.
 FEW_ROWS = 64  # If so many rows have lists of equal lengths, a longer run of such rows is likely.
 WINDOW = 1 << 14  # bytes or numbers among which the lengths of lists are looked for at a time
 SINGLE_ROWS = 1 << 14  # rows with lists of unequal lengths that are grouped by these
@@ -71,6 +71,7 @@ class RowReader:
         properties = element.properties
         while done < element.rows and properties:
             rows_left = element.rows - done
+            # A few rows show whether a long run with equal lists is likely.
             starts, lengths = self._scan(properties, min(rows_left, FEW_ROWS))
             if (lengths == lengths[0]).all():
                 table = self._equal_rows(properties, lengths[0], rows_left)
@@ -91,7 +92,9 @@ class RowReader:
     def _equal_rows(
         self, properties: Sequence[Property], lengths: Index, rows_left: int
     ) -> NDArray[np.void]:
-        """Return a table of the next rows whose lists have these lengths, about BYTES_PER_BLOCK."""
+        """Return a table of the next rows, up to the first whose lists have other lengths, and to
+        about BYTES_PER_BLOCK.
+        """
         row = self._row_type(properties, lengths)
         unit = self._buffer.itemsize
         self._read_ahead(min(rows_left * row.itemsize, BYTES_PER_BLOCK) // unit)
@@ -108,8 +111,9 @@ class RowReader:
 
         rows: the largest n. Offsets are in items of the buffer.
         """
-        # Of each list: the numbers between it and the list before, the type and the size of its
-        # counter, and the size of its items; then the numbers behind the last list.
+        # For each list: the size of the numbers between it and the list before, the type and the
+        # size of its counter, and the size of an item. In the end, `gap` is the size of the
+        # numbers behind the last list.
         gap = 0
         lists = []
         for field in properties:
@@ -142,7 +146,7 @@ class RowReader:
             new_lengths = lengths[len(lists) * known_rows :]
             if new_lengths and not 0 <= min(new_lengths) <= max(new_lengths) <= MAX_LIST:
                 raise RowsError
-            if len(starts) - 1 == known_rows:
+            if len(starts) - 1 == known_rows:  # The row is longer than the window, or cut short.
                 if base + window > len(self._buffer):
                     raise RowsError
                 window *= 4
@@ -152,18 +156,20 @@ class RowReader:
         return np.array(starts), np.array(lengths, np.intp).reshape(len(starts) - 1, len(lists))
 
     def _numbers_at(self, kind: str, start: int, count: int) -> list[int]:
-        """Return the whole numbers of a type at up to `count` offsets of the buffer."""
+        """Return the whole numbers of a type at up to `count` offsets of the buffer, one at each
+        offset, so that they overlap.
+        """
         offsets = max(len(self._buffer) + 1 - self._size(kind), 0)
-        # Overlapping numbers, one at each offset.
         view = np.ndarray(offsets, self._type(kind), self._buffer, strides=self._buffer.strides)
-        with np.errstate(invalid="ignore"):
+        with np.errstate(invalid="ignore"):  # The cast warns of NaN, which a text may have.
             return view[start : start + count].astype(np.int64).tolist()
 
     def _group_rows(
         self, properties: Sequence[Property], starts: NDArray, lengths: NDArray, first: int
     ) -> Iterator[Block]:
-        """Yield rows in blocks with lists of equal lengths. starts, lengths: of `_scan`. first:
-        index of the first row.
+        """Yield the scanned rows in blocks with lists of equal lengths.
+
+        starts, lengths: of these rows, as `_scan` returns them. first: index of the first row.
         """
         order = np.lexsort(lengths.T)
         changes = np.flatnonzero((lengths[order[1:]] != lengths[order[:-1]]).any(axis=1)) + 1
@@ -172,7 +178,7 @@ class RowReader:
             size = row.itemsize // self._buffer.itemsize
             if len(rows) > 1:
                 parts = self._buffer[starts[rows][:, None] + np.arange(size)]
-            else:  # One row may be as large as the file, and indices are larger.
+            else:  # One row may be as large as the file, and its indices take eight times that.
                 parts = self._buffer[starts[rows[0]] :][:size]
             table = np.frombuffer(parts.tobytes(), row)
             yield first + rows, [table[name] for name in _names(properties)]
@@ -199,6 +205,7 @@ class RowReader:
         return int(kind[1:]) if self._order else 1
 
     def _type(self, kind: str) -> np.dtype:
+        """Return the type of a number in the buffer: of a text, all are float64."""
         return np.dtype(self._order + kind) if self._order else NUMBERS
 
     def _read_ahead(self, count: int) -> None:
@@ -213,7 +220,10 @@ class RowReader:
             self._buffer = np.concatenate([self._buffer, more]) if len(self._buffer) else more
 
     def _numbers(self) -> Array:
-        """Return the next (n,) numbers of a text, n = 0 at its end. Raises RowsError."""
+        """Return the next (n,) numbers of a text, n = 0 at its end. Raises RowsError.
+
+        A word that a block of the file cuts is kept for the next call.
+        """
         while True:
             chunk = self._file.read(BYTES_PER_BLOCK // 4)
             text = self._cut_word + chunk

@@ -49,14 +49,17 @@ _NAMES = {
 }
 _ELEMENTS = "object", "volume", "part"
 _VASE = {"walls": 1.0, "top": 0.0, "infill": 0.0}
-LEAST_LAYER = 1e-6  # a smaller share of a layer is rounding
+# Chosen: a smaller share of a layer is rounding, of the order of 1e-16 in a quotient.
+LEAST_LAYER = 1e-6
 USUAL_LINE = 0.45  # mm, where the width is left to the slicer
 
 
 @dataclass(frozen=True)
 class SlicerPart:
-    """A part of an object: its first and last triangle, None for all; its kind: "" if it is
-    printed, NEGATIVE, or why it is left out; its settings.
+    """A part of an object.
+
+    triangles: the indices of its first and its last one, None for all of the object's. kind: "" if
+    it is printed, NEGATIVE, or the reason why it is left out.
     """
 
     triangles: tuple[int, int] | None = None
@@ -67,8 +70,11 @@ class SlicerPart:
 
 @dataclass
 class SlicerProject:
-    """The parts of objects, by the id of the object, and for Bambu's parts by its own; settings of
-    the project and of whole objects.
+    """The parts and settings of a project.
+
+    parts: of PrusaSlicer, by the object's id. components: of Bambu Studio and OrcaSlicer, by the
+    ids of the object and of the part. objects: settings of whole objects, by id. settings: of the
+    whole project.
     """
 
     parts: dict[str, list[SlicerPart]] = field(default_factory=dict)
@@ -78,7 +84,9 @@ class SlicerProject:
 
     @classmethod
     def read(cls, text_of: Callable[[str], bytes | None]) -> SlicerProject:
-        """Return the project whose entries `text_of` returns. Raises ValueError."""
+        """Return the project of a file. text_of: returns an entry of the file by its name, None if
+        there is none. Raises ValueError.
+        """
         project = cls()
         for entry in (PRUSA, BAMBU):
             if text := text_of(entry):
@@ -95,14 +103,15 @@ class SlicerProject:
 
     def _read_parts(self, text: bytes) -> None:
         """Add the objects and parts of an XML text, with their settings."""
-        # The attributes and the settings of the elements that are open.
+        # The attributes and the settings of the elements that are open, objects first.
         stack: list[tuple[dict[str, str], dict[str, str]]] = []
 
         def start(tag: str, values: dict[str, str]) -> None:
             if tag in _ELEMENTS:
                 stack.append((values, {}))
             elif tag == "metadata" and stack and "key" in values:
-                stack[-1][1][values["key"]] = values.get("value", "")
+                _, settings = stack[-1]
+                settings[values["key"]] = values.get("value", "")
 
         def end(tag: str) -> None:
             if tag not in _ELEMENTS:
@@ -111,7 +120,8 @@ class SlicerProject:
             if tag == "object":
                 self.objects[values["id"]] = settings
                 return
-            parent = stack[0][0]["id"]
+            object_values, _ = stack[0]
+            parent = object_values["id"]
             kind = settings.get("volume_type", values.get("subtype", "")).lower()
             if settings.get("modifier") == "1":
                 kind = "parametermodifier"
@@ -138,7 +148,9 @@ class SlicerProject:
         stated = {**self.settings, **settings}
 
         def number(name: str, percent: bool = False) -> float | None:
-            """Return a setting by our name, None if it is not stated or a percentage of another."""
+            """Return a setting by our name in the slicer's unit, None if it is not stated, or is a
+            percentage of another setting and `percent` is False.
+            """
             value = next((stated[key] for key in _NAMES[name] if key in stated), "")
             if isinstance(value, list):  # a value for each variant of the printer
                 value = value[0] if value else ""
@@ -164,12 +176,13 @@ class SlicerProject:
         if not (walls >= 0.0 and height > 0.0 and 0.0 <= infill <= 100.0):
             raise ValueError("a print setting is out of its range")
         for side in ("top", "bottom"):
-            least = math.ceil((number(side + "_least") or 0.0) / height - LEAST_LAYER)
+            least_layers = math.ceil((number(side + "_least") or 0.0) / height - LEAST_LAYER)
             if print_settings.get(side):
-                print_settings[side] = max(print_settings[side], least)
+                print_settings[side] = max(print_settings[side], least_layers)
+        # Slicers state lengths in mm.
         if "layer_height" in print_settings:
-            print_settings["layer_height"] *= 1e-3
-        count = max(walls, 1.0)
+            print_settings["layer_height"] = 1e-3 * height
+        count = max(walls, 1.0)  # One of the lines is the outer one: this is their mean width.
         print_settings["line_width"] = 1e-3 * (outer + (count - 1.0) * inner) / count
         density = _filament_density(stated)
         if density > 0.0:
@@ -181,6 +194,7 @@ class SlicerProject:
 
 def _filament_density(settings: Mapping[str, Any]) -> float:
     """Return the density of the filament in a part's extruder, kg/m³, 0 if it is not stated."""
+    # Extruders are counted from 1; 0 is the project's, taken as the first.
     extruder = max(0, parse_whole(str(settings.get("extruder", "1"))) - 1)
     densities = settings.get("filament_density", ())  # g/cm³
     if isinstance(densities, str):

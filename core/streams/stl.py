@@ -45,7 +45,7 @@ CORNERS = np.dtype({"names": ["at"], "formats": ["(3,3)<f4"], "offsets": [12], "
 TRIANGLES_PER_BLOCK = 1 << 17
 SAMPLES = 1000  # triangles that show where the body is
 TEXT_PER_BLOCK = 1 << 20  # bytes
-TEXT_PER_TRIANGLE = 250  # bytes, about
+TEXT_PER_TRIANGLE = 250  # bytes, about: the face count of a text is an estimate
 FACET_END = b"endfacet"
 _NORMAL = re.compile(rb"normal[^v]*?out")
 # words for the end of a file
@@ -116,10 +116,10 @@ class StlFile:
 
     def pieces(self) -> Iterator[Surface]:
         """Yield surfaces of the triangles, with three points for each."""
-        rows = np.arange(3 * TRIANGLES_PER_BLOCK, dtype=np.int32).reshape(-1, 3)
+        triangles = np.arange(3 * TRIANGLES_PER_BLOCK, dtype=np.int32).reshape(-1, 3)
         with open(self._path, "rb") as file:
             for corners in _binary_corners(file) if self._binary else self._text_corners(file):
-                yield Surface(corners.reshape(-1, 3), rows[: len(corners)])
+                yield Surface(corners.reshape(-1, 3), triangles[: len(corners)])
 
     def mesh(self) -> FileMesh:
         """Read all triangles, and merge equal points. FileError if a number is not finite."""
@@ -150,7 +150,8 @@ class StlFile:
     def _parse(self, text: bytes) -> NDArray[np.float32]:
         """Return the (n, 3, 3) corners of whole facets in lower case.
 
-        FileError if a word is wrong.
+        FileError if a word is wrong: at the first facets that the expression does not match, the
+        whole file is checked word by word, once.
         """
         is_plain = _FACETS.match(text).end() == len(text)  # type: ignore[union-attr]
         if not is_plain and not self._is_checked:
@@ -158,13 +159,14 @@ class StlFile:
             self._is_checked = True
         if b"solid" in text:
             text = SOLID.sub(b"", text)
-        # normals that are no numbers
+        # Normals may be no numbers, and are left out below.
         text = _NORMAL.sub(b"normal 0 0 0 out", text)
         try:
-            numbers = parse_decimals(text)[0].reshape(-1, 4, 3)
+            numbers, _ = parse_decimals(text)
+            normals_and_corners = numbers.reshape(-1, 4, 3)
         except ValueError as error:
             raise FileError(STL_CUT_SHORT, end=BY_WORD) from error
-        return numbers[:, 1:].astype(np.float32)
+        return normals_and_corners[:, 1:].astype(np.float32)
 
 
 def _binary_corners(file: BinaryIO) -> Iterator[NDArray[np.float32]]:

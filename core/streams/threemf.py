@@ -123,7 +123,9 @@ def read_3mf(path: str, limits: Limits = DEFAULT_LIMITS) -> tuple[list[Placed], 
 
 
 class _Package:
-    """An open archive, and its parts that were read."""
+    """An open archive, and its parts that were read. Names of parts begin with "/" and do not
+    depend on case.
+    """
 
     def __init__(self, path: Path, archive: zipfile.ZipFile, limits: Limits) -> None:
         self._path = path
@@ -193,8 +195,9 @@ class _Package:
     ) -> Iterator[Placed]:
         """Yield the meshes of an object and of its components.
 
+        part, identifier: the object's model, and its id there. matrix: (4, 4) the object's place.
         hidden: as in `Placed`. above: the keys of the objects whose component it is, the item's
-        object first. name: the component's name, which replaces the object's.
+        object first. name: of the object above, which replaces the object's own.
         """
         key = (part, identifier)
         if key in above:
@@ -203,7 +206,7 @@ class _Package:
             raise FileError(FILE_TOO_LARGE, limit=MAX_DEPTH, content="nested components")
         model_object = self.model(part).objects[identifier]
         name = name or model_object.name
-        top = above[0][1] if above else identifier
+        _, top = (*above, key)[0]  # the id of the item's object
         if model_object.type != MODEL and (top, identifier) not in self._project.components:
             hidden = hidden or "its type is {}".format(model_object.type)
         if len(model_object.triangles):
@@ -221,12 +224,15 @@ class _Package:
             )
 
     def _parts(self, key: tuple[str, str], top: str, whole: Placed) -> Iterator[Placed]:
-        """Yield the parts of a mesh in the slicer's project. top: the id of the item's object."""
+        """Yield the parts of a mesh in the slicer's project.
+
+        key: of the mesh's object. top: the id of the item's object. whole: the mesh without parts.
+        """
         project = self._project
         component = project.components.get((top, key[1]))
         parts = project.parts.get(key[1]) or [component or SlicerPart()]
         for part in parts:
-            mesh = replace(whole, key=(key, top))
+            mesh = replace(whole, key=(key, top))  # Its settings depend on the item's object.
             if part.triangles is not None and len(parts) > 1:
                 first, last = part.triangles
                 if not 0 <= first <= last < len(whole.triangles):
@@ -270,8 +276,10 @@ class _Package:
 
 
 class _Model:
-    """A model part: its objects by id, the items of its build (part, id, transform, why hidden),
-    its unit.
+    """A model part: its objects by id, the items of its build, its unit.
+
+    items: for each the part and the id of its object, its (4, 4) place, and the reason why it is
+    hidden, or "".
     """
 
     def __init__(self, part: str, pieces: Iterator[bytes]) -> None:
@@ -343,7 +351,7 @@ class _Model:
             numbers = np.array(parse_numbers(text))
             if len(numbers) != 12 or not np.isfinite(numbers).all():
                 raise ValueError(text)
-            matrix[:3] = numbers.reshape(4, 3).T
+            matrix[:3] = numbers.reshape(4, 3).T  # The file's matrices are for row vectors.
         return path, values["objectid"], matrix
 
 
