@@ -170,12 +170,9 @@ class IgesReader:
             return self._instance(entry, outer_matrix, path)
         if entry.type in (SOLID, SHELL):
             return self._shells(entry, outer_matrix)
-        if entry.type == TRIMMED:
-            return self._trimmed(entry, outer_matrix @ self._places.matrix(entry))
-        if entry.type == BOUNDED:
-            return self._bounded(entry, outer_matrix @ self._places.matrix(entry))
-        if entry.type == FACE:
-            return self._face(entry, outer_matrix @ self._places.matrix(entry))
+        makers = {TRIMMED: self._trimmed, BOUNDED: self._bounded, FACE: self._face}
+        if entry.type in makers:
+            return makers[entry.type](entry, outer_matrix @ self._places.matrix(entry))
         return self._surfaces.faces_within(entry, outer_matrix, [], True)
 
     def _shells(self, entry: Entry, outer_matrix: NDArray) -> list[Face]:

@@ -305,6 +305,7 @@ def _half_unit(
     is_many = len(long_numbers) >= FEW
     decimals, digits, _ = np.max(long_numbers, axis=0) if is_many else longest_of_file
     largest = max(value for _, _, value in long_numbers)
+    # The power of ten of the last of so many significant digits of the largest number.
     power = math.floor(math.log10(largest)) - digits + 1.0
     return 0.5 * 10.0 ** (max(power, -decimals) if is_fixed else power)
 

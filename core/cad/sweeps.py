@@ -22,7 +22,7 @@ PROFILE_SAMPLES = 9
 
 def arc_steps(turn: float) -> int:
     """Return the number of quadratic pieces of an arc that turns by an angle."""
-    return max(1, math.ceil(turn / MAX_ARC - 1e-9))
+    return max(1, math.ceil(turn / MAX_ARC - 1e-9))  # Rounding alone does not add a piece.
 
 
 def conic_pieces(

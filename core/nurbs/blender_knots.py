@@ -56,16 +56,13 @@ def blender_knots(count: int, order: int, cyclic: bool, bezier: bool, endpoint: 
         tail = 2 * order - 1
     length = count + order + (order - 1 if cyclic else 0)
     knots = np.zeros(length)
-    offset = current = 1 if endpoint and cyclic else 0
-    left_of_value = head
-    for i in range(offset, length - tail):
-        knots[i] = current
-        left_of_value -= 1
-        if left_of_value == 0:
-            current = current + 1
-            left_of_value = repeat
+    first = 1 if endpoint and cyclic else 0
+    # The values of these knots, and the next one, with which the tail begins.
+    places = np.arange(length - tail - first + 1)
+    values = first + np.maximum((places - head + repeat) // repeat, 0)
+    knots[first : length - tail] = values[:-1]
     for i in range(tail):  # One by one: a tail longer than the rest copies its own first knots.
-        knots[length - tail + i] = current + knots[i] - knots[0]
+        knots[length - tail + i] = values[-1] + knots[i] - knots[0]
     return knots
 
 

@@ -224,6 +224,7 @@ def planar_loops(
     curves = [curve for loop in loops for curve in loop]
     center = curves_center(curves)
     size = max(float(np.abs(curve.points - center).max()) for curve in curves)
+    # 4: chosen, as the errors of several points act together.
     tolerance = 4.0 * (WELDING_RTOL * size + stored + 2.0**-52 * float(np.abs(center).max()))
     if not all(_is_closed(loop, tolerance) for loop in loops):
         raise MeasureError(

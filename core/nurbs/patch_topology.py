@@ -95,10 +95,7 @@ def find_topology(patches: Sequence[Face], tolerance: float) -> PatchTopology:
         cut_curves = [curve for side_pieces in pieces for curve in side_pieces]
         cut_sides = join_sides(cut_curves, cut_owner, cut_forward, len(patches), tolerance)
         if cut_sides.open_length < sides.open_length - tolerance:
-            curves = cut_curves
-            owner = cut_owner
-            forward = cut_forward
-            sides = cut_sides
+            curves, owner, forward, sides = cut_curves, cut_owner, cut_forward, cut_sides
             number_of = np.repeat(np.where(counts == 1, number_of, -1), counts)
     left, right = sides.left, sides.right
     turned = sides.turned
@@ -220,8 +217,8 @@ def _cap_loop(
         weights = None if curve.weights is None else np.stack([curve.weights] * 2, axis=1)
         caps.append(Patch((curve.space, clamped_space(2)), net, weights))
     is_planar = bool(np.abs(arms @ axes[2]).max() <= tolerance)
-    # A flat loop without net area runs there and back, so its hole is closed. A loop in space may
-    # bound a hole without a net area: only a cone without any area tells that there is none.
+    # A flat loop without a net area is taken to run there and back, so that its hole is closed. A
+    # loop in space may bound a hole without a net area: there, the cone's triangles are summed.
     if is_planar:
         area = float(np.linalg.norm(vector_area(caps)))
     else:

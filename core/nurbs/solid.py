@@ -54,7 +54,7 @@ from .findings import (
     PATCH_BOUNDARY_CROSSES_ITSELF,
     PATCH_HOLES_CAPPED,
 )
-from .flat_face import FlatFace, split_faces
+from .flat_face import split_faces
 from .patch_moments import (
     area_moments,
     area_slope,
@@ -281,6 +281,7 @@ def _compare_parts(
         for k in crossing
         for face in parts[k]
     )
+    # A span of a patch has 2 each² triangles.
     each = min(FINE_SAMPLES_PER_SPAN, int(np.sqrt(MAX_TRIANGLES / (2.0 * max(spans, 1)))))
     # Parts with crossing samples may be merely near.
     if len(crossing) and each > SAMPLES_PER_SPAN:
@@ -368,14 +369,14 @@ def _sampled(face: Face, each: int) -> tuple[NDArray, Index, float]:
     """Return points (n, 3) of a face, quads (f, 4) between them, and a bound of the face's distance
     from the quads.
     """
-    if isinstance(face, TrimmedFace):
+    if not isinstance(face, Patch):
         quads = face.quads(each)
-        return quads.reshape(-1, 3), np.arange(4 * len(quads)).reshape(-1, 4), face.sagitta(each)
-    if isinstance(face, FlatFace):
-        quads = face.quads(each)
-        sagitta = max(_sagitta(curve.samples(each)[:, None], each) for curve in face.curves)
+        sagitta = (
+            face.sagitta(each)
+            if isinstance(face, TrimmedFace)
+            else max(_sagitta(curve.samples(each)[:, None], each) for curve in face.curves)
+        )
         return quads.reshape(-1, 3), np.arange(4 * len(quads)).reshape(-1, 4), sagitta
-    assert isinstance(face, Patch)
     grid = face.samples(each)
     corners = np.arange(grid.shape[0] * grid.shape[1]).reshape(grid.shape[:2])
     quads = np.stack(

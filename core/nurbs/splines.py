@@ -151,12 +151,9 @@ class Curve:
 
     def reverse(self) -> Curve:
         """Return the same curve, run backward."""
-        # Function j of a cyclic curve has the control point j % count. Run backward, function 0 is
-        # the one that was last.
-        if self.space.function_count > self.space.count:
-            order = (self.space.function_count - 1 - np.arange(self.space.count)) % self.space.count
-        else:
-            order = np.arange(self.space.count)[::-1]
+        # Function j has the control point j % count; a cyclic curve has more functions than points.
+        # Run backward, function 0 is the one that was last.
+        order = (self.space.function_count - 1 - np.arange(self.space.count)) % self.space.count
         knots = tuple((-np.asarray(self.space.knots)[::-1]).tolist())
         return Curve(
             SplineSpace(knots, self.space.order, self.space.count),

@@ -116,7 +116,7 @@ class TrackedSolid:
             patches,
             topology,
             oriented_parts(patches, topology),
-            [(sum_moments(part), True) for part in fluxes],
+            [(sum_moments(part), True) for part in fluxes],  # A fixed rule has nothing to converge.
             area,
             self._slope,
             stored,
@@ -168,11 +168,11 @@ class IncrementalPatchMoments:
         self.spaces = patch.spaces
         self.weights = patch.weights
         self.about = about
-        along_s, along_t = (
+        s_rule, t_rule = (
             (exact_points(space.order, order) if self.weights is None else RATIONAL_GAUSS_POINTS,)
             for space in self.spaces
         )
-        self._rule = along_s, along_t
+        self._rule = s_rule, t_rule
         self._flux = partial(flux_sums, order=order, area=True)
         self._divisor = monomials(order).sum(axis=1) + 3.0
         self._points = np.full_like(patch.points, np.nan)

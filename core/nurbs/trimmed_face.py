@@ -102,6 +102,7 @@ class TrimmedFace:
         """Return the moments of the region's area about a point (3,)."""
         degree = monomials(order).sum(axis=1).astype(np.float64)
         raw, error = self._integrate(partial(area_terms, order=order), degree, about, AREA_RTOL)
+        # The true edge may be beside the loops by the deviation, all along.
         error += self.deviation * self.perimeter * self._reach(about) ** degree
         return Moments(raw, about, Measure.AREA, error)
 
