@@ -19,15 +19,19 @@ from ..scene import fcurves, rigid_world
 from . import findings, stored
 from .live.motion import Motion
 
-REACH = (
-    0.01  # contact with the ground within this distance, relative to the contact objects' extent
-)
+# Points up to this height touch the ground, relative to the extent of the contact objects; chosen.
+REACH = 0.01
 
+# members whose mass may be given in place of the sum of their own members' masses
 SUMS = (read.assembly.MemberKind.COLLECTION, read.assembly.MemberKind.EMPTY)
 
 
 class BalanceGroup:
     """Objects whose common center of mass is followed over a range of frames.
+
+    collection, contacts: names of collections; "" follows the selection, or has no contacts.
+    ground: its height in Blender units, against gravity from the world's origin. reach: points up
+    to this height above the ground touch it, in Blender units; 0 for `REACH`.
 
     objects: the followed objects, sorted by name. feet: objects that may touch the ground. centers:
     a (3,) center in Blender units for each frame so far. supports: a support for each frame, None
@@ -53,20 +57,21 @@ class BalanceGroup:
         self.supports: list[statics.Support | None] = []
 
     def _members(self, collection: str) -> list[Object]:
-        """Return the followed objects, sorted by name; keep the collection in `_assembly` if its
-        mass is given.
+        """Return the followed objects, sorted by name: armatures bring their meshes and the objects
+        that are parented to their bones. Keep the collection in `_assembly` if a mass is given.
         """
         context = self._context
         if collection:
-            depsgraph = context.evaluated_depsgraph_get()
-            root = read.assembly.members_of(_collection(collection), depsgraph)
+            root = read.assembly.members_of(
+                _collection(collection), context.evaluated_depsgraph_get()
+            )
             objects: Iterable[Object] = counted(root)
             has_given_masses = [
                 read.assembly.settings_of(member.data).mass_from == "MASS"
                 for member in root.walk()
                 if member.kind in SUMS
             ]
-            # it need not weigh as much as its objects
+            # The sum of the objects' masses would differ from a given mass.
             self._assembly = root.data if any(has_given_masses) else None
         else:
             objects = context.view_layer.objects.selected
@@ -78,12 +83,10 @@ class BalanceGroup:
             members.add(obj)
             if obj.type == "ARMATURE":
                 members |= {
-                    layer_object for layer_object in layer if read.rig.is_skin_of(layer_object, obj)
-                }
-                members |= {
                     layer_object
                     for layer_object in layer
-                    if layer_object.parent == obj and layer_object.parent_type == "BONE"
+                    if read.rig.is_skin_of(layer_object, obj)
+                    or (layer_object.parent == obj and layer_object.parent_type == "BONE")
                 }
         followed = [obj for obj in members & layer if read.visibility.measurable(obj)]
         if not followed:
@@ -91,10 +94,10 @@ class BalanceGroup:
         return sorted(followed, key=lambda obj: obj.name_full)
 
     def follow(self, scene: Scene, frames: Sequence[float]) -> Generator[int, None, None]:
-        """Measure frame after frame, yield the number of finished frames, and restore the scene's
-        frame at the end.
+        """Append the center and support of each frame, yield the number of finished frames, and
+        restore the scene's frame at the end.
         """
-        before = scene.frame_current
+        frame_before = scene.frame_current
         subframe = scene.frame_subframe
         motion = Motion(len(frames))
         self._frames = frames
@@ -108,9 +111,10 @@ class BalanceGroup:
         except Exception as error:
             raise MeasureError(internal_error.finding_of(error)) from error
         finally:
-            scene.frame_set(before, subframe=subframe)
+            scene.frame_set(frame_before, subframe=subframe)
 
     def _add_frame(self, motion: Motion, depsgraph: Depsgraph) -> None:
+        """Append the center and the support at the frame that the depsgraph shows."""
         self.centers.append(self._center(motion, depsgraph))
         gravity = rigid_world.down(depsgraph.scene)
         touching = np.zeros((0, 3))
@@ -125,13 +129,14 @@ class BalanceGroup:
         )
 
     def _center(self, motion: Motion, depsgraph: Depsgraph) -> numerics.Array:
-        """Return the common center at this frame, in Blender's units."""
+        """Return the (3,) common center at this frame, in Blender's units."""
         if self._assembly is not None:
             body = bodies.assembly.measure.measure_assembly(
                 self._assembly, depsgraph
             ).measurement.mass_properties
             return body.center / scale.meters_per_unit(depsgraph.scene)
         masses, centers = zip(*[motion.mass_and_center(obj, depsgraph) for obj in self.objects])
+        # Offsets from the first center keep their digits far from the origin.
         return centers[0] + np.einsum(
             "i,ij->j", np.array(masses) / np.sum(masses), np.array(centers) - centers[0]
         )
@@ -142,8 +147,8 @@ class BalanceGroup:
         signals: Mapping[str, NDArray] | None = None,
         spans: Sequence[tuple[float, float, float, float]] = (),
     ) -> Object:
-        """Store the path as keys of the group's empty, which is added if there is none, and return
-        the empty.
+        """Store the path and whether the group stands as keys of the group's empty, which is added
+        if there is none, and return the empty. signals, spans: as in `balance_groups.store`.
         """
         signals = dict(signals or {})
         centers = np.array(self.centers)
@@ -155,6 +160,7 @@ class BalanceGroup:
             empty = bpy.data.objects.new("Balance", None)
             empty.empty_display_type = "SPHERE"
             empty.show_in_front = True
+            # chosen: a twentieth of the path's extent
             empty.empty_display_size = 0.05 * float(np.ptp(centers, axis=0).max())
             empty[write.properties.BALANCE_GROUP] = stored.balance_groups.group_text(self.objects)
             context.scene.collection.objects.link(empty)

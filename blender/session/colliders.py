@@ -24,14 +24,18 @@ from ..settings.given import COLLIDER, COLLIDERS
 from .tracking import staleness, stamps
 from .tracking.stamps import Kind, Stale, Stamp
 
-SAME = 1e-5  # relative: float32 matrices of turned copies differ by less
+# Relative. Float32 entries are rounded by 6e-8, so matrices of turned copies differ by some 1e-7.
+SAME = 1e-5
 LIMITED = ("automatic", "hull", "pieces")  # shapes with tolerances
 
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """The colliders of an object, in its frame, with their effect. key: equal for objects that
-    share their meshes.
+    """The colliders of an object, in its frame, with their effect.
+
+    stretch: (3, 3) map from the object's coordinates to its frame. record: the shapes' settings,
+    distances and effects as plain values. fingerprint: of the measurement. key: equal for objects
+    that share their meshes.
     """
 
     obj: Object
@@ -54,8 +58,9 @@ def plan_colliders(
     """Plan the colliders of an object, in steps that yield the completed share; MeasureError if it
     cannot have any.
 
-    is_share: the tolerances are parts of the size. correct: "NONE", "MASSES" or "VERTICES".
-    known_plans: those of this run by their keys, to which this one is added.
+    unit: meters per Blender unit. is_share: the tolerances of `fit_request` are parts of the size,
+    else they are in m. correct: "NONE", "MASSES" or "VERTICES". known_plans: plans of this run by
+    their keys, to which this one is added.
     """
     changes.require_storable_data(obj)
     measurement = measured.measurement
@@ -74,6 +79,7 @@ def plan_colliders(
         )
     hull = colliders.hull_of(surface)
     shapes = yield from colliders.make_colliders(surface, body, fit_request, hull)
+    # Masses and effects are those of the float32 vertices that the file will hold.
     shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
     masses = colliders.uniform_masses(measurement.density, shapes)
     if correct == "VERTICES":
@@ -107,7 +113,7 @@ def plan_colliders(
 
 def _mesh_key(obj: Object, measured: Measured) -> str:
     """Return a key that is equal for objects with the same settings and meshes in the same places
-    of their frames.
+    of their frames, up to `SAME`; other bodies than solids have keys of their own.
     """
     measurement = measured.measurement
     parts = []
@@ -116,12 +122,13 @@ def _mesh_key(obj: Object, measured: Measured) -> str:
         linear = to_frame.rotation @ matrices[:, :3, :3]
         places = matrices[:, :3, 3] @ to_frame.rotation.T + to_frame.position
         scale = np.abs(linear).max()
-        places = places / (scale * np.abs(solid.given_surface.points).max())
-        steps = [
+        size = scale * np.abs(solid.given_surface.points).max()
+        # A step of the logarithm is a relative one; adding zero makes -0 equal to 0.
+        rounded = [
             np.round(coordinates / SAME) + 0.0
-            for coordinates in (linear / scale, places, np.log(scale))
+            for coordinates in (linear / scale, places / size, np.log(scale))
         ]
-        parts += [solid.given_surface.points, solid.given_surface.all_triangles()[0], *steps]
+        parts += [solid.given_surface.points, solid.given_surface.all_triangles()[0], *rounded]
     if not parts:
         return str(obj.session_uid)
     settings = Stamp.parse(measurement.fingerprint).settings.encode()
@@ -130,7 +137,9 @@ def _mesh_key(obj: Object, measured: Measured) -> str:
 
 
 def _surface(obj: Object, measured: Measured) -> mesh.Surface:
-    """Return the measured surface, repaired if it is a solid's, in the object's frame in m."""
+    """Return the measured surface, repaired if it is a solid's, in the object's frame in m, or
+    raise ReadError if there is none.
+    """
     measurement = measured.measurement
     pieces = [*measured.body.surfaces(measurement.kind == "shell")]
     if not pieces:
@@ -141,7 +150,9 @@ def _surface(obj: Object, measured: Measured) -> mesh.Surface:
 
 
 def store_colliders(context: Context, plans: Sequence[Plan], engine: str) -> list[Object]:
-    """Make the planned colliders in place of earlier ones, store their effects, and return them."""
+    """Make the planned colliders in place of earlier ones, store their effects on the bodies, and
+    return the colliders.
+    """
     unit = meters_per_unit(context.scene)
     earlier = scene.colliders_by_body(context.scene.objects)
     meshes: dict[str, list] = {}
@@ -152,16 +163,14 @@ def store_colliders(context: Context, plans: Sequence[Plan], engine: str) -> lis
                 scene.collider_mesh(shape, plan.stretch, unit) for shape in plan.shapes
             ]
         new_colliders += scene.place_colliders(
-            *(
-                context,
-                plan.obj,
-                earlier.get(plan.obj, ()),
-                plan.shapes,
-                meshes[plan.key],
-                plan.stretch,
-                unit,
-                engine,
-            )
+            context,
+            plan.obj,
+            earlier.get(plan.obj, ()),
+            plan.shapes,
+            meshes[plan.key],
+            plan.stretch,
+            unit,
+            engine,
         )
     context.view_layer.update()
     for plan in plans:
@@ -172,6 +181,7 @@ def store_colliders(context: Context, plans: Sequence[Plan], engine: str) -> lis
             "scale": scale_products(plan.obj),
             "engine": engine,
         }
+        # ID properties hold no None.
         effects = {
             key: value
             for key, value in plan.record.items()
@@ -184,8 +194,8 @@ def store_colliders(context: Context, plans: Sequence[Plan], engine: str) -> lis
 
 @contextmanager
 def colliders_kept_current(context: Context, objects: Iterable[Object]) -> Iterator[None]:
-    """Keep the stored effects of colliders valid while nothing but frames of their bodies changes,
-    and results are stored anew.
+    """Keep the stored effects of colliders valid while a block gives their bodies other frames and
+    stores results anew, but changes nothing else. Effects that are out of date before stay so.
     """
     matrices = {
         obj: bodies.float64_matrix(obj.matrix_world)
@@ -197,8 +207,9 @@ def colliders_kept_current(context: Context, objects: Iterable[Object]) -> Itera
     for obj, before in matrices.items():
         group = obj[COLLIDERS]
         places = np.array([bodies.float64_matrix(obj.matrix_world), before])
-        now, then = numerics.polar_rotation(places)[0]
-        group["center_shift"] = (now.T @ then @ group["center_shift"]).tolist()
+        (axes, axes_before), _is_sheared = numerics.polar_rotation(places)
+        # The shift is along the body's axes; in the world it stays.
+        group["center_shift"] = (axes.T @ axes_before @ group["center_shift"]).tolist()
         group["fingerprint"] = write.properties.fingerprint(obj) or group["fingerprint"]
         group["digest"] = colliders_digest(obj)
         group["scale"] = scale_products(obj)
@@ -207,10 +218,10 @@ def colliders_kept_current(context: Context, objects: Iterable[Object]) -> Itera
 
 
 def remove_colliders(context: Context, objects: Iterable[Object]) -> int:
-    """Remove the colliders of objects with what is stored about them; return the number of objects
-    that had any.
+    """Remove the colliders of objects and their stored effects; return the number of objects that
+    had any, with the orphans.
 
-    Colliders whose bodies were deleted are removed themselves.
+    Orphans, colliders among the objects whose bodies were deleted, are removed themselves.
     """
     by_body = scene.colliders_by_body(context.scene.objects)
     orphans = [obj for obj in objects if COLLIDER in obj and obj.parent is None]
@@ -237,9 +248,11 @@ def collider_record(
         for key, value in obj[COLLIDERS].items()
     }
     reason = staleness.stale_reason(obj, context.scene, Kind.COLLIDERS)
-    # Without the add-on nobody notes edits, and a turned body has another digest of its geometry.
-    is_same = Stamp.parse(measurement.fingerprint).geometry == stamp.geometry
-    is_same = is_same or _is_same_body(stored.get("body", ()), measurement.in_object_frame())
+    # Edits that were made without the add-on are not noted, so the geometry is compared, too. A
+    # turned body has another digest, but the same numbers.
+    is_same = Stamp.parse(measurement.fingerprint).geometry == stamp.geometry or _is_same_body(
+        stored.get("body", ()), measurement.in_object_frame()
+    )
     if reason is None and not is_same:
         reason = Stale.GEOMETRY
     reported_keys = stored.keys() - {"fingerprint", "digest", "scale", "body", "limits"}
@@ -249,15 +262,19 @@ def collider_record(
 
 
 def _describe_body(body: inertia.MassProperties) -> list[float]:
-    """Return mass, center and inertia, in kg and m, so that a turned body is recognized."""
+    """Return mass, center and inertia as 1 + 3 + 9 numbers, in kg and m in the object's frame, so
+    that a turned body is recognized.
+    """
     return [body.mass, *body.center.tolist(), *body.inertia.ravel().tolist()]
 
 
 def _is_same_body(stored: Sequence[float], body: inertia.MassProperties) -> bool:
-    """Return whether a described body is this one, but for the rounding of turned matrices."""
+    """Return whether a body stored by `_describe_body` is this one, but for the rounding of turned
+    matrices.
+    """
     if len(stored) != 13 or not body.mass > 0.0:
         return False
-    before = np.array(stored, np.float64)
-    size = (float(body.inertia.trace()) / body.mass) ** 0.5
-    limits = body.mass * np.repeat([1.0, size / body.mass, size**2], [1, 3, 9])
-    return bool((np.abs(before - _describe_body(body)) <= SAME * limits).all())
+    size = (float(body.inertia.trace()) / body.mass) ** 0.5  # as a radius of gyration
+    scales = np.repeat([body.mass, size, body.mass * size**2], [1, 3, 9])
+    differences = np.abs(np.array(stored, np.float64) - _describe_body(body))
+    return bool((differences <= SAME * scales).all())

@@ -116,20 +116,22 @@ def _check(options: dict[str, Any]) -> None:
 
 
 def _objects_named(objects: Object | str | Iterable[Object | str] | None) -> list[Object]:
-    """Return the objects, each once. Raises ValueError."""
+    """Return the objects, each once; by default the selected ones. Raises ValueError if one is not
+    in the view layer.
+    """
     if objects is None:
         return list(bpy.context.view_layer.objects.selected)  # also without a window
     several: Iterable[Any] = [objects] if isinstance(objects, (Object, str)) else objects
-    scene_objects = bpy.context.view_layer.objects
-    by_object = {}
+    layer_objects = bpy.context.view_layer.objects
+    named: dict[Object, None] = {}
     for object_or_name in several:
-        name = object_or_name if isinstance(object_or_name, str) else object_or_name.name
-        if name not in scene_objects:
+        is_name = isinstance(object_or_name, str)
+        name = object_or_name if is_name else object_or_name.name
+        if name not in layer_objects:
             raise ValueError("no object of this view layer is called {!r}".format(name))
-        by_object[scene_objects[name] if isinstance(object_or_name, str) else object_or_name] = (
-            None  # a linked object may have the same name
-        )
-    return list(by_object)
+        # A given object is not looked up by its name, which a linked object may have, too.
+        named[layer_objects[name] if is_name else object_or_name] = None
+    return list(named)
 
 
 def _description(
@@ -140,7 +142,7 @@ def _description(
     is_overridden: bool,
 ) -> dict[str, Any]:
     """Return the dictionary of one object. is_overridden: whether an option replaces its density or
-    mass.
+    mass, so that no note on an unset density is added.
     """
     if isinstance(outcome, Exception):
         entry: dict[str, Any] = {
@@ -159,16 +161,14 @@ def _description(
         entry = record.record(replace(measurement, name=obj.name), frame)
         entry["numbers"] = {name: entry[name] for name in NUMBERS}
     findings = [
-        (
-            record_finding
-            | {
-                "elements": record_finding.get("elements", [])[:MAX_ELEMENTS],
-                "remedies": [
-                    _call(remedy)
-                    for remedy in write.remedies.remedies_of(record_finding["code"], obj.type)
-                ],
-            }
-        )
+        record_finding
+        | {
+            "elements": record_finding.get("elements", [])[:MAX_ELEMENTS],
+            "remedies": [
+                _call(remedy)
+                for remedy in write.remedies.remedies_of(record_finding["code"], obj.type)
+            ],
+        }
         for record_finding in entry["findings"]
     ]
     calls = [
@@ -189,6 +189,7 @@ def _description(
 
 
 def _call(remedy: str) -> str:
+    """Return the call of a remedy: of Repair, which has several, or of the operator so named."""
     return (
         "bpy.ops.{}(remedy={!r})".format(write.remedies.REPAIR, remedy)
         if remedy in write.remedies.REMEDIES

@@ -104,6 +104,7 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
         return weighed
     if obj.type == "ARMATURE" and armatures.stands_for_meshes(obj):
         meshes = armatures.deformed_meshes(obj)
+        # Stored bones follow the pose at once; with Live on, edits of the meshes count, too.
         if "body_mass" in obj and not any(mesh in memory.followed for mesh in meshes):
             parts = [drawn_bone(bone, scene) for bone in obj.pose.bones]
         else:
@@ -129,7 +130,11 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
 def _stored(
     obj: Object, scene: Scene, numbers: PlainBody, matrix: Matrix, measured: Object | PoseBone
 ) -> Displayed:
-    """Return stored numbers, in the frame of a matrix, of an object or of its bone."""
+    """Return stored numbers at their place in the world.
+
+    obj: the object, or the armature of a bone. numbers: in the object's or bone's frame. matrix:
+    from this frame to the world, in Blender units. measured: the owner of the stored method.
+    """
     unit = scale.meters_per_unit(scene)
     world = numbers.in_world(matrix, unit)
     method = write.properties.method(measured)
@@ -172,7 +177,7 @@ def all_drawn(objects: Iterable[Object], scene: Scene) -> list[Displayed | None]
 
 def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | None:
     """Return `drawn` of an object; keep it if it depends on no other object. before: its numbers
-    before it moved.
+    before it moved, None if more has changed.
     """
     if obj.type == "ARMATURE":
         body = displayed(obj, scene)
@@ -180,6 +185,7 @@ def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | No
             body = _as_one(obj, scene, [drawn_bone(bone, scene) for bone in obj.pose.bones])
     else:
         stamp = None if before is None or before.reason is not None else stamps.stamp_of(obj)
+        # An object that has only moved keeps its numbers if their stamp holds at the new place.
         if (
             before is not None
             and stamp is not None
@@ -190,13 +196,16 @@ def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | No
             body = displayed(obj, scene) if "body_mass" in obj or obj in memory.followed else None
     if body is None or not body.world.mass > 0.0:
         return None
-    shows_others = obj.instance_type != "NONE" or len(obj.particle_systems)
-    depends = (
+    # Other objects change such numbers without a report about this one. Those of Live are changed
+    # by a timer.
+    depends_on_others = (
         obj.type == "ARMATURE"
+        or obj.instance_type != "NONE"
+        or len(obj.particle_systems)
         or body.method == ASSEMBLY
         or obj.body_moments.density_from in BY_OTHERS
     )
-    if not (shows_others or depends or body.live is not None):
+    if not depends_on_others and body.live is None:
         memory.drawn[obj.session_uid] = body
         memory.moved.discard(obj.session_uid)
     return body
@@ -240,17 +249,14 @@ def _as_one(armature: Object, scene: Scene, parts: Iterable[Displayed | None]) -
     if world is None:
         return None
     unit = scale.meters_per_unit(scene)
-    rest = write.properties.optional(armature, "body_mass")
-    if rest is not None:  # posing stretches and squeezes the skin, and leaves the mass
-        factor = rest / world.mass
-        inertia, moments = (
-            [factor * value for value in entries] for entries in (world.inertia, world.moments)
-        )
+    rest_mass = write.properties.optional(armature, "body_mass")
+    if rest_mass is not None:  # posing stretches and squeezes the skin, and leaves the mass
+        factor = rest_mass / world.mass
         world = world._replace(
-            mass=rest,
+            mass=rest_mass,
             density=factor * world.density,
-            inertia=tuple(inertia),
-            moments=tuple(moments),
+            inertia=tuple(factor * value for value in world.inertia),
+            moments=tuple(factor * value for value in world.moments),
         )
     numbers = world.in_object(armature.matrix_world, unit)
     worst = max(measured_parts, key=lambda part: RANKS[part.verdict])
@@ -264,10 +270,11 @@ def _weighed(armature: Object, scene: Scene) -> Displayed | None:
     others.
     """
     depsgraph = bpy.context.view_layer.depsgraph
-    posed = loaded_module(character, "weight")
-    if not armature.body_moments_weight.show or posed is None or depsgraph is None:
+    # Nothing is weighed before Show Weight has loaded the module.
+    weight_module = loaded_module(character, "weight")
+    if not armature.body_moments_weight.show or weight_module is None or depsgraph is None:
         return None
-    weight = posed.weight(armature, depsgraph)
+    weight = weight_module.weight(armature, depsgraph)
     if weight is None:
         return None
     numbers = weight.body.in_object(armature.matrix_world, scale.meters_per_unit(scene))
@@ -308,8 +315,8 @@ def _members(obj: Object, objects: Iterable[Object]) -> list[Object]:
 
 @memory.until_change
 def _sum(scene: Scene, layer: ViewLayer, *objects: Object) -> Total:
-    """Return the sum of the displayed numbers of objects. An assembly whose members are among them
-    is left out, since they count by themselves.
+    """Return the sum of the displayed numbers of objects. An assembly or character is left out if
+    some of its members are among the objects.
     """
     selected = set(objects)
     parts = {}
@@ -325,8 +332,9 @@ def _sum(scene: Scene, layer: ViewLayer, *objects: Object) -> Total:
         else:
             parts[obj] = body
     worlds = [body.world for body in parts.values()]
-    alone = next((world for world in worlds if world.mass > 0.0), None)
+    single_body = next((world for world in worlds if world.mass > 0.0), None)
     stale = tuple(obj.name for obj, body in parts.items() if body.verdict == Verdict.OUT_OF_DATE)
+    # Overlaps hold for the very objects and places at which they were sought.
     overlap_places, overlaps = memory.overlaps.get(scene) or (None, ())
     if stale or overlap_places != places(parts):
         overlaps = ()
@@ -337,7 +345,7 @@ def _sum(scene: Scene, layer: ViewLayer, *objects: Object) -> Total:
         count=len(parts),
         volume=sum(world.volume for world in worlds),
         area=sum(world.area for world in worlds),
-        numbers=add_bodies(worlds) if len(worlds) > 1 else alone,
+        numbers=add_bodies(worlds) if len(worlds) > 1 else single_body,
         missing=tuple(missing),
         stale=stale,
         assumed=sum(body.is_assumed for body in parts.values()),
@@ -397,6 +405,7 @@ def listing(
 
 
 def _rank(obj: Object, body: Displayed | None, sort_by: SortBy, warnings_first: bool) -> tuple:
+    """Return the sort key of an object's line; objects without a line come last."""
     if body is None:
         return (True,)
     by = {SortBy.MASS: -body.world.mass, SortBy.VERDICT: -RANKS[body.verdict]}

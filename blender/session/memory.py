@@ -94,6 +94,7 @@ Container = TypeVar("Container", bound=dict | set | list)
 
 
 def _remembered(container: Container) -> Container:
+    """Register a container to be cleared by `forget_file`, and return it."""
     _containers.append(container)
     return container
 
@@ -171,7 +172,10 @@ state = State()
 
 
 def until_change(function: Callable[Arguments, Value]) -> Callable[Arguments, Value]:
-    """Decorate a function of data-blocks and values: it keeps its results until the next change."""
+    """Decorate a function of data-blocks and values: it keeps its results until the next change.
+
+    Calls are told apart by the session uids of data-blocks and the values of other arguments.
+    """
     results: dict[tuple, Value] = _remembered({})
     kept_at = state.generation
 
@@ -188,7 +192,7 @@ def until_change(function: Callable[Arguments, Value]) -> Callable[Arguments, Va
         if key in results:
             return results[key]
         value = function(*arguments, **options)
-        if generation == state.generation:  # else it was of before
+        if generation == state.generation:  # else the call itself has counted a change
             results[key] = value
         return value
 
@@ -199,4 +203,4 @@ def forget_file() -> None:
     """Forget everything but the generation."""
     for container in _containers:
         container.clear()
-    vars(state).update(vars(State(state.generation)))
+    vars(state).update(vars(State(state.generation)))  # in place: other modules refer to `state`

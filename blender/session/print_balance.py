@@ -23,13 +23,16 @@ from ..settings.options import MeasureOptions
 MAX_WALLS = 12
 COARSE, FINE = 21, 7  # places of a pocket along each axis, at first and around the best of them
 ZOOMS = 14
-FILLED = 0.999  # a share of the room, by the largest pocket
+# the largest pocket's radius as a share of the room's, lest it reaches out by rounding
+FILLED = 0.999
 SHARES = np.linspace(0.0, 1.0, 33)  # shares of the largest pocket, for the largest margin
 
 
 class PrintBalance(NamedTuple):
-    """Walls and infill in percent; the margin that they give, in Blender units; whether that is as
-    large as it has to be; the pocket.
+    """A change of a print.
+
+    walls: their number. infill: in percent. margin: the margin that they give, in Blender units.
+    suffices: whether it is as large as it has to be. pocket: of ballast, if any.
     """
 
     walls: int
@@ -49,24 +52,27 @@ def balance_print(
     ballast: float = 0.0,
 ) -> PrintBalance | None:
     """Return the nearest walls and infill, or the least pocket, with the center inside a polygon by
-    a margin, else those with the largest margin; None if the polygon is none.
+    a margin, else those with the largest margin; None if the polygon has fewer than 3 corners.
 
     corners: (k, 3) of the base in the world, counterclockwise from above; None if unknown. margin:
-    in Blender units. point: the center has to be above or below it within the margin, in place of
-    the base. change: "INFILL", "WALLS" (they stay if the infill alone suffices), or "BALLAST", with
-    its density in kg/m³. Raises MeasureError.
+    in Blender units. point: (3,) in the world: the center has to be above or below it within the
+    margin, in place of the base. change: "INFILL", "WALLS" (they stay if the infill alone
+    suffices), or "BALLAST". ballast: its density, kg/m³. Raises MeasureError.
     """
     axes = statics.ground_axes(down(context.scene))[:, :2]
     if point is not None:
-        turn = np.pi / 4.0 * np.arange(8)
-        ring = np.column_stack([np.cos(turn), np.sin(turn)])
-        corners, margin = point + margin * ring @ axes.T, 0.0
+        # An octagon whose corners have the distance `margin` from the point lies within it.
+        angles = np.pi / 4.0 * np.arange(8)
+        ring = np.column_stack([np.cos(angles), np.sin(angles)])
+        corners = point + margin * ring @ axes.T
+        margin = 0.0
     if corners is None or len(corners) < 3:
         return None
     as_print = MeasureOptions(kind="printed")
     request = Request.resolve(obj, context.evaluated_depsgraph_get(), as_print)
     settings = request.settings
     if change != "BALLAST" and settings.printed.pocket is None:
+        # The center of one material does not depend on its density.
         settings = replace(settings, mass=None, density=1.0)
     to_body = bodies.to_si([request.surfaces.matrix], settings.unit)[0]
     printed_body = mesh.mesh_body(
@@ -76,63 +82,72 @@ def balance_print(
         union=settings.overlap == "union",
         threads=settings.threads,
     )
+    # The moments are about the middle of the polygon: far from the origin no digits are lost.
     middle = corners.mean(axis=0)
-    flat = (corners - middle) @ axes
-    about = middle * settings.unit
+    flat_corners = (corners - middle) @ axes
+    middle_si = middle * settings.unit
 
-    def placed(**values: Any) -> numerics.Array:
-        """Return the mass and its first moments along the ground, in Blender units."""
+    def moments_with(**values: Any) -> numerics.Array:
+        """Return the (3,) mass, kg, and its first moments about the middle along the ground, in kg
+        times Blender units, with other values of the print's settings.
+        """
         printed = settings.printed._replace(**values)
         mass = bodies.print_body(printed_body, replace(settings, printed=printed), to_body).mass
-        first = mass.about_point(about).raw[1:4] if mass is not None else np.zeros(3)
-        total = 0.0 if mass is None else mass.total
-        return np.array([total, *(first @ axes / settings.unit)])
+        if mass is None:
+            return np.zeros(3)
+        first = mass.about_point(middle_si).raw[1:4]
+        return np.array([mass.total, *(first @ axes / settings.unit)])
 
-    def stated(best: PrintBalance) -> PrintBalance:
-        """Return the result, its margin from a plumb line as the distance that it has."""
+    def with_distance(best: PrintBalance) -> PrintBalance:
+        """Return a result with the distance of its center from the plumb line as its margin, if it
+        is too far from one. The middle of the polygon is on this line.
+        """
         if best.suffices or point is None:
             return best
-        mass = placed(infill=best.infill, walls=best.walls, pocket=best.pocket)
+        mass = moments_with(infill=best.infill, walls=best.walls, pocket=best.pocket)
         return best._replace(margin=float(np.hypot(*mass[1:] / mass[0])))
 
     now = settings.printed
     if change == "BALLAST":
         if settings.mass is not None:
-            placed(pocket=measurement.Pocket((0.0, 0.0, 0.0), 0.0, 0.0))  # refused
-        mass = placed(pocket=None)
+            # raises the refusal of pockets in prints of a given mass
+            moments_with(pocket=measurement.Pocket((0.0, 0.0, 0.0), 0.0, 0.0))
+        mass = moments_with(pocket=None)
         excess = ballast - now.infill / 100.0 * (settings.density or 0.0)
         cores, outsides = bodies.find_cores(printed_body, now)
         room = bodies.PocketRoom([core.surface for core in cores], outsides, now.line_width)
         center, radius, reached = _place_pocket(
             room,
             lambda places: (places / settings.unit - middle) @ axes,
-            flat,
+            flat_corners,
             mass,
             margin,
             excess,
-            None if point is None else about,
+            None if point is None else middle_si,
             axes,
         )
         local = np.linalg.solve(to_body, [*center, 1.0])[:3]
         pocket = measurement.Pocket(tuple(local.tolist()), radius, ballast) if radius else None
-        return stated(PrintBalance(now.walls, now.infill, reached, reached >= margin, pocket))
+        return with_distance(
+            PrintBalance(now.walls, now.infill, reached, reached >= margin, pocket)
+        )
     best = None
     nearest = sorted(range(1, MAX_WALLS + 1), key=lambda count: abs(count - now.walls))
     for walls in nearest if change == "WALLS" else [now.walls]:
         try:
-            empty, full = (placed(infill=infill, walls=walls) for infill in (0.0, 100.0))
+            empty, full = (moments_with(infill=infill, walls=walls) for infill in (0.0, 100.0))
         except verdict.MeasureError:
             if walls == now.walls:
                 raise
             continue  # thicker than the part
-        if (allowed := statics.infill_range(flat, empty, full - empty, margin)) is not None:
+        if (allowed := statics.infill_range(flat_corners, empty, full - empty, margin)) is not None:
             low, high = (100.0 * share for share in allowed)
             infill = float(np.clip(now.infill, low, high))
             return PrintBalance(walls, _shorten(infill, low, high), margin, True)
-        reached, share = statics.largest_margin(flat, empty, full - empty)
+        reached, share = statics.largest_margin(flat_corners, empty, full - empty)
         if best is None or reached > best.margin:
             best = PrintBalance(walls, 100.0 * share, reached, False, now.pocket)
-    return best and stated(best)
+    return best and with_distance(best)
 
 
 def _place_pocket(
@@ -148,8 +163,10 @@ def _place_pocket(
     """Return center and radius, m, of the least pocket that gives the margin, and the margin; else
     those of the pocket with the largest margin.
 
-    mass: with its first moments. excess: density of the ballast over that of the infill. point:
-    the pocket is on the plane of its plumb line and the center of mass.
+    to_flat: from (k, 3) places in m to (k, 2) along the ground, in the units of `corners`, (c, 2).
+    mass: (3,), with its first moments. excess: density of the ballast less that of the infill,
+    kg/m³. point: (3,) in m; the pocket is on the plane of its plumb line and the center of mass.
+    axes: (3, 2) along the ground. The search refines a grid around its best place.
     """
     frame = np.column_stack([axes, np.cross(axes[:, 0], axes[:, 1])])
     if point is not None:
@@ -159,26 +176,27 @@ def _place_pocket(
     low, high = box.min(axis=0), box.max(axis=0)
     if point is not None:
         low[1] = high[1] = point @ frame[:, 1]
-    best, half = (low + high) / 2.0, (high - low) / 2.0
-    per_radius = abs(excess) * 4.0 / 3.0 * np.pi
+    middle, half = (low + high) / 2.0, (high - low) / 2.0  # of the grid, along `frame`
+    mass_of_unit_ball = abs(excess) * 4.0 / 3.0 * np.pi
     sign = 1.0 if excess >= 0.0 else -1.0
-    best_pocket = best, 0.0, -np.inf
+    best_pocket = middle, 0.0, -np.inf  # its center, radius and margin
     for zoom in range(ZOOMS):
         ticks = np.linspace(-1.0, 1.0, FINE if zoom else COARSE)
         steps = [ticks * size if size > 0.0 else np.zeros(1) for size in half]
-        grid = best + np.array(np.meshgrid(*steps)).reshape(3, -1).T
+        grid = middle + np.array(np.meshgrid(*steps)).reshape(3, -1).T
         places = grid @ frame.T
         flat = to_flat(places)
         largest = FILLED * room.radii(places)
         least = np.cbrt(
-            statics.least_ballast(corners, mass, flat, margin, sign) / (per_radius or 1.0)
+            statics.least_ballast(corners, mass, flat, margin, sign) / (mass_of_unit_ball or 1.0)
         )
-        fits = (least <= largest) & (per_radius > 0.0)
+        fits = (least <= largest) & (mass_of_unit_ball > 0.0)
+        # Each grid has the best place of the one before, so that a pocket that fits is never lost.
         if fits.any():
             at = int(np.where(fits, least, np.inf).argmin())
             best_pocket = places[at], float(least[at]), margin
         else:
-            added = sign * per_radius * SHARES[:, None] * largest**3
+            added = sign * mass_of_unit_ball * SHARES[:, None] * largest**3
             margins = np.array(
                 [statics.ballast_margins(corners, mass, flat, added_mass) for added_mass in added]
             )
@@ -187,13 +205,17 @@ def _place_pocket(
             best_pocket = max(
                 best_pocket, (places[at], radius, float(margins[share, at])), key=itemgetter(2)
             )
-        best = grid[at]
+        middle = grid[at]
+        # The next grid reaches to the neighbors of the best place and farther, in case it is off:
+        # 1.2 times the step 2 half / 20 of the coarse grid, 1.5 times the step 2 half / 6 later.
         half = half * (0.5 if zoom else 2.5 / COARSE)
     return best_pocket
 
 
 def _shorten(infill: float, low: float, high: float) -> float:
-    """Return the infill with few decimals, within its range."""
+    """Return the infill in percent with the fewest decimals, two at most, that are within its
+    range; unchanged if none are.
+    """
     for step in (1.0, 0.1, 0.01):
         for rounded in (np.ceil(infill / step), np.floor(infill / step)):
             if low <= rounded * step <= high:

@@ -26,7 +26,8 @@ from .colliders import colliders_kept_current
 
 # Blender's collision shapes of colliders that are primitives; all others are convex hulls.
 COLLISION_SHAPES = {"box": "BOX", "sphere": "SPHERE", "capsule": "CAPSULE", "cylinder": "CYLINDER"}
-FLAT_RTOL = 1e-5  # of the size, and of the area
+# of the size and of the area: over 100 times the rounding of float32 points, 6e-8 of their size
+FLAT_RTOL = 1e-5
 PROBE_DENSITY = 1e6  # for Calculate Mass: high, as Blender's rigid bodies weigh no less than a gram
 
 
@@ -55,18 +56,21 @@ class RigidBodies(NamedTuple):
 def make_rigid_bodies(
     context: Context, objects: Sequence[Object], type: str, shape: str, frame: str, compounds: bool
 ) -> RigidBodies:
-    """Make objects, or each with its descendants, rigid bodies with their mass, center of mass and
-    principal axes.
+    """Make objects, or with `compounds` each with its descendants, rigid bodies with their mass,
+    center of mass and principal axes, and store their results.
+
+    type: "ACTIVE" or "PASSIVE". shape: Blender's collision shape, or "KEEP". frame: "ORIGIN" for
+    the center of mass alone, "AXES" with the principal axes, or "KEEP".
     """
     bodies = _bodies(objects) if compounds else [(obj,) for obj in objects]
     measured: dict[Object, Measured] = {}
     failures: list[verdict.Finding] = []
     floors: list[Object] = []
-    ask = _measure_in_turn(context, bodies)
+    measure_part = _measure_in_turn(context, bodies)
     with write.reports.progress(len(bodies)) as step:
         for finished, body in enumerate(bodies, 1):
             try:
-                measured[body[0]] = _measured(context, body, ask)
+                measured[body[0]] = _measured(context, body, measure_part)
             except Exception as error:
                 code = error.finding.code if isinstance(error, verdict.MeasureError) else None
                 if type == "PASSIVE" and code in {scene.findings.OPEN_OBJECT, NO_VOLUME}:
@@ -91,9 +95,8 @@ def make_rigid_bodies(
             obj.rigid_body.collision_shape = "CONVEX_HULL" if is_polygon else "MESH"
         calculated = _calculated_masses(context, measured)
         for obj in [*new, *new_floors]:
-            obj.rigid_body.mesh_source = (
-                "FINAL"  # the mesh that was weighed; Calculate Mass takes the default
-            )
+            # The final mesh was weighed. It is set last, as Calculate Mass takes the default one.
+            obj.rigid_body.mesh_source = "FINAL"
         for obj, measured_body in measured.items():
             obj.rigid_body.mass = measured_body.target.mass
         stored.results.store_measured(
@@ -104,8 +107,10 @@ def make_rigid_bodies(
 
 
 def _place(context: Context, measured: dict[Object, Measured], frame: str) -> list[verdict.Finding]:
-    """Give each body the requested frame; remove refused bodies from `measured`, and return the
-    reasons.
+    """Give each body the requested frame, and its new measurement in `measured`; remove refused
+    bodies from there, and return the reasons.
+
+    The joint of a moved body stays where it was, on an empty below the body.
     """
     failures: list[verdict.Finding] = []
     if frame == "KEEP":
@@ -143,42 +148,43 @@ def _place(context: Context, measured: dict[Object, Measured], frame: str) -> li
             del measured[obj]
             if joints[obj] is not None:
                 bpy.data.objects.remove(joints[obj])
-        ask = _measure_in_turn(context, [measured[plan.obj].parts for plan in changed])
+        measure_part = _measure_in_turn(context, [measured[plan.obj].parts for plan in changed])
         for plan in changed:
-            measured[plan.obj] = _measured(context, (*measured[plan.obj].parts,), ask)
+            measured[plan.obj] = _measured(context, (*measured[plan.obj].parts,), measure_part)
         tracking.staleness.mark_axes_changed(plan.obj for plan in changed if not plan.move_only)
     return failures
 
 
 def _add(context: Context, measured: dict[Object, Measured], type: str, shape: str) -> list[Object]:
-    """Add rigid bodies and set collision shapes.
+    """Add rigid bodies and set collision shapes; "KEEP" keeps them and uses existing colliders.
 
-    Return the objects that had no rigid body before.
+    Return the objects, not their colliders, that had no rigid body before.
     """
     parts = [part for measured_body in measured.values() for part in measured_body.parts]
     colliders = scene.colliders.colliders_by_body(context.scene.objects) if shape == "KEEP" else {}
-    added = [collider for part in parts for collider in colliders.get(part, ())]
+    used_colliders = [collider for part in parts for collider in colliders.get(part, ())]
     new = [obj for obj in parts if obj.rigid_body is None]
-    for collider in added:
+    for collider in used_colliders:
         scene.colliders.apply_for_bullet(collider)
     scene.rigid_world.add_rigid_bodies(
-        context, [*new, *(obj for obj in added if obj.rigid_body is None)], type
+        context, [*new, *(obj for obj in used_colliders if obj.rigid_body is None)], type
     )
-    for collider in added:
+    for collider in used_colliders:
         collider.rigid_body.collision_shape = COLLISION_SHAPES.get(
             collider[settings.given.COLLIDER]["kind"], "CONVEX_HULL"
         )
     fresh = set(new)
     for obj, measured_body in measured.items():
-        inner = {part.parent for part in measured_body.parts if part != obj}
+        # Blender joins the shapes of children to those of their parents, if these are compounds.
+        parents = {part.parent for part in measured_body.parts if part != obj}
         for part in measured_body.parts:
             if part in fresh:
                 part.rigid_body.collision_shape = "CONVEX_HULL"
-            if part in inner or part in colliders:
+            if part in parents or part in colliders:
                 part.rigid_body.collision_shape = "COMPOUND"
             elif shape != "KEEP":
                 part.rigid_body.collision_shape = shape
-    for obj in (*new, *added):
+    for obj in (*new, *used_colliders):
         if obj.rigid_body.collision_shape == "CONVEX_HULL":
             # The margin rounds acute corners, and Blender shrinks hulls by it before their scale.
             obj.rigid_body.use_margin = True
@@ -187,8 +193,8 @@ def _add(context: Context, measured: dict[Object, Measured], type: str, shape: s
 
 
 def _is_convex_polygon(mesh: Mesh) -> bool:
-    """Return whether a mesh is flat and fills its hull, on which compounds come to rest: on meshes
-    Bullet rocks them for ever.
+    """Return whether a mesh is flat and fills its hull, so that the hull can be its collision
+    shape: compounds come to rest on a hull, but Bullet rocks them for ever on a mesh.
     """
     surface = read.mesh.mesh_surface(mesh, edges=False)
     try:
@@ -196,6 +202,7 @@ def _is_convex_polygon(mesh: Mesh) -> bool:
     except verdict.MeasureError:
         return False
     area = triangle_areas(surface.points, surface.all_triangles()[0]).sum()
+    # A flat hull is closed: it has its triangles on both sides.
     both_sides = triangle_areas(hull.points, hull.triangles).sum()
     return hull.is_flat and abs(2.0 * area - both_sides) <= FLAT_RTOL * both_sides
 
@@ -225,15 +232,17 @@ def _measure_in_turn(
     return measured_in_turn(parts, context.evaluated_depsgraph_get())
 
 
-def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredObject]) -> Measured:
+def _measured(
+    context: Context, body: Body, measure_part: Callable[[Object], MeasuredObject]
+) -> Measured:
     """Measure a body as it is now; raise EditRefusedError if it cannot be a rigid body."""
     scene.rigid_world.require_rigid_world(
         context.scene, joints=body[0].rigid_body_constraint is not None
     )
-    parts = {body[0]: _measured_part(body[0], ask)}
+    parts = {body[0]: _measured_part(body[0], measure_part)}
     for part in body[1:]:
         try:
-            parts[part] = _measured_part(part, ask)
+            parts[part] = _measured_part(part, measure_part)
         except verdict.MeasureError as error:
             raise verdict.EditRefusedError(error.finding.of_sources([part.name_full])) from error
     measurements = [measured.measurement for measured in parts.values()]
@@ -254,13 +263,16 @@ def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredObje
     return Measured(target, target.mass / volume, parts)
 
 
-def _measured_part(part: Object, ask: Callable[[Object], MeasuredObject]) -> MeasuredObject:
+def _measured_part(
+    part: Object, measure_part: Callable[[Object], MeasuredObject]
+) -> MeasuredObject:
+    """Measure an object of a body, or raise a MeasureError if it is no closed mesh."""
     scene.changes.require_storable_data(part)
     if part.type != "MESH":
         raise verdict.EditRefusedError(
             scene.findings.RIGID_BODY_UNFIT, fault=scene.findings.RIGID_BODY_NEEDS_MESH
         )
-    measured = ask(part)
+    measured = measure_part(part)
     if measured.measurement.method.procedure == verdict.Procedure.OPEN:
         raise verdict.EditRefusedError(scene.findings.OPEN_OBJECT)
     return measured
@@ -268,13 +280,14 @@ def _measured_part(part: Object, ask: Callable[[Object], MeasuredObject]) -> Mea
 
 def _calculated_masses(context: Context, measured: dict[Object, Measured]) -> dict[Object, float]:
     """Return the mass in kg that Blender's Calculate Mass gives each body at the body's mean
-    density.
+    density. Leaves other masses on the rigid bodies, which the caller replaces.
     """
     objects = list(measured)
     if not objects:
         return {}
     with context.temp_override(object=objects[0], selected_objects=objects):
         bpy.ops.rigidbody.mass_calculate(material="Custom", density=PROBE_DENSITY)
+    # The operator multiplies its volume by the density.
     return {
         obj: obj.rigid_body.mass * measured_body.density / PROBE_DENSITY
         for obj, measured_body in measured.items()

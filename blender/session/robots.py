@@ -58,7 +58,7 @@ class SceneLinks:
                     np.array_equal(frame.rotation, link.pose.rotation)
                     and len(self.members[link.name]) == 1
                 )
-                # equal frames without rounding
+                # The product of two equal frames would only add rounding.
                 to_link = robots.Pose() if is_own else link.pose.inverse() @ frame
                 placed += [replace(shape, pose=to_link @ shape.pose) for shape in shapes]
             return placed
@@ -86,8 +86,8 @@ class SceneLinks:
 
 
 def candidates(context: Context, collection: str, selected: bool) -> list[Object]:
-    """Return the objects of the named collection, else the selected ones, else all rendered ones;
-    no colliders.
+    """Return the objects of the named collection, else the selected ones if `selected`, else all
+    rendered ones of the view layer; no colliders.
     """
     objects = [obj for obj in context.view_layer.objects if not obj.hide_render]
     if collection:
@@ -105,13 +105,13 @@ def jointed_robot(
     unit: float,
 ) -> tuple[robots.Robot, list[verdict.Finding]]:
     """Return a robot of candidates with the joints of the scene's rigid-body constraints, and
-    findings.
+    findings. labels: the names of the links, by their objects. unit: meters per Blender unit.
     """
     connections, bases, findings = read.joints.constraint_connections(context.scene, labels, unit)
     robot, robot_findings = robots.assemble_robot(name, [*link_candidates, *bases], connections)
-    placed = sorted(labels, key=lambda obj: obj.name)
-    shared = overlaps.shared_space_caveats(placed, context.evaluated_depsgraph_get())
-    return robot, [*findings, *robot_findings, *shared]
+    by_name = sorted(labels, key=lambda obj: obj.name)
+    caveats = overlaps.shared_space_caveats(by_name, context.evaluated_depsgraph_get())
+    return robot, [*findings, *robot_findings, *caveats]
 
 
 def object_links(
@@ -120,8 +120,8 @@ def object_links(
     objects: list[Object],
     step: Callable[[float], None] = lambda finished: None,
 ) -> SceneLinks:
-    """Return a robot with a link for each measurable object; a finding names the others. step: gets
-    finished counts.
+    """Return a robot with a link for each measurable object; a finding counts those that could not
+    be measured. step: called with the number of finished objects.
     """
     depsgraph = context.evaluated_depsgraph_get()
     measurable = [obj for obj in objects if read.visibility.measurable(obj)]
@@ -157,7 +157,7 @@ def collection_links(
     options: settings.options.MeasureOptions = settings.options.AS_SET,
 ) -> SceneLinks:
     """Return a robot with a link along the world's axes for each child collection of `root`, or for
-    `root` alone.
+    `root` if it has none. objects: the candidates for the members of the links.
     """
     depsgraph = context.evaluated_depsgraph_get()
     link_candidates = []
@@ -195,8 +195,8 @@ def bone_links(
     objects: list[Object],
     options: settings.options.MeasureOptions = settings.options.AS_SET,
 ) -> SceneLinks:
-    """Return a robot with a link in rest frame for each bone that has a part; joints have the
-    limits of the bones.
+    """Return a robot with a link in its rest frame for each bone that has a part, of all armatures
+    among the objects; joints have the limits of the bones.
     """
     link_candidates = []
     connections = []
@@ -207,9 +207,9 @@ def bone_links(
     for armature in armatures:
         rig = measure_rig(context, armature, options)
         findings += rig.measurement.findings
-        several = len(armatures) > 1
+        # Bones of two armatures may have the same name.
         labels = {
-            part.name: "{}:{}".format(armature.name, part.name) if several else part.name
+            part.name: "{}:{}".format(armature.name, part.name) if len(armatures) > 1 else part.name
             for part in rig.parts
             if part.measurement is not None
         }
@@ -232,8 +232,8 @@ def bone_links(
             pieces[label] = part.surfaces
     if not link_candidates:
         raise verdict.EditRefusedError(robots.ROBOT_WITHOUT_LINKS)
-    robot, left = robots.assemble_robot(name, link_candidates, connections)
-    return SceneLinks(robot, [*findings, *left], unit, pieces=pieces)
+    robot, robot_findings = robots.assemble_robot(name, link_candidates, connections)
+    return SceneLinks(robot, [*findings, *robot_findings], unit, pieces=pieces)
 
 
 def left_out(failures: list[verdict.Finding], total: int) -> list[verdict.Finding]:
@@ -249,8 +249,8 @@ def left_out(failures: list[verdict.Finding], total: int) -> list[verdict.Findin
 def object_candidate(
     label: str, obj: Object | None, measurement: Measurement, labels: Mapping[Object, str]
 ) -> robots.Candidate:
-    """Return a measured object as a possible link, with the labels of its parents; `obj` is None
-    for instances.
+    """Return a measured object as a possible link, with the labels of its parents, the nearest
+    first; `obj` is None for instances.
     """
     if obj is None:
         return robots.make_candidate(label, measurement)

@@ -71,13 +71,16 @@ def owners(context: Context) -> list[Object]:
 
 
 def _selection(context: Context) -> tuple[ViewLayer, int, Object | None]:
-    """Return what tells selections apart between two changes that Blender reports."""
+    """Return the key of `_owners` and `_is_mixed`, which tells selections apart between two changes
+    that Blender reports.
+    """
     layer = context.view_layer
     return layer, len(layer.objects.selected), pinned_object(context)
 
 
 @memory.until_change
 def _owners(_layer: ViewLayer, _count: int, _pinned: Object | None) -> list[Object]:
+    """Return `owners` of the context; the arguments are the key of the cache alone."""
     return objects_with_settings(chosen_objects(bpy.context))
 
 
@@ -97,6 +100,7 @@ def is_mixed(settings: PropertyGroup, name: str) -> bool:
 
 @memory.until_change
 def _is_mixed(name: str, layer: ViewLayer, count: int, pinned: Object | None) -> bool:
+    """Return whether a setting differs among the objects of a `_selection`."""
     values = {
         properties.comparable(getattr(obj.body_moments, name))
         for obj in _owners(layer, count, pinned)
@@ -110,13 +114,18 @@ def common(settings: PropertyGroup, name: str) -> Any:
 
 
 def _set_all(name: str, value: Any) -> None:
+    """Set a setting of all chosen objects that are editable and have a use for it."""
     for obj in objects_with_settings(chosen_objects(bpy.context)):
         if obj.is_editable and (obj.type != "VOLUME" or name not in SHAPE):
             setattr(obj.body_moments, name, value)
 
 
 def _shared_property(name: str, function: Any, keywords: dict[str, Any]) -> Any:
-    """Return the property that shows the first object's setting and sets that of all objects."""
+    """Return the property that shows the first object's setting and sets that of all objects.
+
+    function, keywords: a constructor of `bpy.props` and its arguments, as for one object.
+    """
+    # Getters and setters of enums exchange the index of an item, not its identifier.
     items = [item[0] for item in keywords.get("items", ())]
 
     def read(_settings: PropertyGroup) -> Any:
@@ -126,10 +135,9 @@ def _shared_property(name: str, function: Any, keywords: dict[str, Any]) -> Any:
     def write(_settings: PropertyGroup, new: Any) -> None:
         _set_all(name, items[new] if items else new)
 
+    # The objects' own properties call `update`, and `override` concerns stored values.
     own_keywords = {
-        key: value_of_keyword
-        for key, value_of_keyword in keywords.items()
-        if key not in ("update", "override")
+        key: argument for key, argument in keywords.items() if key not in ("update", "override")
     }
     return function(**(own_keywords | {"options": set(), "get": read, "set": write}))
 

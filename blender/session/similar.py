@@ -55,12 +55,13 @@ class SimilarSearch:
     def __init__(self, obj: Object, depsgraph: Depsgraph):
         self._obj, self._depsgraph = obj, depsgraph
         self._objects: dict[Entry, Object] = {}
-        self._mirror_images: dict[
-            Entry, bool | None
-        ] = {}  # None if the surfaces leave it open, too
+        # whether a shape is a mirror image, by its surface; None if the surface leaves it open, too
+        self._mirror_images: dict[Entry, bool | None] = {}
 
     def measure(self) -> Iterator[float]:
-        """Measure the wanted object, in steps. Raises MeasureError if it has no signature."""
+        """Measure the wanted object, in steps that yield the finished share. Raises MeasureError if
+        it has no signature.
+        """
         self._shape = bodies.flat.flat_shape.comparable_shape_of(self._obj, self._depsgraph)
         yield 0.0
         self.signature = self._shape.signature(DESCRIPTOR_ORDER)
@@ -68,11 +69,12 @@ class SimilarSearch:
     def comparison(
         self, objects: Sequence[Object]
     ) -> Callable[[Object], Generator[float, None, None]]:
-        """Return a function that compares one of the objects with the wanted object and yields the
-        finished share.
+        """Return a function that compares one of the objects with the wanted object, keeps the
+        outcome for `find_nearest`, and yields the finished share. To be called after `measure`, for
+        the objects in their order.
         """
         wanted_shape = self._shape
-        skin = None
+        wanted_skin = None  # computed when a comparison of surfaces first needs it
         depsgraph = self._depsgraph
         flat = isinstance(wanted_shape, bodies.flat.flat_shape.FlatShape)
         if flat:
@@ -83,7 +85,7 @@ class SimilarSearch:
             )
 
         def compare(obj: Object) -> Generator[float, None, None]:
-            nonlocal skin
+            nonlocal wanted_skin
             shape = bodies.flat.flat_shape.body_or_flat(obj, depsgraph, shape_of_body, flat)
             yield 0.3
             signature = shape if isinstance(shape, Signature) else shape.signature(DESCRIPTOR_ORDER)
@@ -91,13 +93,13 @@ class SimilarSearch:
             likeness = similarity(self.signature, entry.signature)
             if classify(likeness) in UNDECIDED_HANDEDNESS:
                 yield 0.6
-                skin = skin or bodies.flat.flat_shape.distance_from(wanted_shape)
+                wanted_skin = wanted_skin or bodies.flat.flat_shape.distance_from(wanted_shape)
                 if isinstance(shape, Signature):
                     shape = bodies.shape.object_shape.surface_shape_of(obj, depsgraph)
-                skin_compared = bodies.flat.flat_shape.distance_from(shape)
+                skin = bodies.flat.flat_shape.distance_from(shape)
                 yield 0.9
                 match = bodies.shape.surface_distance.register_surfaces(
-                    shape, wanted_shape, skin_compared, skin, 1.0 / likeness.scale
+                    shape, wanted_shape, skin, wanted_skin, 1.0 / likeness.scale
                 )
                 is_copy = match.max_distance <= MAX_FIT_RTOL * wanted_shape.size
                 self._mirror_images[entry] = None
@@ -121,8 +123,8 @@ class SimilarSearch:
     def find_in_library(
         self, path: Path, scaled: bool, mirrored: bool
     ) -> tuple[list[Match], list[Finding]]:
-        """Return the bodies of a library, the most similar first, and findings about records that
-        are left out.
+        """Measure the wanted object; return the bodies of a library, the most similar first, and
+        findings about records that are left out.
         """
         entries, missing = read_library(path)
         for _ in self.measure():
@@ -134,6 +136,7 @@ class SimilarSearch:
 def _match(
     entry: Entry, likeness: Likeness, scaled: bool, mirrored: bool, obj: Object | None = None
 ) -> Match:
+    """Return a compared shape with its distance when scaled copies or mirror images count."""
     verdict = classify(likeness).value
     distance = likeness.distance(scaled, mirrored)
     return Match(entry.name, entry.file, verdict, distance, likeness.scale, obj)

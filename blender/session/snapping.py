@@ -20,8 +20,9 @@ def remeasure(
     objects: Sequence[Object],
     measurements: Mapping[Object, bodies.stack.Measured] | None = None,
 ) -> None:
-    """Measure and store results anew after objects have moved. measurements: of objects that have
-    not.
+    """Measure and store results anew of objects that have stored results and have moved.
+
+    measurements: those of objects that have not moved since; these are only stored.
     """
     measurements = measurements or {}
     stored = [obj for obj in objects if write.properties.is_stored(obj)]
@@ -32,7 +33,7 @@ def remeasure(
     for together in bodies.measure_object.measure_many(unknown, context.evaluated_depsgraph_get()):
         for obj, outcome in together:
             # stored results stay, and the panel shows that they are out of date
-            if isinstance(outcome, Exception):
+            if isinstance(outcome, Exception):  # prints the traceback of an internal error
                 internal_error.finding_of(outcome)
             else:
                 measured.append((obj, outcome))
@@ -47,26 +48,31 @@ def reframe_objects(
     move_only: bool,
     strict: bool = False,
 ) -> tuple[list[scene.reframe.Plan], list[Finding]]:
-    """Give objects the frames of `target_matrix` while nothing visible moves; return finished plans
-    and refusals.
+    """Give objects the frames of `target_matrix` while nothing visible moves, and measure stored
+    results again; return finished plans and refusals.
+
+    target_matrix: returns an object's (4, 4) frame in the world, in Blender units, or None to leave
+    it as it is. move_only: whether the frames have the objects' own axes. strict: as in
+    `snap_targets.target_of`.
     """
 
     def plans_of(
-        subjects: Sequence[Object], right: dict[Object, bodies.stack.Measured], by_shape: bool
+        subjects: Sequence[Object], unplanned: dict[Object, bodies.stack.Measured], by_shape: bool
     ) -> tuple[list[scene.reframe.Plan], list[Finding]]:
-        """Return plans and refusals; measurements of unchanged objects with stored results go to
-        `right`. by_shape: moments to sixth order choose among axes that lower ones leave open.
+        """Return plans and refusals; measurements of objects that stay as they are go to
+        `unplanned` if their results are stored. by_shape: moments to sixth order choose among axes
+        that lower ones leave open.
         """
         plans: list[scene.reframe.Plan] = []
         failures: list[Finding] = []
-        measured = bodies.measure_object.measured_in_turn(
+        measure_next = bodies.measure_object.measured_in_turn(
             subjects, context.evaluated_depsgraph_get()
         )
         with write.reports.progress(len(subjects)) as step:
             for finished, obj in enumerate(subjects, 1):
                 try:
                     scene.reframe.check(obj)
-                    outcome = measured(obj)
+                    outcome = measure_next(obj)
                     body = scene.snap_targets.target_of(context, obj, outcome, strict, by_shape)
                     target = target_matrix(obj, body)
                 except Exception as error:
@@ -77,7 +83,7 @@ def reframe_objects(
                             scene.reframe.Plan(obj, target, body.size, move_only=move_only)
                         )
                     elif write.properties.is_stored(obj):
-                        right[obj] = outcome
+                        unplanned[obj] = outcome
                 step(finished)
         return plans, failures
 
@@ -87,7 +93,8 @@ def reframe_objects(
         with read.tracking.tracking_paused(), write.reports.progress(len(plans)) as step:
             changed, refused = scene.reframe.reframe(context, plans, step)
             failures += [write.reports.failure(obj.name_full, refusal) for obj, refusal in refused]
-            # a new scale may change the triangles of faces that are not flat: another body
+            # A new scale may cut faces that are not flat into other triangles. The axes of this
+            # other body differ slightly, and the choice among open axes stays that of the first.
             if not move_only:
                 again, _ = plans_of([plan.obj for plan in changed], unchanged, by_shape=False)
                 scene.reframe.reframe(context, again)

@@ -22,13 +22,13 @@ from ..findings import NO_SUCH_NAME
 from . import weight as character
 from .weight import Character, Weight, bone_matrices
 
-# Relative to the character's size.
-NUDGE = 1e-3
+# Relative to the character's size. These limits and the next ones are chosen, not derived.
+NUDGE = 1e-3  # trial move
 REACHED = 1e-5  # distance from the target
 STAYED = 5e-5  # move of a contact
-# contacts that move this far with a bone, relative to its or the center's move, hang on it
+# Contacts that move this far with a bone, relative to its or the center's move, hang on it.
 SLIP = 0.05
-# moves of the center that are smaller, by a bone's move or turn, are no use
+# Moves of the center below these, relative to a bone's move or turn, are of no use.
 LEAST_SHIFT = 0.05
 LEAST_TURN = 0.02
 FARTHEST = 0.5  # moves and, in radians, turns of a bone in a step
@@ -69,6 +69,8 @@ class _Look(NamedTuple):
 class _Handle:
     """Three channels of a bone that are changed on trial: its location, or its rotation about its
     own axes.
+
+    channel: the name of the property. start: its first value. free: the axes that may change.
     """
 
     def __init__(self, bone: PoseBone, turns: bool):
@@ -83,7 +85,7 @@ class _Handle:
         locks = bone.lock_rotation if turns else bone.lock_location
         self.free = [axis for axis in range(3) if not locks[axis]]
         if turns and (mode == "axis_angle" or mode == "quaternion" and any(locks)):
-            self.free = []  # their channels are none about an axis
+            self.free = []  # no channel of these is the rotation about one axis
 
     def put(self, change: numerics.NDArray) -> None:
         """Set the channels to their first values, changed by (3,) lengths or angles."""
@@ -99,10 +101,12 @@ class _Handle:
 
 
 class _Search:
-    """The search for one character.
+    """The search for one character, in Blender units and the world.
 
-    noise: float32 rounding of places in the world, which inverse kinematics see. failure: of the
-    first suitable bone.
+    failure: the refusal to be raised, of the first suitable bone. axes: (3, 3), two columns along
+    the ground, the third up. target: (3,) place on the ground for the center. points, bones: (k, 3)
+    contacts that a bone carries, and the indices of these bones. local: (k, 3, 1) the contacts in
+    the spaces of their bones. noise: float32 rounding of places, which inverse kinematics see.
     """
 
     def __init__(
@@ -135,7 +139,7 @@ class _Search:
         return (self.target - center) @ self.axes[:, :2]
 
     def look(self, handle: _Handle, change: numerics.NDArray) -> _Look:
-        """Evaluate a change of the channels."""
+        """Evaluate the pose with a (3,) change of the channels, which stays."""
         handle.put(change)
         self.context.view_layer.update()
         depsgraph = self.context.evaluated_depsgraph_get()
@@ -147,13 +151,17 @@ class _Search:
         return _Look(self.character.pose(self.armature, depsgraph).center, head, slip)
 
     def balance(self, handle: _Handle) -> bool:
-        """Move the bone and return True, or if that is impossible, leave it and return False."""
+        """Move the bone and return True, or if that is impossible, leave it and return False.
+
+        nudge: length of a trial move. scale: lengths for a unit of the channels; an angle moves
+        parts by up to the size. Changes are measured as lengths, so that both kinds are alike.
+        """
         size = self.character.size
         up = self.axes[:, 2]
         start = self.look(handle, np.zeros(3))
         self.nudge = max(NUDGE * size, 10.0 * self.noise)
         self.scale = size if handle.turns else max(map(abs, self.armature.matrix_world.to_scale()))
-        # of usable channels, and how they move the center
+        # (3,) directions of usable channels, and the center's move for a unit of length
         units: list[numerics.NDArray] = []
         shifts = []
         for axis, sign in ((axis, sign) for axis in handle.free for sign in (1.0, -1.0)):
@@ -162,21 +170,22 @@ class _Search:
             move = trial.center - start.center if handle.turns else trial.head - start.head
             reach = float(np.linalg.norm(move))
             lifts = not handle.turns and move @ up > 1e-2 * self.nudge  # stretches the legs
+            # An axis is tried the other way only if the first way is of no use.
             if (
                 reach > (1e-3 if handle.turns else 1e-2) * self.nudge
                 and trial.slip <= SLIP * reach + self.noise
                 and not lifts
-                and not any(unit @ u for u in units)
+                and not any(unit @ usable for usable in units)
             ):
                 units.append(unit)
                 shifts.append((trial.center - start.center) / self.nudge)
-        # A turn may first lift the center, or two turns be one near gimbal lock, and only a further
-        # turn move the center along the ground.
-        if handle.turns:
-            place, least, space = 0, LEAST_TURN, np.eye(3)
-        else:
-            place, least, space = 1, LEAST_SHIFT, self.axes[:, :2]
-        if len(units) > 1 and np.linalg.svd(np.array(shifts) @ space)[1][place] >= least:
+        # Locations have to move the center both ways along the ground. Of turns one effect is
+        # enough: a turn may first lift the center, or two turns be one near gimbal lock, and only a
+        # further turn move the center along the ground.
+        space = np.eye(3) if handle.turns else self.axes[:, :2]
+        effects = np.linalg.svd(np.array(shifts) @ space)[1] if len(units) > 1 else np.zeros(2)
+        is_useful = effects[0] >= LEAST_TURN if handle.turns else effects[1] >= LEAST_SHIFT
+        if is_useful:
             changes = [np.zeros(len(units))]
             if handle.turns:
                 changes += [size * turn * unit for turn in TURNS for unit in np.eye(len(units))]
@@ -192,8 +201,11 @@ class _Search:
         change: numerics.NDArray,
         head: numerics.NDArray,
     ) -> bool:
-        """Find the least move from a first change of the units on; return whether the center is
-        over the target, the bone no higher than it was, and the contacts in place.
+        """Find the least move from a first change on; return whether the center is over the target,
+        the bone's head no higher than at first, and the contacts in place.
+
+        units: (u, 3) directions of channels. change: (u,) lengths along them. head: (3,), at first;
+        it is lowered while legs are stretched. Each step solves the linearized equations.
         """
         size = self.character.size
         up = self.axes[:, 2]
@@ -201,6 +213,7 @@ class _Search:
         tolerance = STAYED * size + self.noise
 
         def missing(current: _Look) -> numerics.NDArray:
+            """Return the moves that are left: (2,) along the ground, and up for a location."""
             lift = [] if handle.turns else [up @ (head - current.head)]
             return np.array([*((self.target - current.center) @ self.axes[:, :2]), *lift])
 
@@ -210,7 +223,9 @@ class _Search:
             gap = float(np.linalg.norm(missing(current)))
             if gap <= reached and current.slip <= tolerance:
                 return True
-            if gap <= reached:  # the least lower hip that keeps the contacts
+            # Stretched legs: lower the hip by 1.05 times the slip, as a step is not exact, and by
+            # half the tolerance, so that the search does not stop short.
+            if gap <= reached:
                 head = head - (1.05 * current.slip + tolerance / 2.0) * up
             probes = [
                 self.look(handle, (change + self.nudge * row) @ units / self.scale)
@@ -219,14 +234,16 @@ class _Search:
             effects = (
                 np.transpose([missing(current) - missing(probe) for probe in probes]) / self.nudge
             )
-            inverse = np.eye(len(units))  # from moves of the bone to changes
+            # The pseudoinverse finds the shortest solution. With the factor R of moves = Q R, |R c|
+            # is the length by which changes c move the bone, so that R c is made shortest.
+            inverse = np.eye(len(units))
             if not handle.turns:
                 moves = np.transpose([probe.head - current.head for probe in probes]) / self.nudge
                 inverse = np.linalg.inv(np.linalg.qr(moves)[1])
             solve = inverse @ np.linalg.pinv(effects @ inverse, rcond=FLAT)
             step = solve @ (effects @ change + missing(current)) - change
             step *= min(1.0, FARTHEST * size / max(float(np.linalg.norm(step)), 1e-9 * size))
-            gap = float(np.linalg.norm(missing(current)))
+            gap = float(np.linalg.norm(missing(current)))  # again, as the head may be lower
             for share in 0.5 ** np.arange(HALVINGS):
                 trial = self.look(handle, (change + share * step) @ units / self.scale)
                 if np.linalg.norm(missing(trial)) < gap or gap <= reached:
@@ -235,13 +252,14 @@ class _Search:
                 break
             change = change + share * step
             current = trial
-        if self.failure.text == UNMOVABLE:
-            lengths = {"gap": gap, "slip": current.slip}
+        if self.failure.text == UNMOVABLE:  # no earlier bone has left its own reason
             values = {
-                name: write.reports.distance(self.unit * value) for name, value in lengths.items()
+                name: write.reports.distance(self.unit * value)
+                for name, value in {"gap": gap, "slip": current.slip}.items()
             }
-            text = TOO_FAR if current.slip <= tolerance else STRETCHED
-            self.failure = write.reports.Refused(text, bone=handle.bone.name, **values)
+            self.failure = write.reports.Refused(
+                TOO_FAR if current.slip <= tolerance else STRETCHED, bone=handle.bone.name, **values
+            )
         return False
 
 
@@ -286,8 +304,10 @@ def balance_pose(
     after = character.weight(armature, context.evaluated_depsgraph_get())
     assert after is not None and after.support is not None
     gap = float(np.linalg.norm(search.gap(after.parts.center)))
-    lengths = {"gap": gap, "margin": after.support.margin}
-    values = {name: write.reports.distance(unit * value) for name, value in lengths.items()}
+    values = {
+        name: write.reports.distance(unit * value)
+        for name, value in {"gap": gap, "margin": after.support.margin}.items()
+    }
     return {"bone": handle.bone.name} | values
 
 
@@ -303,6 +323,7 @@ def _handles(
     bones.sort(key=lambda bone: (bone != active_bone, len(bone.parent_recursive)))
     bones = [armature.pose.bones[name]] if name else bones
     for bone in bones:
+        # A location tears the bone off the parts above it.
         if (
             sum(masses.get(above.name, 0.0) for above in bone.parent_recursive)
             <= TORN * measured_character.model.masses.sum()

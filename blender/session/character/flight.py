@@ -26,9 +26,8 @@ from ..stored import balance_groups
 from . import weight
 from .carrier import FOLLOWS, Carrier
 
-KEPT = (
-    0.01  # relative to the angular momentum: the largest deviation in a flight, between frames, too
-)
+# the largest deviation in a flight, between frames, too, relative to the angular momentum; chosen
+KEPT = 0.01
 MOMENTUM = "body_balance_momentum"
 
 NOT_CARRIED = (
@@ -67,8 +66,13 @@ class CharacterMotion(BalanceGroup):
     """A character that is followed over frames, on the ground that Show Weight shows or finds at
     the first of them.
 
+    step: seconds a frame. mover: the carrier that `find_carrier` has found; carrier: its samples
+    while one is followed, else the supports are found. first, last, landing: frames of take-off and
+    landing, and the new frame of landing. before, after: numbers of frames around the flight in
+    which it is blended in and out. momentum: (3,), to be kept.
+
     off: the largest distance of the center from its intended place after keying, in meters.
-    deviation, worst: of the angular momentum, relative to it, and its frame.
+    deviation, worst: the largest deviation of the angular momentum, relative to it, and its frame.
     """
 
     def __init__(self, context: Context, frames: range):
@@ -76,29 +80,33 @@ class CharacterMotion(BalanceGroup):
         armature = read.rig.require_armature(context.object)
         weight.require_gravity(scene)
         self.gravity = np.array(scene.gravity, np.float64)
-        before = scene.frame_current
+        frame_before = scene.frame_current
         subframe = scene.frame_subframe
         scene.frame_set(frames[0])
         try:
-            self._found_character = self.character, self.ground, _rig = weight.find(
-                context, armature
-            )
+            self._found_character = weight.find(context, armature)
         finally:
-            scene.frame_set(before, subframe=subframe)
+            scene.frame_set(frame_before, subframe=subframe)
+        self.character, self.ground, _ = self._found_character
         self._context = context
         self.unit = meters_per_unit(scene)
-        self.armature, self.frames = armature, frames
+        self.armature = armature
+        self.frames = frames
         self.step = scene.render.fps_base / scene.render.fps
-        self.objects, self.feet = [armature], [armature]
+        self.objects = self.feet = [armature]
         self.carrier: Carrier | None = None
         self._forget()
 
     def _forget(self) -> None:
-        """Forget all frames."""
-        self.centers, self.supports = [], []
+        """Forget the followed frames."""
+        self.centers = []
+        self.supports = []
         self._parts: list[Parts] = []
 
     def _add_frame(self, motion: object, depsgraph: Depsgraph) -> None:
+        """Append the parts and their center, and the support or the carrier's frame. `motion` is
+        not used, as a character keeps its own.
+        """
         if self.carrier is None:
             parts, _contacts, support = self.character.stand(self.armature, depsgraph, self.ground)
             self.supports.append(support)
@@ -106,14 +114,14 @@ class CharacterMotion(BalanceGroup):
             parts = self.character.pose(self.armature, depsgraph)
             self.carrier.read(depsgraph)
         if self._parts and parts.names != self._parts[0].names:
-            several = set(parts.names).symmetric_difference(self._parts[0].names)
-            raise write.reports.Refused(HELD_IN_PART, names=", ".join(sorted(several)))
+            changed_names = set(parts.names).symmetric_difference(self._parts[0].names)
+            raise write.reports.Refused(HELD_IN_PART, names=", ".join(sorted(changed_names)))
         self._parts.append(parts)
         self.centers.append(parts.center)
 
     @property
     def course(self) -> motion.Course:
-        """The frames, in Blender's units."""
+        """The parts at the followed frames, in Blender's units."""
         centers, spreads = (
             np.array([getattr(frame_parts, name) for frame_parts in self._parts])
             for name in ("centers", "spreads")
@@ -127,12 +135,13 @@ class CharacterMotion(BalanceGroup):
         return np.array([support is not None for support in self.supports])
 
     def find_carrier(self, context: Context, name: str, turns: bool, as_layer: bool) -> None:
-        """Find the carrier of all parts: the named bone, else the root, else the object; Refused if
-        there is none.
+        """Find the carrier of all parts: the named bone, else the only root, else the object; raise
+        Refused if there is none. turns: it has to turn them, too. as_layer: keys go to a layer, as
+        they always do if there are strips.
         """
         self.is_layered = as_layer or fcurves.has_strips(self.armature)
         bones = self.armature.pose.bones
-        part = ""
+        part_left = ""
         if name and name not in bones:
             raise verdict.EditRefusedError(NO_SUCH_NAME, kind="bone", name=name)
         roots = {
@@ -147,12 +156,13 @@ class CharacterMotion(BalanceGroup):
         for owner in owners:
             self.mover = Carrier(self.armature, owner)
             self.mover.require_free(turns)
-            part = self.mover.left_behind(context, self.character, turns)
-            if not part:
+            part_left = self.mover.left_behind(context, self.character, turns)
+            if not part_left:
                 return
+        # The refusal is about the last owner that was tried, the object if no bone was named.
         if turns and (above := self.mover.uneven_parent) is not None:
             raise write.reports.Refused(UNEVENLY_SCALED, name=owners[-1].name, above=above.name)
-        raise write.reports.Refused(NOT_CARRIED, part=part, name=owners[0].name)
+        raise write.reports.Refused(NOT_CARRIED, part=part_left, name=owners[0].name)
 
     def find_flight(self, scene: Scene) -> Iterator[int]:
         """Follow all frames, and find take-off and landing of the flight at the current frame, else
@@ -161,6 +171,7 @@ class CharacterMotion(BalanceGroup):
         yield from self.follow(scene, self.frames)
         touching = self.touching
         frames = self.frames
+        # The followed frames may begin or end in the air; such flights are not whole.
         flights = [
             flight for flight in motion.find_flights(touching) if touching[list(flight)].all()
         ]
@@ -185,8 +196,8 @@ class CharacterMotion(BalanceGroup):
     ) -> Iterator[int]:
         """Find a flight if none is given, and follow it at the original times of its poses.
 
-        keep_height: the flight lasts as long as its height demands. before, after: numbers of
-        frames also followed.
+        flight: frames of take-off and landing. keep_height: the flight lasts as long as its height
+        demands, at least 2 frames. before, after: numbers of frames that are also followed.
         """
         if keep_height and self.is_layered:
             raise write.reports.Refused(LAYERED_TIMES)
@@ -216,16 +227,22 @@ class CharacterMotion(BalanceGroup):
         )
 
     def _sample(self, scene: Scene, frames: Sequence[float]) -> Iterator[int]:
-        """Follow the poses and the carrier at the nodes between the frames."""
+        """Follow the poses and the carrier at LAST f + 1 samples: the nodes of f frames, each of
+        which begins at the last node of the one before. frames: (f + 1) times, also fractions.
+        """
         self._forget()
         self.carrier = Carrier(self.armature, self.mover.owner)
-        starts = np.array(frames[:-1])[:, None]
-        times = (starts + np.diff(frames)[:, None] * spin.NODES[:-1]).ravel()
+        times = (
+            np.array(frames[:-1])[:, None] + np.diff(frames)[:, None] * spin.NODES[:-1]
+        ).ravel()
+        # The samples count as the last frame of the progress.
         return (len(self.frames) for _ in self.follow(scene, [*times.tolist(), frames[-1]]))
 
     @property
     def _flight(self) -> slice:
-        """The flight's rows of the samples."""
+        """The flight's rows of the samples, with both ends; the frames before and after are around
+        it.
+        """
         end = self.before + self.landing - self.first
         return slice(spin.LAST * self.before, spin.LAST * end + 1)
 
@@ -239,42 +256,47 @@ class CharacterMotion(BalanceGroup):
         return spin.CarriedParts.of_course(section, self.carrier.axes[flight])
 
     def _moves(self, turns: bool) -> numerics.Array:
-        """Return (s, 4, 4) moves onto the arc between the ends, or turns of constant spin, blended
-        around it.
+        """Return (s, 4, 4) moves of the samples in the world: onto the arc between the ends, or
+        turns about the center that keep the momentum in flight, and fade around the flight. Keep
+        this momentum for `_check`.
         """
         centers = np.array(self.centers)
         moves = np.tile(np.eye(4), (len(centers), 1, 1))
-        # times of the samples, in frames
+        # times of the samples from the first one, in frames
         places = np.arange(len(centers) // spin.LAST)[:, None] + spin.NODES[:-1]
         places = np.append(places, len(centers) // spin.LAST)
         if not turns:
             shares = places / places[-1]
-            time = self.step * places[-1]
-            arc = motion.ballistic_arc(centers[0], centers[-1], shares, time, self.gravity)
+            arc = motion.ballistic_arc(
+                centers[0], centers[-1], shares, self.step * places[-1], self.gravity
+            )
             moves[:, :3, 3] = arc - centers
             return moves
         flight = self._flight
         parts = self._carried()
         self.momentum = parts.first_momentum
-        spun = parts.constant_spin(self.momentum) @ parts.axes.swapaxes(-1, -2)
-        spun = np.concatenate([spun[:, :-1].reshape(-1, 3, 3), spun[-1:, -1]])
-        # A turn about the momentum keeps it.
+        by_node = parts.constant_spin(self.momentum) @ parts.axes.swapaxes(-1, -2)
+        # The last node of a frame is the first of the next one.
+        spun = np.concatenate([by_node[:, :-1].reshape(-1, 3, 3), by_node[-1:, -1]])
+        # A turn about the momentum keeps it. So the turn about it that the poses at landing would
+        # have to make up is shared with those at take-off, by the frames that they have for it.
         axis = self.momentum / max(float(np.linalg.norm(self.momentum)), np.finfo(float).tiny)
         share = self.before / (self.before + self.after)
         twist = numerics.quaternion(spun[-1])
         back = spin.rotation(-2.0 * share * np.arctan2(twist[1:] @ axis, twist[0]) * axis)
         moves[flight, :3, :3] = back @ spun
-        for transition, frames in (
-            (slice(None, flight.start), self.before),
-            (slice(flight.stop, None), -self.after),
+        for edge, rows, frames in (
+            (flight.start, range(flight.start), self.before),
+            (flight.stop - 1, range(flight.stop, len(moves)), self.after),
         ):
-            edge = flight.start if frames > 0 else flight.stop - 1
             edge_turn = Quaternion(numerics.quaternion(moves[edge, :3, :3]))
-            for row in range(len(moves))[transition]:
-                left = 1.0 - (places[edge] - places[row]) / frames
+            for row in rows:
+                # from 0 at the far end to 1 at the flight; the smoothstep has no slope at either
+                nearness = 1.0 - abs(places[edge] - places[row]) / frames
                 moves[row, :3, :3] = numerics.rotation_matrix(
-                    Quaternion().slerp(edge_turn, left * left * (3.0 - 2.0 * left))
+                    Quaternion().slerp(edge_turn, nearness * nearness * (3.0 - 2.0 * nearness))
                 )
+        # about the center of each sample
         moves[:, :3, 3] = centers - np.einsum("fij,fj->fi", moves[:, :3, :3], centers)
         return moves
 
@@ -294,9 +316,13 @@ class CharacterMotion(BalanceGroup):
         with read.tracking.tracking_paused():
             try:
                 if self.landing != self.last:
-                    ends = scale * self.first, scale * self.last
                     for curve in fcurves.ensure_curves(self.armature):
-                        fcurves.stretch(curve, *ends, scale * (self.landing - self.last))
+                        fcurves.stretch(
+                            curve,
+                            scale * self.first,
+                            scale * self.last,
+                            scale * (self.landing - self.last),
+                        )
                 self.carrier.key(moves, scale * np.array(frames), turns, self.is_layered)
                 for _ in self._sample(scene, frames):
                     pass
@@ -318,7 +344,11 @@ class CharacterMotion(BalanceGroup):
         self._retrace(context)
 
     def _check(self, off: numerics.NDArray, turns: bool) -> None:
-        """Set the distance of the center at the keys, and the deviation of the momentum."""
+        """Set `off`, and `deviation` and `worst` if the rotation is keyed.
+
+        off: (s, 3) distances of the centers from their intended places, in Blender units. Only
+        those at frames count, where keys are; below the carrier's tolerance they count as zero.
+        """
         distance = float(np.linalg.norm(off[:: spin.LAST], axis=1).max())
         self.off = distance * self.unit if distance > FOLLOWS * self.character.size else 0.0
         self.deviation = self.worst = 0.0
@@ -334,7 +364,9 @@ class CharacterMotion(BalanceGroup):
         return self.deviation > KEPT
 
     def _retrace(self, context: Context) -> None:
-        """Follow the new motion if there is a path or there are curves of the earlier one."""
+        """Follow the new motion over the frames of the earlier path, if there is one, and replace
+        the path and its curves.
+        """
         empty = balance_groups.find(context.scene, self.objects)
         if empty is None:
             return
@@ -361,6 +393,7 @@ class CharacterMotion(BalanceGroup):
             unexplained[first : last + 1] = True
         signals = {balance_groups.CONTACT: touching, balance_groups.UNEXPLAINED: unexplained}
         if curves:
+            # (f, 7), per mass: velocity, angular momentum and kinetic energy, and their rates
             now, change = motion.momenta(course, flights)
             mass = course.masses.sum()
             stands = [
@@ -369,17 +402,17 @@ class CharacterMotion(BalanceGroup):
             ]
             margin, height = np.array(stands).T
             force = mass * change[:, :3]
-            torque = change[:, 3:6]
             zero = motion.zero_moment_points(
-                course.center, height, force, torque, mass * self.gravity
+                course.center, height, force, change[:, 3:6], mass * self.gravity
             )
             velocity = unit * now[:, :3]
             angular = unit**2 * now[:, 3:6]
-            energy = unit**2 * now[:, 6]
-            values = velocity, mass * velocity, angular, energy, unit * margin, zero
+            values = velocity, mass * velocity, angular, unit**2 * now[:, 6], unit * margin, zero
+            # The first three descriptions are those of truth values.
             signals.update(zip(list(balance_groups.DESCRIPTIONS)[3:], values))
         start = self._frames[0]
         unexplained_spans = [
-            (start + span[0], start + span[1], unit * span[2], unit**2 * span[3]) for span in spans
+            (start + first, start + last, unit * impulse, unit**2 * twist)
+            for first, last, impulse, twist in spans
         ]
         return self.store(context, signals, unexplained_spans), len(unexplained_spans)

@@ -31,11 +31,12 @@ from ..tracking import handlers
 from ..tracking.armatures import deformed_meshes
 from ..tracking.staleness import stale_reason
 
-REACH = 0.01  # points up to this height touch the ground, relative to the character's size
+# chosen: points up to this height touch the ground, relative to the character's size
+REACH = 0.01
 OUTLINE = 1e-4  # tolerance of the support polygon's corners, relative to its extent
-# in place of a vertex's bone: not looked up yet; no weight
-UNKNOWN = -2
-NO_BONE = -1
+# in place of the index of a vertex's bone
+UNKNOWN = -2  # not looked up yet
+NO_BONE = -1  # no weight; as an index, it is the last entry
 NO_GRAVITY = (
     "The scene has no gravity, so nothing weighs anything. Turn it on in Scene Properties > "
     "Gravity."
@@ -111,16 +112,17 @@ class Character:
         ends = []
         for name, body in bodies.items():
             bone = armature.data.bones[name]
-            (turn, head) = frames[name]
+            turn, head = frames[name]
+            # from the world, at the rest pose, to the bone's own space
             to_bone = np.linalg.inv(place @ float64_matrix(bone.matrix_local))
-            tensor = np.array(tensor_rows(body.inertia))
-            spread = numerics.second_of_inertia(tensor)
+            spread = numerics.second_of_inertia(np.array(tensor_rows(body.inertia)))
             linear = to_bone[:3, :3] @ turn / unit
             centers.append(linear @ body.center + to_bone[:3, :3] @ head + to_bone[:3, 3])
             spreads.append(linear @ spread @ linear.T)
             ends += [bone.head_local, bone.tail_local]
         masses = np.array([body.mass for body in bodies.values()])
         size = float(np.ptp(np.array(ends) @ place[:3, :3].T, axis=0).max())
+        # `placed` gives each part its own matrix.
         model = Parts(tuple(bodies), masses, np.array(centers), np.array(spreads), np.eye(4)[None])
         return cls(model, size)
 
@@ -129,6 +131,7 @@ class Character:
         bones = armature.pose.bones
         row = {bone.name: index for index, bone in enumerate(bones)}
         matrices = bone_matrices(armature, depsgraph)[[row[name] for name in self.names]]
+        # Bones with given masses keep them while the others share the rest of a given total.
         shares = np.array([bones[name].body_moments.mass_from != "MASS" for name in self.names])
         factors = self.model.factors_to(
             numerics.shortest_decimal(armature.body_moments_weight.mass), shares
@@ -170,11 +173,11 @@ class Character:
 
     def contacts(self, armature: Object, depsgraph: Depsgraph, ground: float) -> Contacts:
         """Return the points that touch the ground, at this height against gravity from the world's
-        origin.
+        origin. If any bone is set to be a contact, only its vertices count.
         """
         names = [bone.name for bone in armature.pose.bones]
         contact_bones = {bone.name for bone in armature.pose.bones if bone.body_moments.is_contact}
-        # last: no weight
+        # (b + 1,): the entry at NO_BONE, the last one, is that of vertices without a bone
         may_touch = np.array(
             [not contact_bones or name in contact_bones for name in names] + [not contact_bones]
         )
@@ -187,11 +190,11 @@ class Character:
             evaluated = obj.evaluated_get(depsgraph)
             points = read.mesh.vertex_points(evaluated.data)
             matrix = float64_matrix(evaluated.matrix_world)
-            counts = (
+            may_touch_here = (
                 may_touch[self._bones_of(obj, bone, names, depsgraph)] if contact_bones else True
             )
             near, touching, height = statics.find_contacts(
-                points, matrix, gravity, ground, reach, counts
+                points, matrix, gravity, ground, reach, may_touch_here
             )
             lowest = min(lowest, height)
             places.append(touching)
@@ -199,8 +202,13 @@ class Character:
         carriers = np.concatenate(bones)
         carrying = sorted(names[bone] for bone in np.unique(carriers).tolist() if bone != NO_BONE)
         least = lowest if np.isfinite(lowest) else None
-        lifted = sorted(contact_bones.difference(carrying))
-        return Contacts(np.concatenate(places), carriers, tuple(carrying), tuple(lifted), least)
+        return Contacts(
+            np.concatenate(places),
+            carriers,
+            tuple(carrying),
+            tuple(sorted(contact_bones.difference(carrying))),
+            least,
+        )
 
     def _bones_of(
         self,
@@ -210,9 +218,10 @@ class Character:
         depsgraph: Depsgraph,
         vertices: numerics.NDArray | None = None,
     ) -> numerics.Index:
-        """Return the bone of most weight for each vertex of an object, as indices.
+        """Return the bone of most weight for each vertex of an object, as indices into `names`.
 
-        vertices: their indices, by default all.
+        bone: the bone that carries the object; None for a skinned mesh, whose bones are remembered
+        while it has as many vertices. vertices: their indices, by default all.
         """
         mesh = obj.evaluated_get(depsgraph).data
         count = len(mesh.vertices)
@@ -226,11 +235,11 @@ class Character:
         group_bones = [index.get(group.name, NO_BONE) for group in obj.vertex_groups]
         for row in vertices[vertex_bones[vertices] == UNKNOWN].tolist():
             weights = [
-                (entry.weight, group_bones[entry.group]) for entry in mesh.vertices[row].groups
+                (entry.weight, group_bones[entry.group])
+                for entry in mesh.vertices[row].groups
+                if group_bones[entry.group] != NO_BONE
             ]
-            vertex_bones[row] = max(
-                [pair for pair in weights if pair[1] != NO_BONE], default=(0.0, NO_BONE)
-            )[1]
+            _weight, vertex_bones[row] = max(weights, default=(0.0, NO_BONE))
         return vertex_bones[vertices]
 
 
@@ -253,14 +262,16 @@ def measure(context: Context, armature: Object) -> Rig:
 
 
 def character(armature: Object, unit: float) -> Character | None:
-    """Return a measured character, None if its bones have not been measured."""
+    """Return a measured character, cached with its results; None if its bones have not been
+    measured.
+    """
     fingerprint = write.properties.fingerprint(armature)
-    cached = memory.characters.get(armature)
-    if cached is None or cached[0] != fingerprint:
+    cached_fingerprint, measured_character = memory.characters.get(armature) or (None, None)
+    if cached_fingerprint != fingerprint:
         bodies = {bone.name: write.properties.stored(bone) for bone in armature.pose.bones}
-        cached = fingerprint, Character.from_bodies(armature, bodies, unit)
-        memory.characters[armature] = cached
-    return cached[1]
+        measured_character = Character.from_bodies(armature, bodies, unit)
+        memory.characters[armature] = fingerprint, measured_character
+    return measured_character
 
 
 @memory.until_change
@@ -270,7 +281,7 @@ def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
     """
     unit = scale.meters_per_unit(depsgraph.scene)
     measured_character = character(armature, unit)
-    # removed in Edit Mode
+    # Measured bones may have been removed in Edit Mode.
     if measured_character is None or any(
         name not in armature.pose.bones for name in measured_character.names
     ):
@@ -278,6 +289,7 @@ def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
     gravity = down(depsgraph.scene)
     ground = armature.body_moments_weight.ground
     parts, contacts, support = measured_character.stand(armature, depsgraph, ground)
+    # The ground is at -gravity @ point = ground.
     foot = (
         parts.center - (parts.center @ gravity + ground) * gravity
         if support is None
@@ -286,9 +298,12 @@ def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
     inertia = tuple((parts.inertia * unit**2)[ROWS, COLUMNS].tolist())
     moments, axes, _ = principal_axes(inertia)
     rest = write.properties.stored(armature) or PlainBody(0.0, 0.0, 0.0, 0.0, (), (), (), (), {})
-    center = tuple((parts.center * unit).tolist())
     body = rest._replace(
-        mass=parts.mass, center=center, inertia=inertia, moments=moments, axes=axes
+        mass=parts.mass,
+        center=tuple((parts.center * unit).tolist()),
+        inertia=inertia,
+        moments=moments,
+        axes=axes,
     )
     return Weight(parts, contacts, support, foot, body)
 
@@ -300,9 +315,11 @@ def require_gravity(scene: Scene) -> None:
 
 
 def find(context: Context, armature: Object) -> tuple[Character, float, Rig | None]:
-    """Return a character, its ground, and a new Rig.
+    """Return a character, the height of its ground, and its new measurement, None if its results
+    are up to date.
 
-    Measure and find the ground only if necessary.
+    Bones are measured, and the ground is found, only if necessary: the weight is not shown yet.
+    Nothing is stored.
     """
     settings = armature.body_moments_weight
     unit = scale.meters_per_unit(context.scene)
@@ -328,7 +345,7 @@ def find(context: Context, armature: Object) -> tuple[Character, float, Rig | No
 
 
 def _measure_outdated(context: Context, armature: Object) -> Rig | None:
-    """Measure the bones unless their results are up to date."""
+    """Measure the bones and return their measurement; None if their results are up to date."""
     is_known = weight(armature, context.evaluated_depsgraph_get()) is not None
     if is_known and stale_reason(armature, context.scene) is None:
         return None
@@ -345,7 +362,9 @@ def store_rest(context: Context, armature: Object) -> None:
 
 
 def keep(armature: Object, measured_character: Character, ground: float, rig: Rig | None) -> None:
-    """Store what `find` has found; on a linked character only remember its results."""
+    """Store the ground and the measurement that `find` returned; on a linked character, which holds
+    no results, remember these.
+    """
     armature.body_moments_weight.ground = ground
     if rig is None:
         return
@@ -357,7 +376,9 @@ def keep(armature: Object, measured_character: Character, ground: float, rig: Ri
 
 
 def prepare(context: Context, armature: Object) -> Rig | None:
-    """Measure a character and find its ground if necessary, and keep both. Return a new Rig."""
+    """Measure a character and find its ground if necessary, and keep both. Return the new
+    measurement, if any.
+    """
     measured_character, ground, rig = find(context, armature)
     keep(armature, measured_character, ground, rig)
     return rig
@@ -401,5 +422,6 @@ def bone_matrices(armature: Object, depsgraph: Depsgraph) -> numerics.Array:
     """Return the (b, 4, 4) matrices of all pose bones in the world, as evaluated."""
     evaluated = armature.evaluated_get(depsgraph)
     posed = np.empty((len(evaluated.pose.bones), 4, 4), np.float32)
-    evaluated.pose.bones.foreach_get("matrix", posed.ravel())  # column by column
+    # The view is filled in place, column by column, so that each matrix is transposed.
+    evaluated.pose.bones.foreach_get("matrix", posed.ravel())
     return float64_matrix(evaluated.matrix_world) @ posed.transpose(0, 2, 1)

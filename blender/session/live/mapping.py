@@ -18,7 +18,7 @@ def map_properties(
     obj: Object, current: Followed, measured: measurement.Measurement, scene: Scene
 ) -> inertia.PlainBody:
     """Return the numbers of an object with Live on, in its own frame, mapped to its place and
-    stretch.
+    stretch if they have changed since. measured: the measurement of `current`.
     """
     numbers = inertia.PlainBody.of_body(
         measured.in_object_frame(),
@@ -45,7 +45,9 @@ def is_of_another_scale(obj: Object, current: Followed) -> bool:
 def _linear_map(
     obj: Object, current: Followed, measured: measurement.Measurement
 ) -> NDArray | None:
-    """Return the linear map from the measured object to its current state, or None without one."""
+    """Return the (3, 3) map in the world from the measured object to its current state; None if it
+    is no solid or one of its matrices is singular, as only volumes follow any map.
+    """
     assert current.matrix is not None
     before = current.matrix[:3, :3]
     now = bodies.float64_matrix(obj.matrix_world)[:3, :3]
@@ -82,9 +84,9 @@ def _mapped(
             + now[:3, 3]
         )
     else:
-        volume, center = current.first_order
-        volume = volume * abs(np.linalg.det(now[:3, :3])) * unit**3
-        center = now[:3, :3] @ center + now[:3, 3]
+        own_volume, own_center = current.first_order
+        volume = own_volume * abs(np.linalg.det(now[:3, :3])) * unit**3
+        center = now[:3, :3] @ own_center + now[:3, 3]
     if not volume > 0.0:
         return numbers
     mass = measured.mass_properties.mass
@@ -95,6 +97,7 @@ def _mapped(
         measured.mass_properties, linear, center * unit, mass, turn @ np.transpose(numbers.axes)
     )
     location = now[:3, 3] * unit
+    # The area of a similar body; other stretches would need the faces.
     area = numbers.area * stretch ** (2.0 / 3.0)
     return inertia.PlainBody.of_body(
         image.in_frame(turn, location), mass / volume, volume, area, numbers.error_bound

@@ -45,6 +45,7 @@ MAX_PASS = 5.0  # limit for the first pass of a redraw, in budgets
 RETRY = 0.7  # factor for the remembered time of a skipped pass, so that it is tried again
 IDLE = 0.25  # s without an update before measurements that take longer than the budget
 POLL = 0.1  # s between two checks whether these can begin
+RENDER_POLL = 0.5  # s between two checks during a render, which no measurement disturbs
 FOLLOWED = {Procedure.EXACT, Procedure.CAPPED, Procedure.REORIENTED}
 
 
@@ -86,10 +87,13 @@ def stop(obj: Object) -> None:
 def _measure(
     obj: Object, current: Followed, depsgraph: Depsgraph
 ) -> tuple[measurement.Measurement, MovingSurface | None]:
+    """Return a measurement without comparisons, and the faces that a light pass can follow, if any.
+
+    The patches of a surface object are tracked in `current.tracked`.
+    """
     plain = MeasureOptions(compare=False)
     request = Request.resolve(obj, depsgraph, plain)
     options = request.settings
-    unit = request.settings.unit
     can_track = options.kind == "solid" and options.overlap == "signed" and request.density is None
     reading = read_patches(obj, depsgraph) if can_track and obj.type == "SURFACE" else None
     if reading is None or reading.all_singular:
@@ -98,18 +102,19 @@ def _measure(
     (part,) = reading.parts
     splines = part.splines
     assert splines is not None
-    matrix = part.matrices[0] * unit  # the last row is not used
+    matrix = part.matrices[0] * options.unit  # the last row is not used
     # Flat faces exist only while a file is measured.
     patches = [
         patch.transform(matrix) for patch in splines.patches if isinstance(patch, nurbs.Patch)
     ]
-    if np.linalg.det(matrix) < 0.0:
+    if np.linalg.det(matrix[:3, :3]) < 0.0:
         patches = [patch.reverse_orientation() for patch in patches]
-    stored = splines.stored * float(np.linalg.norm(matrix[:3, :3], 2))
+    # The spectral norm bounds how much the map enlarges the error of stored coordinates.
+    stored_error = splines.stored * float(np.linalg.norm(matrix[:3, :3], 2))
     if current.tracked is None:
-        current.tracked = nurbs.TrackedSolid(patches, stored)
+        current.tracked = nurbs.TrackedSolid(patches, stored_error)
     else:
-        current.tracked.update(patches, stored)
+        current.tracked.update(patches, stored_error)
     measure = current.tracked.measure
     measured_body = measurement.Body(
         measure.volume,
@@ -148,7 +153,7 @@ def note_updates(events: handlers.Updates) -> None:
         and active in memory.followed
         and active.session_uid in events.others
     ):
-        # strokes are drawn without evaluating
+        # Strokes change the mesh without evaluating its geometry.
         changed[active.session_uid] = memory.followed[active]
     for current in changed.values():
         current.is_pending = True
@@ -156,8 +161,11 @@ def note_updates(events: handlers.Updates) -> None:
     if changed and not bpy.app.is_job_running("RENDER"):
         _follow_at_once(events, set(changed))
     has_other_events = events.collections or events.moved or events.reshaped
-    follows = len(memory.afloat) or any(current.shows_others for current in memory.followed)
-    is_due = changed or is_followed_moved or has_other_events and follows
+    # Carried objects and instances change a followed object without an update of it.
+    depends_on_others = len(memory.afloat) or any(
+        current.shows_others for current in memory.followed
+    )
+    is_due = changed or is_followed_moved or has_other_events and depends_on_others
     if is_due and not bpy.app.background and not bpy.app.timers.is_registered(_tick):
         bpy.app.timers.register(_tick)
 
@@ -179,15 +187,18 @@ def _follow_at_once(events: handlers.Updates, changed: set[int]) -> None:
             continue
         current.first_order = current.surface.follow(obj, events.depsgraph)
         current.pass_seconds = time.thread_time() - start
-        budget = budget - current.pass_seconds
+        budget -= current.pass_seconds
         is_first = False
 
 
 def _tick() -> float | None:
-    if not len(memory.followed):  # none is any more, or the add-on is disabled
+    """Measure the due objects that are quick enough, all if updates have ceased; return the seconds
+    until Blender's timer shall call again, None if nothing waits.
+    """
+    if not len(memory.followed):  # Live was turned off, or the add-on disabled
         return None
     if bpy.app.is_job_running("RENDER"):
-        return 0.5
+        return RENDER_POLL
     layer = bpy.context.view_layer
     depsgraph = bpy.context.evaluated_depsgraph_get()  # may evaluate, and so note more
     due = [obj for obj in layer.objects if obj in memory.followed and _is_due(obj)]
@@ -201,7 +212,7 @@ def _tick() -> float | None:
         ((memory.followed[obj].seconds, obj) for obj in due), key=itemgetter(0)
     ):
         if (seconds <= budget or idle) and not _is_stroking(obj):
-            if obj.mode == "SCULPT":
+            if obj.mode == "SCULPT":  # evaluates the strokes
                 obj.update_tag(refresh={"DATA"})
                 layer.update()
             update(obj, depsgraph)
@@ -217,6 +228,7 @@ def _tick() -> float | None:
 
 
 def _is_stroking(obj: Object) -> bool:
+    """Return whether an object is in Sculpt Mode while a stroke goes on."""
     windows = bpy.context.window_manager.windows if obj.mode == "SCULPT" else ()
     return any(
         running.bl_idname.startswith("SCULPT_OT_")

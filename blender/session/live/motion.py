@@ -33,7 +33,8 @@ class _Followed:
     change: number of the geometry's last update at the measurement, -1 before the first. moments:
     of the mass, in the object's coordinates in SI units. given_mass: in kg, if the mass is given.
     mixes: volume and center as polynomials of the values of the shape keys `keys`, for faces cut
-    into `triangles`; density: the density for them.
+    into `triangles`; density: the density for them. hull: the convex hull in the object's
+    coordinates; hull_change: number of the geometry's last update at it.
     """
 
     change: int = -1
@@ -43,9 +44,8 @@ class _Followed:
     density: float = 0.0
     keys: tuple[str, ...] = ()
     triangles: numerics.Integers | None = None
-    hull: tuple[int, mesh.ConvexHull] | None = (
-        None  # the number of the geometry's last update, and the hull then
-    )
+    hull: mesh.ConvexHull | None = None
+    hull_change: int = -1
 
 
 @dataclass(eq=False)
@@ -66,7 +66,7 @@ class Motion:
         unit = scale.meters_per_unit(depsgraph.scene)
         matrix = bodies.float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
         followed = self._entry(obj)
-        if followed.change == -1 and followed.mixes is None:
+        if followed.change == -1 and followed.mixes is None:  # at its first frame
             self._shape_keys(obj, depsgraph, followed)
         mixed = None if followed.mixes is None else _mixed(obj, followed, depsgraph, matrix, unit)
         if mixed is not None:
@@ -97,6 +97,7 @@ class Motion:
         )
 
     def _entry(self, obj: Object) -> _Followed:
+        """Return the measurement of an object, an empty one at first."""
         return self._followed.setdefault(obj.session_uid, _Followed())
 
     def hull_points(self, obj: Object, depsgraph: Depsgraph) -> numerics.Array:
@@ -105,10 +106,11 @@ class Motion:
         """
         followed = self._entry(obj)
         change = updates.last_change_of_geometry(obj)
-        if followed.hull is None or followed.hull[0] != change:
-            followed.hull = change, object_hull(obj, depsgraph)
+        if followed.hull is None or followed.hull_change != change:
+            followed.hull = object_hull(obj, depsgraph)
+            followed.hull_change = change
         matrix = bodies.float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
-        return followed.hull[1].points @ matrix[:3, :3].T + matrix[:3, 3]
+        return followed.hull.points @ matrix[:3, :3].T + matrix[:3, 3]
 
     def _shape_keys(self, obj: Object, depsgraph: Depsgraph, followed: _Followed) -> None:
         """Fit `mixes` to an object that shows nothing but a mix of shape keys, if that is
@@ -124,9 +126,10 @@ class Motion:
         ):
             return
         blocks = obj.data.shape_keys.key_blocks
+        # A key adds its difference from the key that it is relative to, times its value.
         shapes = {
             name: _coordinates(blocks[name].data)
-            for name in {*keys, *(blocks[k].relative_key.name for k in keys)}
+            for name in {*keys, *(blocks[key].relative_key.name for key in keys)}
         }
         surface = read.objects.read_object(obj, depsgraph, edges=False).parts[0].surface
         surface = replace(surface, points=_coordinates(obj.data.shape_keys.reference_key.data))
@@ -168,6 +171,7 @@ def _mixed_keys(obj: Object) -> tuple[str, ...]:
 
 
 def _coordinates(data) -> numerics.Array:
+    """Return the (n, 3) points of a shape key's data."""
     points = np.empty(3 * len(data), np.float32)
     data.foreach_get("co", points)
     return points.reshape(-1, 3).astype(np.float64)
@@ -176,8 +180,8 @@ def _coordinates(data) -> numerics.Array:
 def _mixed(
     obj: Object, followed: _Followed, depsgraph: Depsgraph, matrix: numerics.NDArray, unit: float
 ) -> tuple[float, numerics.Array] | None:
-    """Return mass and center by the mix of shape keys; None if triangles changed, or the mesh is
-    flat or inside out.
+    """Return mass, kg, and center, Blender's units in the world, by the mix of shape keys; None if
+    triangles changed, or the mesh is flat or inside out. matrix: of the object.
     """
     assert followed.mixes is not None and followed.triangles is not None
     triangles, _ = (

@@ -57,9 +57,8 @@ def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
     visited: dict[read.assembly.Root, None] = {root: None}
     failures: list[tuple[str, Finding]] = []
     measured: list[tuple[Object, Measured]] = []
-    for (
-        part
-    ) in assembly.root.walk():  # an assembly comes before the point mass that it may be itself
+    # An assembly comes before the point mass that the same object may be, and is stored alone.
+    for part in assembly.root.walk():
         data = part.member.data
         if data in visited:
             continue
@@ -97,8 +96,8 @@ def kept_up_to_date(context: Context, member: Object | None = None) -> Iterator[
     of them.
 
     A total that is the plain sum of its members follows their masses. An assembly keeps its old
-    stamp if a member's results are out of date, or if instances or given masses are in its total.
-    member: the only one that changes.
+    stamp, and so goes out of date, if a member's results are out of date, or if instances or given
+    masses are in its total. member: the only one that changes, without an update of the scene.
     """
     scene = context.scene
     depsgraph = context.view_layer.depsgraph
@@ -111,24 +110,24 @@ def kept_up_to_date(context: Context, member: Object | None = None) -> Iterator[
         return
     if member is None:
         depsgraph = context.evaluated_depsgraph_get()
-    before = {
+    bodies_before = {
         root: _member_bodies(read.assembly.members_of(root, depsgraph))
         for root in stored
         if staleness.was_current(root, scene)
     }
     if member is not None:
-        before = {root: bodies for root, bodies in before.items() if member in bodies}
+        bodies_before = {root: bodies for root, bodies in bodies_before.items() if member in bodies}
     yield
     if member is None:
         depsgraph = context.evaluated_depsgraph_get()
-    for root, bodies in before.items():
+    for root, before in bodies_before.items():
         handlers.count_change(root)
         tree = read.assembly.members_of(root, depsgraph)
         stamp = stamps.stamp_of(root)
         now = _member_bodies(tree)
         if (
             stamp is None
-            or bodies.keys() != now.keys()
+            or before.keys() != now.keys()
             or any(staleness.stale_reason(obj, scene) for obj in now)
         ):
             continue
@@ -136,15 +135,15 @@ def kept_up_to_date(context: Context, member: Object | None = None) -> Iterator[
             tree, {obj: write.properties.fingerprint(obj) for obj in now}
         )
         text = stamp._replace(geometry=digest(key.encode())).text
-        if all(_is_same(bodies[obj], now[obj]) for obj in now):
+        if all(_is_same(before[obj], now[obj]) for obj in now):
             root["body_fingerprint"] = text
             _follow_defaults(root, now)
-        elif _is_sum(root, bodies) and (total := add_bodies([*now.values()])) is not None:
+        elif _is_sum(root, before) and (total := add_bodies([*now.values()])) is not None:
             matrix = getattr(root, "matrix_world", Matrix())
             unit = scale.meters_per_unit(scene)
             write.properties.store_body(root, total.in_object(matrix, unit), text)
-            _scale_rows(
-                root, {obj.name: now[obj].mass - bodies[obj].mass for obj in now}, total.mass
+            _add_gains(
+                root, {obj.name: now[obj].mass - before[obj].mass for obj in now}, total.mass
             )
             _follow_defaults(root, now)
 
@@ -189,11 +188,11 @@ def _is_sum(root: read.assembly.Root, bodies: dict[Object, PlainBody]) -> bool:
     return _is_same(total, stored_total.in_world(getattr(root, "matrix_world", Matrix()), unit))
 
 
-def _scale_rows(root: read.assembly.Root, gains: dict[str, float], mass: float) -> None:
-    """Add the gains of objects, by name, to their rows and to those of the assemblies that they are
-    in.
+def _add_gains(root: read.assembly.Root, gains: dict[str, float], mass: float) -> None:
+    """Add the gains of objects in kg, by name, to their rows and to those of the assemblies that
+    they are in, and renew all shares of the total mass.
     """
-    above: list[PropertyGroup] = []
+    above: list[PropertyGroup] = []  # the present row, and those of the assemblies that it is in
     for row in read.assembly.settings_of(root).rows:
         above = [*(upper for upper in above if upper.depth < row.depth), row]
         gain = (
@@ -206,6 +205,7 @@ def _scale_rows(root: read.assembly.Root, gains: dict[str, float], mass: float) 
 
 
 def _member_bodies(root: read.assembly.Member) -> dict[Object, PlainBody]:
+    """Return the stored results of an assembly's measured objects, in the world."""
     unit = scale.meters_per_unit(bpy.context.scene)
     objects = [
         member.data
@@ -217,6 +217,7 @@ def _member_bodies(root: read.assembly.Member) -> dict[Object, PlainBody]:
 
 
 def _is_same(before: PlainBody, now: PlainBody) -> bool:
+    """Return whether two bodies in the world have the same mass, center and size up to rounding."""
     size = hypot(*before.gyration)
     size_now = hypot(*now.gyration)
     return (
@@ -227,6 +228,7 @@ def _is_same(before: PlainBody, now: PlainBody) -> bool:
 
 
 def _write_rows(assembly: Assembly) -> None:
+    """Write the tree of an assembly into the rows that the panel shows."""
     tree_rows = read.assembly.settings_of(assembly.root.member.data).rows
     tree_rows.clear()
     mass = assembly.measurement.mass_properties.mass
@@ -245,8 +247,10 @@ def _write_rows(assembly: Assembly) -> None:
 def _tree(
     part: MemberBody, depth: int, factor: float, counted: bool
 ) -> Iterator[tuple[int, MemberBody, float, bool]]:
-    """Yield for each member its depth, itself, the factor of its mass by instances, and whether its
-    mass counts.
+    """Yield for each member its depth, itself, the factor of its mass, and whether its mass counts.
+
+    Below an instance the factor scales the masses of its collection's members to that of the
+    instance. Below a given mass no member counts.
     """
     yield depth, part, factor, counted
     below = sum([_own_mass(member) for member in part.parts], 0.0)
@@ -258,8 +262,8 @@ def _tree(
 
 
 def _own_mass(part: MemberBody) -> float:
-    mass = part.mass
-    return 0.0 if mass is None else mass.total
+    """Return the mass of a member in kg, 0 if it has none."""
+    return 0.0 if part.mass is None else part.mass.total
 
 
 def _row_findings(part: MemberBody) -> list[Finding]:
@@ -288,8 +292,11 @@ def bill_csv(root: MemberBody, mass: float) -> list[str]:
 
 
 def _bill_row(part: MemberBody, mass: float, level: int, counted: bool) -> dict[str, object]:
-    """Return the row of a member; level: number of assemblies around it."""
-    moments, measurement = part.mass, part.measurement
+    """Return the row of a member. mass: of the whole, kg. level: number of assemblies around the
+    member. counted: whether its mass is a part of the whole.
+    """
+    moments = part.mass
+    measurement = part.measurement
     findings = part.findings if measurement is None else measurement.findings
     row: dict[str, object] = {
         "level": level,

@@ -81,14 +81,17 @@ def store(
     spans: Sequence[tuple[float, float, float, float]],
 ) -> None:
     """Put a path and (f,) or (f, 3) signals on the empty as keys, in place of earlier ones, and
-    remember the supports. scale: the time of F-curves that passes in a frame.
+    remember the supports.
 
-    Truth values are keyed as 0 and 1; frames without a value, which is NaN, get no key. spans: of
-    frames, with momentum from nothing.
+    frames: (f,). scale: the time of F-curves that passes in a frame. signals: by their keys in
+    DESCRIPTIONS, those of other keys are removed; truth values are keyed as 0 and 1, and frames
+    without a value, which is NaN, get no key. spans: the first and last frame of a change of
+    momenta without a cause, and its linear and angular momentum in SI units.
     """
-    empty[BALANCE_SPANS] = [float(value) for span in spans for value in span]
-    if not spans:
-        del empty[BALANCE_SPANS]
+    if spans:
+        empty[BALANCE_SPANS] = [float(value) for span in spans for value in span]
+    else:
+        empty.pop(BALANCE_SPANS, None)
     curves = fcurves.ensure_curves(empty, alone=True)
     times = scale * frames
     for axis in range(3):
@@ -96,11 +99,11 @@ def store(
     for name, description in DESCRIPTIONS.items():
         path = '["{:s}"]'.format(name)
         values = signals.get(name)
+        # Without keys, the earlier curves are removed: they may have had more axes.
         for axis in range(3):
             fcurves.write_keys(curves, (path, axis), times[:0], times[:0])
         if values is None:
-            if name in empty:
-                del empty[name]
+            empty.pop(name, None)
             continue
         is_truth = values.dtype == bool
         empty[name] = np.zeros_like(values[0], int if is_truth else float).tolist()
@@ -121,8 +124,9 @@ def store(
 def path(empty: Object) -> Path | None:
     """Return the path in an empty's keys, None if there are none."""
     curves = fcurves.existing_curves(empty)
-    axes = [_keys(curves, ("location", axis)) for axis in range(3)]
-    keys = [axis for axis in axes if axis is not None]
+    by_axis = [_keys(curves, ("location", axis)) for axis in range(3)]
+    keys = [axis_keys for axis_keys in by_axis if axis_keys is not None]
+    # Someone may have deleted keys of one axis.
     if len(keys) < 3 or len({len(axis_keys) for axis_keys in keys}) != 1:
         return None
     centers = np.stack([axis_keys[:, 1] for axis_keys in keys], axis=1)
@@ -142,5 +146,6 @@ def support(empty: Object, frame: int) -> statics.Support | None:
 
 
 def _keys(curves: Iterable[bpy.types.FCurve], channel: fcurves.Channel) -> numerics.Array | None:
+    """Return the (k, 2) times and values of a channel's keys, None without a curve."""
     curve = fcurves.find(curves, channel)
     return None if curve is None else fcurves.read(curve)["co"].astype(np.float64)

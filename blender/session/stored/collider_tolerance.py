@@ -13,14 +13,17 @@ ROUNDING = 1e-6  # relative: distances of hulls that are stored in single precis
 def is_beyond_tolerance(record: Mapping[str, Any]) -> bool:
     """Return whether colliders, or their body, stand out farther than they were allowed to.
 
-    record: that of the colliders. Limits of zero, of pieces by their number alone, always hold.
+    record: the stored effect of the colliders. A tolerance of zero always holds: such pieces are
+    limited by their number alone.
     """
     limits = zip(("outward", "inward"), record.get("tolerance", ()))
     return any(limit and record[name] > limit * (1.0 + ROUNDING) for name, limit in limits)
 
 
 def tolerance_remedy(record: Mapping[str, Any]) -> str:
-    """Return the English advice on colliders beyond their tolerance."""
+    """Return the English advice on colliders beyond their tolerance. record: their stored effect,
+    with (outward, inward) tolerance and (pieces, vertices) limits.
+    """
     if record["shape"] == "hull" and record["outward"] > record["tolerance"][0]:
         return "Choose Convex Pieces, or allow more distance."
     if record["shape"] != "hull" and record["count"] >= record["limits"][0]:

@@ -126,6 +126,9 @@ def in_frame(
 
 
 def _select_moments(computed: ComputedMoments, of: str) -> Moments:
+    """Return the moments of "VOLUME", "SURFACE", "MASS" or "FLAT", in the world or along the plane
+    of a flat shape; raise ReadError if there are none.
+    """
     flat = None if computed.flat is None else computed.flat.moments
     moments = {
         "VOLUME": computed.volume,
@@ -137,7 +140,7 @@ def _select_moments(computed: ComputedMoments, of: str) -> Moments:
         if of == "FLAT":
             assert computed.not_flat is not None
             raise verdict.ReadError(computed.not_flat)
-        if computed.volume is None:
+        if computed.volume is None:  # a flat shape alone
             raise verdict.ReadError(MOMENTS_UNAVAILABLE, fault=MOMENTS_OF_AREA_ONLY)
         raise verdict.ReadError(MOMENTS_UNAVAILABLE, fault=MASS_MOMENTS_UNKNOWN)
     return moments
@@ -150,8 +153,8 @@ def _in_plane(
     order: int,
     reference: inertia.Reference | None,
 ) -> Moments:
-    """Return moments along the axes of the plane: normalized, about the center, or about the foot
-    of an origin.
+    """Return moments along the axes of the plane: normalized, about the center, or about the foot,
+    in the plane, of the origin of a frame or reference.
     """
     moments = _select_moments(computed, "FLAT").truncate(order)
     flat = computed.flat
@@ -165,6 +168,7 @@ def _in_plane(
 
 
 def _in_frame(computed: ComputedMoments, of: str, about: str, frame: str, order: int) -> Moments:
+    """Return moments along the axes of a frame, as `in_frame` without a reference."""
     moments = _select_moments(computed, of).truncate(order)
     origin = np.zeros(3) if frame == "WORLD" else computed.location
     if about != "ORIGIN":
@@ -215,14 +219,14 @@ def as_csv(
             powers = monomials(computed.order)
         columns = [*columns, "moment", *bounds]
         table_rows = [[*which, *row] for which, row in zip(powers.tolist(), values.tolist())]
-    title = re.sub(
-        "[,;]", " ", measurement.visible(computed.name)
-    )  # otherwise the rest would be another cell
+    # A separator in the name would begin another cell.
+    title = re.sub("[,;]", " ", measurement.visible(computed.name))
     lines = measurement.table(columns, (dict(zip(columns, row)) for row in table_rows))
     return "".join(["# {:s}: {:s}\n".format(title, heading), *lines])
 
 
 def _heading(of: str, about: str, frame: str) -> str:
+    """Return the description of moments in a CSV file."""
     return "{:s} moments, {:s} frame, {:s}".format(
         of.lower(),
         "reference" if about == "REFERENCE" else frame.lower(),
@@ -238,6 +242,7 @@ def _heading(of: str, about: str, frame: str) -> str:
 
 
 def _flat_heading(computed: ComputedMoments, about: str, frame: str) -> str:
+    """Return the description of a flat shape's moments in a CSV file, with the plane's axes."""
     assert computed.flat is not None
     x, y, normal = (" ".join(map(repr, axis)) for axis in computed.flat.plane.axes.T.tolist())
     heading = "area moments of the flat shape, along x = ({:s}) and y = ({:s}), front ({:s}), {:s}"

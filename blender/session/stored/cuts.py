@@ -34,7 +34,8 @@ MAX_TILTED_TRIANGLES = 20_000  # of vessels whose spill tilt is computed
 class Level:
     """A liquid in a vessel, in meters and the world.
 
-    height: of its surface, against gravity. density: kg/m³. tilt: rad, None if not computed.
+    height: of its surface, against gravity from the world's origin. density: kg/m³. tilt: at which
+    it spills, rad; None if not computed.
     """
 
     hollow: cuts.Hollow
@@ -49,25 +50,26 @@ class Level:
 
     @cached_property
     def surface_moments(self) -> tuple[float, float, float]:
-        """The area of the free surface, and its least and largest second moment about its centroid,
-        m⁴; zeros if there is none.
+        """The area of the free surface, m², and its least and largest second moment about its
+        centroid, m⁴; zeros if there is none.
         """
         surface = self.hollow.free_surface(self.liquid, self.height)
         if surface is None:
             return 0.0, 0.0, 0.0
+        # The smallest eigenvalue is that across the surface, zero.
         _, low, high = np.linalg.eigvalsh(surface.about_center().second()).tolist()
         return surface.total, low, high
 
     @cached_property
     def table(self) -> numerics.Array:
-        """(33, 2) heights over the bottom and volumes."""
+        """(33, 2) heights over the bottom, m, and volumes, m³, up to the spill height."""
         heights = np.linspace(self.hollow.bottom, self.hollow.spill, cuts.TABLE_ROWS)
         volumes = self.hollow.below(heights).volume
         return np.stack([heights - self.hollow.bottom, volumes], axis=1)
 
     @cached_property
     def triangles(self) -> numerics.Array:
-        """(k, 3, 3) triangles of the surface."""
+        """(k, 3, 3) corners of the surface's triangles, in m in the world; none if it is empty."""
         if not self.surface_moments[0]:
             return np.empty((0, 3, 3))
         edited = self.cut()
@@ -76,20 +78,25 @@ class Level:
         return np.array(places, np.float64).reshape(-1, 3, 3) + self.liquid.face.center[0]
 
     def cut(self) -> bmesh.types.BMesh:
-        """Return the surface as triangles about its centroid, to be freed."""
-        hollow, origin = self.hollow, self.liquid.face.center[0]
-        # A plane through the rim's edges alone cuts no face.
+        """Return the surface as triangles about its centroid, in m, as a BMesh that the caller has
+        to free.
+        """
+        hollow = self.hollow
+        origin = self.liquid.face.center[0]
+        # A plane through the rim's edges alone cuts no face. So a vessel that is full to the rim is
+        # raised by a millionth of its size: over 10 times the rounding of float32 coordinates.
         step = 1e-6 * float(np.ptp(hollow.points, axis=0).max())
-        lowered = max(self.height - max(hollow.spill - step, hollow.bottom), 0.0) * hollow.up
+        raised = max(self.height - max(hollow.spill - step, hollow.bottom), 0.0) * hollow.up
         edited = bmesh.new()
-        vertices = [edited.verts.new(point) for point in hollow.points - origin + lowered]
-        # A mesh may have a face twice.
+        vertices = [edited.verts.new(point) for point in hollow.points - origin + raised]
+        # A mesh may have a face twice, but a BMesh may not. The order of corners has no effect.
         for triangle in np.unique(np.sort(hollow.triangles, axis=1), axis=0).tolist():
             edited.faces.new([vertices[i] for i in triangle])
         everything = [*edited.verts, *edited.edges, *edited.faces]
         up = Vector(hollow.up)
         bisection = bmesh.ops.bisect_plane(edited, geom=everything, plane_co=(0, 0, 0), plane_no=up)
         edges = [item for item in bisection["geom_cut"] if isinstance(item, bmesh.types.BMEdge)]
+        # Deleting the vessel's faces leaves the section's edges, which are filled.
         surface_vertices = {vertex for edge in edges for vertex in edge.verts}
         bmesh.ops.delete(edited, geom=[*edited.faces], context="FACES_ONLY")
         edges = [edge for edge in edges if edge.is_valid]
@@ -123,6 +130,7 @@ def _vessel(
         reading = read.objects.read_object(obj, depsgraph, edges=False)
         unit = scale.meters_per_unit(context.scene)
         body = partial(mesh_body, reading, unit, shell=False, threads=THREADS)
+        # Overlapping components are united if the settings say so, as a union takes longer.
         try:
             surface = bodies.vessel_surface(body(union=False))
         except verdict.MeasureError:
@@ -146,7 +154,7 @@ def fill_vessel(context: Context, obj: Object, by: str, amount: float, density: 
     liquid = hollow.contents(height)
     tilt = None
     if len(triangles) <= MAX_TILTED_TRIANGLES:
-        tilt = cuts.spill_tilt(points, triangles, float(liquid.volume[0]), up)[0]
+        tilt, _direction = cuts.spill_tilt(points, triangles, float(liquid.volume[0]), up)
     level = Level(hollow, min(height, hollow.spill), liquid, density, tilt)
     memory.levels[obj] = level
     staleness.carry(obj, Kind.LEVEL, context.evaluated_depsgraph_get())
@@ -156,7 +164,9 @@ def fill_vessel(context: Context, obj: Object, by: str, amount: float, density: 
 def measure_cut_fill(
     context: Context, obj: Object, against: str, height: float, reference_name: str
 ) -> KnownCutFill:
-    """Compute and remember cut and fill against a height (m), the RIM or another OBJECT."""
+    """Compute and remember cut and fill of an open surface. against: "RIM", the plane through its
+    rim; "OBJECT", the surface of the object with the reference's name; else the height, m.
+    """
     depsgraph = context.evaluated_depsgraph_get()
     unit = scale.meters_per_unit(context.scene)
     surface = world_surface(obj, depsgraph, unit)
@@ -202,6 +212,7 @@ def add_table(context: Context, obj: Object, level: Level) -> Object:
 def _add_mesh(
     context: Context, name: str, edited: bmesh.types.BMesh, place: numerics.Array
 ) -> Object:
+    """Add a mesh object at a place, in Blender units, and free the BMesh."""
     mesh: Mesh = bpy.data.meshes.new(name)
     edited.to_mesh(mesh)
     edited.free()

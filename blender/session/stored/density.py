@@ -49,7 +49,7 @@ def with_default_note(findings: tuple[Finding, ...], unset: str) -> tuple[Findin
 
 def follow_density(obj: Object, scene: Scene) -> None:
     """Update stored results if the settings change them by a factor alone; else leave them out of
-    date.
+    date. They must be stored and of one density, and nothing but density or mass may have changed.
     """
     stamp = tracking.stamps.stamp_of(obj)
     if stamp is None or stamp.version != VERSION or "body_density_from" in obj:
@@ -61,23 +61,26 @@ def follow_density(obj: Object, scene: Scene) -> None:
     numbers = write.properties.stored(obj)
     if numbers is None:
         return
-    extent = write.properties.optional(obj, "body_length") or numbers.volume
-    if not extent:
-        return
-    if any(
+    extent = write.properties.optional(obj, "body_length") or numbers.volume  # m or m³
+    # A given inertia does not follow the mass.
+    if not extent or any(
         (finding.code, finding.values.get("quantity"))
         == (bodies.findings.GIVEN, bodies.findings.INERTIA)
         for finding in write.properties.findings(obj)
     ):
-        return  # a given inertia does not follow the mass
+        return
     mass = numbers.mass
     present = read.fingerprint.current_settings(obj, scene)
-    weights = {"density": mass / extent, "mass": None}, {"density": None, "mass": mass}
-    if stamp.settings not in [replace(present, **weight).digest for weight in weights]:
+    # The other settings are those of the stamp if its digest is theirs with the stored density or
+    # mass.
+    stored_weights = {"density": mass / extent, "mass": None}, {"density": None, "mass": mass}
+    if stamp.settings not in [replace(present, **weight).digest for weight in stored_weights]:
         return
     now = present.digest
     findings = _findings(obj, scene)
-    if now == stamp.settings:  # a measured density may have more digits than the setting holds
+    # Equal settings have an equal digest though a measured density may have more digits. Then only
+    # the note on a default may have changed.
+    if now == stamp.settings:
         if findings != list(write.properties.findings(obj)):
             write.properties.store_findings(obj, findings)
         return
@@ -100,7 +103,7 @@ def follow_density(obj: Object, scene: Scene) -> None:
 
 
 def _findings(obj: Object, scene: Scene) -> list[Finding]:
-    """Return the stored findings, with a note if the density is unset."""
+    """Return the stored findings, with the note on an unset density only if it is unset now."""
     settings = obj.body_moments
     findings = [
         finding for finding in write.properties.findings(obj) if finding.code != DENSITY_DEFAULTED

@@ -15,6 +15,7 @@ from ....core import bodies, numerics, verdict
 from ...bodies.stack import Measured
 from .. import memory, tracking
 
+# names of the defective elements: (k, 2) pairs of vertices, and (k,) indices of faces
 PAIRS = "boundary_edges", "non_manifold_edges", "inconsistent_edges"
 FACES = verdict.FLIPPED_FACES, "duplicate_faces", "degenerate_faces"
 MAX_DRAWN = 20000  # edges, and triangles, of an object
@@ -47,17 +48,17 @@ def remember(obj: Object, measured: Measured) -> None:
     (part,) = reading.parts
     surface = part.surface
     elements = measured.measurement.health.defective_elements
-    place = np.linalg.inv(reading.matrix) @ part.matrices[0]
+    to_object = np.linalg.inv(reading.matrix) @ part.matrices[0]
     pairs, faces = (
         np.concatenate([getattr(elements, name) for name in names]) for names in (PAIRS, FACES)
     )
     if not len(pairs) and not len(faces):
         return
-    points = surface.points.astype(np.float64) @ place[:3, :3].T + place[:3, 3]
+    points = surface.points.astype(np.float64) @ to_object[:3, :3].T + to_object[:3, 3]
     triangles = surface.triangles[:0]
     if len(faces):
-        triangles, face = surface.all_triangles()
-        triangles = triangles[np.isin(face, faces)][:MAX_DRAWN]
+        all_triangles, face_of_triangle = surface.all_triangles()
+        triangles = all_triangles[np.isin(face_of_triangle, faces)][:MAX_DRAWN]
     memory.faults[obj] = Faults(
         points[pairs[:MAX_DRAWN]], points[triangles], tracking.updates.last_change_of_geometry(obj)
     )

@@ -33,8 +33,9 @@ from ..tracking import handlers, staleness
 from ..tracking.stamps import Kind
 from . import results
 
-PLACE_RTOL = 1e-5  # of float32 matrices
-SAME_REST = 1e-4  # rad
+# relative: float32 matrices are rounded by 6e-8, some 1e-7 after turns of several parents
+PLACE_RTOL = 1e-5
+SAME_REST = 1e-4  # rad: positions of rest that differ by less are the same; chosen
 GZ_KEY = "body_righting_arm"
 
 
@@ -45,7 +46,7 @@ class Afloat:
     uids: the session uids of its objects, which survive undo; name: of the first one. places:
     (k, 4, 4) their matrices when it was read; roles: of the members.
     rest: where it settles from there, in m. curve: its righting arms. rests: all positions of rest.
-    displayed: the generation and the scene, and what is displayed for them. seconds: of reading it.
+    displayed: the key of `held_body`, and the outcome for it. seconds: of reading the body.
     """
 
     uids: tuple[int, ...]
@@ -82,7 +83,7 @@ class Held:
 
 
 def bodies_of(objects: Iterable[Object], as_one: bool) -> list[tuple[Object, ...]]:
-    """Return the objects of each floating body, those that carry others first."""
+    """Return the objects of each floating body, its root first. as_one: all are one body."""
     bodies = [
         (root, *[child for child in root.children_recursive if visibility.measurable(child)])
         for root in dict.fromkeys(_roots([_carrier(obj) for obj in objects]))
@@ -110,12 +111,14 @@ def _carrier(obj: Object) -> Object:
 
 
 def _up(scene: Scene) -> numerics.Array:
+    """Return the (3,) unit vector against gravity, or raise MeasureError if there is none."""
     if not rigid_world.has_gravity(scene):
         raise verdict.MeasureError(floating.FLOAT_UNAVAILABLE, fault=floating.NO_GRAVITY)
     return -rigid_world.down(scene)
 
 
 def _roles(members: Iterable[Object]) -> tuple:
+    """Return the role of each member in a floating body, with the fill of tanks."""
     tanks = [member.body_moments_tank for member in members]
     return tuple((tank.role, tank.fill if tank.role == "TANK" else 0.0) for tank in tanks)
 
@@ -134,6 +137,7 @@ def read(
     """
     start = time.thread_time()
     scene = depsgraph.scene
+    # Options that replace density or mass are not meant for tanks and flooded spaces.
     space_options = replace(settings.options.AS_SET, unit_scale=options.unit_scale)
     parts = {
         obj: measure_body(
@@ -144,13 +148,14 @@ def read(
     }
 
     def having(role: str) -> list[Object]:
+        """Return the measured objects of a role."""
         return [obj for obj in parts if obj.body_moments_tank.role == role]
 
-    masses = [parts[obj].measurement.mass_properties for obj in having("BODY")]
-    shares = np.array([properties.mass for properties in masses])
-    mass = float(shares.sum())
-    shares = shares / (mass or 1.0)
-    center = shares @ np.reshape([properties.center for properties in masses], (-1, 3))
+    own_bodies = [parts[obj].measurement.mass_properties for obj in having("BODY")]
+    own_masses = np.array([properties.mass for properties in own_bodies])
+    mass = float(own_masses.sum())
+    shares = own_masses / (mass or 1.0)  # `settle` refuses a mass of 0
+    center = shares @ np.reshape([properties.center for properties in own_bodies], (-1, 3))
     bounds = np.reshape([parts[obj].measurement.center_bounds for obj in having("BODY")], (-1, 2))
     rest = floating.settle(
         [parts[obj].body for obj in having("BODY")],
@@ -203,8 +208,11 @@ def _keep(context: Context, afloat: Afloat, members: Iterable[Object]) -> Afloat
 def float_body(
     context: Context, members: Sequence[Object], position: int, notes: list[verdict.Finding]
 ) -> bool:
-    """Move the objects of a body to where it rests, from where it is (0) or in another position;
-    return whether they had to move.
+    """Move the objects of a body to where it rests, and remember it there; return whether they had
+    to move. All stay if one cannot follow.
+
+    position: 0 to settle from the present attitude, else the number of a position of rest, from 1
+    on. notes: findings about the position are appended.
     """
     roots = _roots(members)
     for root in roots:
@@ -215,7 +223,7 @@ def float_body(
         rests = afloat.rests or rest.body.find_rests([rest])
         rest = rests[(position - 1) % len(rests)]
         if not rest.is_near(afloat.rest, SAME_REST):
-            afloat.curve = None
+            afloat.curve = None  # it begins at another position
     notes += rest.findings
     scene = context.scene
     unit = meters_per_unit(scene)
@@ -226,12 +234,13 @@ def float_body(
     is_moved = False
     targets = {member: matrix @ world(member) for member in members}
     try:
-        for root in roots * 2:  # some may follow others, which move later
+        # A second pass corrects roots that constraints bind to others, which moved after them.
+        for root in roots * 2:
             target = targets[root]
             off = np.abs(target - world(root))
-            if off[:, :3].max() > 1e-6 * np.abs(target[:, :3]).max() or off[
-                :, 3
-            ].max() > reframe.location_tolerance(root, size):
+            # 1e-6 is over 10 times the rounding of float32 matrices.
+            is_turned = off[:, :3].max() > 1e-6 * np.abs(target[:, :3]).max()
+            if is_turned or off[:, 3].max() > reframe.location_tolerance(root, size):
                 is_moved = True
                 reframe.move(context, reframe.Plan(root, target, size, move_only=False))
         for member, target in targets.items():
@@ -247,24 +256,29 @@ def float_body(
 
 
 def _turn_since(afloat: Afloat, members: Sequence[Object], scene: Scene) -> numerics.Array | None:
-    """Return the (4, 4) rigid motion of a body since it was read; None if more has changed."""
+    """Return the (4, 4) rigid motion of a body since it was read, in Blender units and the world;
+    None if its members have changed otherwise, or moved against each other.
+    """
     if _roles(members) != afloat.roles or any(
         staleness.stale_reason(member, scene, Kind.FLOATING) for member in members
     ):
         return None
     present = np.array([world(member) for member in members])
     before = afloat.places[0]
-    left, scale, right = np.linalg.svd(present[0, :3, :3] @ np.linalg.inv(before[:3, :3]))
+    # The nearest rotation, and stretches that are 1 for a rigid motion.
+    left, stretches, right = np.linalg.svd(present[0, :3, :3] @ np.linalg.inv(before[:3, :3]))
     turn = np.eye(4)
     turn[:3, :3] = left @ right
     turn[:3, 3] = present[0, :3, 3] - turn[:3, :3] @ before[:3, 3]
     size = afloat.rest.body.size / meters_per_unit(scene)
-    is_rigid = (np.abs(scale - 1.0) <= PLACE_RTOL).all()
+    is_rigid = (np.abs(stretches - 1.0) <= PLACE_RTOL).all()
     return turn if is_rigid and _is_close(turn @ afloat.places, present, size) else None
 
 
 def _read_again(context: Context, members: Sequence[Object]) -> Afloat:
-    """Read a body, and keep what is known of it if only its place has changed."""
+    """Read a body; take over the positions of rest and the righting arms that are remembered if
+    only its place has changed. Their attitudes are turned with the body.
+    """
     afloat = read(context.evaluated_depsgraph_get(), members)
     remembered = memory.afloat.get(members[0])
     if (
@@ -283,8 +297,11 @@ def _read_again(context: Context, members: Sequence[Object]) -> Afloat:
 
 
 def _is_close(places: numerics.Array, expected: numerics.Array, size: float) -> bool:
-    """Return whether (..., 4, 4) matrices are equal up to rounding; size: of their body."""
+    """Return whether (..., 4, 4) matrices are equal up to rounding; size: of their body, in the
+    unit of the matrices.
+    """
     off = np.abs(places - expected)
+    # Locations far from the origin are rounded by up to this; a sum with those of parents by more.
     far = float(np.spacing(np.float32(np.abs(expected[..., 3]).max())))
     return bool(
         off[..., :3].max() <= PLACE_RTOL * np.abs(expected[..., :3]).max()
@@ -335,7 +352,7 @@ def held_body(obj: Object, scene: Scene) -> Held | verdict.Finding | None:
     key = (memory.state.generation, scene.session_uid, *liquid)
     if afloat.displayed is None or afloat.displayed[0] != key:
         try:
-            value = _read_held(obj, afloat, scene)
+            value = _read_held(afloat, scene)
         except verdict.MeasureError as refusal:
             value = refusal.finding
         afloat.displayed = (key, value)
@@ -370,16 +387,20 @@ def follow(depsgraph: Depsgraph, budget: float) -> bool:
     return waiting
 
 
-def _read_held(obj: Object, afloat: Afloat, scene: Scene) -> Held | verdict.Finding | None:
+def _read_held(afloat: Afloat, scene: Scene) -> Held | verdict.Finding | None:
+    """Return a floating body as it stands now, None if it is out of date. With Live on it keeps
+    its last outcome until the timer reads it again.
+    """
     members = _members(afloat, scene)
     if not members:
         return None
     turn = _turn_since(afloat, members, scene)
     if turn is None:
         is_live = any(member in memory.followed for member in members)
-        return afloat.displayed[1] if is_live and afloat.displayed is not None else None
+        _key, last_outcome = afloat.displayed or (None, None)
+        return last_outcome if is_live else None
     unit = meters_per_unit(scene)
-    turn[:3, 3] *= unit
+    turn[:3, 3] *= unit  # from the body's coordinates, those of the world at reading, in m
     up = _up(scene)
     body = afloat.rest.body
     if body.density != settings.floating.liquid_density(scene):
@@ -387,9 +408,9 @@ def _read_held(obj: Object, afloat: Afloat, scene: Scene) -> Held | verdict.Find
     state = body.at(turn[:3, :3].T @ up)
     level = scene.body_moments_liquid.level * unit
     height = float(up @ turn[:3, 3]) + state.level
-    is_at_rest = state.residual < PLACE_RTOL and abs(
-        height - level
-    ) < PLACE_RTOL * body.size + 1e-6 * abs(level)
+    # The level is a float32 setting, rounded by 6e-8.
+    tolerance = PLACE_RTOL * body.size + 1e-6 * abs(level)
+    is_at_rest = state.residual < PLACE_RTOL and abs(height - level) < tolerance
     # A mirrored matrix has no rotation of its own: its X axis counts as the mirrored one.
     axes = world(members[0])[:3, :3]
     axes /= np.linalg.norm(axes, axis=0)

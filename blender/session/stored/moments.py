@@ -26,7 +26,9 @@ from .computed_moments import ComputedMoments, FlatMoments, in_frame, invariants
 from .reference import ReferenceChoice
 
 MAX_SHOWN_ORDER = 4  # the highest order whose moments a panel shows one by one
-ZERO_DISPLAY_RTOL = 1e-12  # relative to the largest moment of a degree: shown as 0
+# Moments below this, relative to the largest one of a degree, are shown as 0: they are below the
+# digits of any panel, and above the rounding of a sum, 1e-16.
+ZERO_DISPLAY_RTOL = 1e-12
 SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -46,7 +48,9 @@ Display = tuple[tuple[Degree, ...], verdict.Finding | None]
 def compute_moments(
     context: Context, obj: Object, order: int
 ) -> tuple[ComputedMoments | None, tuple[verdict.Finding, ...]]:
-    """Return the moments of a body, a flat shape or both (None for a wire), and findings."""
+    """Return the moments of a body, a flat shape or both, and findings; None and none for a wire.
+    Raise MeasureError for an object that is neither.
+    """
     depsgraph = context.evaluated_depsgraph_get()
     region = None
     flat = None
@@ -77,14 +81,21 @@ def compute_moments(
             *bodies.flat.region.area_findings(region, flat.moments.total),
         )
     area = measurement.area_moments.truncate(order)
+    # A shell has the moments of its area, times the thickness.
     volume = measurement.volume_moments or replace(
         area * measurement.thickness, measure=Measure.VOLUME
     )
-    computed_moments = volume.truncate(order), area, measurement.moments_of_mass(order)
-    place = measurement.rotation, measurement.location
-    return ComputedMoments(
-        obj.name, *computed_moments, *place, flat, not_flat and not_flat.finding
-    ), measurement.findings
+    computed = ComputedMoments(
+        obj.name,
+        volume.truncate(order),
+        area,
+        measurement.moments_of_mass(order),
+        measurement.rotation,
+        measurement.location,
+        flat,
+        not_flat and not_flat.finding,
+    )
+    return computed, measurement.findings
 
 
 def cache_moments(obj: Object, computed: ComputedMoments, depsgraph: Depsgraph) -> None:
@@ -123,18 +134,19 @@ def reference_of(obj: Object, computed: ComputedMoments, scene: Scene) -> inerti
 
 
 def _displayed_degrees(moments: Moments, of: str, about: str) -> Iterator[Degree]:
+    """Yield the moments by degree; those within rounding as 0. Moments of a flat shape have no z."""
     for degree in range(moments.order + 1):
-        part = np.arange(monomial_count(degree - 1), monomial_count(degree))
+        rows = np.arange(monomial_count(degree - 1), monomial_count(degree))
         if of == "FLAT":
-            part = part[monomials(degree)[part, 2] == 0]
-        values = moments.raw[part]
-        noise = np.maximum(moments.rounding_error[part], ZERO_DISPLAY_RTOL * np.abs(values).max())
+            rows = rows[monomials(degree)[rows, 2] == 0]
+        values = moments.raw[rows]
+        noise = np.maximum(moments.rounding_error[rows], ZERO_DISPLAY_RTOL * np.abs(values).max())
         texts = [
             write.units.number(0.0 if abs(value) <= least else float(value))
             for value, least in zip(values, noise)
         ]
         cells = zip(
-            map(label, monomials(degree)[part].tolist()),
+            map(label, monomials(degree)[rows].tolist()),
             texts,
             (repr(float(value)) for value in values),
         )

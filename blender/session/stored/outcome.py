@@ -45,7 +45,7 @@ def _refused(finding: Finding) -> tuple[str, Finding]:
 
 def last() -> ActionOutcome | None:
     """Return the refusals of the last action, None if there were none, or after another selection
-    or action.
+    or action: the first call notes the selection and action at which they are shown.
     """
     if memory.state.outcome is not None:
         layer = bpy.context.view_layer

@@ -16,7 +16,6 @@ import bpy
 from bpy.types import Collection, Object, PropertyGroup, Scene
 from mathutils import Matrix
 
-from .... import core
 from ....core import inertia, numerics, verdict
 from ... import read, scale, write
 from ..tracking import staleness
@@ -27,8 +26,8 @@ Point = tuple[float, ...]
 def referred(
     owner: Object | Collection, scene: Scene
 ) -> inertia.ReferredInertia | verdict.Finding | None:
-    """Return an owner's inertia about the scene's reference, from stored results; else the reason,
-    or None if none.
+    """Return an owner's inertia about the scene's reference, from stored results; the reason if it
+    has none, or None without stored results.
     """
     choice = ReferenceChoice.from_settings(scene.body_moments_reference)
     body = _stored_body(owner, scene)
@@ -42,7 +41,7 @@ def referred(
 
 def store(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | None = None) -> None:
     """Write the inertia about a reference, by default the scene's, beside stored results, or raise
-    MeasureError.
+    MeasureError. The results of an object then hold for its present place alone.
     """
     choice = choice or ReferenceChoice.from_settings(scene.body_moments_reference)
     body = _stored_body(owner, scene)
@@ -54,9 +53,8 @@ def store(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | No
     values = {
         "body_reference": choice.text,
         "body_reference_origin": result.reference.origin,
-        "body_reference_axes": core.numerics.quaternion(
-            tuple(zip(*result.reference.axes))
-        ).tolist(),
+        # of the rotation whose columns are the axes
+        "body_reference_axes": numerics.quaternion(tuple(zip(*result.reference.axes))).tolist(),
         "body_reference_center": result.center,
         "body_reference_inertia": result.inertia,
         "body_reference_error_bound": [
@@ -115,8 +113,8 @@ class ReferenceChoice:
             return cls(
                 "AXIS",
                 points=tuple(
-                    tuple(map(numerics.shortest_decimal, p))
-                    for p in (settings.first, settings.second)
+                    tuple(map(numerics.shortest_decimal, point))
+                    for point in (settings.first, settings.second)
                 ),
             )
         return cls(settings.about)
@@ -161,11 +159,14 @@ class ReferenceChoice:
             return _frame(reference_object.matrix_world, unit)
         if self.about == "AXIS" and len(self.points) == 2:
             return inertia.Reference.through_points(
-                *[[unit * along for along in point] for point in self.points]
+                *[[unit * coordinate for coordinate in point] for point in self.points]
             )
+        # The world, also the origin of a collection, and an axis without its points.
         return inertia.Reference((0.0, 0.0, 0.0))
 
 
 def _frame(matrix: Matrix, unit: float) -> inertia.Reference:
+    """Return the reference at the origin and along the rotated axes of a matrix in the world."""
     location, turn, _scale = matrix.decompose()
-    return inertia.Reference([unit * along for along in location], inertia.rotation_axes(turn))
+    origin = [unit * coordinate for coordinate in location]
+    return inertia.Reference(origin, inertia.rotation_axes(turn))

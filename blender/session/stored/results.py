@@ -29,9 +29,11 @@ def store_many(
     scene: Scene,
     shapes: Mapping[Object, bytes | None] = staleness.NO_SHAPES,
 ) -> Iterator[tuple[Object, Exception | None]]:
-    """Store the results of objects; yield each with None, or the error that prevented it.
+    """Store the results of objects; yield each with None, or the error that prevented it. The
+    caller marks them as up to date (`staleness.mark_up_to_date`).
 
-    shapes: the `Surface.digest` of objects that were read just now.
+    Objects that were measured together, as a stack of arrays, are converted together. shapes: the
+    `Surface.digest` of objects that were read just now.
     """
     for stack, run in groupby(measured, key=lambda item: item[1].stack):
         items = list(run)
@@ -44,7 +46,7 @@ def store_many(
                 write.properties.store_values(obj, values)
                 faults.remember(obj, outcome)
                 reference.follow(obj, scene, about)
-                if outcome.index is None:
+                if outcome.index is None:  # no body of a stack has sliders
                     stored.sliders.remember(obj, outcome, scene)
             except Exception as error:
                 yield obj, error
@@ -55,7 +57,9 @@ def store_many(
 def _noted(
     items: Sequence[tuple[Object, bodies.stack.Measured]], stack: Measurement, scene: Scene
 ) -> Measurement:
-    """Return the objects' rows of a stack, in their order, with notes on unset densities."""
+    """Return the objects' rows of a stack, in their order, with notes on unset densities. A single
+    measurement has no index, and is its own stack.
+    """
     obj, first = items[0]
     if first.index is None:
         return density.noted(obj, stack, scene)
@@ -111,9 +115,11 @@ def store_symmetry(
     stored_symmetry.elements.clear()
     turn = shape.rotation.T
     for kind, order, direction in _elements(confirmed)[:MAX_STORED_ELEMENTS]:
-        local = turn @ direction  # sign of a line: its largest component is positive
+        local = turn @ direction  # in the object's frame
         element = stored_symmetry.elements.add()
-        element.kind, element.order = kind, order
+        element.kind = kind
+        element.order = order
+        # A line has two directions: the one with its largest component positive is stored.
         element.direction = local if local[np.argmax(np.abs(local))] > 0.0 else -local
 
 
@@ -142,8 +148,8 @@ def store_sections(
 
 
 def store_rig(rig: bodies.rig.Rig) -> list[tuple[str, core.verdict.Finding]]:
-    """Store the results of all bones and the whole, or raise EditRefusedError; return bones
-    without, and reasons.
+    """Store the results of all bones and of the whole, or raise EditRefusedError, and watch the
+    meshes for edits; return the bones that could not be measured or stored, and the reasons.
     """
     armature = rig.armature
     write.properties.store(armature, rig.measurement)
@@ -170,4 +176,5 @@ def clear_rig(armature: Object) -> bool:
     there were any.
     """
     write.properties.require_storable(armature)
+    # A list, as all have to be cleared.
     return any([write.properties.clear(owner) for owner in (armature, *armature.pose.bones)])

@@ -57,19 +57,22 @@ SliderGrid = _Kept[bodies.ThresholdGrid]
 
 
 def remember(obj: Object, measured: Measured, scene: Scene) -> None:
-    """Remember the wall or the grid of an object's measurement, if it has one."""
+    """Remember the wall or the grid of an object's measurement, if it has one, and follow its
+    setting from now on.
+    """
     stamp = stamps.Stamp.parse(measured.measurement.fingerprint)
     reading = measured.reading
     body = measured.body
-    stamp_parts = {stamp.geometry}, stamp.transform, scale.meters_per_unit(scene)
+    unit = scale.meters_per_unit(scene)
     if isinstance(body, bodies.WallBody) and body.walls is not None:
+        source = body.walls.drop_arrays()
         memory.walls[obj] = _Kept(
-            replace(reading, parts=[]), body.walls.drop_arrays(), *stamp_parts
+            replace(reading, parts=[]), source, {stamp.geometry}, stamp.transform, unit
         )
         if on_wall_setting not in hooks.on_wall_change:
             hooks.on_wall_change.append(on_wall_setting)
     elif isinstance(body, bodies.ThresholdGridBody):
-        memory.grids[obj] = _Kept(reading, body.grid, *stamp_parts)
+        memory.grids[obj] = _Kept(reading, body.grid, {stamp.geometry}, stamp.transform, unit)
         if on_threshold not in hooks.on_threshold_change:
             hooks.on_threshold_change.append(on_threshold)
 
@@ -95,8 +98,11 @@ def is_too_thick(obj: Object) -> bool:
 
 
 def on_wall_setting(settings: PropertyGroup, context: Context) -> None:
-    """Store the numbers of a changed wall or thickness."""
-    obj, scene = settings.id_data, context.scene
+    """Store the numbers of a changed wall or thickness, if they follow it: no density that varies,
+    and neither the geometry nor the transform has changed.
+    """
+    obj = settings.id_data
+    scene = context.scene
     cached = _current(memory.walls, obj, scene)
     is_walled = settings.kind == "SHELL" and settings.wall != "THIN"
     varies = settings.mass_from == "DENSITY" and settings.density_from != "VALUE"
@@ -111,12 +117,16 @@ def on_wall_setting(settings: PropertyGroup, context: Context) -> None:
 
 
 def on_threshold(settings: PropertyGroup, context: Context) -> None:
-    """Store the numbers of a changed threshold."""
-    obj, scene = settings.id_data, context.scene
+    """Store the numbers of a changed threshold from a coarse grid, and the exact ones after a
+    moment.
+    """
+    obj = settings.id_data
+    scene = context.scene
     cached = _current_grid(obj, scene)
     if cached is None:
         return
     coarse = cached.source.coarse()
+    # A small grid is its own coarse one, so that its numbers are exact.
     if _store_threshold(obj, scene, cached, coarse, preview=True) and coarse is cached.source:
         staleness.mark_object(obj)
     if (obj, scene) not in memory.due_numbers:
@@ -137,7 +147,8 @@ def _current(
 
     scene: if given, it must also have the same unit scale, and the object no edits since.
     """
-    cached, stamp = cache.get(obj), stamps.stamp_of(obj)
+    cached = cache.get(obj)
+    stamp = stamps.stamp_of(obj)
     if (
         cached is None
         or stamp is None
@@ -151,11 +162,13 @@ def _current(
 
 
 def _current_grid(obj: Object, scene: Scene | None) -> _Kept[bodies.ThresholdGrid] | None:
+    """Return `_current` of an object's grid, None if it has no threshold now."""
     cached = None if scene is None else _current(memory.grids, obj, scene)
     return cached if cached is not None and obj.body_moments.grid_as == "THRESHOLD" else None
 
 
 def _walls_on_side(cached: _Kept[bodies.Walls], obj: Object) -> bodies.Walls:
+    """Return the cached walls, on the side that the object's settings say now."""
     return replace(cached.source, side=obj.body_moments.wall.lower())
 
 
@@ -180,7 +193,11 @@ def _store_threshold(
     grid: bodies.ThresholdGrid,
     preview: bool,
 ) -> bool:
-    """Write the numbers of the current threshold to the object; return False if there are none."""
+    """Write the numbers of the current threshold to the object; return False if there are none.
+
+    grid: the source, or its coarse one, whose numbers are out of date by their stamp. preview: as
+    in `bodies.threshold_grid_body`.
+    """
     options = GridOptions.from_settings(obj.body_moments)
 
     def body(_request: Request) -> Body:

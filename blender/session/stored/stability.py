@@ -23,26 +23,25 @@ from ..tracking import staleness
 from ..tracking.stamps import Kind
 from . import results
 
-SAME_SHAPE_RTOL = (
-    1e-5  # relative to scales and centers: a turned object's float32 matrices change as much
-)
+# Relative to scales and centers: float32 matrices of a turned object change by some 1e-7.
+SAME_SHAPE_RTOL = 1e-5
 
 
 @dataclass(eq=False)
 class KnownHull:
     """An object's hull, with its support and poses.
 
-    hull: in the object's coordinates. digest: of the shape that it is of, if it can be compared.
-    earlier: those of earlier shapes, to which undo may return; sought_at: the generation at which
-    the present shape was sought among them. shape: the (4, 3) scale and center for which `poses`
-    hold.
+    hull: in the object's coordinates. digest: of its shape, if shapes can be compared. earlier: the
+    hulls of earlier shapes, to which undo may return; sought_at: the generation at which the
+    present shape was last sought among them. scale_and_center: (4, 3) for which `poses` hold, the
+    object's scale and shear as three rows, and its center in its frame, both in Blender units.
     """
 
     hull: mesh.ConvexHull
     digest: bytes | None = None
     earlier: tuple[KnownHull, ...] = ()
     sought_at: int = -1
-    shape: numerics.NDArray | None = None
+    scale_and_center: numerics.NDArray | None = None
     poses: statics.RestingPoses | verdict.Finding | None = None
 
 
@@ -90,8 +89,8 @@ def support(obj: Object, scene: Scene) -> statics.Support | None:
     matrix = np.array(obj.matrix_world, np.float64)
     points = remembered.hull.points @ matrix[:3, :3].T + matrix[:3, 3]
     center = np.array(body.world.center) / body.unit
-    # Relative to the extent, the height up to which points touch the ground; it exceeds the hull's
-    # gap.
+    # The height up to which points touch the ground, relative to the extent. A hull of fewer
+    # corners may be off by its gap at each of two points, so twice the gap counts as contact.
     gap = remembered.hull.gap * float(np.linalg.norm(matrix[:3, :3], 2))
     tolerance = max(statics.CONTACT_RTOL, 2.0 * gap / float(np.ptp(points, axis=0).max()))
     return statics.find_support(points, center, rigid_world.down(scene), tolerance)
@@ -99,7 +98,8 @@ def support(obj: Object, scene: Scene) -> statics.Support | None:
 
 def poses(obj: Object, scene: Scene) -> statics.RestingPoses | verdict.Finding | None:
     """Return stable resting poses (Blender's units, object frame), the reason if there are none, or
-    None.
+    None if the hull or the results are unknown or out of date. Computed anew only if the scale or
+    the center has changed.
     """
     remembered = _up_to_date(obj, scene)
     body = displayed.drawn(obj, scene)
@@ -108,13 +108,16 @@ def poses(obj: Object, scene: Scene) -> statics.RestingPoses | verdict.Finding |
     location, rotation = frame(obj)
     scale = rotation.T @ np.array(obj.matrix_world.to_3x3(), np.float64)
     center = np.array(body.world.center) / body.unit
-    shape = np.concatenate([scale, [rotation.T @ (center - location)]])
-    size = np.abs(np.ptp(remembered.hull.points, axis=0)) @ np.abs(scale).T
+    own_center = rotation.T @ (center - location)
+    present = np.concatenate([scale, [own_center]])
+    known = remembered.scale_and_center
+    size = np.ptp(remembered.hull.points, axis=0) @ np.abs(scale).T
+    # of the three rows of the scale, and of the center
     tolerance = SAME_SHAPE_RTOL * np.r_[np.full(3, np.abs(scale).max()), size.max()]
-    if remembered.shape is None or (np.abs(shape - remembered.shape).max(axis=1) > tolerance).any():
-        remembered.shape = shape
+    if known is None or (np.abs(present - known).max(axis=1) > tolerance).any():
+        remembered.scale_and_center = present
         try:
-            remembered.poses = statics.resting_poses(remembered.hull.transform(scale), shape[3])
+            remembered.poses = statics.resting_poses(remembered.hull.transform(scale), own_center)
         except verdict.MeasureError as error:
             remembered.poses = error.finding
     return remembered.poses
@@ -127,8 +130,10 @@ def frame(obj: Object) -> tuple[numerics.Array, numerics.Array]:
 
 
 def check_stability(context: Context, obj: Object, measured: list[Object]) -> list[str]:
-    """Compute and remember an object's convex hull, measuring it if needed; return texts about
-    decisions.
+    """Compute and remember an object's convex hull; return texts about decisions.
+
+    An object without valid results is measured, and appended to `measured`, for the caller to mark
+    as up to date.
     """
     depsgraph = context.evaluated_depsgraph_get()
     if write.properties.stored(obj) is None or staleness.stale_reason(obj, context.scene):
@@ -156,8 +161,11 @@ def check_stability(context: Context, obj: Object, measured: list[Object]) -> li
 
 
 def lay_on_ground(context: Context, obj: Object, pose: int, ground: str, notes: list[str]) -> bool:
-    """Lay the object on the ground, on its likeliest pose `pose` or the nearest (0); return whether
-    it had to move.
+    """Lay the object on the ground; return whether it had to move.
+
+    pose: the number of a pose, the likeliest first, from 1 on, or 0 for the nearest. ground:
+    "LOWEST" for its present lowest point, "CURSOR", or the world's origin. notes: texts about
+    decisions are appended.
     """
     reframe.check_movable(obj)
     measured: list[Object] = []
@@ -172,18 +180,20 @@ def lay_on_ground(context: Context, obj: Object, pose: int, ground: str, notes: 
     assert body is not None  # the poses belong to it
     gravity = rigid_world.down(context.scene)
     _, rotation = frame(obj)
+    # (p, 3) outward normals of the sides on which it rests, in the world
     normals = resting.normals @ rotation.T
-    place = (pose - 1) % len(normals) if pose else int((normals @ gravity).argmax())
-    turn = _shortest_turn(normals[place], gravity)
+    index = (pose - 1) % len(normals) if pose else int((normals @ gravity).argmax())
+    turn = _shortest_turn(normals[index], gravity)
     center = np.array(body.world.center) / body.unit
     size = max(body.world.gyration) / body.unit
     target = transforms.world(obj)
     target[:3, :3] = turn @ target[:3, :3]
     target[:3, 3] = center + turn @ (target[:3, 3] - center)
     target[:3, 3] += (
-        _ground(context, obj, ground, center, gravity) - resting.heights[place]
+        _ground(context, obj, ground, center, gravity) - resting.heights[index]
     ) * gravity
     off = np.abs(target - transforms.world(obj))
+    # 1e-6 is over 10 times the rounding of float32 matrices.
     is_turned = off[:, :3].max() > 1e-6 * np.abs(target[:, :3]).max()
     is_moved = is_turned or off[:, 3].max() > reframe.location_tolerance(obj, size)
     if is_moved:
@@ -197,7 +207,7 @@ def _ground(
     """Return the distance from the center down to the ground, in Blender's units."""
     if ground == "LOWEST":
         present_support = support(obj, context.scene)
-        assert present_support is not None  # it is known as its poses are
+        assert present_support is not None  # poses are known, and need the same hull and results
         return present_support.height
     point = (
         np.array(context.scene.cursor.location, np.float64) if ground == "CURSOR" else np.zeros(3)
@@ -206,8 +216,11 @@ def _ground(
 
 
 def _shortest_turn(start: numerics.Array, end: numerics.Array) -> numerics.Array:
+    """Return the (3, 3) rotation by the smallest angle from a unit vector to another one."""
     middle = start + end
     length = np.linalg.norm(middle)
+    # Opposite vectors: a half turn about any direction across. Below 1e-8, the rounding 1e-16 of
+    # the sum would turn `middle` by more than 1e-8.
     if length < 1e-8:
         middle = np.array(inertia.frame_about(start.tolist())[0])
         return 2.0 * np.outer(middle, middle) - np.eye(3)

@@ -34,6 +34,7 @@ def deformed_meshes(armature: Object) -> tuple[Object, ...]:
 
 @memory.until_change
 def _deformed_meshes(armature: Object, layer: ViewLayer) -> tuple[Object, ...]:
+    """Return `deformed_meshes` of a view layer."""
     return tuple(
         obj for obj in layer.objects if obj.type == "MESH" and read.rig.is_skin_of(obj, armature)
     )
@@ -77,7 +78,9 @@ def watch_all() -> None:
 
 
 def redraw_weights(updates: handlers.Updates) -> None:
-    """Redraw sidebars with the weight of a character, which playback leaves as they are."""
+    """Redraw sidebars with the weight of a character after a frame change: Blender does not redraw
+    them during playback.
+    """
     for window in bpy.context.window_manager.windows if updates.frame_changed else ():
         obj = window.view_layer.objects.active
         if obj is not None and obj.type == "ARMATURE" and obj.body_moments_weight.show:
@@ -93,6 +96,7 @@ def note_updates(updates: handlers.Updates) -> None:
     """
     if read.tracking.tracking_paused.depth or not memory.watched:
         return
+    # A new pose evaluates the meshes with their armature; an edit evaluates a mesh alone.
     touched = {*updates.reshaped, *updates.moved, *updates.others}
     for uid in memory.watched.keys() & updates.reshaped:
         armature = memory.watched[uid]

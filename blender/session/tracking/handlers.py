@@ -57,14 +57,14 @@ def count_change(data: ID | None = None) -> None:
 
 
 def _call(subscribers: Sequence[Callable[..., None]], *args: Updates | ID | None) -> None:
-    # Call all of them in order, even if one fails: its error is raised after the others were
-    # called.
-    with ExitStack() as calls:
+    """Call all subscribers in order, even if one fails: its error is raised at the end."""
+    with ExitStack() as calls:  # calls the last callback first
         for subscriber in reversed(subscribers):
             calls.callback(subscriber, *args)
 
 
 def _updates(scene: Scene, depsgraph: Depsgraph, frame_changed: bool) -> Updates:
+    """Return the updates of a dependency graph, sorted by their kinds."""
     updates = Updates(scene, depsgraph, [], [], [], [], frame_changed)
     for update in depsgraph.updates:  # without needless calls and attributes, for speed
         data = update.id
@@ -92,6 +92,7 @@ def _on_frame(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
 
 
 def _note_update(scene: Scene, depsgraph: Depsgraph | None, frame_changed: bool) -> None:
+    """Count a change, and tell it to the subscribers, unless it is one of a render."""
     memory.state.generation += 1
     if depsgraph is not None and depsgraph.mode == "VIEWPORT":
         _call(on_update, _updates(scene, depsgraph, frame_changed))

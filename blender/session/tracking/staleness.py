@@ -21,6 +21,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
+from typing import NamedTuple
 
 import bpy
 from bpy.types import Collection, Context, Depsgraph, Object, Scene
@@ -52,6 +53,9 @@ def stale_reason(
     return None
 
 
+# The functions of CHECKS return whether a part of a stamp is that of the present scene.
+
+
 def _has_settings(obj: Object, stamp: Stamp, scene: Scene) -> bool:
     return stamp.settings == read.fingerprint.settings_hash(obj, scene)
 
@@ -71,38 +75,48 @@ def _has_matrix(owner: Object | Collection, stamp: Stamp, _scene: Scene) -> bool
 
 
 def _has_structure(root: Object | Collection, stamp: Stamp, scene: Scene) -> bool:
-    parts = _digests_of_parts(root, scene)
-    return parts is None or stamp.settings == parts[0]
+    digests = _cached_member_digests(root, scene)
+    return digests is None or stamp.settings == digests.structure
 
 
 def _has_members(root: Object | Collection, stamp: Stamp, scene: Scene) -> bool:
-    parts = _digests_of_parts(root, scene)
-    return parts is None or stamp.geometry == parts[1]
+    digests = _cached_member_digests(root, scene)
+    return digests is None or stamp.geometry == digests.results
 
 
 def was_current(root: Object | Collection, scene: Scene) -> bool:
-    """Return whether a total was up to date before the settings of members changed, which Blender
-    reports later.
+    """Return whether a total was up to date before the settings of members changed. Blender reports
+    that later, so no cached digests are used, and such members count as up to date.
     """
     stamp = stamps.stamp_of(root)
-    parts = _digest_parts(root, scene, (None, Stale.SETTINGS))
+    digests = _member_digests(root, scene, (None, Stale.SETTINGS))
     if (
         stamp is None
         or stamp.version != measurement.settings.VERSION
         or not _has_matrix(root, stamp, scene)
     ):
         return False
-    return parts is None or parts == (stamp.settings, stamp.geometry)
+    return digests is None or digests == (stamp.settings, stamp.geometry)
 
 
-def _digest_parts(
+class _MemberDigests(NamedTuple):
+    """Digests of an assembly's or character's structure, and of its members' stored results; ""
+    for these if one is out of date, and for characters.
+    """
+
+    structure: str
+    results: str
+
+
+def _member_digests(
     root: Object | Collection, scene: Scene, current: tuple[Stale | None, ...] = (None,)
-) -> tuple[str, str] | None:
-    """Return present digests of structure and members' results ("" if one is stale); None if
-    nothing is evaluated. current: the reasons with which a member counts as up to date.
+) -> _MemberDigests | None:
+    """Return the present digests, None if nothing is evaluated. current: the reasons with which a
+    member counts as up to date.
     """
     if isinstance(root, Object) and root.type == "ARMATURE":
-        return read.rig.rig_hash(root, read.rig.rig_objects(root, scene.objects), scene), ""
+        objects = read.rig.rig_objects(root, scene.objects)
+        return _MemberDigests(read.rig.rig_hash(root, objects, scene), "")
     depsgraph = bpy.context.view_layer.depsgraph
     if depsgraph is None:
         return None
@@ -116,12 +130,11 @@ def _digest_parts(
     texts = {obj: write.properties.fingerprint(obj) for obj in measured}
     is_stale = any(stale_reason(obj, scene) not in current for obj in measured)
     key = assembly.members_key(member, texts)
-    return assembly.structure_hash(member), "" if is_stale else measurement.settings.digest(
-        key.encode()
-    )
+    results = "" if is_stale else measurement.settings.digest(key.encode())
+    return _MemberDigests(assembly.structure_hash(member), results)
 
 
-_digests_of_parts = memory.until_change(_digest_parts)
+_cached_member_digests = memory.until_change(_member_digests)
 
 # Undo brings none of these back.
 IN_MEMORY = (Kind.MOMENTS, Kind.HULL, Kind.FLOATING, Kind.LEVEL, Kind.CUT_FILL)
@@ -230,7 +243,10 @@ def mark_stored(context: Context, objects: Iterable[Object], kind: Kind) -> None
 
 
 def carry(obj: Object, kind: Kind, depsgraph: Depsgraph) -> None:
-    """Mark data in memory of a kind as those of an original object as it is now."""
+    """Mark data in memory of a kind as those of an original object as it is now.
+
+    The geometry's part of the stamp only has to differ from those of other data and updates.
+    """
     stamp = Stamp(
         kind,
         measurement.settings.VERSION,
@@ -245,21 +261,24 @@ def carry(obj: Object, kind: Kind, depsgraph: Depsgraph) -> None:
 
 
 def _mark_stamp(obj: Object, stamp: Stamp, depsgraph: Depsgraph) -> None:
+    """Mark a stamp as that of the present geometry, after noting what came before."""
     note_edits(obj)
     set_edited(obj, stamp.text, False)
     _remember_shape(obj, stamp, depsgraph)
 
 
 def mark_object(obj: Object) -> None:
-    """Mark the stored results as up to date with an original object's current geometry."""
+    """Mark the stored results as up to date with an original object's current geometry. Edits that
+    are not noted yet are dropped for all its stamps, so call `note_edits` first if it has others.
+    """
     memory.resolved[obj.session_uid] = memory.state.updates
     set_edited(obj, write.properties.fingerprint(obj), False)
     handlers.count_change(obj)
 
 
 def replace_stamp(obj: Object, before: str) -> None:
-    """Carry the notes on replaced results (`before`: their stamp) over, if the shape was not
-    changed with them.
+    """Carry the notes on results over to those that replace them, of the same shape. before: the
+    text of the replaced stamp.
     """
     text = write.properties.fingerprint(obj)
     set_edited(obj, text, before in _edited_stamps(obj))
@@ -288,6 +307,7 @@ def mark_axes_changed(objects: Iterable[Object]) -> None:
 
 
 def _edited_stamps(obj: Object) -> frozenset[str]:
+    """Return the texts of an object's stamps whose geometry has changed since."""
     return memory.edited.get(obj) or frozenset()
 
 
@@ -314,27 +334,27 @@ def note_edits(obj: Object, shape: bytes | None = None) -> None:
     edit, last = updates.last_since(obj, resolved_until)
     if last.number <= resolved_until:
         return
-    carried = stamps.with_geometry(obj)
+    kinds_by_text = stamps.with_geometry(obj)
     if (
         shape is None
-        and any([text in memory.shapes for text in carried])
+        and any(text in memory.shapes for text in kinds_by_text)
         and (depsgraph := updates.depsgraph_of(last))
     ):
         shape = read.mesh.shape_digest(obj, depsgraph)
-    for text, kind in carried.items():
+    for text, kind in kinds_by_text.items():
         if shape is not None and text in memory.shapes:
             set_edited(obj, text, shape != memory.shapes[text])
         elif edit.number or text in memory.shapes or kind in IN_MEMORY:
-            # Redo brings back an edit whose note may have been taken back; undo brings back no data
-            # in memory.
+            # Without an edit, the update follows undo or redo. Redo brings back an edit whose note
+            # was taken back by comparing shapes; undo brings back no data in memory.
             set_edited(obj, text, True)
 
 
 def _remember_shape(
     obj: Object, stamp: Stamp, depsgraph: Depsgraph, shape: bytes | None = None
 ) -> None:
-    """Keep the digest of the surface behind a stamp, if the data only depend on it, the settings
-    and the transform.
+    """Keep the digest of the surface behind a stamp, unless the data depend on materials,
+    attributes or a Volume, too. shape: the digest, if it was computed just now.
     """
     varies = obj.body_moments.density_from in {"MATERIALS", "ATTRIBUTE", "VOLUME"}
     if varies and stamp.kind in (Kind.RESULTS, Kind.MOMENTS):

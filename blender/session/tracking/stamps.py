@@ -114,6 +114,9 @@ def stamp_of(owner: Object | Collection, kind: Kind = Kind.RESULTS) -> Stamp | N
 
 
 def _results_stamp(owner: Object | Collection) -> Stamp | None:
+    """Return the stamp of the results of an object, assembly or character, with its kind; an empty
+    one for results without a fingerprint.
+    """
     text = properties.fingerprint(owner)
     if not text and "body_mass" not in owner:
         return None

@@ -60,7 +60,8 @@ def last_edit(obj: Object) -> Update:
     for instance in shown_by(obj):
         last = max(
             last,
-            *[stamps.get(instance.session_uid, NEVER) for stamps in (memory.edits, memory.moves)],
+            memory.edits.get(instance.session_uid, NEVER),
+            memory.moves.get(instance.session_uid, NEVER),
         )
     settings = obj.body_moments
     if settings.density_from == "VOLUME" and settings.density_volume is not None:
@@ -73,30 +74,30 @@ def last_since(obj: Object, since: int) -> tuple[Update, Update]:
     of the geometry.
     """
     edit = last_edit(obj)
-    return edit if edit.number > since else NEVER, max(
-        edit, memory.returns.get(obj.session_uid, NEVER)
-    )
+    last = max(edit, memory.returns.get(obj.session_uid, NEVER))  # by number
+    return (edit if edit.number > since else NEVER), last
 
 
 def last_change_of_geometry(obj: Object) -> int:
     """Return the number of the last geometry update of an object or its instances, edit or not."""
-    return last_since(obj, 0)[1].number
+    _edit, last = last_since(obj, 0)
+    return last.number
 
 
-def depsgraph_of(stamp: Update) -> Depsgraph | None:
+def depsgraph_of(update: Update) -> Depsgraph | None:
     """Return the dependency graph of an update's view layer, as last evaluated; None if the layer
     is gone.
     """
     for scene in bpy.data.scenes:
-        if scene.session_uid == stamp.scene:
-            layer = scene.view_layers.get(stamp.view_layer)
+        if scene.session_uid == update.scene:
+            layer = scene.view_layers.get(update.view_layer)
             return None if layer is None else layer.depsgraph
     return None
 
 
 def note_updates(updates: handlers.Updates) -> None:
-    """Record updates as possible edits, non-edits, moves or others; none while tracking is
-    paused.
+    """Record updates of geometry as possible edits, or as returns after undo and changed settings,
+    and those of transforms as moves; none while tracking is paused.
     """
     if tracking_paused.depth:
         return
@@ -106,26 +107,26 @@ def note_updates(updates: handlers.Updates) -> None:
     changed_settings = set(memory.changed_settings)
     memory.changed_settings.clear()
     state.updates += 1
-    stamp = Update(state.updates, updates.scene.session_uid, updates.depsgraph.view_layer.name)
+    update = Update(state.updates, updates.scene.session_uid, updates.depsgraph.view_layer.name)
     if is_undo:
         edits = _edited_by_undo(updates)
-        memory.edits.update(dict.fromkeys(edits, stamp))
+        memory.edits.update(dict.fromkeys(edits, update))
         memory.returns.update(
-            dict.fromkeys([uid for uid in updates.reshaped if uid not in edits], stamp)
+            dict.fromkeys([uid for uid in updates.reshaped if uid not in edits], update)
         )
         return
     reshaped: Iterable[int] = updates.reshaped
     if changed_settings and not updates.frame_changed:
         changed_by_settings = changed_settings.intersection(reshaped)
-        memory.returns.update(dict.fromkeys(changed_by_settings, stamp))
+        memory.returns.update(dict.fromkeys(changed_by_settings, update))
         reshaped = [uid for uid in reshaped if uid not in changed_by_settings]
-    memory.edits.update(dict.fromkeys([*reshaped, *updates.collections], stamp))
-    memory.moves.update(dict.fromkeys(updates.moved, stamp))
+    memory.edits.update(dict.fromkeys([*reshaped, *updates.collections], update))
+    memory.moves.update(dict.fromkeys(updates.moved, update))
 
 
 def _edited_by_undo(updates: handlers.Updates) -> set[int]:
-    """Return the session uids of updated objects in Edit or Sculpt Mode, where undo only restores
-    the shape.
+    """Return the session uids of updated objects in Edit or Sculpt Mode, where undo restores the
+    shape but not the stored numbers, so that it counts as an edit.
     """
     evaluated = [update.id for update in updates.depsgraph.updates]
     objects = [data.original for data in evaluated if isinstance(data, Object)]
