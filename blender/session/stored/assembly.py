@@ -75,9 +75,9 @@ def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
             except Exception as error:
                 failures.append((data.name_full, internal_error.finding_of(error)))
     _write_rows(assembly)
-    refused = results.store_measured(context, measured)
     return failures + [
-        (obj.name_full, internal_error.finding_of(refusal)) for obj, refusal in refused.items()
+        (obj.name_full, internal_error.finding_of(refusal))
+        for obj, refusal in results.store_measured(context, measured).items()
     ]
 
 
@@ -140,8 +140,9 @@ def kept_up_to_date(context: Context, member: Object | None = None) -> Iterator[
             _follow_defaults(root, now)
         elif _is_sum(root, before) and (total := add_bodies([*now.values()])) is not None:
             matrix = getattr(root, "matrix_world", Matrix())
-            unit = scale.meters_per_unit(scene)
-            write.properties.store_body(root, total.in_object(matrix, unit), text)
+            write.properties.store_body(
+                root, total.in_object(matrix, scale.meters_per_unit(scene)), text
+            )
             _add_gains(
                 root, {obj.name: now[obj].mass - before[obj].mass for obj in now}, total.mass
             )
@@ -184,8 +185,12 @@ def _is_sum(root: read.assembly.Root, bodies: dict[Object, PlainBody]) -> bool:
     stored_total = write.properties.stored(root)
     if total is None or stored_total is None:
         return False
-    unit = scale.meters_per_unit(bpy.context.scene)
-    return _is_same(total, stored_total.in_world(getattr(root, "matrix_world", Matrix()), unit))
+    return _is_same(
+        total,
+        stored_total.in_world(
+            getattr(root, "matrix_world", Matrix()), scale.meters_per_unit(bpy.context.scene)
+        ),
+    )
 
 
 def _add_gains(root: read.assembly.Root, gains: dict[str, float], mass: float) -> None:
@@ -228,7 +233,6 @@ def _is_same(before: PlainBody, now: PlainBody) -> bool:
 
 
 def _write_rows(assembly: Assembly) -> None:
-    """Write the tree of an assembly into the rows that the panel shows."""
     tree_rows = read.assembly.settings_of(assembly.root.member.data).rows
     tree_rows.clear()
     mass = assembly.measurement.mass_properties.mass
@@ -262,7 +266,6 @@ def _tree(
 
 
 def _own_mass(part: MemberBody) -> float:
-    """Return the mass of a member in kg, 0 if it has none."""
     return 0.0 if part.mass is None else part.mass.total
 
 
@@ -283,10 +286,13 @@ def bill_csv(root: MemberBody, mass: float) -> list[str]:
 
     SI units; the inertia of a member is about its own center of mass, along the world axes.
     """
-    members = _tree(root, 0, 1.0, True)
     return list(
         table(
-            COLUMNS, (_bill_row(part, mass, level, counted) for level, part, _, counted in members)
+            COLUMNS,
+            (
+                _bill_row(part, mass, level, counted)
+                for level, part, _, counted in _tree(root, 0, 1.0, True)
+            ),
         )
     )
 

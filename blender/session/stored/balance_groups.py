@@ -107,12 +107,18 @@ def store(
             continue
         is_truth = values.dtype == bool
         empty[name] = np.zeros_like(values[0], int if is_truth else float).tolist()
-        ui = empty.id_properties_ui(name)
-        ui.update(description=description, **({"min": 0, "max": 1} if is_truth else {}))
+        empty.id_properties_ui(name).update(
+            description=description, **({"min": 0, "max": 1} if is_truth else {})
+        )
         for axis, column in enumerate(values.reshape(len(frames), -1).T):
             has_value = ~np.isnan(column)
-            kind = fcurves.CONSTANT if is_truth else fcurves.LINEAR
-            fcurves.write_keys(curves, (path, axis), times[has_value], column[has_value], kind)
+            fcurves.write_keys(
+                curves,
+                (path, axis),
+                times[has_value],
+                column[has_value],
+                fcurves.CONSTANT if is_truth else fcurves.LINEAR,
+            )
     memory.supports[empty] = {
         round(float(frame)): support
         for frame, support in zip(frames, supports)

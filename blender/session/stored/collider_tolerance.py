@@ -16,8 +16,10 @@ def is_beyond_tolerance(record: Mapping[str, Any]) -> bool:
     record: the stored effect of the colliders. A tolerance of zero always holds: such pieces are
     limited by their number alone.
     """
-    limits = zip(("outward", "inward"), record.get("tolerance", ()))
-    return any(limit and record[name] > limit * (1.0 + ROUNDING) for name, limit in limits)
+    return any(
+        limit and record[name] > limit * (1.0 + ROUNDING)
+        for name, limit in zip(("outward", "inward"), record.get("tolerance", ()))
+    )
 
 
 def tolerance_remedy(record: Mapping[str, Any]) -> str:

@@ -129,12 +129,11 @@ def _select_moments(computed: ComputedMoments, of: str) -> Moments:
     """Return the moments of "VOLUME", "SURFACE", "MASS" or "FLAT", in the world or along the plane
     of a flat shape; raise ReadError if there are none.
     """
-    flat = None if computed.flat is None else computed.flat.moments
     moments = {
         "VOLUME": computed.volume,
         "SURFACE": computed.area,
         "MASS": computed.mass,
-        "FLAT": flat,
+        "FLAT": None if computed.flat is None else computed.flat.moments,
     }[of]
     if moments is None:
         if of == "FLAT":
@@ -194,7 +193,6 @@ def as_csv(
     if of == "FLAT" and about == "INVARIANT":
         heading = "invariants of the flat shape, from central moments, scaled to an area of 1"
         columns = ["invariant", "real", "imaginary", *bounds]
-        results = invariants(computed, of, computed.order)
         table_rows = [
             [
                 invariant.name,
@@ -203,7 +201,7 @@ def as_csv(
                 invariant.rounding_error,
                 invariant.input_error,
             ]
-            for invariant in results
+            for invariant in invariants(computed, of, computed.order)
         ]
     else:
         moments = in_frame(computed, of, about, frame, computed.order, reference)
@@ -226,7 +224,6 @@ def as_csv(
 
 
 def _heading(of: str, about: str, frame: str) -> str:
-    """Return the description of moments in a CSV file."""
     return "{:s} moments, {:s} frame, {:s}".format(
         of.lower(),
         "reference" if about == "REFERENCE" else frame.lower(),
@@ -242,7 +239,6 @@ def _heading(of: str, about: str, frame: str) -> str:
 
 
 def _flat_heading(computed: ComputedMoments, about: str, frame: str) -> str:
-    """Return the description of a flat shape's moments in a CSV file, with the plane's axes."""
     assert computed.flat is not None
     x, y, normal = (" ".join(map(repr, axis)) for axis in computed.flat.plane.axes.T.tolist())
     heading = "area moments of the flat shape, along x = ({:s}) and y = ({:s}), front ({:s}), {:s}"

@@ -64,8 +64,7 @@ class Level:
     def table(self) -> numerics.Array:
         """(33, 2) heights over the bottom, m, and volumes, m³, up to the spill height."""
         heights = np.linspace(self.hollow.bottom, self.hollow.spill, cuts.TABLE_ROWS)
-        volumes = self.hollow.below(heights).volume
-        return np.stack([heights - self.hollow.bottom, volumes], axis=1)
+        return np.stack([heights - self.hollow.bottom, self.hollow.below(heights).volume], axis=1)
 
     @cached_property
     def triangles(self) -> numerics.Array:
@@ -128,8 +127,9 @@ def _vessel(
         surface = bodies.vessel_surface(measure_body(obj, depsgraph).body)
     else:
         reading = read.objects.read_object(obj, depsgraph, edges=False)
-        unit = scale.meters_per_unit(context.scene)
-        body = partial(mesh_body, reading, unit, shell=False, threads=THREADS)
+        body = partial(
+            mesh_body, reading, scale.meters_per_unit(context.scene), shell=False, threads=THREADS
+        )
         # Overlapping components are united if the settings say so, as a union takes longer.
         try:
             surface = bodies.vessel_surface(body(union=False))
@@ -137,8 +137,7 @@ def _vessel(
             if settings.overlap != "union":
                 raise
             surface = bodies.vessel_surface(body(union=True))
-    points = surface.points.astype(np.float64)
-    return points, surface.all_triangles()[0], -down(context.scene)
+    return surface.points.astype(np.float64), surface.all_triangles()[0], -down(context.scene)
 
 
 def fill_vessel(context: Context, obj: Object, by: str, amount: float, density: float) -> Level:
@@ -201,12 +200,15 @@ def add_table(context: Context, obj: Object, level: Level) -> Object:
     full vessel.
     """
     edited = bmesh.new()
-    shares = level.table / level.table.max(axis=0)
-    vertices = [edited.verts.new((volume, 0.0, height)) for height, volume in shares.tolist()]
+    vertices = [
+        edited.verts.new((volume, 0.0, height))
+        for height, volume in (level.table / level.table.max(axis=0)).tolist()
+    ]
     for start, stop in zip(vertices, vertices[1:]):
         edited.edges.new((start, stop))
-    place = np.array(obj.matrix_world.translation)
-    return _add_mesh(context, obj.name + " Level Table", edited, place)
+    return _add_mesh(
+        context, obj.name + " Level Table", edited, np.array(obj.matrix_world.translation)
+    )
 
 
 def _add_mesh(

@@ -118,7 +118,6 @@ def _up(scene: Scene) -> numerics.Array:
 
 
 def _roles(members: Iterable[Object]) -> tuple:
-    """Return the role of each member in a floating body, with the fill of tanks."""
     tanks = [member.body_moments_tank for member in members]
     return tuple((tank.role, tank.fill if tank.role == "TANK" else 0.0) for tank in tanks)
 
@@ -148,7 +147,6 @@ def read(
     }
 
     def having(role: str) -> list[Object]:
-        """Return the measured objects of a role."""
         return [obj for obj in parts if obj.body_moments_tank.role == role]
 
     own_bodies = [parts[obj].measurement.mass_properties for obj in having("BODY")]
@@ -172,8 +170,9 @@ def read(
     )
     places = np.array([float64_matrix(obj.matrix_world) for obj in members])
     uids = tuple(obj.session_uid for obj in members)
-    seconds = time.thread_time() - start
-    return Afloat(uids, members[0].name, places, _roles(members), rest, seconds=seconds)
+    return Afloat(
+        uids, members[0].name, places, _roles(members), rest, seconds=time.thread_time() - start
+    )
 
 
 def remember(afloat: Afloat, members: Iterable[Object], depsgraph: Depsgraph) -> None:

@@ -134,7 +134,7 @@ def reference_of(obj: Object, computed: ComputedMoments, scene: Scene) -> inerti
 
 
 def _displayed_degrees(moments: Moments, of: str, about: str) -> Iterator[Degree]:
-    """Yield the moments by degree; those within rounding as 0. Moments of a flat shape have no z."""
+    """Yield the moments by degree, 0 for those within rounding; those of a flat shape have no z."""
     for degree in range(moments.order + 1):
         rows = np.arange(monomial_count(degree - 1), monomial_count(degree))
         if of == "FLAT":
@@ -164,8 +164,10 @@ def _displayed_invariants(invariants: list[Invariant], order: int) -> Iterator[D
                     if invariant.is_complex
                     else (invariant.value.real,)
                 )
-                noise = invariant.rounding_error
-                texts = [write.units.number(0.0 if abs(part) <= noise else part) for part in parts]
+                texts = [
+                    write.units.number(0.0 if abs(part) <= invariant.rounding_error else part)
+                    for part in parts
+                ]
                 text = " + ".join(texts).replace("+ −", "− ") + " i" * invariant.is_complex
                 cells.append((invariant.name, text, " ".join(map(repr, parts))))
         yield Degree(degree, "", tuple(cells))

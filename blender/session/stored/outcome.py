@@ -50,10 +50,9 @@ def last() -> ActionOutcome | None:
     if memory.state.outcome is not None:
         layer = bpy.context.view_layer
         actions = bpy.context.window_manager.operators
-        selected = tuple(obj.session_uid for obj in layer.objects.selected)
         state = (
             getattr(layer.objects.active, "session_uid", 0),
-            selected,
+            tuple(obj.session_uid for obj in layer.objects.selected),
             actions[-1].as_pointer() if actions else 0,
         )
         if memory.state.outcome_seen_in not in ((), state):

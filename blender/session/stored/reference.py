@@ -49,7 +49,6 @@ def store(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | No
         raise verdict.QueryError(write.findings.NO_STORED_RESULTS, subject=owner.name)
     write.properties.require_storable(owner)
     result = choice.resolve(owner, scene, body.center).refer(body)
-    bounds = result.rounding_error, result.input_error
     values = {
         "body_reference": choice.text,
         "body_reference_origin": result.reference.origin,
@@ -58,7 +57,9 @@ def store(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | No
         "body_reference_center": result.center,
         "body_reference_inertia": result.inertia,
         "body_reference_error_bound": [
-            bound[name] for bound in bounds for name in ("center", "inertia")
+            bound[name]
+            for bound in (result.rounding_error, result.input_error)
+            for name in ("center", "inertia")
         ],
     }
     if choice.about == "AXIS":
@@ -168,5 +169,6 @@ class ReferenceChoice:
 def _frame(matrix: Matrix, unit: float) -> inertia.Reference:
     """Return the reference at the origin and along the rotated axes of a matrix in the world."""
     location, turn, _scale = matrix.decompose()
-    origin = [unit * coordinate for coordinate in location]
-    return inertia.Reference(origin, inertia.rotation_axes(turn))
+    return inertia.Reference(
+        [unit * coordinate for coordinate in location], inertia.rotation_axes(turn)
+    )

@@ -137,9 +137,8 @@ def store_sections(
     unit = scale.meters_per_unit(context.scene)
     for obj, (section, description, findings) in sections:
         parts = (section.plane.origin, section.plane.axes.ravel(), section.second, section.centroid)
-        numbers = np.concatenate([*parts, [section.area, section.perimeter]])
         mark = core.measurement.fingerprint(
-            numbers.tobytes(),
+            np.concatenate([*parts, [section.area, section.perimeter]]).tobytes(),
             read.fingerprint.matrix_hash(obj),
             read.fingerprint.settings_hash(obj, context.scene),
         )

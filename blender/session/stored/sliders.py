@@ -65,9 +65,12 @@ def remember(obj: Object, measured: Measured, scene: Scene) -> None:
     body = measured.body
     unit = scale.meters_per_unit(scene)
     if isinstance(body, bodies.WallBody) and body.walls is not None:
-        source = body.walls.drop_arrays()
         memory.walls[obj] = _Kept(
-            replace(reading, parts=[]), source, {stamp.geometry}, stamp.transform, unit
+            replace(reading, parts=[]),
+            body.walls.drop_arrays(),
+            {stamp.geometry},
+            stamp.transform,
+            unit,
         )
         if on_wall_setting not in hooks.on_wall_change:
             hooks.on_wall_change.append(on_wall_setting)

@@ -145,7 +145,6 @@ def check_stability(context: Context, obj: Object, measured: list[Object]) -> li
                 raise refusal
         measured.append(obj)
     hull = compute(obj, depsgraph)
-    extent = float(np.ptp(hull.points, axis=0).max())
     if len(hull.points) >= bodies.mesh.MAX_CORNERS:
         text = (
             "“{object}” is finely divided: its convex hull is taken with {corners} corners, to "
@@ -154,7 +153,10 @@ def check_stability(context: Context, obj: Object, measured: list[Object]) -> li
         )
         return [
             write.reports.phrase(
-                text, object=obj.name, corners=len(hull.points), share=hull.gap / extent
+                text,
+                object=obj.name,
+                corners=len(hull.points),
+                share=hull.gap / float(np.ptp(hull.points, axis=0).max()),
             )
         ]
     return []
