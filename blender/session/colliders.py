@@ -83,8 +83,9 @@ def plan_colliders(
     shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
     masses = colliders.uniform_masses(measurement.density, shapes)
     if correct == "VERTICES":
-        tolerances = fit_request.outward, fit_request.inward
-        shapes = yield from colliders.correct_vertices(body, shapes, surface, *tolerances)
+        shapes = yield from colliders.correct_vertices(
+            body, shapes, surface, fit_request.outward, fit_request.inward
+        )
         shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
         masses = colliders.uniform_masses(measurement.density, shapes)
     if correct == "MASSES":
@@ -143,8 +144,11 @@ def _surface(obj: Object, measured: Measured) -> mesh.Surface:
     measurement = measured.measurement
     pieces = [*measured.body.surfaces(measurement.kind == "shell")]
     if not pieces:
-        kind = obj.bl_rna.properties["type"].enum_items[obj.type].name
-        raise verdict.ReadError(read.findings.OBJECT_WITHOUT_GEOMETRY, subject=obj.name, type=kind)
+        raise verdict.ReadError(
+            read.findings.OBJECT_WITHOUT_GEOMETRY,
+            subject=obj.name,
+            type=obj.bl_rna.properties["type"].enum_items[obj.type].name,
+        )
     to_frame = robots.Pose(measurement.location, measurement.rotation).inverse()
     return mesh.join_surfaces(pieces).transform(to_frame.rotation, to_frame.position)
 
@@ -276,5 +280,6 @@ def _is_same_body(stored: Sequence[float], body: inertia.MassProperties) -> bool
         return False
     size = (float(body.inertia.trace()) / body.mass) ** 0.5  # as a radius of gyration
     scales = np.repeat([body.mass, size, body.mass * size**2], [1, 3, 9])
-    differences = np.abs(np.array(stored, np.float64) - _describe_body(body))
-    return bool((differences <= SAME * scales).all())
+    return bool(
+        (np.abs(np.array(stored, np.float64) - _describe_body(body)) <= SAME * scales).all()
+    )

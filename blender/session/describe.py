@@ -78,11 +78,12 @@ def describe(
         )
     _check(options)
     subjects = _objects_named(objects)
-    depsgraph = bpy.context.evaluated_depsgraph_get()
     outcomes = [
         pair
         for batch in bodies.measure_object.measure_many(
-            subjects, depsgraph, settings.options.MeasureOptions(**options)
+            subjects,
+            bpy.context.evaluated_depsgraph_get(),
+            settings.options.MeasureOptions(**options),
         )
         for pair in batch
     ]

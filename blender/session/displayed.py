@@ -121,8 +121,17 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
         is_behind = reason is not None or lag == following.Lag.BEHIND
         verdict = Verdict.OUT_OF_DATE if is_behind else find_verdict(method, findings)
         unit = scale.meters_per_unit(scene)
-        world = numbers.in_world(obj.matrix_world, unit)
-        return Displayed(numbers, world, unit, method, findings, verdict, reason, current, lag)
+        return Displayed(
+            numbers,
+            numbers.in_world(obj.matrix_world, unit),
+            unit,
+            method,
+            findings,
+            verdict,
+            reason,
+            current,
+            lag,
+        )
     numbers = write.properties.stored(obj) if "body_mass" in obj else None
     return None if numbers is None else _stored(obj, scene, numbers, obj.matrix_world, obj)
 
@@ -393,8 +402,10 @@ def listing(
     first on request.
     """
     objects = list(view_layer.objects)
-    all_bodies = zip(objects, all_drawn(objects, scene))
-    bodies = [body if name.lower() in obj.name.lower() else None for obj, body in all_bodies]
+    bodies = [
+        body if name.lower() in obj.name.lower() else None
+        for obj, body in zip(objects, all_drawn(objects, scene))
+    ]
     order = sorted(
         range(len(objects)), key=lambda i: _rank(objects[i], bodies[i], sort_by, warnings_first)
     )

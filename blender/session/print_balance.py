@@ -68,8 +68,9 @@ def balance_print(
         margin = 0.0
     if corners is None or len(corners) < 3:
         return None
-    as_print = MeasureOptions(kind="printed")
-    request = Request.resolve(obj, context.evaluated_depsgraph_get(), as_print)
+    request = Request.resolve(
+        obj, context.evaluated_depsgraph_get(), MeasureOptions(kind="printed")
+    )
     settings = request.settings
     if change != "BALLAST" and settings.printed.pocket is None:
         # The center of one material does not depend on its density.

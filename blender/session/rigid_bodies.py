@@ -228,8 +228,9 @@ def _measure_in_turn(
     context: Context, bodies: Iterable[Iterable[Object]]
 ) -> Callable[[Object], MeasuredObject]:
     """Return a function that measures the objects of the bodies, one at a time and in order."""
-    parts = [part for body in bodies for part in body]
-    return measured_in_turn(parts, context.evaluated_depsgraph_get())
+    return measured_in_turn(
+        [part for body in bodies for part in body], context.evaluated_depsgraph_get()
+    )
 
 
 def _measured(
@@ -247,10 +248,13 @@ def _measured(
             raise verdict.EditRefusedError(error.finding.of_sources([part.name_full])) from error
     measurements = [measured.measurement for measured in parts.values()]
     if len(parts) > 1:
-        moments = [measurement.mass_moments for measurement in measurements]
-        compound = inertia.combine(moments, preferred_axes=measurements[0].rotation)
-        unit = scale.meters_per_unit(context.scene)
-        target = scene.snap_targets.SnapTarget.of_body(body[0], compound, compound.principal, unit)
+        compound = inertia.combine(
+            [measurement.mass_moments for measurement in measurements],
+            preferred_axes=measurements[0].rotation,
+        )
+        target = scene.snap_targets.SnapTarget.of_body(
+            body[0], compound, compound.principal, scale.meters_per_unit(context.scene)
+        )
     else:
         target = scene.snap_targets.target_of(context, body[0], parts[body[0]])
     if target.mass < scene.rigid_world.MIN_MASS:
@@ -259,8 +263,9 @@ def _measured(
             mass=float(target.mass),
             limit=scene.rigid_world.MIN_MASS,
         )
-    volume = sum(measurement.volume for measurement in measurements)
-    return Measured(target, target.mass / volume, parts)
+    return Measured(
+        target, target.mass / sum(measurement.volume for measurement in measurements), parts
+    )
 
 
 def _measured_part(

@@ -71,8 +71,9 @@ class SceneLinks:
         """
         pose = self.robot.link(label).pose
         if label not in self.pieces:
-            depsgraph = context.evaluated_depsgraph_get()
-            return link_surface(self.members.get(label, ()), depsgraph, pose, self.unit)
+            return link_surface(
+                self.members.get(label, ()), context.evaluated_depsgraph_get(), pose, self.unit
+            )
         to_link = pose.inverse()
         return mesh.join_surfaces(
             [
@@ -109,8 +110,9 @@ def jointed_robot(
     """
     connections, bases, findings = read.joints.constraint_connections(context.scene, labels, unit)
     robot, robot_findings = robots.assemble_robot(name, [*link_candidates, *bases], connections)
-    by_name = sorted(labels, key=lambda obj: obj.name)
-    caveats = overlaps.shared_space_caveats(by_name, context.evaluated_depsgraph_get())
+    caveats = overlaps.shared_space_caveats(
+        sorted(labels, key=lambda obj: obj.name), context.evaluated_depsgraph_get()
+    )
     return robot, [*findings, *robot_findings, *caveats]
 
 
@@ -145,8 +147,12 @@ def object_links(
     ]
     unit = settings.options.AS_SET.meters_per_unit(context.scene)
     robot, findings = jointed_robot(context, name, link_candidates, labels, unit)
-    members = {label: [obj] for obj, label in labels.items()}
-    return SceneLinks(robot, [*findings, *left_out(failures, len(measurable))], unit, members)
+    return SceneLinks(
+        robot,
+        [*findings, *left_out(failures, len(measurable))],
+        unit,
+        {label: [obj] for obj, label in labels.items()},
+    )
 
 
 def collection_links(

@@ -94,13 +94,13 @@ def chosen_settings(context: Context) -> PropertyGroup | None:
 
 def is_mixed(settings: PropertyGroup, name: str) -> bool:
     """Return whether a setting differs among the chosen objects; never for those of one object."""
-    is_group = isinstance(settings, BodyMomentsSelectionSettings)
-    return is_group and _is_mixed(name, *_selection(bpy.context))
+    return isinstance(settings, BodyMomentsSelectionSettings) and _is_mixed(
+        name, *_selection(bpy.context)
+    )
 
 
 @memory.until_change
 def _is_mixed(name: str, layer: ViewLayer, count: int, pinned: Object | None) -> bool:
-    """Return whether a setting differs among the objects of a `_selection`."""
     values = {
         properties.comparable(getattr(obj.body_moments, name))
         for obj in _owners(layer, count, pinned)

@@ -136,7 +136,7 @@ class SimilarSearch:
 def _match(
     entry: Entry, likeness: Likeness, scaled: bool, mirrored: bool, obj: Object | None = None
 ) -> Match:
-    """Return a compared shape with its distance when scaled copies or mirror images count."""
     verdict = classify(likeness).value
-    distance = likeness.distance(scaled, mirrored)
-    return Match(entry.name, entry.file, verdict, distance, likeness.scale, obj)
+    return Match(
+        entry.name, entry.file, verdict, likeness.distance(scaled, mirrored), likeness.scale, obj
+    )

@@ -29,8 +29,9 @@ def remeasure(
     if not stored:
         return
     measured = [(obj, measurements[obj]) for obj in stored if obj in measurements]
-    unknown = [obj for obj in stored if obj not in measurements]
-    for together in bodies.measure_object.measure_many(unknown, context.evaluated_depsgraph_get()):
+    for together in bodies.measure_object.measure_many(
+        [obj for obj in stored if obj not in measurements], context.evaluated_depsgraph_get()
+    ):
         for obj, outcome in together:
             # stored results stay, and the panel shows that they are out of date
             if isinstance(outcome, Exception):  # prints the traceback of an internal error

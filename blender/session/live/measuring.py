@@ -228,7 +228,6 @@ def _tick() -> float | None:
 
 
 def _is_stroking(obj: Object) -> bool:
-    """Return whether an object is in Sculpt Mode while a stroke goes on."""
     windows = bpy.context.window_manager.windows if obj.mode == "SCULPT" else ()
     return any(
         running.bl_idname.startswith("SCULPT_OT_")

@@ -97,7 +97,6 @@ class Motion:
         )
 
     def _entry(self, obj: Object) -> _Followed:
-        """Return the measurement of an object, an empty one at first."""
         return self._followed.setdefault(obj.session_uid, _Followed())
 
     def hull_points(self, obj: Object, depsgraph: Depsgraph) -> numerics.Array:
@@ -171,7 +170,6 @@ def _mixed_keys(obj: Object) -> tuple[str, ...]:
 
 
 def _coordinates(data) -> numerics.Array:
-    """Return the (n, 3) points of a shape key's data."""
     points = np.empty(3 * len(data), np.float32)
     data.foreach_get("co", points)
     return points.reshape(-1, 3).astype(np.float64)
@@ -210,9 +208,10 @@ def _measured(
     moments, factor = measurement.mass_moments
     followed.given_mass = object_settings(obj, depsgraph.scene).mass
     mass = moments.truncate(2) * factor
-    to_world = bodies.to_si(matrix[None], unit)[0]
     followed.moments = (
-        mass.transform(np.linalg.inv(to_world)) if _can_map(moments, matrix) else None
+        mass.transform(np.linalg.inv(bodies.to_si(matrix[None], unit)[0]))
+        if _can_map(moments, matrix)
+        else None
     )
     return mass
 

@@ -34,7 +34,6 @@ def deformed_meshes(armature: Object) -> tuple[Object, ...]:
 
 @memory.until_change
 def _deformed_meshes(armature: Object, layer: ViewLayer) -> tuple[Object, ...]:
-    """Return `deformed_meshes` of a view layer."""
     return tuple(
         obj for obj in layer.objects if obj.type == "MESH" and read.rig.is_skin_of(obj, armature)
     )

@@ -64,7 +64,6 @@ def _call(subscribers: Sequence[Callable[..., None]], *args: Updates | ID | None
 
 
 def _updates(scene: Scene, depsgraph: Depsgraph, frame_changed: bool) -> Updates:
-    """Return the updates of a dependency graph, sorted by their kinds."""
     updates = Updates(scene, depsgraph, [], [], [], [], frame_changed)
     for update in depsgraph.updates:  # without needless calls and attributes, for speed
         data = update.id

@@ -115,8 +115,9 @@ def _member_digests(
     member counts as up to date.
     """
     if isinstance(root, Object) and root.type == "ARMATURE":
-        objects = read.rig.rig_objects(root, scene.objects)
-        return _MemberDigests(read.rig.rig_hash(root, objects, scene), "")
+        return _MemberDigests(
+            read.rig.rig_hash(root, read.rig.rig_objects(root, scene.objects), scene), ""
+        )
     depsgraph = bpy.context.view_layer.depsgraph
     if depsgraph is None:
         return None
@@ -129,8 +130,11 @@ def _member_digests(
     ]
     texts = {obj: write.properties.fingerprint(obj) for obj in measured}
     is_stale = any(stale_reason(obj, scene) not in current for obj in measured)
-    key = assembly.members_key(member, texts)
-    results = "" if is_stale else measurement.settings.digest(key.encode())
+    results = (
+        ""
+        if is_stale
+        else measurement.settings.digest(assembly.members_key(member, texts).encode())
+    )
     return _MemberDigests(assembly.structure_hash(member), results)
 
 

@@ -135,10 +135,12 @@ def with_geometry(obj: Object) -> dict[str, Kind]:
     """Return the texts and kinds of an original object's stamps, except those of assemblies and
     bones.
     """
-    stored = [stamp_of(obj, kind) for kind in STORED]
     return {
         stamp.text: stamp.kind
-        for stamp in [*stored, *(memory.carried.get(obj) or {}).values()]
+        for stamp in [
+            *[stamp_of(obj, kind) for kind in STORED],
+            *(memory.carried.get(obj) or {}).values(),
+        ]
         if stamp is not None and stamp.kind not in (Kind.ASSEMBLY, Kind.BONES)
     }
 

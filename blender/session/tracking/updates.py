@@ -128,8 +128,9 @@ def _edited_by_undo(updates: handlers.Updates) -> set[int]:
     """Return the session uids of updated objects in Edit or Sculpt Mode, where undo restores the
     shape but not the stored numbers, so that it counts as an edit.
     """
-    evaluated = [update.id for update in updates.depsgraph.updates]
-    objects = [data.original for data in evaluated if isinstance(data, Object)]
+    objects = [
+        update.id.original for update in updates.depsgraph.updates if isinstance(update.id, Object)
+    ]
     edited = {
         obj.session_uid
         for obj in objects
