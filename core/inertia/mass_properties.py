@@ -160,9 +160,13 @@ class MassProperties:
             {name: pick(values) for name, values in bounds.items()}
             for bounds in (self.rounding_error, self.input_error)
         )
-        principal = self.principal.at(which)
         return MassProperties(
-            pick(self.mass), self.center[which], self.inertia[which], principal, rounding, inputs
+            pick(self.mass),
+            self.center[which],
+            self.inertia[which],
+            self.principal.at(which),
+            rounding,
+            inputs,
         )
 
     def inertia_about(self, point: ArrayLike) -> Array:
@@ -185,6 +189,7 @@ class MassProperties:
         off = (
             self.rounding_error["inertia"] + self.input_error["inertia"] + 2.0 * strain * moments[2]
         )
+        # An axis turns by at most asin(off / gap), for the least gap between true moments.
         gap = float(np.diff(moments).min()) - off
         return math.asin(off / gap) if off < gap else math.pi
 
@@ -259,8 +264,8 @@ def affine_image(
     mass: float,
     preferred_axes: ArrayLike,
 ) -> MassProperties:
-    """Return the properties of an image under a (3, 3) map; axes point the way of
-    `preferred_axes`.
+    """Return the properties of an image of this `mass` and `center` under a (3, 3) map; its axes
+    point the way of `preferred_axes`, and its bounds are those of the body.
     """
     linear = np.asarray(linear, np.float64)
     preferred = np.asarray(preferred_axes, np.float64)
@@ -283,8 +288,9 @@ def affine_image(
 
 
 def are_physical(volume: Moments, low: NDArray, high: NDArray, size: float | Array) -> Mask:
-    """Return an (n,) mask of the bodies with a possible center and second moments for their mass
-    and (n, 3) boxes.
+    """Return an (n,) mask of the bodies with a center in their (n, 3) boxes and with second moments
+    that a mass can have. size: diagonals of the boxes, by which the centers may miss by a
+    millionth.
     """
     total = volume.raw[:, 0]
     mean = volume.raw[:, 1:4] / total[:, None]
@@ -293,6 +299,8 @@ def are_physical(volume: Moments, low: NDArray, high: NDArray, size: float | Arr
         - mean[:, :, None] * mean[:, None, :]
     )
     most = np.abs(second).max(axis=(1, 2))
+    # An eigenvalue is off by at most three errors of entries; 8 leaves room for those of the
+    # center.
     rounding = 8.0 * (
         volume.rounding_error[:, 4:10].max(axis=1) / total + np.finfo(float).eps * most
     )
@@ -328,7 +336,7 @@ def _propagate_errors(
     )
     second = error[..., SECOND_MOMENT_INDEX] + cross * (total / least)[..., None]
     second = second + first_error[..., :, None] * (first_error / least)[..., None, :]
-    # the rounding of the results themselves
+    # The results themselves are rounded, too: row 0 has the bounds of rounding.
     center[0] += 2.0 * U * _lengths(np.abs(moments.about) + 2.0 * shift[0])
     second[0] += (
         6.0

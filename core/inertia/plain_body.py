@@ -72,20 +72,16 @@ class PlainBody(NamedTuple):
         error_bound: dict[str, Any],
     ) -> PlainBody:
         """Return mass properties as plain numbers, with density, volume, area and error bound."""
-        center = body.center.tolist()
-        entries = body.inertia[ROWS, COLUMNS].tolist()
-        moments = body.principal.moments
-        axes = tuple(map(tuple, body.principal.axes.T.tolist()))
         return cls(
             body.mass,
             density,
             volume,
             area,
-            tuple(center),
-            tuple(entries),
-            tuple(moments.tolist()),
-            axes,
-            error_bound,
+            center=tuple(body.center.tolist()),
+            inertia=tuple(body.inertia[ROWS, COLUMNS].tolist()),
+            moments=tuple(body.principal.moments.tolist()),
+            axes=tuple(map(tuple, body.principal.axes.T.tolist())),
+            error_bound=error_bound,
         )
 
     @property
@@ -168,13 +164,12 @@ def _bound_of_sum(
         reach = arm + bound["center_of_mass"] + center
         growth = reach * reach - arm * arm
         inertia += part.mass * ((1.0 + share) * growth + share * arm * arm)
-    values = (
-        sum([bound["volume"] for bound in bounds]),
-        sum([bound["area"] for bound in bounds]),
-        center,
-        inertia,
-    )
-    return dict(zip(BOUND_KEYS, values))
+    return {
+        "volume": sum([bound["volume"] for bound in bounds]),
+        "area": sum([bound["area"] for bound in bounds]),
+        "center_of_mass": center,
+        "inertia": inertia,
+    }
 
 
 def rotation_axes(turn: Sequence[float]) -> Axes:
@@ -245,7 +240,8 @@ def principal_axes(tensor: Sequence[float]) -> tuple[Vector, Axes, str]:
         turned = turn_tensor(tensor, axes)
         gap = turned[i] - turned[j]
         twice = 2.0 * turned[entry]
-        # at most an eighth of a turn
+        # Jacobi's rotation makes the entry zero; the smaller angle, at most an eighth of a turn,
+        # converges.
         angle = 0.5 * atan2(twice if gap >= 0.0 else -twice, abs(gap))
         c, s = cos(angle), sin(angle)
         pairs = tuple(zip(axes[i], axes[j]))
@@ -255,7 +251,7 @@ def principal_axes(tensor: Sequence[float]) -> tuple[Vector, Axes, str]:
         }
         axes = tuple(moved.get(k, axis) for k, axis in enumerate(axes))
     (low, first), (middle, second), (high, _) = sorted(zip(turn_tensor(tensor, axes), axes))
-    high = min(high, low + middle)  # rounding may violate this for a flat body
+    high = min(high, low + middle)  # rounding may violate the inequality for a flat body
     spreads = (middle + high - low) / 2.0, (high + low - middle) / 2.0
     rounding = 4.0 * float_info.epsilon * (low + middle + high)
     is_oblate, is_prolate = (
@@ -280,7 +276,8 @@ def _nearest_frame(first: Vector, second: Vector, free: tuple[int, ...]) -> Axes
             fixed = frame[3 - sum(free)]
             # as in `complete_free_axes`
             direction = [u + v for u, v in zip(IDENTITY[free[0]], cross(IDENTITY[free[1]], fixed))]
-            # half a turn away any direction is as near: the one along a coordinate axis is taken
+            # If the fixed axis points against its own coordinate axis, any direction may be as
+            # near: that along a coordinate axis is taken.
             frame[free[0]] = _across(direction, fixed) or frame_about(fixed)[0]
             frame[free[1]] = cross(fixed, frame[free[0]])
         frames.append(tuple(frame))
@@ -321,6 +318,8 @@ class Reference:
         """
         arm = subtract(body.center, self.origin)
         distance = hypot(*arm)
+        # Frobenius norms: that of d² 1 - d dᵀ is √2 d². An error of d changes it by √2 (2 d error +
+        # error²); 6 and 2 are more. 8 and 40 roundings are more than the steps below.
         rounded = 2.0 * U * sum(map(abs, (*body.center, *self.origin)))
         size = hypot(*body.inertia, *body.inertia[3:]) + sqrt(2.0) * body.mass * distance * distance
         bounds = []

@@ -101,14 +101,14 @@ class PrincipalFrame:
         return self.__dict__[name]
 
     def __getstate__(self) -> dict[str, Any]:
-        _ = self.axes  # they are found now: what finds them cannot be pickled
+        _ = self.axes  # is found now: the function that finds it cannot be pickled
         return vars(self)
 
     def scaled(self, density: NDArray) -> PrincipalFrame:
         """Return the frame of a body with another density, (...,)."""
         frame = object.__new__(PrincipalFrame)
         moments = density[..., None] * self.moments
-        # rounding may violate this for a flat body
+        # Rounding may violate the inequality of a flat body's moments.
         moments[..., 2] = np.minimum(moments[..., 2], moments[..., 0] + moments[..., 1])
         frame.__dict__.update(self.__dict__, moments=moments)
         return frame
@@ -208,6 +208,7 @@ def principal_frames(fixed: ThirdMomentFrames, preferred_axes: NDArray) -> Princ
     undetermined[:] = [()] * count
     axes = fixed.axes * HALF_TURN_SIGNS[fixed.allowed.argmax(axis=1)][:, None]
     is_open = (fixed.symmetry > 0) | (fixed.allowed.sum(axis=1) != 1)
+    # Bodies of one kind, with the same allowed signs and symmetry, have candidates of one shape.
     kind = fixed.allowed @ SIGN_BITS + 16 * fixed.symmetry
     for number in sorted(set(kind[is_open].tolist())):
         bodies = np.flatnonzero(is_open & (kind == number))

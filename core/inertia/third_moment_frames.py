@@ -90,9 +90,14 @@ class ThirdMomentFrames:
 
     def spread(self, i: int) -> SecondMomentAxes:
         """Return the axes that second moments give one body."""
-        step = float(self.step[i])
-        tilt = float(self.tilt[i])
-        return SecondMomentAxes(self.axes[i], self.size[i], self.free(i), step, tilt, self.noise)
+        return SecondMomentAxes(
+            self.axes[i],
+            self.size[i],
+            self.free(i),
+            step=float(self.step[i]),
+            tilt=float(self.tilt[i]),
+            noise=self.noise,
+        )
 
     def frames(self, i: int) -> Array:
         """Return the (k, 3, 3) right-handed frames of one body that third moments allow: signs of
@@ -165,7 +170,7 @@ def third_moment_frames(
     """
     second = second or second_moments(moments)
     total, scale, spread, axes = second.total, second.scale, second.spread, second.axes
-    # a lamina has no extent along an axis, and no skewness
+    # A lamina has no extent along an axis, and no skewness: 1e-15 of the largest extent is noise.
     unit_size = np.sqrt(np.maximum(spread, 1e-30 * spread[:, :1]))
     # Shift of the points by float32: the share of the volume that this moves, times the thinnest
     # extent.
@@ -191,7 +196,7 @@ def third_moment_frames(
     )
     tilt_between[:, 0, 2] = tilt_between[:, 2, 0] = outer_tilt
     mixed = (tilt_between * (np.abs(skewness) + skewness_error).max(axis=2)[:, None]).sum(axis=2)
-    noise += 3.0 * mixed[:, :, None]
+    noise += 3.0 * mixed[:, :, None]  # a third moment has three factors that the tilt mixes
     is_fixed = IS_FIXED[symmetry]
     third, error = skewness, skewness_error
     if refine is not None:
@@ -232,7 +237,8 @@ def third_moment_frames(
 def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: Mask) -> Mask:
     """Return an (n,) mask of bodies with frames that more exact third moments could not change.
 
-    size, error, noise: (n, 3, 3) absolute third moments of each axis. fixed: (n, 3) mask of axes.
+    size, error, noise: (n, 3, 3) absolute third moments of each axis, their error bounds, and
+    noise. fixed: (n, 3) mask of axes.
     """
     clear = size - error > noise
     below = size + error <= noise
@@ -242,7 +248,7 @@ def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: Mask) -> 
     size = size[body, AXES, first_clear]
     error = error[body, AXES, first_clear]
     noise = noise[body, AXES, first_clear]
-    # the least of three scores: both others have to be clear of it
+    # Of three scores the least one is dropped: both others have to be clear of it.
     least = size[body, size.argmin(axis=1)[:, None]]
     unsure = (noise + error).max(axis=1, keepdims=True)
     is_above = size - least > EQUAL_SCORES_RTOL * least + 2.0 * (error + unsure)
@@ -320,7 +326,8 @@ def complete_free_axes(frames: NDArray, free: tuple[int, ...], preferred_axes: N
     direction = _across(
         preferred_axes[..., first] + cross_rows(preferred_axes[..., second], fixed), fixed
     )
-    # half a turn away any direction is as near: the one along a preferred axis is taken
+    # If the fixed axis points against its preferred one, any direction may be as near: that along a
+    # preferred axis is taken.
     is_opposite = np.linalg.norm(direction, axis=-1) < 1e-6
     if is_opposite.any():
         cosines = np.abs(np.einsum("...a,...ai->...i", fixed, preferred_axes))

@@ -88,14 +88,14 @@ def build_measurement(
 def measure_body(
     body: Body, settings: Settings, *, findings: tuple[Finding, ...] = (), **fields: Any
 ) -> Measurement:
-    """Return the measurement of a body, with moments to an order; fields: name, type, frame,
-    fingerprint.
+    """Return the measurement of a body, with moments to the order of the settings; fields: the
+    name, type, rotation, location and fingerprint of a `Measurement`, and others if they are known.
     """
     is_shell = settings.kind == "shell"
     is_wire = settings.kind == "wire"
     extent = find_extent(body, settings)
     moments, factor, density = _weigh(body, extent, settings)
-    # small bodies have exact third moments already
+    # Bodies of few faces, of two triangles at most each, have exact third moments already.
     is_exact = 2 * body.face_count <= MAX_TRIANGLES_EXACT_THIRD and not is_wire
     refine = None if is_shell or is_exact or body.mass is not None else body.third_order
     properties = MassProperties.of_body(moments, factor, fields["rotation"], refine)
@@ -240,6 +240,7 @@ def find_extent(body: Body, settings: Settings) -> Moments:
 
 
 def _is_thin(body: Body, settings: Settings) -> bool:
+    """Return whether a body is a shell with its mass by area, not by the volume of a real wall."""
     return settings.kind == "shell" and body.wall is None
 
 
@@ -307,6 +308,7 @@ def find_properties(mass: Moments, preferred_axes: NDArray) -> MassProperties:
     """
     if not mass.total > 0.0:  # A bone of flat faces alone; from_moments refuses it.
         return MassProperties.from_moments(mass, preferred_axes=preferred_axes)
+    # Second moments of more than their rounding, with a margin of four, belong to an extended body.
     central = mass.truncate(2).about_center()
     if np.abs(central.raw[4:]).max() > 4.0 * central.rounding_error[4:].max():
         return MassProperties.from_moments(mass, preferred_axes=preferred_axes)

@@ -195,11 +195,13 @@ def _parts(value: Any, shape: Any) -> list[tuple[Any, Any]]:
 
 
 def _refuse(shape: type, value: Any) -> NoReturn:
+    """Raise _WrongError for a value of another type than a shape's."""
     kind = "null" if value is None else _NAMES.get(float if type(value) is int else type(value))
     raise _WrongError(" is {} ({:.30}), not {}".format(kind, repr(value), _NAMES[shape]))
 
 
 def _finite(text: str) -> float:
+    """Return the number that a JSON text denotes, unless it exceeds the range of numbers."""
     value = float(text)
     return value if isfinite(value) else _not_finite(text)
 

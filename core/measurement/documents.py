@@ -102,9 +102,14 @@ def failed_document(file: str, reason: str, status: str, **values: Any) -> dict[
     """Return the document of a file that was not measured; values: of `document`, such as `blender`
     and `frame`.
     """
-    total = dict.fromkeys(TOTAL) | {"findings": [], "warnings": [], "notes": []}
-    errors = [{"name": None, "reason": reason}]
-    return document([], total, errors, file=file, status=status, **values)
+    return document(
+        objects=[],
+        total=dict.fromkeys(TOTAL) | {"findings": [], "warnings": [], "notes": []},
+        errors=[{"name": None, "reason": reason}],
+        file=file,
+        status=status,
+        **values,
+    )
 
 
 def radius_of_gyration(record: dict[str, Any]) -> float | None:
@@ -142,7 +147,8 @@ def to_json(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
     """Yield the text of one document, or of an array of several, indented, with each row of numbers
     on one line.
     """
-    # A text waits until it is known whether it is the only one, or the last one.
+    # Each text waits until the next one comes: a single document has no brackets, the last no
+    # comma.
     waiting = ""
     count = 0
     for entry in documents:
@@ -160,6 +166,7 @@ def to_json(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
 
 
 def _indented(text: str) -> str:
+    """Return the text with every line indented as an entry of an array."""
     return "  " + text.replace("\n", "\n  ")
 
 
@@ -195,6 +202,7 @@ def table(header: Sequence[str], rows: Iterable[dict[str, Any]]) -> Iterator[str
 
 
 def _csv_rows(documents: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
+    """Yield a dict of column names and values for each body, flat shape, and unmeasured object."""
     for file_document in documents:
         place = {"file": file_document["file"], "frame": file_document["frame"]}
         for name in ("objects", "assemblies", "bones"):
@@ -287,7 +295,8 @@ def _columns(entry: dict[str, Any]) -> dict[str, Any]:
 
 
 def _shared_columns(entry: dict[str, Any]) -> dict[str, Any]:
-    codes = {"findings": [one["code"] for one in entry["findings"]]}
+    """Return the columns that bodies and flat shapes share: signature, findings and remarks."""
+    codes = {"findings": [finding["code"] for finding in entry["findings"]]}
     return (
         _nested("signature", entry.get("signature") or {})
         | codes
@@ -296,6 +305,9 @@ def _shared_columns(entry: dict[str, Any]) -> dict[str, Any]:
 
 
 def _nested(prefix: str, values: dict[Any, Any]) -> dict[str, Any]:
+    """Return a column for each number or text in nested dicts and lists, which count from 1; the
+    names of the levels are joined by underscores.
+    """
     row = {}
     for name, value in values.items():
         if isinstance(value, list):
@@ -320,6 +332,7 @@ def _line(cells: Iterable[Any]) -> str:
 
 
 def _cell(value: Any) -> Any:
+    """Return a value as a cell of CSV; texts that a spreadsheet takes for formulas are escaped."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, list):

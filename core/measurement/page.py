@@ -105,8 +105,9 @@ def to_html(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
         origins[_origin(document)] += 1
         codes += count_findings(document)
     digest = base64.b64encode(hashlib.sha256(_SCRIPT.encode()).digest()).decode()
-    policy = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'sha256-"
-    policy += digest + "'"
+    policy = (
+        "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'sha256-{}'"
+    ).format(digest)
     yield "<!doctype html><!-- Body Moments: report -->\n"
     yield '<html lang="en"><head><meta charset="utf-8">\n'
     yield '<meta http-equiv="Content-Security-Policy" content="{}">\n'.format(policy)
@@ -155,6 +156,7 @@ def _origin(document: dict[str, Any]) -> str:
 
 
 def _table_rows(document: dict[str, Any]) -> Iterator[str]:
+    """Yield the HTML of a document's rows: bodies, flat shapes, then errors."""
     file = document["file"] or ""
     status = document["status"]
     for entry in document["objects"]:
@@ -226,6 +228,7 @@ def _plot(
 
 
 def _remarks(entry: dict[str, Any]) -> list[tuple[str, str]]:
+    """Return the class and the text of each warning and note of a record."""
     return [("warning", text) for text in entry["warnings"]] + [
         ("", text) for text in entry["notes"]
     ]
@@ -274,8 +277,8 @@ def _picture(entry: dict[str, Any]) -> str:
     axes = entry["principal_axes"]
     if radius_of_gyration(entry) is None or not axes or None in sum(axes, []):
         return ""
+    # The half sides of the box: half - moment is ∫ x² dm, which is mass side² / 12.
     half = sum(moments) / 2.0
-    # Half sides of a box.
     sides = [math.sqrt(max(6.0 * (half - moment) / mass, 0.0)) / 2.0 for moment in moments]
     scale = 40.0 / (max(sides) * 1.8 or 1.0)
     columns = [[row[number] for row in axes] for number in range(3)]

@@ -153,8 +153,8 @@ def add_findings(entry: dict[str, Any], findings: Iterable[Finding]) -> None:
             "code": finding.code,
             "severity": str(severity(finding)),
             "message": sentence(finding),
+            "values": plain(finding.values),
         }
-        record["values"] = plain(finding.values)
         if len(finding.elements):
             record["elements"] = plain(finding.elements[:MAX_ELEMENTS])
         if record not in entry["findings"]:
@@ -180,6 +180,7 @@ def total(measurements: Sequence[Measurement], findings: Iterable[Finding] = ())
 
 
 def _inertial(properties: inertia.MassProperties) -> dict[str, Any]:
+    """Return the entries of a record that `TOTAL` has, too: center, inertia and principal axes."""
     principal = properties.principal
     return {
         "center_of_mass": properties.center,
@@ -234,12 +235,14 @@ def _moments_record(
     powers: NDArray,
     rows: slice | NDArray = slice(None),
 ) -> dict[str, Any]:
-    """Return a record's `moments` by powers "p,q,r", (K, d); rows: their places among the
-    moments.
+    """Return a record's `moments`: for each domain, a dict from powers, such as "p,q,r", to values.
+
+    powers: (K, d) exponents; rows: their indices in `Moments.raw`.
     """
     keys = [",".join(map(str, exponents)) for exponents in powers.tolist()]
 
     def tables(name: str) -> dict[str, dict[str, float]]:
+        """Return the values of one attribute of the moments, by domain and powers."""
         return {
             domain: dict(zip(keys, getattr(each, name)[rows].tolist()))
             for domain, each in domains.items()
@@ -272,6 +275,7 @@ def flat_record(
     axes, location = (np.eye(3), np.zeros(3)) if frame[0] == "world" else frame[1:]
 
     def to_frame(point: NDArray) -> Array:
+        """Return the coordinates in the frame of a point in the world."""
         return axes.T @ (point - location)
 
     centroid = plane.origin + plane.axes @ moments.center

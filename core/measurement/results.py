@@ -81,25 +81,21 @@ class Measurement:
     In a stack, numbers have a leading axis; names, types, methods, fingerprints, findings and
     sources of density are lists; all have one kind, and health is None.
 
-    kind: "solid", "shell", "printed" or "wire". method: the verdict and its source: polygons,
-    B-spline patches measured instead of
-        their display mesh, or a grid.
-    density in kg/m³, thickness of a shell in m (0 for solids), volume in m³ (of a shell: area times
-    thickness), area in m². volume_moments: to order 3, None for a thin shell; area_moments: to
-    order 3 for a shell, else order 0; both to a
-        higher order if requested.
+    kind: "solid", "shell", "printed" or "wire". method: the procedure and its source: polygons,
+    B-spline patches measured instead of their display mesh, or a grid. density: kg/m³, 0 for a
+    wire, which has mass per length, kg/m. thickness: of a shell, m, 0 for solids. volume: m³, of a
+    shell area times thickness. area: m². volume_moments: to order 3, None for a thin shell;
+    area_moments: to order 3 for a shell, else order 0; both to a higher order if requested.
     mass_moments: the moments that carry the mass, and the mass in kg per unit of them. higher_mass:
     moments in kg to the requested order, above third, if the density varies. rotation, location:
     (3, 3) and (3,), the object frame without scale. error_bound: absolute bounds "volume", "area",
-    "center_of_mass", "inertia" of rounding, and the same under "input"
-        for storing coordinates as float32; "estimated": True if those of rounding are estimates.
-    findings: decisions during the measurement. fingerprint: fingerprint of the input. length: of a
-    wire, m, else None. A wire's `density` is 0; its linear density is mass per length, kg/m.
-    display_volume: the volume of the display mesh of B-spline patches, m³; None if not requested.
-    density_from: the source of the density, with a code `density_from_…`. materials: names of the
-    materials considered
-        for it. place_error: how far the input's rounding may have moved the body as a whole, m.
-        printed: as in `Body`.
+    "center_of_mass", "inertia" of rounding, and the same under "input" for storing coordinates as
+    float32; "estimated": True if those of rounding are estimates. findings: decisions during the
+    measurement. fingerprint: of the input. length: of a wire, m, else None. display_volume: of the
+    display mesh of B-spline patches, m³; None if not requested. density_from: the source of the
+    density, with a code `density_from_…`. materials: names of the materials considered for it.
+    place_error: how far the input's rounding may have moved the body as a whole, m. printed: as in
+    `Body`.
     """
 
     name: str
@@ -155,6 +151,7 @@ class Measurement:
         order.
         """
         moments, factor = self.mass_moments
+        # A uniform density times moments of a higher order is the last resort.
         if order <= moments.order:
             return replace(moments.truncate(order), measure=Measure.MASS) * factor
         if self.higher_mass is not None:

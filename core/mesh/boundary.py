@@ -18,7 +18,7 @@ from .surface import Surface
 
 FACES_PER_BLOCK = 1 << 14  # faces whose hashes stay in the cache
 HALF = np.uint64(32)
-# Odd factors, one for each coordinate and two for sides; and the number that starts a hash.
+# Odd numbers: a factor for each coordinate, two factors for sides, and the start of every hash.
 KEYS = np.frombuffer(os.urandom(48), np.uint64) | np.uint64(1)
 
 

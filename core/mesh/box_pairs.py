@@ -11,8 +11,8 @@ ROUNDING = 1e-6  # relative to a box's sides
 
 
 def _sweep(low: NDArray, high: NDArray, margin: float) -> tuple[Index, Index]:
-    """Return (k,) boxes, sorted along the best axis, and (k,) counts of later boxes that begin
-    before each one ends.
+    """Return (k,) boxes, sorted by their lower ends along the axis with the fewest pairs, and (k,)
+    counts of later boxes that begin by over `margin` before each one ends.
     """
     sweeps: list[tuple[Index, Index]] = []
     for axis in range(3):
@@ -34,6 +34,7 @@ def overlapping_box_pairs(
     pair_count = 0
     tested_count = 0
     for i, j in following_pairs(order, counts, PAIRS_PER_BATCH):
+        # If hardly any boxes meet, tests are limited, too, to a chosen multiple.
         if pair_count >= most or tested_count >= 100 * most:
             break
         tested_count += len(i)
@@ -51,6 +52,6 @@ def boxes_overlap(centers: NDArray, extents: NDArray) -> bool:
     extents = extents * (1.0 - ROUNDING)
     low = centers - extents
     high = centers + extents
-    # a flat box overlaps another one by nothing
+    # The comparisons are strict, because a flat box overlaps another one by nothing.
     pairs = following_pairs(*_sweep(low, high, 0.0), PAIRS_PER_BATCH)
     return any(bool(((low[i] < high[j]) & (low[j] < high[i])).all(axis=1).any()) for i, j in pairs)

@@ -31,9 +31,9 @@ TRIANGLES_PER_LEAF = 4
 PAIRS_PER_BATCH = 1 << 17  # pairs looked at together
 MAX_BOX_PAIRS = 10_000_000  # pairs of boxes looked at
 TRIANGLES_PER_BLOCK = 1 << 14  # triangles whose scratch stays in the cache
-LEAST_SLOPE = 1e-30  # Rays: those along a plane count as this steep
-RAY_RTOL = 1e-9  # Relative to the reach: nearer hits are the ray's own triangle
-CORNER_ATOL = 1e-6  # barycentric: rays through an edge hit
+LEAST_SLOPE = 1e-30  # unit rays with a smaller component count as this steep
+RAY_RTOL = 1e-9  # relative to the reach: nearer hits are those of the triangle that a ray starts on
+CORNER_ATOL = 1e-6  # in barycentric coordinates: rays this far outside hit, as do those on an edge
 
 
 @dataclass(frozen=True, eq=False)
@@ -221,7 +221,9 @@ class Bvh:
     def winding_numbers(
         self, query_points: Array, component: Index, tolerance: float
     ) -> tuple[Index, Mask]:
-        """Return (k,) winding numbers of components around places, and whether each is sure."""
+        """Return (k,) winding numbers of components around places, (k, 3) about `origin`; and a
+        mask of the sure ones: their ray meets no triangle edge-on, nor any within `tolerance`.
+        """
         winding = np.zeros(len(query_points), np.intp)
         sure = np.ones(len(query_points), bool)
         query = np.ascontiguousarray(query_points.T)
@@ -299,7 +301,7 @@ class Bvh:
         """Return the (k,) distances of places (about `origin`) from the surfaces of components; inf
         beyond `within`.
         """
-        nearest = np.full(len(query_points), np.nextafter(within, np.inf))
+        nearest = np.full(len(query_points), np.nextafter(within, np.inf))  # `within` counts
         pieces = cut(np.arange(len(query_points)), self.root[component])
         while pieces:
             place, node = pieces.pop()
@@ -309,6 +311,7 @@ class Bvh:
             occupied = high[:, 0] >= low[:, 0]
             least = np.linalg.norm(np.maximum(np.maximum(low - point, point - high), 0.0), axis=1)
             most = np.linalg.norm(np.maximum(np.abs(point - low), np.abs(high - point)), axis=1)
+            # No box that holds the nearest point may be dropped because its bound was rounded down.
             np.minimum.at(nearest, place[occupied], most[occupied] * (1.0 + 1e-12))
             near = occupied & (least <= nearest[place])
             place, node = place[near], node[near]
@@ -354,19 +357,20 @@ class Bvh:
 
 def _hit_triangles(starts: Array, rays: Array, corners: Array) -> tuple[Array, Mask]:
     """Return the (k,) distances along rays at which each meets the plane of its triangle, and a
-    mask of those that meet the triangle (Möller and Trumbore 1997). corners: (3, 3, k).
+    mask of those that meet the triangle (Möller and Trumbore 1997). corners: (3, 3, k),
+    coordinates first. u, v: the barycentric coordinates of b and c.
     """
     a, b, c = corners.transpose(1, 2, 0)
     across = np.cross(rays, c - a)
-    volume = np.einsum("ri,ri->r", across, b - a)
-    share = 1.0 / np.where(volume != 0.0, volume, np.inf)
+    det = np.einsum("ri,ri->r", across, b - a)
+    inverse_det = 1.0 / np.where(det != 0.0, det, np.inf)
     away = starts - a
     turned = np.cross(away, b - a)
-    u = np.einsum("ri,ri->r", away, across) * share
-    v = np.einsum("ri,ri->r", rays, turned) * share
-    distance = np.einsum("ri,ri->r", c - a, turned) * share
+    u = np.einsum("ri,ri->r", away, across) * inverse_det
+    v = np.einsum("ri,ri->r", rays, turned) * inverse_det
+    distance = np.einsum("ri,ri->r", c - a, turned) * inverse_det
     is_within = np.minimum(np.minimum(u, v), 1.0 - u - v) >= -CORNER_ATOL
-    return distance, is_within & (volume != 0.0)
+    return distance, is_within & (det != 0.0)
 
 
 def _across(places: Array) -> tuple[Array, Array]:
@@ -380,7 +384,9 @@ def cut(*arrays: NDArray, size: int = PAIRS_PER_BATCH) -> list[tuple[NDArray, ..
 
 
 def _both_children(owner: Index, child: Index) -> list[tuple[NDArray, ...]]:
-    """Return pieces of pairs of an owner and a node: both children of each, by the first ones."""
+    """Return pieces of pairs of an owner and a node, for both children of each owner's node. child:
+    (k,) the first ones.
+    """
     return cut(np.concatenate([owner, owner]), np.concatenate([child, child + 1]))
 
 

@@ -20,7 +20,9 @@ from ..numerics import Array, Index, NDArray
 DIRECTION = np.array([0.7071, 0.5477, 0.4472])
 MAX_CANDIDATES = 500  # similarities that are compared in full
 PROBES = 6  # vertices that are compared first
-RESEMBLANCE = 20.0  # the scores of equal vertices differ by at most so many tolerances
+# The scores of equal vertices differ by at most so many tolerances: a distance from the middle,
+# 0.618 of a mean length and 1.32 of a product change by under 5, and middle and radius move, too.
+RESEMBLANCE = 20.0
 
 
 class Elements:
@@ -45,6 +47,7 @@ class Elements:
         )
         valence = np.bincount(edges.ravel(), minlength=len(points))
         mean = np.bincount(edges.ravel(), lengths.repeat(2), len(points)) / np.maximum(valence, 1)
+        # Valences differ by more than the other terms can: 1, and 0.618 of at most 2.
         self.scores = np.linalg.norm(self.unit_points, axis=1) + 0.618 * mean + 4.0 * valence
 
 
@@ -89,7 +92,7 @@ def correspondences(
     all vertices comes first, if there is one; then come those that turn least.
     """
     count = len(first.points)
-    loose = 4.0 * tolerance
+    loose = 4.0 * tolerance  # chosen for candidates, of which `_prove` asks for the tolerance
     if not count or not first.radius or not second.radius:
         return
     if not np.array_equal(np.sort(first.sizes), np.sort(second.sizes)):
@@ -97,7 +100,7 @@ def correspondences(
     scores = [mesh.scores + label for mesh, label in zip((first, second), labels or (0.0, 0.0))]
     if np.abs(np.sort(scores[0]) - np.sort(scores[1])).max() > RESEMBLANCE * loose:
         return
-    same = np.arange(count)
+    same = np.arange(count)  # the correspondences that keep all numbers
     for mirrored in (False, True):
         if correspondence := _prove(first, second, same, same, mirrored, tolerance):
             yield correspondence
@@ -150,6 +153,7 @@ def _candidate_turns(
         frames = _frames(np.broadcast_to(image, other_images.shape), other_images)
         turns += [(frames * (1.0, 1.0, hand)) @ frame.T for hand in (1.0, -1.0)]
     maps = np.concatenate(turns)
+    # Of PROBES vertices, spread over the scores, each must come to lie on a similar one.
     for probe in np.argsort(scores[0])[:: -(-len(targets) // PROBES)]:
         ends = targets[np.abs(scores[1] - scores[0][probe]) <= near]
         is_met = [
@@ -162,7 +166,10 @@ def _candidate_turns(
 
 
 def _anchors(points: NDArray, scores: NDArray, near: float) -> tuple[int, int] | None:
-    """Return two vertices, not in line with the middle, that as few others as possible resemble."""
+    """Return two vertices that as few others as possible resemble, not in line with the middle;
+    None if all are in line. Both fix directions well: they are 0.3 of the radius from the middle
+    and 0.1 from the line, if they can be.
+    """
 
     def count_alike(scores: NDArray) -> Index:
         """Return (n,) the numbers of vertices with a score near to each one's."""
@@ -202,6 +209,7 @@ def _prove(
     """Return the correspondence of two meshes; None if points, edges or faces do not meet.
 
     first_places, second_places: (n,) numbers of the vertices' places, equal if vertices meet.
+    mirrored: True if the similarity mirrors. tolerance: relative to the second mesh's radius.
     """
     matched_faces = _match_faces(first, second, first_places, second_places, mirrored)
     if matched_faces is None:
@@ -211,16 +219,16 @@ def _prove(
     vertices[first.corners] = second.corners[corners]
     if not np.array_equal(vertices[first.corners], second.corners[corners]):
         return None
-    # Vertices without faces are matched by their places.
-    left = np.flatnonzero(vertices < 0)
+    # Vertices without faces are matched by their places, with those of the second mesh.
+    unmatched = np.flatnonzero(vertices < 0)
     is_free = np.ones(len(vertices), bool)
     is_free[vertices[vertices >= 0]] = False
     free = np.flatnonzero(is_free)
-    if len(left) != len(free):
+    if len(unmatched) != len(free):
         return None
-    order = np.argsort(first_places[left], kind="stable")
+    order = np.argsort(first_places[unmatched], kind="stable")
     free_order = np.argsort(second_places[free], kind="stable")
-    vertices[left[order]] = free[free_order]
+    vertices[unmatched[order]] = free[free_order]
     edges = _match_rows(np.sort(vertices[first.edges], axis=1), np.sort(second.edges, axis=1))
     if edges is None:
         return None
@@ -242,6 +250,7 @@ def _simplest_similarity(
     error = np.linalg.norm(points @ linear.T + offset - images, axis=1).max()
     if error > limit:
         return None
+    # Two maps that miss by twice as much, or by a few roundings of float32, are equally good.
     rounding = 4.0 * np.finfo(np.float32).eps * max(np.abs(points).max(), np.abs(images).max())
     allowed = min(2.0 * error + rounding, limit)
     shifts = [] if mirrored else [np.zeros(3), images.mean(axis=0) - points.mean(axis=0)]
@@ -253,7 +262,8 @@ def _simplest_similarity(
 
 def _similarity(source: NDArray, target: NDArray, mirrored: bool) -> tuple[NDArray, NDArray]:
     """Return map and offset of the similarity, of this handedness, that moves (n, 3) points nearest
-    to others.
+    to (n, 3) others: least squares by Kabsch's method, scaled by the ratio of the radii of
+    gyration.
     """
     middle = source.mean(axis=0)
     other = target.mean(axis=0)
@@ -276,13 +286,13 @@ def _match_faces(
         first_faces, second_faces = (np.flatnonzero(mesh.sizes == size) for mesh in (first, second))
         steps = np.arange(size)
         turned = -steps % size if mirrored else steps
-        keys, own = _from_least(first_places, first, first_faces, turned)
-        other_keys, others = _from_least(second_places, second, second_faces, steps)
+        keys, first_corners = _from_least(first_places, first, first_faces, turned)
+        other_keys, second_corners = _from_least(second_places, second, second_faces, steps)
         order = _match_rows(keys, other_keys)
         if order is None:
             return None
         faces[first_faces] = second_faces[order]
-        corners[own] = others[order]
+        corners[first_corners] = second_corners[order]
     return faces, corners
 
 

@@ -47,7 +47,7 @@ def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
     # a negative edge becomes a large one
     edge_count = int(as_unsigned(edges).max()) + 1
     if edge_count > 2 * len(starts) or edge_count > np.iinfo(edges.dtype).max // 2:
-        # Most of them without faces, or too many for their type: a table costs more than a search.
+        # Most edges have no faces, or slots would overflow: the table would cost more than sorting.
         return None
     ring_ends = np.cumsum(sizes)
     stops = np.concatenate([starts[1:], starts[:1]])
@@ -140,7 +140,8 @@ def find_edges(triangles: NDArray[np.integer], quads: int = 0) -> Edges:
     low = np.minimum(start, stop)
     high = np.maximum(start, stop)
     width = int(high.max(initial=0)) + 1
-    # Neighbors in the mesh share the table's cached part.
+    # A run of 2^bits slots for each lower vertex, at least two for each side on average; within the
+    # run, the higher vertex is hashed. So neighbors in the mesh share the table's cached part.
     bits = (len(low) // width).bit_length() + 1
     slots = np.left_shift(low, bits, dtype=np.intp)
     slots += (high.astype(np.uint32) * HASH_FACTOR) >> np.uint32(32 - bits)
@@ -176,11 +177,11 @@ def uncancelled_sides(
     first = first_occurrence(low, high, owner)
     # Upward sides minus downward sides, at the first side of each edge; 0 for sides without length.
     surplus = np.bincount(first, np.sign(stop - start)).astype(np.intp)
-    first = np.repeat(np.arange(len(surplus)), np.abs(surplus))
-    low = low[first]
-    high = high[first]
-    upward = surplus[first] > 0
-    return owner[first], np.where(upward, low, high), np.where(upward, high, low)
+    side = np.repeat(np.arange(len(surplus)), np.abs(surplus))
+    low = low[side]
+    high = high[side]
+    upward = surplus[side] > 0
+    return owner[side], np.where(upward, low, high), np.where(upward, high, low)
 
 
 def consistent_orientation(
@@ -206,7 +207,7 @@ def consistent_orientation(
     )
     plain, turned = cover[:count], cover[count:]
     twisted = plain == turned
-    flipped = plain > turned
+    flipped = plain > turned  # of each part, one of the two ways; the weights decide
     part = np.minimum(plain, turned)
     flipped_weight = np.bincount(part, weight * flipped)
     flipped ^= (2.0 * flipped_weight > np.bincount(part, weight))[part]
@@ -240,7 +241,8 @@ def faces_beside_edges(faces: NDArray[np.integer], vertex_count: int) -> NDArray
     """Return the (2, e) faces beside the edges of (n, k) faces; None unless every edge has two
     opposite sides.
     """
-    if 2 * vertex_count > faces.size or faces.size % 2:  # a vertex has one face
+    # A vertex of a closed surface is a corner of two faces at least; all vertices are used.
+    if 2 * vertex_count > faces.size or faces.size % 2:
         return None
     columns = np.ascontiguousarray(faces.T)
     vertex_bits = int(vertex_count).bit_length()

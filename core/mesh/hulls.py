@@ -45,6 +45,7 @@ class ConvexHull:
             self,
             points=self.points @ matrix.T,
             triangles=self.triangles[:, ::-1] if is_mirrored else self.triangles,
+            # The sides of the triangle c, b, a are b to c, a to b and c to a of the old one.
             neighbors=self.neighbors[:, [1, 0, 2]] if is_mirrored else self.neighbors,
             gap=self.gap * float(np.linalg.norm(matrix, 2)),
         )
@@ -171,7 +172,7 @@ def _flat_hull(points: Array, corners: list[int], tolerance: float) -> ConvexHul
 
 def convex_polygon(points: Array, tolerance: float = 0.0) -> Index:
     """Return (k,) indices of the counter-clockwise corners of (n, 2) points; two on a line, one if
-    all are the same.
+    all are the same. tolerance: relative to the extent; points outside by less are left out.
     """
     ends = np.lexsort((points[:, 1], points[:, 0]))[[0, -1]]
     least = tolerance * float(np.ptp(points, axis=0).max())
@@ -181,6 +182,7 @@ def convex_polygon(points: Array, tolerance: float = 0.0) -> Index:
     # The points that may be outside, each with a side of the polygon: numbered by its first corner.
     point = np.repeat(np.arange(len(points)), 2)
     side = np.tile([0, 1], len(points))
+    # A height below this may be the rounding of the differences that it is made of.
     rounding = 4.0 * np.finfo(np.float64).eps * np.abs(points).max()
     while True:
         start = points[corners[side]]

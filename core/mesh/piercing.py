@@ -95,8 +95,8 @@ def _intersect_leaves(
 
 
 def _edges_cross_triangles(corners: Array, partners: Array, tolerance: float) -> Index:
-    """Return the indices of triangles (3, k, 3) with an edge through their partner by over the
-    tolerance.
+    """Return the indices of the k triangles with an edge through their partner by over the
+    tolerance. corners, partners: (3, k, 3), corner, triangle, coordinate.
 
     The depth of an edge is the least of three lengths: how far inside the partner's sides it goes
     through its plane, and the heights over this plane at which it passes the sides, or ends, on
@@ -118,8 +118,9 @@ def _edges_cross_triangles(corners: Array, partners: Array, tolerance: float) ->
         crosses = (np.minimum(rise, fall) < -tolerance) & (np.maximum(rise, fall) > tolerance)
         share = rise / np.where(crosses, rise - fall, 1.0)
         inside = np.where(crosses, np.inf, -np.inf)
-        first = np.zeros(len(passing))
-        last = np.ones(len(passing))
+        # The part of the edge, as shares of its length, that is within the partner's sides.
+        first_share = np.zeros(len(passing))
+        last_share = np.ones(len(passing))
         for k in range(3):
             side = partners[k] - partners[k - 1]
             inward = np.cross(normal, side) / np.linalg.norm(side, axis=1)[:, None]
@@ -128,8 +129,8 @@ def _edges_cross_triangles(corners: Array, partners: Array, tolerance: float) ->
             )
             inside = np.minimum(inside, begin + share * (end - begin))
             passes = begin / np.where(begin != end, begin - end, 1.0)
-            first = np.where(begin < 0.0, np.maximum(first, passes), first)
-            last = np.where(end < 0.0, np.minimum(last, passes), last)
-        at_ends = [np.abs(rise + part * (fall - rise)) for part in (first, last)]
+            first_share = np.where(begin < 0.0, np.maximum(first_share, passes), first_share)
+            last_share = np.where(end < 0.0, np.minimum(last_share, passes), last_share)
+        at_ends = [np.abs(rise + part * (fall - rise)) for part in (first_share, last_share)]
         depth = np.maximum(depth, np.minimum.reduce([inside, *at_ends]))
     return passing[depth > tolerance]

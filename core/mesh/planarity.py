@@ -88,7 +88,7 @@ class PlanarityAccumulator:
     @cached_property
     def degenerate_limit(self) -> float:
         """The largest length of the normal, for a quad the sum of its triangles' normals, of a face
-        without area.
+        that may have no area. It is twice the limit, so that the kernel's rounding cannot decide.
         """
         longest = 3.0 * self.extent * self.extent  # no face is longer than √3 times the extent
         return float(2.0 * np.sqrt(_degenerate_limit(longest, self.error)))
@@ -98,6 +98,8 @@ class PlanarityAccumulator:
         corners' tetrahedra.
         """
         narrow = np.flatnonzero(normals <= self.degenerate_limit)
+        # Six tetrahedra are the normal times the distance of the diagonals. Errors of the points
+        # change this by 2 errors at most; 8 leaves a margin.
         limit = normals * (8.0 * self.error + PLANAR_RTOL * np.sqrt(normals))
         limit[narrow] = np.inf  # they are classified later
         bent = volume[volume > limit]
@@ -207,6 +209,8 @@ def stack_planarity(stack: SurfaceStack) -> StackPlanarity:
         degenerate |= (degenerate_pieces > 0) & (degenerate_pieces == pieces)
     polygons = np.flatnonzero((sizes > 3) & ~is_quad)
     if len(polygons):
+        # A body may have corners that its faces do not account for: they shift those of later
+        # bodies.
         first_corner = segment_starts(stack.corner_counts) - segment_starts(sizes)[stack.first_face]
         begin = (segment_starts(sizes) + first_corner[face_owner])[polygons]
         row, corners = _tetrahedra(stack.corner_vertices, begin, sizes[polygons])

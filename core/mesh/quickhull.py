@@ -35,8 +35,8 @@ PAIRS_PER_BLOCK = 1 << 18
 
 
 def first_corners(grid: Array, least: float) -> list[int]:
-    """Return four points that span a volume; three or two if all are nearer than `least` to their
-    plane or line.
+    """Return the indices of four points that span a volume, the first three counter-clockwise from
+    outside; three or two if all are nearer than `least` to their plane or line. grid: (n, 3).
     """
     ends = np.concatenate([grid.argmin(axis=0), grid.argmax(axis=0)])
     apart = np.linalg.norm(grid[ends][:, None] - grid[ends], axis=2)

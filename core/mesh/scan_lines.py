@@ -32,8 +32,10 @@ PAIRS_PER_BLOCK = 1 << 16  # pairs of triangles and rows
 MIN_LINES = 576
 MAX_LINES = 2048
 LINES_PER_SQRT = 5.0
-MAX_PAIRS = 8192, 1.0  # pairs of triangles and rows of a body; and more for each of its triangles
-MAX_CROSSINGS = 16384, 0.5  # pairs of lines and triangles; likewise
+# Limits for a body, of t triangles: (pairs, more pairs for each t) of triangles and rows, and of
+# triangles and lines.
+MAX_PAIRS = 8192, 1.0
+MAX_CROSSINGS = 16384, 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,15 +57,16 @@ class LineGrids:
     @classmethod
     def over_boxes(cls, low: NDArray, high: NDArray, lines: NDArray[np.integer]) -> LineGrids:
         """Make grids of about `lines`, (b,), lines each over boxes, (b, 3)."""
-        axes = np.argsort(low - high, axis=1, kind="stable")
+        axes = np.argsort(low - high, axis=1, kind="stable")  # longest first
         body = np.arange(len(low))[:, None]
         extent = (high - low)[body, axes]
         center = ((low + high) / 2.0)[body, axes]
         width = extent[:, :2] + LINE_SLOPES * extent[:, 2:]
+        # A body without width in a direction has a row or column that is not empty.
         width = np.maximum(width, 1e-6 * width.max(axis=1, keepdims=True) + np.finfo(float).tiny)
         rows = np.clip(np.rint(np.sqrt(lines * width[:, 0] / width[:, 1])), 1, lines)
         columns = np.maximum(np.rint(lines / rows), 1)
-        # with those that the shift, and the slope of the columns, add
+        # One more row and column for the shift, and more columns for their slope.
         counts = np.array([rows, np.ceil(columns + COLUMN_SLOPE * rows)]).T + 1.0
         largest_rows, largest_columns = counts.max(axis=0).astype(np.intp).tolist()
         return cls(
@@ -232,7 +235,8 @@ def _rows_apart(work: Array, limit: tuple[int, float], faces: Index) -> Index:
     """Return the (b,) distances, in rows, between the scanned rows of bodies, so that the work
     stays within a limit.
     """
-    return np.maximum(np.ceil(work / (limit[0] + limit[1] * faces)), 1).astype(np.intp)
+    fixed, per_face = limit
+    return np.maximum(np.ceil(work / (fixed + per_face * faces)), 1).astype(np.intp)
 
 
 def _crossed_triangles(
@@ -287,8 +291,10 @@ def _cross_row(
     is_below: (3, k) mask of the corners with the row below them.
     """
     first, second, third = is_below
-    # The two edges at the corner that is alone on its side cross the row.
+    # The two edges at the corner that is alone on its side cross the row: at 2, 1 (True) or 0
+    # (False).
     lone = np.where(first == second, 2, first == third)
+    # Of three, exactly one is below; otherwise two are.
     is_lone_below = (first ^ second ^ third) & ~(first & second & third)
     total = len(corners) // 3
     lone_corner = triangle + total * lone

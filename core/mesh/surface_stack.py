@@ -160,7 +160,7 @@ class SurfaceStack(TriangleStack):
         face_counts = np.zeros(len(surfaces), np.intp)
         np.maximum.at(face_counts, of_triangle, triangle_faces + 1)
         np.maximum.at(face_counts, of_quad, quad_faces + 1)
-        # numbers go on from surface to surface
+        # The numbers go on from surface to surface.
         first_point = segment_starts(point_counts)
         first_face = segment_starts(face_counts)
         triangles += first_point[of_triangle][:, None]
@@ -214,7 +214,8 @@ class SurfaceStack(TriangleStack):
         edges = self.corner_edges
         fits = np.add.reduceat(sizes, self.first_face) == self.corner_counts
         fits &= np.minimum.reduceat(sizes, self.first_face) > 0
-        # the rings of the others are not known; their corners must not be taken for rings
+        # If the corners of a surface do not fit its faces, its rings are unknown: they are left
+        # out.
         if not fits.all():
             sizes = np.where(np.repeat(fits, self.face_counts), sizes, 0)
             known = np.repeat(fits, self.corner_counts)
@@ -239,10 +240,11 @@ class SurfaceStack(TriangleStack):
         single = np.add.reduceat(has_down ^ has_up, first_edge, dtype=np.intp)
         oriented = fits & (2 * pairs + single == self.corner_counts)
         wrong = (starts[down] != stops[up]) | (stops[down] != starts[up])
-        if wrong.any():  # edges that do not fit the vertices
+        if wrong.any():  # the two corners of an edge name different vertices
             oriented[self.point_owners[starts[down[wrong]]]] = False
         component, _ = connected_components(len(sizes), face[down], face[up])
-        last = np.maximum.reduceat(component, self.first_face)  # numbered by first face
+        # Components are numbered by their first faces, so those of a surface follow each other.
+        last = np.maximum.reduceat(component, self.first_face)
         is_open = oriented & (single > 0)
         sides = np.empty((2, 0), np.intp)
         if is_open.any():

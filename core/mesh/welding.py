@@ -31,7 +31,7 @@ from ..numerics import (
 # not across it.
 DIRECTION = 0.5477, 0.3163, 0.7746
 REACH_MARGIN = 1.01  # allows for the rounding of places along the direction, and of its length
-CELL_DIAGONAL = 3.5  # tolerances, two to a side: farther apart than any two points of one cell
+CELL_DIAGONAL = 3.5  # in tolerances, above 2 √3: a cell has sides of two
 WELD_LIMIT_RTOL = 1e-3  # relative to the smallest triangle at a vertex: larger gaps stay
 
 

@@ -106,8 +106,8 @@ def transform_by_horner(values: NDArray, order: int, linear: NDArray, offset: ND
 
 
 def multiply_by_linear_form(form: tuple[NDArray, ...], values: NDArray, order: int) -> Array:
-    """Return a functional times the linear form (t, a, b, c), one order shorter: empty if `order`
-    is 0.
+    """Return the (K', k) values of a functional, (K, k), times the linear form (t, a, b, c), (k,)
+    each, one order shorter than `order`: empty if that is 0.
     """
     if not order:
         return values[:0]
@@ -257,7 +257,9 @@ def are_singular(linear: NDArray) -> Mask:
 
 
 def absolute_moments(raw: NDArray, order: int) -> Array:
-    """Return (..., K) upper bounds of ∫ |x^p y^q z^r|; of odd highest order they are estimates."""
+    """Return (..., K) upper bounds of ∫ |x^p y^q z^r|; if `order` is odd, those of its degree are
+    estimates.
+    """
     bounds = np.abs(raw)
     # By degree: ∫ |x|^n, ∫ |y|^n or ∫ |z|^n, whichever is largest, bounds all of that degree.
     largest = [
@@ -266,7 +268,8 @@ def absolute_moments(raw: NDArray, order: int) -> Array:
         ].max(axis=-1)
         for n in range(order + 1)
     ]
-    for n in range(1, order + 1, 2):  # odd powers cancel
+    # The integrals of odd powers may cancel: Cauchy and Schwarz bound them by their neighbors.
+    for n in range(1, order + 1, 2):
         if n < order:
             largest[n] = np.sqrt(largest[n - 1]) * np.sqrt(largest[n + 1])
         elif n > 1:
@@ -291,7 +294,7 @@ def are_similarities(linear: NDArray) -> Mask:
 
 def anisotropy(linear: NDArray) -> Array:
     """Return (k,) bounds of the variation of (3, 3, k) maps' squared stretch, relative to its mean;
-    infinite for 0.
+    infinite for 0. They are Gershgorin's, for the eigenvalues of AᵀA.
     """
     columns = linear.transpose(1, 0, 2)
     a, b, c = [np.add.reduce(column * column) for column in columns]

@@ -209,6 +209,8 @@ def normalize(moments: Moments, by: str = "size") -> Moments:
         factor = body.total ** -(1.0 + n / dimension)
     bounds = []
     for error in (body.rounding_error, body.rounding_error + body.input_error):
+        # The error of the center changes the moments by `center_effect`; divisors with an error
+        # enlarge them by `stretch` at most.
         size = np.abs(body.raw) + error
         least_total = body.total - error[0]
         total_ratio = body.total / least_total
@@ -225,8 +227,8 @@ def normalize(moments: Moments, by: str = "size") -> Moments:
             stretch = total_ratio ** np.abs(n / 2.0 - 1.0) * trace_ratio ** (n / 2.0)
         else:
             stretch = total_ratio ** (1.0 + n / dimension)
-        own = stretch * (error + center_effect)
-        bounds.append(factor * (own + (stretch - 1.0 + (8.0 + 4.0 * n) * U) * size))
+        moment_error = stretch * (error + center_effect)
+        bounds.append(factor * (moment_error + (stretch - 1.0 + (8.0 + 4.0 * n) * U) * size))
     return Moments(
         body.raw * factor,
         np.zeros(3),

@@ -41,11 +41,13 @@ def sum_of_images(moments: Moments, matrices: ArrayLike) -> Moments:
         maps = linear[:, :, part]
         weight, weight_error, uneven = measure_scale_factors(moments.measure, maps)
         offset = origins[:, part] - center[:, None]
-        # The images of the reference point are rounded, and the body moves with them.
+        # The images of the reference point are rounded, and the body moves with them: by
+        # six roundings at most.
         stretch = np.abs(maps).sum(axis=1).max(axis=0)
         reach = np.abs(offset).max(axis=0)
         size = np.abs(offsets[:, part]).max(axis=0) + np.abs(center).max()
         tolerance = 6 * U * (size + stretch * np.abs(point).max())
+        # The sum of the images, six roundings for each linear form, and those of the weights.
         weight_error = weight_error + (len(matrices) + 6 * order + 8) * U * weight
         raw += np.add.reduce(
             transform_by_horner(moments.raw[:, None], order, maps, offset) * weight, axis=1

@@ -186,12 +186,12 @@ class Moments:
         """Return the bodies of a stack that an index selects; None turns a single body into a stack
         of one.
         """
-        raw = self.raw
-        about = self.about
-        rounding = self.rounding_error
-        inputs = self.input_error
         return unchecked_moments(
-            raw[which], about[which], self.measure, rounding[which], inputs[which]
+            self.raw[which],
+            self.about[which],
+            self.measure,
+            self.rounding_error[which],
+            self.input_error[which],
         )
 
     @property
@@ -212,9 +212,13 @@ class Moments:
         k = monomial_count(order)
         if k == self.raw.shape[-1]:
             return self
-        rounding = self.rounding_error[..., :k]
-        inputs = self.input_error[..., :k]
-        return unchecked_moments(self.raw[..., :k], self.about, self.measure, rounding, inputs)
+        return unchecked_moments(
+            self.raw[..., :k],
+            self.about,
+            self.measure,
+            self.rounding_error[..., :k],
+            self.input_error[..., :k],
+        )
 
     __array_ufunc__ = None  # a numpy number on the left multiplies the moments, not their exponents
 
@@ -306,8 +310,13 @@ def unchecked_moments(
     check.
     """
     moments = object.__new__(Moments)
-    names = "raw", "about", "measure", "rounding_error", "input_error"
-    moments.__dict__.update(zip(names, (raw, about, measure, rounding_error, input_error)))
+    moments.__dict__.update(
+        raw=raw,
+        about=about,
+        measure=measure,
+        rounding_error=rounding_error,
+        input_error=input_error,
+    )
     return moments
 
 
@@ -369,7 +378,8 @@ def image(moments: Moments, matrices: NDArray, center: NDArray | None = None) ->
         moments.measure, linear.reshape(-1, 3, 3).transpose(1, 2, 0).copy()
     )
     weight, weight_error, uneven = [factor.reshape(*lead, 1) for factor in factors]
-    # The images of the reference point are rounded, and the body moves with them.
+    # Bounds as in `images.sum_of_images`, for a sum of one. The images of the reference point are
+    # rounded, and the body moves with them.
     stretch = np.add.reduce(np.abs(linear), axis=-1).max(axis=-1, keepdims=True)
     reach = np.abs(offsets).max(axis=-1, keepdims=True) + np.abs(center).max(axis=-1, keepdims=True)
     tolerance = 6 * U * (reach + stretch * np.abs(about).max(axis=-1, keepdims=True))

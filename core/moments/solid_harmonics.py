@@ -37,7 +37,7 @@ def harmonic_moments(raw: NDArray, order: int) -> Multiplets:
             result[l + 2 * j, l] = with_negative_orders(half)
         if order - 2 * j >= 2:
             products = zip(product_indices(order - 2 * j), product_indices(order - 2 * j - 1))
-            # ∫ r² f, f two orders lower
+            # ∫ r² f for all f two orders lower: the rows of f x², f y² and f z² are added.
             raw = raw[np.array([twice[once] for twice, once in products])].sum(axis=0)
     return result
 

@@ -132,13 +132,14 @@ def first_occurrence(*columns: NDArray, slots: Integers | None = None) -> Index:
                 key = hash_uint64(key + column)
             slots = (key & np.uint64(size - 1)).view(np.intp)
         table = np.empty(size, rest.dtype)
-        # numpy keeps the last of equal slots, so the rows are written backward
+        # numpy keeps the last of equal slots: rows are written backward, so that the first one
+        # stays.
         table[slots[::-1]] = np.arange(len(rest) - 1, -1, -1, dtype=rest.dtype)
         kept = table.take(slots).astype(np.intp)
         differs = np.zeros(len(rest), bool)
         for column in bits:
             differs |= column != column.take(kept)
-        if len(rest) == len(first):
+        if len(rest) == len(first):  # the first round, in which `kept` are rows themselves
             first = kept
         else:
             first[rest] = rest[kept]

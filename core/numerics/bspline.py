@@ -135,6 +135,8 @@ class SplineSpace:
         values = np.ones((len(near), self.order, 1))
         for order in range(2, self.order + 1):
             before, after = self._adjacent_knots(near, order)
+            # Step `order` - 1 of point b is at the interval's end if it is one of the first b
+            # steps.
             t = np.where(b >= order - 1, high, low)[..., None]
             share = values * ((t - before[:, None]) / (after - before)[:, None])
             rest = values - share
@@ -186,8 +188,8 @@ class SplineSpace:
         return by_derivative + [np.zeros_like(lower[-1]) for _ in range(self.order, highest + 1)]
 
     def _adjacent_knots(self, near: NDArray, order: int) -> tuple[NDArray, NDArray]:
-        """Return the first and the last knot of the order - 1 functions, one order lower, that act
-        in a span.
+        """Return the first and the last knot, (..., order - 1), of the functions, one order lower
+        than `order`, that act in a span. near: (..., 2 self.order - 2) knots around the span.
         """
         return near[..., self.order - order : self.order - 1], near[
             ..., self.order - 1 : self.order + order - 2

@@ -40,7 +40,7 @@ def compensated_normals(a: NDArray, b: NDArray, c: NDArray) -> Array:
     """Return (3, k) (b-a) x (c-a) for corners (3, k), relatively accurate to about u however thin
     the triangles are.
     """
-    (u, ul), (v, vl) = two_sum(b, -a), two_sum(c, -a)
+    (u, ul), (v, vl) = two_sum(b, -a), two_sum(c, -a)  # the edges, and their rounding errors
     coordinates = []
     for y, z in ((1, 2), (2, 0), (0, 1)):
         (p, pl) = two_product(u[y], v[z])

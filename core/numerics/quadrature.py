@@ -43,7 +43,7 @@ def triangle_rule(n: int) -> tuple[Array, Array]:
     1 over a triangle.
 
     It has n² points, for n = 3 the seven of Radon (1948): the Gauss-Legendre rule across the
-    triangle times the Gauss- Jacobi rule towards its tip, for the weight 1 - u by which it narrows
+    triangle times the Gauss-Jacobi rule towards its tip, for the weight 1 - u by which it narrows
     (nodes by Golub and Welsch, 1969).
     """
     if n == 3:

@@ -114,7 +114,7 @@ def polar_rotation(matrices: NDArray) -> tuple[Array, Mask]:
     length = np.sqrt(np.add.reduce(linear * linear, axis=1, keepdims=True))
     columns = np.divide(linear, length, out=np.zeros_like(linear), where=length > 0.0)
     cosines = (np.abs(columns.transpose(0, 2, 1) @ columns) * OFF_DIAGONAL).max(axis=(1, 2))
-    # Columns at right angles are the factor; NaN is not.
+    # Unit columns at right angles are the factor already; columns with NaN or zeros are not.
     is_orthogonal = (cosines == 0.0) & (length > 0.0).all(axis=(1, 2))
     rest = np.flatnonzero(~is_orthogonal)
     if len(rest):

@@ -70,7 +70,9 @@ def _exponent(reach: float) -> int:
 
 @dataclass(frozen=True, eq=False)
 class _Block:
-    """A block of faces, (m, 3) or (m, 4). coordinates: (3, n) of the points; half_ulp: (3,)."""
+    """A block of faces, (m, 3) or (m, 4). coordinates: (3, n) of the points; half_ulp: (3,) bounds
+    of their errors.
+    """
 
     coordinates: NDArray
     faces: NDArray
@@ -169,6 +171,8 @@ class StreamIntegrator:
         check_size(4.0 * largest)
         if self.exponent is None:
             self.exponent = _exponent(largest)
+        # The piece reaches to 2^beyond scaled units. A moment multiplies order + 3 such lengths;
+        # four times as long ones allow for the sums.
         beyond = frexp(largest)[1] - self.exponent
         if (beyond + 2) * (self.order + 3) > MAX_EXPONENT:
             raise ValueError("about and reach needed")
@@ -199,13 +203,16 @@ class StreamIntegrator:
         degree = monomials(self.order).sum(axis=1)
         row, dimension = (0, 3) if of == Measure.VOLUME else (1, 2)
         factors = area_factors(self.order) / ((degree + 3.0) if of == Measure.VOLUME else 1.0)
+        # The sums of weights, of their rounding and of the input's effect, by `absolute_sums`.
         sizes = total.sizes[3 * row : 3 * row + 3]
         raw = (total.high[row] + total.low[row]) * factors
-        # ∫ |x^α| is at most weight reach^α / this
-        mean = 2.0 * ((degree + 3.0) if of == Measure.VOLUME else 1.0)
+        # ∫ |x^α| is at most weight reach^α / this.
+        divisor = 2.0 * ((degree + 3.0) if of == Measure.VOLUME else 1.0)
+        # 6 n + 8 for a coefficient, 2 n for its factors; 220 is more than the sums of a block
+        # round.
         rounding = U * (8.0 * degree + 228.0)
         error = (
-            (rounding * sizes[0] + sizes[1]) * (1.0 + 1e-9) / mean
+            (rounding * sizes[0] + sizes[1]) * (1.0 + 1e-9) / divisor
             + 8.0 * U * np.abs(raw)
             + UNDERFLOW_BOUND * total.faces
         )
@@ -232,6 +239,8 @@ class StreamIntegrator:
         for degree in range(1, self.order + 1):
             known = monomial_count(degree - 1)
             below = monomial_count(degree - 2)
+            # ∫ |x^β| over the surface is at most the volume that it sweeps, by the step; 0 is for
+            # monomials without the axis.
             lower = np.append(swept[below:known], 0.0) / np.linalg.norm(half_ulp)
             for axis, quotients in enumerate(quotient_indices(degree, count_of_degree(degree - 1))):
                 moved[known : monomial_count(degree)] += (
@@ -248,8 +257,10 @@ def extend_small_moments(
     counts: NDArray[np.integer],
     reach: NDArray,
 ) -> Moments:
-    """Return moments of n bodies, `volume` (n, 20), to a higher order; reach: (n, 3) from their
-    reference points.
+    """Return moments of n bodies, `volume` (n, 20), to a higher order.
+
+    triangles: of all bodies, sorted by body, `counts`, (n,), each. reach: (n, 3) of the points from
+    the reference points of `volume`.
     """
     known = volume.raw.shape[1]
     ends = np.cumsum(counts)

@@ -139,6 +139,7 @@ def absolute_sums(
     terms = FACES_PER_CHUNK * (lengths[:-1] * lengths[1:]).sum(axis=0)
     rounding = DETERMINANT_ROUNDING * terms
     step = np.linalg.norm(half_ulp)
+    # A doubled area is off by at most the errors of the normal's three components.
     double = terms if len(weights) == 1 else sizes[1] + 3.0 * rounding
     sides = (lengths[:-1] + lengths[1:]).sum(axis=0)
     added = step * FACES_PER_CHUNK * (sides + 2.0 * (len(lengths) - 1) * step)

@@ -26,6 +26,7 @@ def paired_corners(triangles: NDArray) -> list[NDArray] | None:
     second = triangles[1::2]
     if not len(second) or len(first) != len(second):
         return None
+    # The halves share the side of corners i and i - 1 of the first, j and j + 1 of the second.
     for i in range(3):
         for j in range(3):
             ends = ((i, j), (i - 1, (j + 1) % 3))

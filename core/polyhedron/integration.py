@@ -139,10 +139,10 @@ def polyhedron_moments(
     if not allow_open:
         stream = _summed(stream, boundary)
     if highest <= THIRD:
-        area_moments = area_order is not None and area_order >= min(order, 1)
         options = {
             "area": area_order is not None,
-            "area_moments": area_moments,
+            # The area alone, beside higher moments of the volume, needs no sums of monomials.
+            "area_moments": area_order is not None and area_order >= min(order, 1),
             "exact": exact and order == THIRD,
         }
         volume, area = _sum_to_third_order(
@@ -173,6 +173,7 @@ def _summed(stream: Iterable[Surface], boundary: BoundarySum) -> Iterator[Surfac
 
 
 def _as_surface(piece: Surface | NDArray) -> Surface:
+    """Return a piece as a surface; of (m, 3, 3) corners, each triangle has its own points."""
     if isinstance(piece, Surface):
         return piece
     corners = number_array("corners", piece, "m", 3, 3)
@@ -226,10 +227,10 @@ def volume_and_center(surface: Surface) -> tuple[float, Array]:
     middle = points.mean(axis=1)
     points = points - middle[:, None]  # the array may be the surface's own
     sums = np.zeros(4)
-    for start in range(0, len(surface.triangles), FACES_PER_BLOCK):
-        sums += _triangles(points, surface.triangles[start : start + FACES_PER_BLOCK])
-    for start in range(0, len(surface.quads), FACES_PER_BLOCK):
-        sums += _quads(points, surface.quads[start : start + FACES_PER_BLOCK])
+    for faces, sums_of in ((surface.triangles, _triangles), (surface.quads, _quads)):
+        for start in range(0, len(faces), FACES_PER_BLOCK):
+            sums += sums_of(points, faces[start : start + FACES_PER_BLOCK])
+    # A centroid is a first moment, sum / 24, by the volume, sum / 6.
     with np.errstate(divide="ignore", invalid="ignore"):
         return float(sums[0] / 6.0), middle + sums[1:] / (4.0 * sums[0])
 
@@ -241,6 +242,7 @@ def _triangles(points: Array, triangles: Integers) -> Array:
 
 
 def _quads(points: Array, quads: Integers) -> Array:
+    """Return the sums of `_triangles` for quads, cut as Blender draws them, in float64."""
     a, b, c, d = (points.take(corner, axis=1) for corner in quads.T)
     u = b - a
     v = d - a
@@ -259,7 +261,7 @@ def _quads(points: Array, quads: Integers) -> Array:
 
 
 def _sums(*parts: tuple[Array, Array]) -> Array:
-    """Return the (4,) sums of volumes, and of volumes times sums of corners, (3, k)."""
+    """Return the (4,) sums of (k,) volumes, and of volumes times (3, k) corners, over all parts."""
     return sum(
         [
             np.append(volumes.sum(), np.einsum("ij,j->i", corners, volumes))
@@ -278,6 +280,7 @@ def area_of_images(surface: Surface, linear: Array) -> Moments:
     triangles, _ = surface.all_triangles()
     a, b, c = (surface.points[triangles[:, i]].T.astype(np.float64) for i in range(3))
     first, second = b - a, c - a
+    # Below, plus and minus are the two products in each component of a normal, then of a cofactor.
     plus, minus = (np.roll(first, -i, axis=0) * np.roll(second, i, axis=0) for i in (1, -1))
     normals = plus - minus
     size = (np.abs(plus) + np.abs(minus)).sum(axis=1)
@@ -301,6 +304,8 @@ def area_of_images(surface: Surface, linear: Array) -> Moments:
         @ size
         / 2.0
     )
+    # Edges are off by twice the points' errors h, so a component u_j v_k - u_k v_j of a normal by
+    # 2 (|u_j| + |v_j|) h_k + 2 (|u_k| + |v_k|) h_j + 8 h_j h_k.
     h = surface.coordinate_error
     edges = np.abs(np.concatenate([first, second], axis=1)).sum(axis=1)
     moved = [

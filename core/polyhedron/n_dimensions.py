@@ -173,6 +173,7 @@ def _measure(
     enclosed: bool,
     allow_open: bool,
 ) -> SimplexMoments:
+    """Return `enclosed_moments` or `facet_moments`."""
     points, simplices = simplex_arrays(points, simplices)
     dimension = points.shape[1]
     check_order("order", order)
@@ -189,7 +190,7 @@ def _measure(
     reach = float(np.maximum(np.abs(high - center), np.abs(low - center)).max())
     exponent = int(np.frexp(reach)[1])  # the body is brought to size 1, which rounds nothing
 
-    measure = dimension if enclosed else dimension - 1
+    measure = dimension if enclosed else dimension - 1  # the exponent of length in moment 0
     extent = float((high / 2.0 - low / 2.0).max())
     if extent > 0.0 and int(np.frexp(extent)[1]) * measure < np.finfo(np.float64).minexp:
         raise MeasureError(OBJECT_SIZE, fault=TOO_SMALL)
@@ -216,7 +217,7 @@ def _measure(
     # Count the roundings of one product of coordinates: in each coordinate, product and sum of the
     # recursion, in the passes that only carry it on, in the minors on the way to the weight, and in
     # the sum over all simplices.
-    minors = sum(3 + size for size in range(1, dimension)) + 2 * dimension + 6
+    minors = sum(3 + rows for rows in range(1, dimension)) + 2 * dimension + 6
     steps = (
         degree * (dimension + 2)
         + dimension * dimension
@@ -225,6 +226,7 @@ def _measure(
         + len(blocks)
         + 4
     )
+    # 1 % allows for products of roundings, and for the rounding of the bound itself.
     error = 1.01 * steps * U * size + len(simplices) * UNDERFLOW
     factor = factorial_ratios(indices, measure)
     power = (exponent * (degree + measure)).astype(np.int32)
@@ -262,11 +264,12 @@ def _weights(corners: NDArray, edges: NDArray, enclosed: bool) -> tuple[Array, A
 
 
 def _normals(edges: NDArray) -> tuple[list[NDArray], list[NDArray]]:
-    """Return n components of the generalized cross products of n-1 edges, (n-1, n, k), and with all
-    terms positive.
+    """Return the n components, (k,) each, of the generalized cross products of n-1 edges, (n-1, n,
+    k), and the same with all terms positive.
     """
     dimension = len(edges) + 1
     ones = np.ones(edges.shape[2])
+    # The minors of the first rows, by their columns, grow by a row at a time (Laplace).
     minors: dict[tuple[int, ...], tuple[NDArray, NDArray]] = {(): (ones, ones)}
     for row, edge in enumerate(edges):
         grown: dict[tuple[int, ...], tuple[NDArray, NDArray]] = {}
@@ -286,6 +289,7 @@ def _normals(edges: NDArray) -> tuple[list[NDArray], list[NDArray]]:
 
 
 def _exponents_of_degree(dimension: int, degree: int) -> list[tuple[int, ...]]:
+    """Return all exponents of a degree, by descending first exponents."""
     if dimension == 1:
         return [(degree,)]
     return [
@@ -297,6 +301,7 @@ def _exponents_of_degree(dimension: int, degree: int) -> list[tuple[int, ...]]:
 
 @lru_cache
 def _positions(dimension: int, order: int) -> dict[tuple[int, ...], int]:
+    """Return the index of each of the `multi_indices`."""
     return {tuple(row): i for i, row in enumerate(multi_indices(dimension, order).tolist())}
 
 

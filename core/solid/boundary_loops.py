@@ -30,10 +30,8 @@ from ..numerics import (
     unique_pairs,
 )
 
-MAX_GAP_ASPECT = 1e-3  # width by length, at most, of a gap that counts as none
-MAX_END_PAIRS = (
-    4_000_000  # Limit of meeting ends; beyond, ends are joined in the order of their numbers.
-)
+MAX_GAP_ASPECT = 1e-3  # of the area of a gap, at most, by the square of its perimeter
+MAX_END_PAIRS = 4_000_000  # Pairs compared; if there are more, only ends next to each other are.
 
 
 def side_ends(triangles: Integers, sides: Integers) -> tuple[NDArray, NDArray]:
@@ -62,18 +60,19 @@ def join_sides(
     stop: Integers,
     directed: bool,
 ) -> tuple[Index, Index, Mask]:
-    """Return (k,) and (k,) sides joined in pairs at equal vertices, sharpest turns first, and True
-    for head to tail.
+    """Return (k,) and (k,) sides, of r, joined in pairs at equal vertices, and True for head to
+    tail. If several ends meet, those with the most similar directions are joined first.
 
-    begin, end: (r, 3) points of the sides; start, stop: (r,) their vertices. directed: True to join
-    sides head to tail only.
+    begin, end: (r, 3) positions of the sides' ends; start, stop: (r,) the vertices there. directed:
+    True to join sides head to tail only.
     """
+    # Ends are numbered too: end e, of 2r, is the start of side e, or for e ≥ r the stop of e - r.
     count = len(start)
-    vertex = np.concatenate([start, stop])  # of 2r ends: first all starts
+    vertex = np.concatenate([start, stop])
     direction = end - begin
     length = lengths(direction)
     direction = np.divide(direction, length, out=np.zeros_like(direction), where=length > 0.0)
-    direction = np.concatenate([direction, -direction])  # both seen from the vertex
+    direction = np.concatenate([direction, -direction])  # as seen from each end
     order = np.argsort(vertex, kind="stable")
     first = run_starts(vertex[order])
     degree = np.diff(first, append=len(order))
@@ -112,29 +111,32 @@ def _candidate_pairs(order: NDArray, first: NDArray, degree: NDArray) -> tuple[N
         return order[place], order[place + 1]
     row = np.repeat(np.arange(len(degree)), pairs)
     k = segment_ranges(pairs)
-    # The k-th pair (i, j), i < j, of the strict upper triangle read by columns.
+    # The k-th pair (i, j), i < j, of the strict upper triangle read by columns: the numbers are so
+    # small that the root is exact for the first pair of a column.
     j = ((1.0 + np.sqrt(1.0 + 8.0 * k)) / 2.0).astype(np.intp)
     i = k - j * (j - 1) // 2
     return order[first[row] + i], order[first[row] + j]
 
 
-def _greedy_matching(first_end: NDArray, second_end: NDArray, ends: int) -> tuple[NDArray, NDArray]:
-    """Match candidates, sorted best first, greedily: each round takes the candidates that are best
-    for both ends.
+def _greedy_matching(
+    first_end: NDArray, second_end: NDArray, end_count: int
+) -> tuple[NDArray, NDArray]:
+    """Return the matched pairs of ends, each end in one at most. The candidates are sorted best
+    first; each round takes those that are the best ones left for both of their ends.
     """
     left, right = [first_end[:0]], [second_end[:0]]
     while len(first_end):
         rank = np.arange(len(first_end))
         # The last write to an end wins, so the best candidate is written last.
-        best_as_first = np.full(ends, len(rank))
+        best_as_first = np.full(end_count, len(rank))
         best_as_first[first_end[::-1]] = rank[::-1]
-        best_as_second = np.full(ends, len(rank))
+        best_as_second = np.full(end_count, len(rank))
         best_as_second[second_end[::-1]] = rank[::-1]
         best = np.minimum(best_as_first, best_as_second)
         taken = (best[first_end] == rank) & (best[second_end] == rank)
         left.append(first_end[taken])
         right.append(second_end[taken])
-        used = np.zeros(ends, bool)
+        used = np.zeros(end_count, bool)
         used[first_end[taken]] = used[second_end[taken]] = True
         free = ~(used[first_end] | used[second_end])
         first_end = first_end[free]
@@ -164,6 +166,8 @@ class BoundaryLoops:
         """Return an (l,) mask of holes; loops narrower than `tolerance`, one number or (l,), are
         gaps.
         """
+        # Area by perimeter is half the width of a narrow loop. A gap is narrow also compared with
+        # its length: a hole smaller than the tolerance remains a hole.
         return self.cone_area > self.perimeter * np.minimum(
             tolerance, MAX_GAP_ASPECT * self.perimeter
         )
@@ -177,8 +181,10 @@ class BoundaryLoops:
 
 @dataclass(frozen=True, eq=False)
 class OwnedLoops:
-    """The loops of (r,) boundary sides, joined head to tail within bodies or components: the
-    `owner` of each loop.
+    """The l loops of r boundary sides, joined head to tail within their owners: bodies or
+    components.
+
+    `points`: (n, 3). `start`, `stop`: (r,) vertices of the sides. `owner`: (l,) of each loop.
     """
 
     points: Floats
@@ -194,18 +200,21 @@ class OwnedLoops:
         """
         begin = points[start].astype(np.float64)
         end = points[stop].astype(np.float64)
-        first = owner * len(points) + start
-        second = owner * len(points) + stop
-        loops = find_loops(begin, end, join_sides(begin, end, first, second, directed=True))
+        # Vertices of different owners are different, so that no loop has two owners.
+        start_key = owner * len(points) + start
+        stop_key = owner * len(points) + stop
+        loops = find_loops(begin, end, join_sides(begin, end, start_key, stop_key, directed=True))
         return cls(points, start, stop, loops, loops.of_each(owner))
 
     def cones(self) -> tuple[Floats, Integers, Index]:
         """Return the loops' (l, 3) centroids; (k, 3) triangles, the caps; and the (k,) sides that
         they stand on.
 
-        Vertices after those of `points` are the centroids. A loop of three sides is its own cap.
+        Vertices after those of `points` are the centroids.
         """
         loops = self.loops
+        # A loop of three sides is its own cap: with its first vertex as the apex, two of the three
+        # triangles collapse.
         centroids = len(self.points) + np.arange(len(self.owner))
         apex = np.where(np.bincount(loops.of_side) == 3, loops.of_each(self.start), centroids)
         triangles = np.stack([self.stop, self.start, apex[loops.of_side]], axis=1)
@@ -213,16 +222,18 @@ class OwnedLoops:
         return loops.centroid.astype(self.points.dtype), triangles[kept], kept
 
     def count_caps(self, tolerance: Array, counted: Mask) -> Array:
-        """Return (o, 3) flat caps, curved caps, and their area, of owners with these tolerances
-        that are `counted`.
+        """Return (o, 3) by owner: the number of flat caps, that of curved ones, and the area of
+        all.
+
+        tolerance: (o,) lengths. counted: (o,) mask; the numbers of other owners are 0.
         """
         loops = self.loops
-        within = tolerance[self.owner]
-        is_flat = loops.out_of_plane <= within
-        is_hole = loops.has_area(within) & counted[self.owner]
+        tolerance_of_loop = tolerance[self.owner]
+        is_flat = loops.out_of_plane <= tolerance_of_loop
+        is_hole = loops.has_area(tolerance_of_loop) & counted[self.owner]
         columns = is_flat, ~is_flat, np.where(is_flat, loops.planar_area, loops.cone_area)
-        counts = [np.bincount(self.owner, column * is_hole, len(counted)) for column in columns]
-        return np.stack(counts, axis=1, dtype=np.float64)
+        sums = [np.bincount(self.owner, column * is_hole, len(counted)) for column in columns]
+        return np.stack(sums, axis=1, dtype=np.float64)
 
 
 def has_distinct_vertices(triangles: Integers) -> Mask:
@@ -238,27 +249,27 @@ def find_loops(begin: Array, end: Array, links: tuple[NDArray, NDArray, NDArray]
     measure the loops.
     """
     left, right, _ = links
-    of_side, number = connected_components(len(begin), left, right)
-    joints = np.bincount(np.concatenate([left, right]), minlength=len(begin))
-    complete = np.bincount(of_side, joints != 2) == 0
-    origin = np.empty((number, 3))
-    # about the loop's first vertex: a coordinate that all share stays exact
+    of_side, loop_count = connected_components(len(begin), left, right)
+    joint_count = np.bincount(np.concatenate([left, right]), minlength=len(begin))
+    complete = np.bincount(of_side, joint_count != 2) == 0
+    origin = np.empty((loop_count, 3))
+    # Positions are about the loop's first vertex: a coordinate that all share stays exact.
     origin[of_side[::-1]] = begin[::-1]
-    a, b = begin - origin[of_side], end - origin[of_side]
-    length = lengths(b - a)[:, 0]
+    start_offset, end_offset = begin - origin[of_side], end - origin[of_side]
+    length = lengths(end_offset - start_offset)[:, 0]
     perimeter = np.asarray(np.bincount(of_side, length), np.float64)
-    middle = (a + b) * (0.5 * length)[:, None]
+    weighted_middle = (start_offset + end_offset) * (0.5 * length)[:, None]
     divisor = np.where(perimeter > 0.0, perimeter, 1.0)
-    center = np.array([np.bincount(of_side, middle[:, k]) / divisor for k in range(3)]).T
-    a -= center[of_side]
-    b -= center[of_side]
-    cone = cross_rows(a, b) / 2.0  # area vectors of the cone's triangles
+    center = np.array([np.bincount(of_side, weighted_middle[:, k]) / divisor for k in range(3)]).T
+    start_offset -= center[of_side]
+    end_offset -= center[of_side]
+    cone = cross_rows(start_offset, end_offset) / 2.0  # area vectors of the cone's triangles
     area = np.array([np.bincount(of_side, cone[:, k]) for k in range(3)]).T
     planar_area = lengths(area)[:, 0]
     with np.errstate(divide="ignore", invalid="ignore"):
         normal = area / planar_area[:, None]
-        height = np.zeros(number)
-        np.maximum.at(height, of_side, np.abs(np.einsum("ij,ij->i", normal[of_side], a)))
+        height = np.zeros(loop_count)
+        np.maximum.at(height, of_side, np.abs(np.einsum("ij,ij->i", normal[of_side], start_offset)))
     height[~np.isfinite(height)] = np.inf
     return BoundaryLoops(
         of_side,

@@ -61,19 +61,19 @@ def check_surface(surface: mesh.Surface) -> CheckedSurface:
     is_used = _used_vertices(faces, total)
     if not is_used.all():
         vertices = np.flatnonzero(is_used)
-        number = np.cumsum(is_used) - 1
+        new_number = np.cumsum(is_used) - 1
         ring = surface.corner_vertices
         surface = replace(
             surface,
             points=surface.points[is_used],
-            triangles=number[surface.triangles],
-            quads=number[surface.quads],
-            corner_vertices=None if ring is None else number[ring],
+            triangles=new_number[surface.triangles],
+            quads=new_number[surface.quads],
+            corner_vertices=None if ring is None else new_number[ring],
         )
     low, high = surface.box
     with np.errstate(invalid="ignore", over="ignore"):
         size = float(np.linalg.norm(high - low))
-    if not np.isfinite(size):
+    if not np.isfinite(size):  # by finite but huge coordinates, too: the next check refuses these
         misplaced = np.flatnonzero(~np.isfinite(surface.points).all(axis=1))
         if len(misplaced):
             elements = misplaced if vertices is None else vertices[misplaced]
@@ -102,8 +102,8 @@ def _used_vertices(faces: list[Integers], total: int) -> Mask:
 
 
 def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> GivenIntegrals:
-    """Integrate over the given faces, areas to order 3 of a shell, and test in parallel if edges
-    prove closedness.
+    """Integrate over the given faces, areas to order 3 of a shell, and meanwhile test if the
+    edges prove the surface closed.
     """
     surface = checked.surface
     accumulator = mesh.PlanarityAccumulator(surface, checked.error)
@@ -136,7 +136,7 @@ def prove_closed(surface: mesh.Surface) -> repaired_mesh.RepairedMesh | None:
     component, component_count = connected_components(int(sides.max()) + 1, *sides)
     triangles = surface.triangles[:0]
     face = component[:0]
-    if component_count > 1:
+    if component_count > 1:  # only components are compared triangle by triangle
         triangles, face = surface.all_triangles()
     return repaired_mesh.RepairedMesh(
         surface.points,
@@ -155,6 +155,7 @@ def _closed_side_faces(surface: mesh.Surface) -> NDArray[np.int32] | None:
     """Return the (2, e) mesh faces beside each edge; None if not proven closed and oriented."""
     if surface.corner_edges is not None:
         return mesh.closed_side_faces(surface)
+    # Without the mesh's edges, rows must be mesh faces, with the same number of corners each.
     if surface.triangle_faces is not None or surface.quad_faces is not None:
         return None
     if len(surface.triangles) and len(surface.quads):

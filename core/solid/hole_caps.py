@@ -45,7 +45,7 @@ FLAT_RTOL = 1e-9  # Relative to the area: allowed shortfall of the sum of a flat
 NO_LINKS = NO_INDICES, NO_INDICES
 
 
-def find_t_junctions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
+def find_t_junctions(mesh: RepairedMesh) -> RepairedMesh:
     """Find the boundary loops without area, across which the surface closes in space."""
     side = mesh.state.edges.boundary_sides()
     start, stop = boundary_loops.side_ends(mesh.triangles, side)
@@ -53,7 +53,7 @@ def find_t_junctions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     end = mesh.points[stop].astype(np.float64)
     links = boundary_loops.join_sides(begin, end, start, stop, directed=False)
     loops = boundary_loops.find_loops(begin, end, links)
-    is_gap = loops.complete & ~loops.has_area(tolerance)
+    is_gap = loops.complete & ~loops.has_area(mesh.state.tolerance)
     at_gap = is_gap[loops.of_side]
     left, right, follows = links
     in_gap = at_gap[left]
@@ -68,7 +68,7 @@ def find_t_junctions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     return mesh.with_state(gaps=gaps)
 
 
-def orient_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
+def orient_faces(mesh: RepairedMesh) -> RepairedMesh:
     """Find the faces of each part to turn so that all agree, and group parts into components."""
     edges = mesh.state.edges
     gaps = mesh.state.gaps
@@ -77,18 +77,19 @@ def orient_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     walls = wall_links(mesh.points, edges, mesh.triangles, mesh.face)
     first, second = (np.concatenate(sides) for sides in zip(pairs, walls))
     misoriented = edges.upward[first] == edges.upward[second]
-    a = np.concatenate([first, gaps.first]) // 3
-    b = np.concatenate([second, gaps.second]) // 3
+    # Triangles that are joined: across an edge, at a wall, or across a gap.
+    left = np.concatenate([first, gaps.first]) // 3
+    right = np.concatenate([second, gaps.second]) // 3
     disagree = np.concatenate([misoriented, gaps.misoriented])
     area = np.zeros(count)
-    if disagree.any():
+    if disagree.any():  # only then areas decide
         area = np.linalg.norm(normals(mesh.points, mesh.triangles), axis=1)
-    flipped, twisted = consistent_orientation(count, a, b, disagree, area)
+    flipped, twisted = consistent_orientation(count, left, right, disagree, area)
     component, number = group_components(
-        edges, *connected_components(count, a, b), _edges_along(mesh)
+        edges, *connected_components(count, left, right), _edges_along(mesh)
     )
-    is_open = np.zeros(number, bool)
-    is_open[component[twisted]] = True
+    is_one_sided = np.zeros(number, bool)
+    is_one_sided[component[twisted]] = True
     findings = _without_walls(mesh, np.concatenate(walls))
     mesh = mesh.with_report(components=number)
     if misoriented.any():
@@ -104,14 +105,14 @@ def orient_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
         flipped=flipped,
         component=component,
         number=number,
-        open=is_open,
+        open=is_one_sided,
         caps=np.zeros((number, 3)),
-    ).with_state(one_sided=is_open)
+    ).with_state(one_sided=is_one_sided)
 
 
 def _without_walls(mesh: RepairedMesh, sides: Integers) -> tuple[Finding, ...]:
-    """Return the findings without counting copies of faces that are walls of two bodies. sides: the
-    sides at walls.
+    """Return the findings without the copies of faces that are walls of two bodies; a finding about
+    these alone is left out. sides: the sides at walls.
     """
     walls = np.unique(mesh.face[sides // 3])
     findings = []
@@ -124,7 +125,7 @@ def _without_walls(mesh: RepairedMesh, sides: Integers) -> tuple[Finding, ...]:
     return tuple(findings)
 
 
-def find_unclosable_components(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
+def find_unclosable_components(mesh: RepairedMesh) -> RepairedMesh:
     """Find the components that no caps can close, and the loops that remain at edges of three faces
     or more.
     """
@@ -134,15 +135,16 @@ def find_unclosable_components(mesh: RepairedMesh, tolerance: float) -> Repaired
         key = mesh.component.repeat(3) * len(mesh.points) + mesh.triangles.ravel()
         edges = find_edges(np.unique(key, return_inverse=True)[1].reshape(-1, 3))
     signed_count = edges.signed_use_count(mesh.flipped)
+    # Caps stand on edges of one face only; edges of several that do not cancel stay open.
     is_unbalanced = (signed_count != 0) & (edges.count > 1)
     unclosable = np.zeros(mesh.number, bool)
     unclosable[mesh.component[edges.first[is_unbalanced] // 3]] = True
-    folded = _find_folded_loops(mesh, edges, signed_count, unclosable & ~mesh.open, tolerance)
+    folded = _find_folded_loops(mesh, edges, signed_count, unclosable & ~mesh.open)
     is_open = mesh.open | (unclosable & ~folded.components)
     return copy_with(mesh, open=is_open).with_state(component_edges=edges, folded=folded)
 
 
-def close_gaps(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
+def close_gaps(mesh: RepairedMesh) -> RepairedMesh:
     """Fill the gaps without area, and report the remaining boundary."""
     edges = mesh.state.edges
     gaps = mesh.state.gaps
@@ -153,9 +155,9 @@ def close_gaps(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
 
     boundary = mesh.state.component_edges.boundary_sides()
     boundary = boundary[~mesh.open[mesh.component[boundary // 3]] & ~is_folded[boundary]]
-    loop = np.full(len(is_folded), -1)
-    loop[gaps.sides] = gaps.loop
-    loop = loop[boundary]
+    gap_of_side = np.full(len(is_folded), -1)
+    gap_of_side[gaps.sides] = gaps.loop
+    loop = gap_of_side[boundary]
     is_gap = loop >= 0
     start, stop = mesh.oriented_ends(boundary[is_gap])
     apex = np.empty(gaps.number, np.intp)
@@ -176,11 +178,13 @@ def _report_boundary(mesh: RepairedMesh, is_folded: Mask) -> RepairedMesh:
     gaps = mesh.state.gaps
     given = mesh.state.given
     open_gaps = np.unique(gaps.loop[~is_folded[gaps.sides]])
-    number = mesh.state.folded.number + len(open_gaps)
-    if number:
+    gap_count = mesh.state.folded.number + len(open_gaps)
+    if gap_count:
         sides = np.concatenate([gaps.sides, np.flatnonzero(is_folded)])
         mesh = mesh.with_findings(
-            finding(T_JUNCTIONS, boundary_loops.distinct_vertex_pairs(given, sides), count=number)
+            finding(
+                T_JUNCTIONS, boundary_loops.distinct_vertex_pairs(given, sides), count=gap_count
+            )
         )
     boundary = edges.first[(edges.count == 1) & ~_edges_along(mesh)]
     boundary = boundary[~is_folded[boundary]]
@@ -190,7 +194,7 @@ def _report_boundary(mesh: RepairedMesh, is_folded: Mask) -> RepairedMesh:
     return mesh.with_report(boundary_edges=len(boundary), elements={"boundary_edges": pairs})
 
 
-def cap_holes(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
+def cap_holes(mesh: RepairedMesh) -> RepairedMesh:
     """Cap the boundary loops that have an area, each by the cone to its centroid."""
     side = mesh.state.uncapped_sides
     if not len(side):
@@ -204,13 +208,13 @@ def cap_holes(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
         mesh,
         points=np.concatenate([mesh.points, apexes]),
         open=is_open,
-        caps=holes.count_caps(np.full(mesh.number, tolerance), ~is_open),
+        caps=holes.count_caps(np.full(mesh.number, mesh.state.tolerance), ~is_open),
         capped_edges=boundary_loops.vertex_pairs(mesh.state.given, side),
         capped_component=component,
     ).with_caps(caps, side[kept] // 3)
 
 
-def turn_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
+def turn_faces(mesh: RepairedMesh) -> RepairedMesh:
     """Turn the disagreeing faces. This changes the numbers of sides."""
     if not mesh.flipped.any():
         return mesh
@@ -219,22 +223,25 @@ def turn_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     )
 
 
-def report_closedness(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
+def report_closedness(mesh: RepairedMesh) -> RepairedMesh:
     """Report the components that cannot be closed, with the reasons."""
     elements = mesh.report.defective_elements
     closed = not (mesh.open.any() or mesh.caps.any())
     one_sided_count = int(np.count_nonzero(mesh.state.one_sided))
     open_count = int(np.count_nonzero(mesh.open)) - one_sided_count
-    total = mesh.number
     if one_sided_count:
-        edges = elements.inconsistent_edges
         mesh = mesh.with_findings(
-            finding(ONE_SIDED_COMPONENTS, edges, count=one_sided_count, total=total)
+            finding(
+                ONE_SIDED_COMPONENTS,
+                elements.inconsistent_edges,
+                count=one_sided_count,
+                total=mesh.number,
+            )
         )
     if open_count:
         edges = np.concatenate([elements.non_manifold_edges, elements.boundary_edges])
         mesh = mesh.with_findings(
-            finding(NON_MANIFOLD_COMPONENTS, edges, count=open_count, total=total)
+            finding(NON_MANIFOLD_COMPONENTS, edges, count=open_count, total=mesh.number)
         )
     return mesh.with_report(closed=closed)
 
@@ -252,10 +259,9 @@ def _find_folded_loops(
     edges: Edges,
     signed_count: Array,
     unclosable: Mask,
-    tolerance: float,
 ) -> FoldedLoops:
-    """Find components (of `unclosable`) whose remaining loops have no area, such as outlines that
-    turn back.
+    """Return the components, among the `unclosable`, (c,), with remaining loops that all lack area,
+    such as outlines that turn back; and these loops.
 
     signed_count: (e,) upward minus downward sides of each edge.
     """
@@ -265,11 +271,13 @@ def _find_folded_loops(
     if not len(side):
         return FoldedLoops(unclosable, side, np.empty((0, 3), np.intp), 0)
     start, stop = boundary_loops.side_ends(mesh.triangles, side)
+    # If an edge has more upward sides than downward ones, upward copies of it remain, else
+    # downward.
     reversed_side = edges.upward[side] != (signed_count[edge] > 0.0)
     start, stop = np.where(reversed_side, stop, start), np.where(reversed_side, start, stop)
     component = mesh.component[side // 3]
     loops = boundary_loops.OwnedLoops.of_sides(mesh.points, start, stop, component).loops
-    is_hole = ~loops.complete | loops.has_area(tolerance)
+    is_hole = ~loops.complete | loops.has_area(mesh.state.tolerance)
     closes = unclosable.copy()
     closes[component[is_hole[loops.of_side]]] = False
     caps = np.stack([stop, start, loops.of_each(start)[loops.of_side]], axis=1)
@@ -314,14 +322,16 @@ def wall_links(
     )
     border = _bodies_beside_layers(edges, border, part)
     links = np.concatenate([layers, border[:, [0, 2]], border[:, [1, 3]]])
-    return (links[:, 0], links[:, 1]) if len(border) else (layers[:0, 0], layers[:0, 1])
+    # Layers that no border joins to a body stay apart.
+    return (links[:, 0], links[:, 1]) if len(border) else NO_LINKS
 
 
 def _bodies_beside_layers(edges: Edges, border: Index, part: Index) -> Index:
     """Return the (b, 4) sides at the borders of walls whose layers are decided: the first body and
     the other, the first body's layer and the other's.
 
-    border: (k, 4) sides of both bodies and both layers, in any order. part: (t,) connected parts.
+    border: (k, 4) sides: the bodies in columns 0 and 1, the layers in 2 and 3, both in any order;
+    overwritten. part: (t,) connected parts.
     """
     # A column keeps its body and its layer along the whole border.
     for columns in np.array([[0, 1], [2, 3]]):
@@ -339,6 +349,7 @@ def _bodies_beside_layers(edges: Edges, border: Index, part: Index) -> Index:
     border, wall = border[is_decided], wall[is_decided]
     up = edges.upward[border]
     agrees = (up[:, :2, None] != up[:, None, 2:]).astype(float)  # each body with each layer
+    # Edges for the first body with the first layer, less those for the first body with the other.
     straight = agrees[:, 0, 0] + agrees[:, 1, 1] - agrees[:, 0, 1] - agrees[:, 1, 0]
     swap = sums_by_index(wall, straight)[wall] < 0.0
     border[swap] = border[swap][:, [0, 1, 3, 2]]
@@ -352,7 +363,7 @@ def _layer_links(edges: Edges, within: Index, wall: Index) -> Index:
     agrees. within: (e, 4) sides on edges between two faces of a wall, by layers; wall: (t,) as of
     `_layers`.
     """
-    # Corners of one face, then the other, twice.
+    # Columns: the first layer of both faces of the wall, then the other layer, faces in one order.
     crossed = wall[within[:, 1] // 3] != wall[within[:, 3] // 3]
     within = np.where(crossed[:, None], within[:, [0, 1, 3, 2]], within)
     up = edges.upward[within]
@@ -377,6 +388,7 @@ def _layers(
     faces.
     """
     group = same_vertices_groups(triangles, face)
+    # 0 for faces without copies, 1 for the first face of a group, 2 for its copies.
     layer = weld_open_parts.is_duplicated(group, face).astype(np.intp) + (group != face)
     vector = normals(points, triangles)
     number = int(piece.max()) + 1
@@ -389,13 +401,16 @@ def _layers(
     border = np.zeros(number, np.uint64)
     np.add.at(border, piece[crowded // 3], hash_uint64(edges.of_side[crowded].astype(np.uint64)))
     candidates = np.flatnonzero(is_flat & has_no_layer & (border != 0))
-    _, kind, counts = np.unique(border[candidates], return_inverse=True, return_counts=True)
-    is_pair = counts[kind] == 2
-    candidates, kind = candidates[is_pair], kind[is_pair]
-    first, other = candidates[np.argsort(kind).reshape(-1, 2)].T
+    _, key, counts = np.unique(border[candidates], return_inverse=True, return_counts=True)
+    is_pair = counts[key] == 2
+    candidates, key = candidates[is_pair], key[is_pair]
+    first, second = candidates[np.argsort(key).reshape(-1, 2)].T
     piece_layer = np.zeros(number, np.intp)
     partner = np.arange(number)
-    piece_layer[first], piece_layer[other], partner[other] = 1, 2, first
+    piece_layer[first] = 1
+    piece_layer[second] = 2
+    partner[second] = first
     by_piece = piece_layer[piece] > 0
+    # Walls of copied faces have the number of the first face; walls of pieces come after these.
     piece_wall = int(face.max()) + 1 + partner[piece]
     return np.where(by_piece, piece_layer[piece], layer), np.where(by_piece, piece_wall, group)

@@ -56,7 +56,7 @@ MAX_STACKED_TRIANGLES = 100_000  # surfaces measured together, each of a few hun
 MAX_WELDED_SHARE = (
     0.1  # Share of the volume: a weld that may change more closes no gap left by rounding.
 )
-STEPS: tuple[Callable[[RepairedMesh, float], RepairedMesh], ...] = (
+STEPS: tuple[Callable[[RepairedMesh], RepairedMesh], ...] = (
     weld_patches,
     weld_equal_positions,  # in parts with odd edges: one face, or three
     weld_near_positions,  # along the edges that are then still odd
@@ -162,6 +162,7 @@ class SolidStack:
         return self._moments(1)
 
     def _moments(self, which: int) -> Moments:
+        """Return the stacked moments of the volumes, `which` 0, or of the areas, 1."""
         none = nothing(KNOWN_ORDER, None)[which]
         return stack_moments(
             [
@@ -177,17 +178,18 @@ def measure_alone(surface: Surface, shell: bool = False, threads: int = 1) -> So
     given = integrate_and_prove(checked, shell, threads)
     mesh = given.proven or repair_surface(checked.surface, checked.tolerance)
     solid = _measure_repaired(checked, given, mesh, shell, threads)
-    moved = mesh.max_displacement * solid.area.total
-    if moved and moved > MAX_WELDED_SHARE * abs(solid.oriented.volume.total):
+    # The weld changes the volume by less than this.
+    swept_volume = mesh.max_displacement * solid.area.total
+    if swept_volume and swept_volume > MAX_WELDED_SHARE * abs(solid.oriented.volume.total):
         mesh = repair_surface(checked.surface, checked.tolerance, weld_near=False)
         unwelded = _measure_repaired(checked, given, mesh, shell, threads)
-        return solid if unwelded.method is Procedure.OPEN else unwelded
+        return solid if unwelded.method is Procedure.OPEN else unwelded  # the weld closed it
     return solid
 
 
 @dataclass(frozen=True)
 class _Known:
-    """Surfaces that equal others of the same content."""
+    """A key of the cache: surfaces, equal to others with the same content."""
 
     content: tuple
     surfaces: Sequence[Surface] = field(compare=False)
@@ -240,8 +242,8 @@ def repair_surface(surface: Surface, tolerance: float, weld_near: bool = True) -
     tolerance: positions nearer than this (unit) count as equal at open edges, and loops narrower
     than this have no area.
     """
-    mesh = split_into_triangles(surface)
+    mesh = split_into_triangles(surface, tolerance)
     for step in STEPS:
         if len(mesh.triangles) and (weld_near or step is not weld_near_positions):
-            mesh = step(mesh, tolerance)
+            mesh = step(mesh)
     return copy_with(mesh, state=UNKNOWN)

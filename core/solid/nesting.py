@@ -11,6 +11,7 @@ tolerance is no crossing.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
@@ -33,18 +34,22 @@ MAX_COMPONENT_PAIRS = 100_000
 # Points under the skin of a component of few faces, tested for being surrounded twice.
 MAX_OVERLAP_SAMPLES = 4096
 FIRST_SAMPLES = 8  # The first of so many samples decides for most pairs that intersect.
-# points under the skin for one pair: at most, at least; and for all pairs together
-SAMPLES_PER_PAIR = (
-    256,
-    8,
-    50_000,
-)
-# Limits, as above, of the triangles with edges tested for reaching out.
-BREAKTHROUGH_TRIANGLES = (
-    4096,
-    8,
-    20_000,
-)
+
+
+class _Share(NamedTuple):
+    """Limits of the work for one pair, or component, and for all of them together."""
+
+    most: int
+    least: int
+    together: int
+
+    def for_each(self, count: int) -> int:
+        """Return the share of each of `count`."""
+        return max(self.least, min(self.together // count, self.most))
+
+
+POINTS_UNDER_SKIN = _Share(256, 8, 50_000)
+BREAKTHROUGH_TRIANGLES = _Share(4096, 8, 20_000)  # with edges tested for reaching out
 MAX_STEPS_PER_EDGE = 16
 
 
@@ -102,6 +107,7 @@ def classify_pairs(
         points, components, tree, small, large, tolerance
     )
     is_inside, is_outside = inside_count > 0, outside_count > 0
+    # The larger one contains no more than the smaller one: they are copies.
     is_same = is_inside & ~is_outside & (size[large] - size[small] <= 1e-9 * size[large])
     intersects = (is_inside & is_outside) | is_same
     rest = ~intersects  # their edges decide
@@ -128,26 +134,27 @@ def _breakthrough(components: SortedComponents, tree: Bvh, pairs: Index, toleran
     depth = np.full(len(pairs), tolerance)
     if not len(pairs):
         return depth
-    most, least, together = BREAKTHROUGH_TRIANGLES
-    share = max(together // len(pairs), least)
+    share = BREAKTHROUGH_TRIANGLES.for_each(len(pairs))
     for (component, other), reaches_inside in ((pairs.T, False), (pairs.T[::-1], True)):
-        size = components.start[component + 1] - components.start[component]
-        number = np.minimum(size, min(share, most))
-        pair = np.repeat(np.arange(len(pairs)), number)
-        # `number` triangles, spread evenly over all
-        step = segment_ranges(number) * size[pair] // number[pair]
-        triangle = components.start[component][pair] + step
+        triangle_counts = components.start[component + 1] - components.start[component]
+        # By pair, as `component` is.
+        chosen_counts = np.minimum(triangle_counts, share)
+        pair = np.repeat(np.arange(len(pairs)), chosen_counts)
+        # The chosen triangles are spread evenly over all of the component.
+        k_of_triangle = segment_ranges(chosen_counts) * triangle_counts[pair] // chosen_counts[pair]
+        triangle = components.start[component][pair] + k_of_triangle
         corners = [tree.vertex_columns[:, vertex].T for vertex in components.triangles[triangle].T]
-        # few triangles may be long
-        parts = int(np.clip(together // len(pair), 1, MAX_STEPS_PER_EDGE))
+        # A few triangles may have long edges: the fewer, the more points on each.
+        steps = BREAKTHROUGH_TRIANGLES.together // len(pair)
+        points_per_edge = int(np.clip(steps, 1, MAX_STEPS_PER_EDGE))
         place = np.concatenate(
             [
-                corners[i] + k / parts * (corners[i - 1] - corners[i])
+                corners[i] + k / points_per_edge * (corners[i - 1] - corners[i])
                 for i in range(3)
-                for k in range(parts)
+                for k in range(points_per_edge)
             ]
         )
-        pair = np.tile(pair, 3 * parts)
+        pair = np.tile(pair, 3 * points_per_edge)
         winding, sure = tree.winding_numbers(place, other[pair], 0.0)
         reaches = np.flatnonzero(sure & ((winding != 0) == reaches_inside))
         distances = tree.distances(place[reaches], other[pair[reaches]])
@@ -165,6 +172,9 @@ def surfaces_intersect(
 ) -> bool:
     """Return whether surfaces are found to go through each other or themselves by over
     `tolerance`.
+
+    component: (t,) of each triangle, ascending. pairs: (k, 2) components, the same twice for a
+    surface with itself. vertex: (n,) numbers; triangles with a common number are not compared.
     """
     surfaces = sort_components(points, triangles, component, int(component[-1]) + 1)
     tree = Bvh(points, surfaces, np.ones(len(surfaces.volume), bool))
@@ -184,20 +194,20 @@ def self_overlaps(
     if not len(chosen):
         return False
     tree = Bvh(points, components, candidates)
-    size = (components.start[1:] - components.start[:-1])[chosen]
-    number = np.clip(
-        SAMPLES_PER_PAIR[2] // len(chosen),
-        SAMPLES_PER_PAIR[1],
-        np.maximum(size, MAX_OVERLAP_SAMPLES),
+    triangle_counts = (components.start[1:] - components.start[:-1])[chosen]
+    sample_counts = np.clip(
+        POINTS_UNDER_SKIN.together // len(chosen),
+        POINTS_UNDER_SKIN.least,
+        np.maximum(triangle_counts, MAX_OVERLAP_SAMPLES),
     )
-    component = np.repeat(chosen, number)
+    component = np.repeat(chosen, sample_counts)
     place = _interior_samples(
         points,
         components,
         tree,
         component,
-        segment_ranges(number),
-        np.repeat(number, number),
+        segment_ranges(sample_counts),
+        np.repeat(sample_counts, sample_counts),
         tolerance,
     )
     winding, sure = tree.winding_numbers(place, component, tolerance)
@@ -227,6 +237,7 @@ def orient_nested_components(
         at_level = np.flatnonzero(candidates & (depth == level))
         if level:
             parents = parent[at_level]
+            # The contents of a turned component turn with it if they faced the other way.
             follows = sign[parents] != given[parents]
             follows &= given[at_level] == -given[parents]
             sign[at_level[follows]] *= -1.0
@@ -279,13 +290,13 @@ def _classify_by_samples(
     """Count, by pair, decidable points under the smaller component's skin inside and outside the
     larger one.
     """
-    most, least, together = SAMPLES_PER_PAIR
-    number = max(least, min(together // len(small), most))
+    number = POINTS_UNDER_SKIN.for_each(len(small))
     samples = np.arange(number)
     counts = np.zeros((2, len(small)), np.intp)
-    # the larger count decides
+    # A pair of opposite orientation may be a cavity that breaks through its wall: whether most of
+    # it is inside, only all samples say.
     needs_all = components.volume[small] * components.volume[large] < 0.0
-    is_first = samples % FIRST_SAMPLES == 0 if number > least else samples >= 0
+    is_first = samples % FIRST_SAMPLES == 0 if number > POINTS_UNDER_SKIN.least else samples >= 0
     for chosen in (samples[is_first], samples[~is_first]):
         # Pairs with samples inside and outside intersect, whatever further samples say.
         open_pairs = np.flatnonzero(needs_all | ~counts.all(axis=0))
@@ -322,7 +333,8 @@ def _interior_samples(
     )
     corner = points[components.triangles[triangle]].astype(np.float64) - tree.origin
     # Three numbers that never put two samples of a triangle in one place, nor any on a line of
-    # symmetry.
+    # symmetry: multiples of 1/ρ, 1/ρ² and ρ - 1, modulo 1, for the plastic number ρ = 1.3247179572;
+    # the offsets are chosen.
     weight = np.stack(
         [
             0.17 + k * 0.7548776662 % 1.0,
@@ -333,9 +345,15 @@ def _interior_samples(
     weight /= weight.sum(axis=0)
     place = np.einsum("kn,nkj->nj", weight, corner)
     normal = cross_rows(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
-    area = lengths(normal)[:, 0]
-    depth = 10.0 ** (-2 - k % 3) * np.sqrt(area)  # a thin shell needs less than a thick one allows
+    double_area = lengths(normal)[:, 0]
+    # A hundredth to a ten-thousandth of the triangle's size: a thin shell needs less than a thick
+    # one allows. Four tolerances keep samples clear of touching surfaces.
+    depth = 10.0 ** (-2 - k % 3) * np.sqrt(double_area)
     inward = -np.sign(components.volume[component]) * np.maximum(depth, 4.0 * tolerance)
     return (
-        place + normal * np.divide(inward, area, out=np.zeros_like(area), where=area > 0.0)[:, None]
+        place
+        + normal
+        * np.divide(inward, double_area, out=np.zeros_like(double_area), where=double_area > 0.0)[
+            :, None
+        ]
     )

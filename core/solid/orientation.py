@@ -211,8 +211,11 @@ def compare_components(mesh: RepairedMesh, tolerance: float, error: float) -> Co
 
 
 def zero_volume(size: PerBody, area: PerBody, capped: PerBody, error: PerBody) -> PerBody:
-    """Return the volume below which a component is flat: of a sheet, capped or closed, by rounding
-    and float32.
+    """Return the volume (unit³) below which a component is flat: its area times the thickness of a
+    sheet that counts as flat, by rounding and float32.
+
+    size: diagonal of the box. area: unit². capped: True if the component has caps. error: largest
+    shift of points by storing, of which a cap moves with several, so that it allows for four.
     """
     return (
         np.where(
@@ -244,10 +247,11 @@ def _oriented_surface(
     if proven:
         quads = surface.quads.copy()
         triangles = surface.triangles.copy()
+        # The mesh has the triangles first, then both halves of each quad: `Surface.all_triangles`.
         flipped_triangles = flipped[: len(triangles)]
         triangles[flipped_triangles] = triangles[flipped_triangles][:, ::-1]
         flipped_quads = flipped[len(triangles) :: 2]  # by their first halves
-        # the first corner stays, and with it the diagonal
+        # The first corner stays, and with it the diagonal.
         quads[flipped_quads] = quads[flipped_quads][:, [0, 3, 2, 1]]
         return replace(surface, quads=quads, triangles=triangles)
     triangles = mesh.triangles
@@ -277,5 +281,6 @@ def _integrate_oriented(
     is_complete = len(measured.triangles) == len(mesh.triangles)
     if mesh.topology_changed or is_turned or not is_complete or not is_cap.any():
         return integrate(measured)[0]
+    # Row i of the measured surface is row i of the mesh: nothing was left out.
     caps = replace(measured, triangles=measured.triangles[is_cap])
     return sum_moments([given.volume, integrate(caps, about=given.volume.about)[0]])

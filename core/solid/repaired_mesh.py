@@ -19,7 +19,7 @@ from .boundary_loops import side_ends
 NO_EDGES = np.empty((0, 2), np.intp)
 NO_INDICES = np.empty(0, np.intp)
 Record = TypeVar("Record")
-# a value that no step has found yet: the order of the steps ensures that none reads it before
+# A value that no step has found yet: the order of the steps ensures that none reads it before.
 UNKNOWN: Any = None
 
 
@@ -81,13 +81,16 @@ class RepairState:
     """Knowledge of earlier steps for later ones; dropped when the repair is done.
 
     `given`: (t, 3) triangles over the input's vertices; side 3t + i runs from corner i of triangle
-    t to the next one. `edges`: of triangles with three different vertices; `component_edges`: with
-    vertices of its own for each component. `one_sided`: (c,) mask of components in which faces
+    t to the next one. `tolerance`: positions nearer than this (unit) count as equal at open edges,
+    and loops narrower than this have no area. `edges`: of the triangles with three different
+    vertices, with sides numbered as if there were no others; `component_edges`: with vertices of
+    its own for each component. `one_sided`: (c,) mask of components in which faces
     cannot agree, as on a Möbius strip. `uncapped_sides`: (k,) boundary sides that bound no gap, of
     components that may still be closed.
     """
 
     given: Index
+    tolerance: float
     edges: mesh.Edges = UNKNOWN
     component_edges: mesh.Edges = UNKNOWN
     open_parts: OpenParts | None = None

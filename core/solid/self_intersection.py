@@ -90,7 +90,7 @@ def find_self_intersection(checked: CheckedSurface, oriented: OrientedSolid) -> 
 def is_star(surface: Surface, center: Array) -> bool:
     """Return whether a closed surface, facing outward, is certainly star-shaped about a point.
 
-    The search ends early if a face looks away; the first blocks are short.
+    The search ends early if a face looks away.
     """
     coordinates = along_ray(surface.points.T, center[:, None])
     total = signed = 0.0
@@ -105,7 +105,7 @@ def is_star(surface: Surface, center: Array) -> bool:
             total += float(np.abs(cones).sum())
             signed += float(cones.sum())
             crossings += int(np.count_nonzero(is_crossed))
-            if not total - signed <= SUM_ROUNDING * total:
+            if not total - signed <= SUM_ROUNDING * total:  # also if NaN
                 return False
     return crossings == 1
 
@@ -123,6 +123,7 @@ def find_cones(corners: NDArray) -> tuple[Array, Mask]:
     corners; and the triangles that the z axis may cross upward, if all cones are positive.
     """
     x, y, z = corners
+    # Of each side, opposite to corner i, the doubled area of its triangle with the ray.
     first, second, third = [x[i - 2] * y[i - 1] - y[i - 2] * x[i - 1] for i in range(3)]
     # A side that the ray meets counts for both of its triangles: no surface that goes around the
     # origin twice seems to be crossed once.
@@ -158,16 +159,16 @@ def measure_excess(
     bodies = len(grids.cell)
     if not len(crossings.row):
         return Excess(np.zeros(bodies), np.zeros(bodies), np.ones(bodies))
-    of_part = crossings.body if part is None else part[crossings.triangle].astype(np.intp)
-    parts = int(of_part.max()) + 1
+    part_of_crossing = crossings.body if part is None else part[crossings.triangle].astype(np.intp)
+    parts = int(part_of_crossing.max()) + 1
     line = crossings.row * grids.columns + crossings.column
-    chord = line * parts + of_part  # the crossings of one line with one part
+    chord = line * parts + part_of_crossing  # the number of a line and a part that it crosses
     order = np.lexsort((crossings.along, chord))
-    chord = chord[order]
     body = crossings.body[order]
     sign = crossings.sign[order]
     along = crossings.along[order]
-    first = run_starts(chord)
+    # The first and the last crossing of each chord, and the chord of each crossing, from 0 on.
+    first = run_starts(chord[order])
     last = np.append(first[1:], len(chord)) - 1
     chord = np.repeat(np.arange(len(first)), last + 1 - first)
     # How often the part counts the piece of the line after each crossing.
@@ -180,12 +181,13 @@ def measure_excess(
 
     has_piece = is_complete[chord]
     has_piece[last] = False
-    piece = np.flatnonzero(has_piece)
+    piece = np.flatnonzero(has_piece)  # by the crossing that it begins at
     length = along[piece + 1] - along[piece]
     depth = depth[piece]
-    of_part = of_part[order][piece]
-    outward = np.sign(sums_by_index(of_part, depth * length, parts))
-    depth = depth * outward[of_part]
+    part_of_piece = part_of_crossing[order][piece]
+    # A part that faces inward counts its pieces as negative.
+    outward = np.sign(sums_by_index(part_of_piece, depth * length, parts))
+    depth = depth * outward[part_of_piece]
     surplus = np.maximum(depth - 1.0, 0.0) + np.maximum(-depth, 0.0)
     wrong = np.flatnonzero((surplus > 0.0) & (length > tolerance[body[piece]]))
     piece, length, surplus = piece[wrong], length[wrong], surplus[wrong]

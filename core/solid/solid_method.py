@@ -45,9 +45,9 @@ from .repaired_mesh import NO_INDICES, RepairedMesh, copy_with
 from .self_intersection import SelfIntersection
 
 MIN_REPORTED_AMBIGUITY = 1e-6  # Share of the volume; smaller ambiguities are not reported.
-# So many bent faces with so small a spread stand for a curved surface.
+# So many bent faces, or more, with a smaller spread stand for a curved surface. Both are chosen.
 SMOOTH_FACES = 24
-SMOOTH_SHARE = 0.03
+SMOOTH_SHARE = 0.03  # of the volume
 
 
 @dataclass(frozen=True, eq=False)
@@ -195,8 +195,9 @@ def judge(
     if len(flipped_faces):
         rows = np.isin(mesh.face, flipped_faces)
         slight = _is_slight(mesh, rows, checked.size, volume.total)
-        count = len(flipped_faces)
-        findings.append(finding(FLIPPED_FACES, flipped_faces, slight=slight, count=count))
+        findings.append(
+            finding(FLIPPED_FACES, flipped_faces, slight=slight, count=len(flipped_faces))
+        )
     if len(inverted):
         findings.append(_inverted_finding(mesh, inverted, checked.size, volume.total))
     if caps[:2].any():
@@ -234,10 +235,12 @@ def _without_noise(volume: Moments) -> Moments:
 def _repair_findings(
     checked: CheckedSurface, given: GivenIntegrals, mesh: RepairedMesh, volume: float
 ) -> list[Finding]:
-    """Return the findings of a repair, in the input's vertices, after one about welding."""
+    """Return a finding about welding, if it moved vertices, and the findings of the repair's steps;
+    edges are pairs of the input's vertices.
+    """
     findings = []
     ulp = 2.0 * float(np.linalg.norm(half_ulp(np.abs(checked.surface.box).max(axis=0))))
-    if mesh.max_displacement > ulp:  # less is how the same place is written twice
+    if mesh.max_displacement > ulp:  # float32 may write one place in two ways
         slight = mesh.max_displacement * given.area.total < NEGLIGIBLE * abs(volume)
         share = float(mesh.max_displacement / checked.size)
         findings.append(finding(VERTICES_WELDED, slight=slight, share=share))
@@ -340,12 +343,15 @@ def _component_findings(
 ) -> list[Finding]:
     """Return findings about components that are in others, go through others, or have no volume."""
     solid = comparison.solid
-    breakthrough = {"share": float(comparison.breakthrough / size)}
     flat = ~solid & ~mesh.open if solid.any() else np.zeros(mesh.number, bool)
     findings = []
     for code, which, values in (
         (CAVITIES_SUBTRACTED, comparison.cavities & ~comparison.breaking, {}),
-        (CAVITIES_BREAK_THROUGH, comparison.breaking, breakthrough),
+        (
+            CAVITIES_BREAK_THROUGH,
+            comparison.breaking,
+            {"share": float(comparison.breakthrough / size)},
+        ),
         (COMPONENTS_NESTED, comparison.nested, {}),
         (COMPONENTS_OVERLAP, comparison.intersecting, {}),
         (FLAT_COMPONENTS, flat, {"total": int(mesh.number)}),

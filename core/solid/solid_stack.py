@@ -49,7 +49,7 @@ from .self_intersection import MAX_UNSURE_LINES, SUM_ROUNDING, along_ray, find_c
 from .solid_method import SolidIntegrals, cap_finding, planarity_findings
 
 MAX_COMPONENTS = 16  # Limit for one body: all pairs are compared.
-# times the volume that counts as none: bodies with smaller components are measured one by one
+# Times the volume of a flat component: bodies with smaller components are measured one by one.
 CLEAR_VOLUME = 4.0
 
 
@@ -79,9 +79,13 @@ class SmallSolid(SolidIntegrals):
     i: int
 
     def __init__(self, stack: SmallSolids, i: int, surface: Surface):
-        volume = stack.volume.at(i)
-        area = stack.area.at(i)
-        self.__dict__.update(stack=stack, i=i, given_surface=surface, volume=volume, area=area)
+        self.__dict__.update(
+            stack=stack,
+            i=i,
+            given_surface=surface,
+            volume=stack.volume.at(i),
+            area=stack.area.at(i),
+        )
 
     @cached_property
     def method(self) -> Procedure:  # type: ignore[override]
@@ -112,10 +116,16 @@ class SmallSolid(SolidIntegrals):
         )
         caps = self.stack.caps
         if caps.is_capped[self.i]:
-            size = float(self.stack.size[self.i])
-            edges = caps.edges_of(self.i)
-            counts = caps.counts[self.i]
-            findings.insert(0, cap_finding(edges, counts, self._cap_share, size, self.volume.total))
+            findings.insert(
+                0,
+                cap_finding(
+                    caps.edges_of(self.i),
+                    caps.counts[self.i],
+                    self._cap_share,
+                    size=float(self.stack.size[self.i]),
+                    volume=self.volume.total,
+                ),
+            )
         return tuple(findings)
 
     @cached_property
@@ -147,7 +157,7 @@ def measure_small(surfaces: Sequence[Surface]) -> SmallSolids:
     stack = SurfaceStack.from_surfaces(surfaces)
     low, high = stack.box
     center = box_center(low, high, stack.points.dtype)
-    reach = np.maximum(high - center, center - low) * (1.0 + 4.0 * U)
+    reach = np.maximum(high - center, center - low) * (1.0 + 4.0 * U)  # not rounded down
     volume, area = small_moments(
         stack.points,
         stack.triangles,
@@ -163,11 +173,11 @@ def measure_small(surfaces: Sequence[Surface]) -> SmallSolids:
     size = np.sqrt(np.add.reduce((high - low) ** 2, axis=1))
     farthest = reach.max(axis=1)
     usable = stack.uses_all_points() & ~planarity.has_degenerate
-    # float32: none too large
+    # Bodies of other sizes are scaled before they are measured: `third_order.integrate`.
     usable &= (farthest > 1.0 / MAX_UNSCALED_REACH) & (farthest < MAX_UNSCALED_REACH)
     usable &= links.component_counts <= MAX_COMPONENTS
     error = np.sqrt(np.add.reduce(stack.coordinate_error**2, axis=1))
-    tolerance = np.maximum(WELDING_RTOL * size, 4.0 * error)
+    tolerance = np.maximum(WELDING_RTOL * size, 4.0 * error)  # `verdict.welding_tolerance`
     caps = cap_stack(stack, links, usable, tolerance)
     if caps.is_capped.any():
         volume = caps.add_to(volume)
@@ -177,9 +187,11 @@ def measure_small(surfaces: Sequence[Surface]) -> SmallSolids:
     is_measured &= volume.raw[:, 0] > np.maximum(flat, volume.rounding_error[:, 0])
     # A star is a body, and does not go through itself.
     is_star = _find_stars(caps, volume, is_measured & (links.component_counts == 1))
-    rows = np.flatnonzero(is_measured & ~is_star)
-    if len(rows):
-        is_measured[rows] = are_physical(volume.at(rows), low[rows], high[rows], size[rows])
+    doubtful = np.flatnonzero(is_measured & ~is_star)
+    if len(doubtful):
+        is_measured[doubtful] = are_physical(
+            volume.at(doubtful), low[doubtful], high[doubtful], size[doubtful]
+        )
     several = np.flatnonzero(is_measured & (links.component_counts > 1))
     if len(several):
         is_measured[several] = _stand_apart(caps, several, links.component_counts, tolerance, error)
@@ -235,7 +247,7 @@ def _stand_apart(
     _, is_chosen = stack.owned(rows)
     # The body of each part; parts are numbered body by body.
     body = np.repeat(np.arange(len(rows)), counts[rows])
-    of_all = rows[body]
+    of_all = rows[body]  # its row in the arrays of all bodies
     parts = sort_components(
         stack.points, stack.triangles[is_chosen], _renumbered(caps.part[is_chosen]), len(body)
     )
@@ -245,7 +257,7 @@ def _stand_apart(
     is_bad = parts.volume <= CLEAR_VOLUME * zero_volume(
         size, parts.area, caps.is_capped[of_all], error[of_all]
     )
-    least_gap = 2.0 * tolerance[of_all]
+    least_gap = 2.0 * tolerance[of_all]  # twice, so that rounding cannot decide
     # All pairs of parts of a body: each with the next, with the one after that, and so on.
     for step in range(1, int(counts[rows].max())):
         gap = np.maximum(low[step:] - high[:-step], low[:-step] - high[step:]).max(axis=1)
@@ -388,7 +400,7 @@ def cap_stack(
         fits[body[may_have_neighbor(stack.points[vertices], reach[body], body)]] = False
     if not fits.any():
         return uncapped
-    next_vertex = np.full(total, -1)
+    next_vertex = np.full(total, -1)  # along the boundary
     next_vertex[start] = stop
     begins, ends = side_ends(stack.triangles, np.arange(stack.triangles.size))
     is_boundary = next_vertex[begins] == ends
@@ -400,6 +412,8 @@ def cap_stack(
     fits &= boundary_counts + stack.triangle_counts <= MAX_SMALL_TRIANGLES
     fits &= np.logical_and.reduceat(has_distinct_vertices(stack.triangles), stack.first_triangle)
     side = np.flatnonzero(is_boundary)
+    # A body with a loop that cannot be capped is left out, and the loops of the rest are found
+    # anew.
     while fits.any():
         side = side[fits[owner[begins[side]]]]
         start, stop = begins[side], ends[side]

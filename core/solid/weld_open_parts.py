@@ -29,9 +29,9 @@ from .findings import DUPLICATE_FACES_COUNTED, DUPLICATE_FACES_IGNORED, VERTICES
 from .repaired_mesh import UNKNOWN, OpenParts, RepairedMesh, RepairState, copy_with
 
 
-def split_into_triangles(surface: Surface) -> RepairedMesh:
+def split_into_triangles(surface: Surface, tolerance: float) -> RepairedMesh:
     """Cut a surface, whose vertices all belong to faces, into triangles, and find the parts that
-    welding may touch.
+    welding may touch. tolerance: as in `RepairState`.
     """
     triangles, face = surface.all_triangles()
     triangles, count = triangles.astype(np.intp), len(triangles)
@@ -46,27 +46,27 @@ def split_into_triangles(surface: Surface) -> RepairedMesh:
         open=np.zeros(0, bool),
         caps=np.zeros((0, 3)),
         report=MeshHealth(closed=False, components=0),
-        state=RepairState(triangles, edges or UNKNOWN, open_parts=open_parts),
+        state=RepairState(triangles, tolerance, edges or UNKNOWN, open_parts=open_parts),
     )
 
 
-def weld_patches(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
+def weld_patches(mesh: RepairedMesh) -> RepairedMesh:
     """Weld the open parts whose faces are all copies of faces of closed parts onto these."""
     parts = mesh.state.open_parts
     if parts is None or parts.are_all:
         return mesh
     open_triangles = mesh.triangles[parts.rows]
     open_vertices = _unique_sorted(open_triangles, len(mesh.points))
-    closed = _closed_near(mesh, parts, open_vertices, tolerance)
+    closed = _closed_near(mesh, parts, open_vertices)
     if not len(closed):
         return mesh
     fixed = np.setdiff1d(mesh.triangles[closed], open_vertices)
     vertices = np.concatenate([fixed, open_vertices])  # the first of a cluster is a fixed one
     rows = np.concatenate([closed, parts.rows])
-    reach = vertex_tolerance(mesh.points, mesh.triangles[rows], vertices, tolerance)
+    reach = vertex_tolerance(mesh.points, mesh.triangles[rows], vertices, mesh.state.tolerance)
     onto = np.arange(len(mesh.points))
     onto[vertices] = vertices[first_at_near_position(mesh.points[vertices], reach)]
-    onto[fixed] = fixed
+    onto[fixed] = fixed  # though a fixed vertex may be near another one
     triangles = np.concatenate([mesh.triangles[closed], onto[open_triangles]])
     group = same_vertices_groups(triangles, mesh.face[rows])
     is_copy = np.isin(group[len(closed) :], group[: len(closed)])
@@ -90,10 +90,11 @@ def weld_patches(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     return mesh.with_report(welded=True).with_state(edges=UNKNOWN, open_parts=open_parts)
 
 
-def _closed_near(
-    mesh: RepairedMesh, parts: OpenParts, open_vertices: Index, tolerance: float
-) -> Index:
-    """Return the proper triangles of closed parts within the box of the open vertices."""
+def _closed_near(mesh: RepairedMesh, parts: OpenParts, open_vertices: Index) -> Index:
+    """Return the (k,) triangles of closed parts, with three different vertices, that are within the
+    box of the open vertices.
+    """
+    tolerance = mesh.state.tolerance
     places = mesh.points[open_vertices]
     low, high = places.min(axis=0), places.max(axis=0)
     is_near = ((mesh.points >= low - tolerance) & (mesh.points <= high + tolerance)).all(axis=1)
@@ -102,7 +103,7 @@ def _closed_near(
     return np.flatnonzero(is_candidate)
 
 
-def weld_equal_positions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
+def weld_equal_positions(mesh: RepairedMesh) -> RepairedMesh:
     """Weld the vertices of open parts that are at exactly the same place."""
     parts = mesh.state.open_parts
     if parts is None:
@@ -123,7 +124,7 @@ def weld_equal_positions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     )
 
 
-def weld_near_positions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
+def weld_near_positions(mesh: RepairedMesh) -> RepairedMesh:
     """Weld vertices along open edges that are nearer than the tolerance, and near compared with
     their triangles.
     """
@@ -131,7 +132,9 @@ def weld_near_positions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     if parts is None:
         return mesh
     vertices = parts.vertices
-    reach = vertex_tolerance(mesh.points, mesh.triangles[parts.rows], vertices, tolerance)
+    reach = vertex_tolerance(
+        mesh.points, mesh.triangles[parts.rows], vertices, mesh.state.tolerance
+    )
     same = first_at_near_position(mesh.points[vertices], reach)
     if np.array_equal(same, np.arange(len(same))):
         return mesh
@@ -143,15 +146,15 @@ def weld_near_positions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     )
 
 
-def drop_collapsed_triangles(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
-    """Leave out triangles that use a vertex twice, and find the edges of the others."""
+def drop_collapsed_triangles(mesh: RepairedMesh) -> RepairedMesh:
+    """Leave out triangles that use a vertex twice, and find the edges of the others, unless an
+    earlier step has: `RepairState.edges` are numbered as if the left out triangles did not exist.
+    """
     edges = mesh.state.edges
     proper = has_distinct_vertices(mesh.triangles)
     if not proper.all():
         mesh = mesh.with_rows(np.flatnonzero(proper))
-    elif edges is not None:
-        return mesh
-    if edges is None and len(mesh.triangles):
+    if edges is UNKNOWN and len(mesh.triangles):
         edges = find_edges(mesh.triangles)
     return mesh.with_state(edges=edges)
 
@@ -159,8 +162,8 @@ def drop_collapsed_triangles(mesh: RepairedMesh, tolerance: float) -> RepairedMe
 def _find_open_parts(
     surface: Surface, triangles: Index, face: Index
 ) -> tuple[Edges | None, OpenParts | None]:
-    """Return the edges of the triangles that have three different vertices, and the parts to weld;
-    each may be None.
+    """Return the edges of the triangles that have three different vertices, None if they are not
+    looked for; and the parts to weld, None if all are closed.
     """
     rows = np.flatnonzero(has_distinct_vertices(triangles))
     if not len(rows):
@@ -168,6 +171,7 @@ def _find_open_parts(
     count = len(surface.points)
     if len(triangles) * 3 == count:  # a soup: no edge has two triangles
         return None, OpenParts(rows, _unique_sorted(triangles[rows], count), True)
+    # The halves of the quads are last, in pairs, unless a triangle is missing.
     edges = find_edges(triangles[rows], len(surface.quads) if len(rows) == len(triangles) else 0)
     odd = edges.count % 2 == 1
     if not odd.any():
@@ -176,14 +180,14 @@ def _find_open_parts(
     part, number = connected_components(len(rows), *edges.adjacency())
     is_open = np.zeros(number, bool)
     is_open[part[edges.first[odd] // 3]] = True
-    whole = ~is_open[part]
-    if whole.any():  # A part closed only by copies of its own faces is a piece of another part.
-        single = np.zeros(len(rows), bool)
-        whole_face = face[rows[whole]]
-        single[whole] = ~is_duplicated(
-            same_vertices_groups(triangles[rows[whole]], whole_face), whole_face
+    is_whole = ~is_open[part]
+    if is_whole.any():  # A part closed only by copies of its own faces is a piece of another part.
+        is_single = np.zeros(len(rows), bool)
+        whole_face = face[rows[is_whole]]
+        is_single[is_whole] = ~is_duplicated(
+            same_vertices_groups(triangles[rows[is_whole]], whole_face), whole_face
         )
-        is_open |= np.bincount(part, single) == 0
+        is_open |= np.bincount(part, is_single) == 0
     return edges, OpenParts(rows[is_open[part]], vertices, bool(is_open.all()))
 
 
@@ -207,7 +211,7 @@ def _unique_sorted(values: Integers, width: int) -> Index:
     return np.flatnonzero(present)
 
 
-def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
+def drop_duplicate_faces(mesh: RepairedMesh) -> RepairedMesh:
     """Leave out faces on the same vertices as an earlier face, if one layer of them is meant.
 
     A region of copied faces is reduced to one layer if an odd number of other faces meets its
@@ -218,9 +222,10 @@ def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     """
     edges = mesh.state.edges
     face = mesh.face
-    if edges.count.max() <= 2:  # copies of faces would have no others beside them
+    if edges.count.max() <= 2:  # copies fill the edges of their face: none has a neighbor
         return mesh
-    # edges with more than two triangles, but not both sides of a polygon's own diagonal
+    # Sides of edges with more than two triangles, except pairs of one polygon's triangles, which
+    # meet at its own diagonal.
     sides = np.flatnonzero((edges.count > 2)[edges.of_side])
     first = first_occurrence(edges.of_side[sides], face[sides // 3].astype(np.intp))
     sides = sides[np.bincount(first)[first] == 1]
@@ -235,19 +240,19 @@ def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     copies = np.unique(face[is_copy])
     mesh = mesh.with_report(duplicate_faces=len(copies), elements={"duplicate_faces": copies})
 
-    vector = normals(mesh.points, mesh.triangles)
-    vector = np.stack([np.bincount(face, vector[:, k]) for k in range(3)], axis=1)  # by face
-    area = np.linalg.norm(vector, axis=1)
+    triangle_normals = normals(mesh.points, mesh.triangles)
+    face_normals = np.stack([np.bincount(face, triangle_normals[:, k]) for k in range(3)], axis=1)
+    area = np.linalg.norm(face_normals, axis=1)
     # Areas, negative for copies that run against the first of their faces.
-    agreement = np.sign(np.einsum("ij,ij->i", vector[face], vector[group])) * area[face]
+    agreement = np.sign(np.einsum("ij,ij->i", face_normals[face], face_normals[group])) * area[face]
     reduced = _regions_of_one_layer(edges, is_copy, is_duplicated(group, face), agreement)
     left_out = is_copy & reduced
     ignored = np.unique(face[left_out])
     counted = np.unique(face[is_copy & ~reduced & (agreement > 0.0)])
-    for code, copies in ((DUPLICATE_FACES_IGNORED, ignored), (DUPLICATE_FACES_COUNTED, counted)):
-        if len(copies):
-            slight = bool(area[copies].sum() < NEGLIGIBLE * area.sum())
-            mesh = mesh.with_findings(finding(code, copies, slight=slight, count=len(copies)))
+    for code, faces in ((DUPLICATE_FACES_IGNORED, ignored), (DUPLICATE_FACES_COUNTED, counted)):
+        if len(faces):
+            slight = bool(area[faces].sum() < NEGLIGIBLE * area.sum())
+            mesh = mesh.with_findings(finding(code, faces, slight=slight, count=len(faces)))
     if not len(ignored):
         return mesh
     mesh = copy_with(
@@ -299,7 +304,7 @@ def _regions_of_one_layer(edges: Edges, is_copy: Mask, copied: Mask, agreement: 
     """Return an (m,) mask of triangles in regions to be reduced to one layer.
 
     is_copy: (m,) triangles of copies. copied: (m,) those, and those of the faces that they copy.
-    agreement: (m,) areas, negative for copies that run against the first.
+    agreement: (m,) areas of faces, negative for copies that run against the first of their group.
     """
     side = np.flatnonzero(np.repeat(copied, 3))
     edge = edges.of_side[side]
@@ -309,6 +314,7 @@ def _regions_of_one_layer(edges: Edges, is_copy: Mask, copied: Mask, agreement: 
     region, number = connected_components(len(copied), triangle, any_triangle[edge])
     region_of_side = region[triangle]
     other_count = np.bincount(edges.of_side, np.repeat(~copied, 3))[edge]
+    # Each side with other faces beside it votes: 1 for one layer, -1 for both.
     vote = np.where(other_count % 2 == 1, 1, -1) * (other_count > 0)
     votes = np.bincount(region_of_side, vote, minlength=number)
     has_neighbors = np.bincount(region_of_side, other_count > 0, minlength=number) > 0
