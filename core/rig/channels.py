@@ -12,7 +12,9 @@ from ..numerics import Array, NDArray, quaternion, rotation_matrix
 from .motion import continuous
 from .spin import LAST, NODES, node_weights
 
-LOCKED = 1e-5  # cosine of the middle angle, below which the outer two angles cannot be told apart
+# The cosine of the middle Euler angle below which the outer two angles cannot be told apart; and
+# the sine of half an angle below which its axis is not known.
+LOCKED = 1e-5
 OFF = 0.003  # relative to the angular velocity: a larger deviation between keys divides a frame
 LEAST_ANGLE = 1e-3  # rad a frame, below which the velocity is not compared
 
@@ -24,10 +26,10 @@ def rotation_values(turns: NDArray, mode: str, first: NDArray) -> Array:
     mode: Blender's name of the rotation mode.
     """
     if mode in ("QUATERNION", "AXIS_ANGLE"):
-        turns = continuous(quaternion(turns))
+        quaternions = continuous(quaternion(turns))
         if mode == "QUATERNION":
-            return turns * (1.0 if turns[0] @ first >= 0.0 else -1.0)
-        return _axis_angles(turns, first)
+            return quaternions * (1.0 if quaternions[0] @ first >= 0.0 else -1.0)
+        return _axis_angles(quaternions, first)
     values = np.empty((len(turns), 3))
     last = np.asarray(first, np.float64)
     for row, matrix in enumerate(turns):
@@ -45,6 +47,8 @@ def _euler_angles(m: NDArray, mode: str, side: float, last: NDArray) -> Array:
     side: the sign of the middle angle's cosine. last: the former angles, of which the third one is
     kept if the outer two cannot be told apart.
     """
+    # The rotation is R_k R_j R_i. The formulas are those of the even orders, such as XYZ; an odd
+    # order is the mirror image of an even one, in which all angles have the other sign.
     i, j, k = ("XYZ".index(axis) for axis in mode)
     sign = 1.0 if (j - i) % 3 == 1 else -1.0
     cosine = float(np.hypot(m[i, i], m[j, i]))
@@ -53,8 +57,7 @@ def _euler_angles(m: NDArray, mode: str, side: float, last: NDArray) -> Array:
         third = np.arctan2(side * m[j, i], side * m[i, i])
     # The matrix turned back about the third axis shows the first angle, however small the cosine
     # is.
-    c = np.cos(third)
-    s = np.sin(third)
+    c, s = np.cos(third), np.sin(third)
     angles = np.empty(3)
     angles[i] = np.arctan2(s * m[i, k] - c * m[j, k], c * m[j, j] - s * m[i, j])
     angles[j] = np.arctan2(-m[k, i], side * cosine)
@@ -68,7 +71,9 @@ def _nearest_turn(angles: NDArray, last: NDArray) -> NDArray:
 
 
 def _axis_angles(turns: NDArray, first: NDArray) -> Array:
-    """Return (s, 4) angles and axes of continuous quaternions; close to no turn, the axis stays."""
+    """Return (s, 4) rows of an angle and its axis, of continuous quaternions; close to no turn, the
+    axis stays. first: (4,) angle and axis that the first row is next to.
+    """
     values = np.empty((len(turns), 4))
     last = np.asarray(first, np.float64)
     length = float(np.linalg.norm(last[1:]))
@@ -101,11 +106,12 @@ def rotations(values: NDArray, mode: str) -> Array:
 
 
 def divide_frames(quaternions: NDArray, mode: str, first: NDArray, shortest: float) -> Array:
-    """Return (m + 1,) places in frames, between which cubics follow a rotation.
+    """Return (m + 1,) ascending places, in frames from 0 to f, between which cubics follow a
+    rotation.
 
-    quaternions: (LAST f + 1, 4), continuous. A piece of a frame is divided while the angular
-    velocity would be off: close to a gimbal lock, or to the rest position of an axis and angle.
-    Pieces are no shorter than `shortest`.
+    quaternions: (LAST f + 1, 4) at the nodes of f frames, continuous. A piece of a frame is divided
+    while the angular velocity would be off: close to a gimbal lock, or to the rest position of an
+    axis and angle. Pieces are no shorter than `shortest`.
     """
     ends = quaternions[::LAST]
     cosines = np.abs((ends[1:] * ends[:-1]).sum(axis=1)).clip(max=1.0)
@@ -119,7 +125,10 @@ def divide_frames(quaternions: NDArray, mode: str, first: NDArray, shortest: flo
         middle = (values[:-1:LAST] + 3.0 * (right + left) + values[LAST::LAST]) / 8.0
         off = np.linalg.norm(rotations(middle, mode) - wanted[LAST // 2 :: LAST], axis=(1, 2))
         lengths = np.diff(places)
-        # The rate is off by 4 times the value in the middle of a piece.
+        # The cubic meets all nodes but the middle one, so that its error is c (u² - 1)(u² - 1/2)
+        # for u from -1 to 1 in the piece: c/2 in the middle, with slopes up to c by u. By the
+        # piece's length that is 4 times the middle error. A small angle changes a matrix by √2
+        # times it.
         rough = off / np.sqrt(2.0) > limits[places[:-1].astype(int)] * lengths
         rough &= lengths > 2.0 * shortest
         if not rough.any():
@@ -128,7 +137,9 @@ def divide_frames(quaternions: NDArray, mode: str, first: NDArray, shortest: flo
 
 
 def in_pieces(values: NDArray, places: NDArray) -> Array:
-    """Return values (LAST f + 1, ...) at the nodes of frames at those of pieces between places."""
+    """Return (LAST m + 1, ...) values at the nodes of the m pieces between (m + 1,) places, from
+    (LAST f + 1, ...) values at the nodes of f frames.
+    """
     times = (places[:-1, None] + np.diff(places)[:, None] * NODES[:-1]).ravel()
     frames = np.repeat(places[:-1].astype(int), LAST)
     near = values[LAST * frames[:, None] + np.arange(len(NODES))]
@@ -143,6 +154,8 @@ def handle_values(values: NDArray) -> tuple[Array, Array]:
     values: (LAST f + 1, ...). The two (f, ...) handles make the cubic through all nodes but the
     middle one.
     """
+    # At the place x the cubic is (1 - x)³ start + 3x (1 - x)² right + 3x² (1 - x) left + x³ end:
+    # two nodes give two equations for the handles.
     places = NODES[[1, -2]]
     inner = 3.0 * places * (1.0 - places) ** 2, 3.0 * places**2 * (1.0 - places)
     start, end = values[:-1:LAST], values[LAST::LAST]

@@ -52,12 +52,14 @@ def bone_pieces(
     bone: numerics.Integers,
     displacement: numerics.NDArray | None = None,
 ) -> list[BonePiece]:
-    """Cut (t, 3) outward triangles with (t,) bones into closed pieces; displacement: (3,) by
-    storing.
+    """Cut (t, 3) outward triangles with (t,) bones into closed pieces.
+
+    displacement: (3,) errors of the points' coordinates by storing, as of a Surface.
     """
     points = points.astype(np.float64)
     bone_of_side, start, stop = mesh.uncancelled_sides(triangles, bone)
     cut, apexes = _apexes(points, start, stop)
+    # A cone runs along its edge against the face, so that it is outward as well.
     cones = np.stack([stop, start, len(points) + cut], axis=1)
     corners = np.concatenate([triangles, cones])
     bone_of_corners = np.concatenate([bone, bone_of_side])
@@ -95,11 +97,14 @@ def bones_of_caps(
 def _apexes(
     points: numerics.Array, start: numerics.Index, stop: numerics.Index
 ) -> tuple[numerics.Index, numerics.Array]:
-    """Return the cut that each edge belongs to, and (c, 3) the centroids of the cuts' edges."""
+    """Return the (e,) cuts that edges from `start` to `stop` belong to, and the (c, 3) centroids of
+    the cuts' edges. start, stop: (e,) vertices.
+    """
     if not len(start):
         return np.zeros(0, np.intp), np.zeros((0, 3))
     vertices, ends = np.unique(np.concatenate([start, stop]), return_inverse=True)
     first, last = ends.reshape(2, -1)
+    # Components are numbered by vertex; both vertices of an edge are in the same one.
     cut = numerics.connected_components(len(vertices), first, last)[0][first]
     # An edge counts once, however many bones meet there.
     edges = np.unique(
@@ -107,6 +112,7 @@ def _apexes(
     )
     begin, end = points[edges[:, 0]], points[edges[:, 1]]
     origin = points[vertices].mean(axis=0)  # far from the world's origin, digits would be lost
+    # Never zero, so that a cut of no length has a centroid, too.
     length = np.maximum(np.linalg.norm(end - begin, axis=1), np.finfo(float).tiny)
     weight = np.bincount(edges[:, 2], length)
     middle = (begin - origin + (end - origin)) / 2.0
@@ -159,17 +165,16 @@ def dominant_bones(
     center = np.stack(
         [np.bincount(faces, points[corners, k]) / np.maximum(size, 1) for k in range(3)], axis=1
     )
+    # Candidates are pairs of a face and a bone.
     face, bone, score = _scores(faces, corners, weights, number)
     result = np.full(len(size), NO_BONE)
     # Pairs of a face and a bone are sorted by face: its largest score is that of a segment.
     starts, sizes = np.unique(face, return_index=True, return_counts=True)[1:]
     is_leading = score >= (1.0 - TIE_RTOL) * np.repeat(np.maximum.reduceat(score, starts), sizes)
-    face = face[is_leading]
-    bone = bone[is_leading]
+    face, bone = face[is_leading], bone[is_leading]
     result[face] = bone
     ties = np.bincount(face)[face] > 1
-    face = face[ties]
-    bone = bone[ties]
+    face, bone = face[ties], bone[ties]
     result[face] = _nearest(face, bone, _distances(center[face], bones[bone]))
     unweighted = np.flatnonzero((result == NO_BONE) & (size > 0))
     block = max(PAIRS_PER_BLOCK // number, 1)
@@ -204,9 +209,10 @@ def _scores(
 def _nearest(
     face: numerics.Integers, bone: numerics.Integers, away: numerics.Array
 ) -> numerics.Integers:
-    """Return for each of k rows the nearest bone of its face, the first of equally near ones.
+    """Return (k,) for each pair of a face and a bone the nearest bone of this face, the first of
+    equally near ones.
 
-    Rows are by face.
+    Pairs are sorted by face. away: (k,) distances.
     """
     starts, sizes = np.unique(face, return_index=True, return_counts=True)[1:]
     least = np.repeat(np.minimum.reduceat(away, starts), sizes)

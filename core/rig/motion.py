@@ -92,16 +92,15 @@ def momenta_between(course: Course, first: int, last: int) -> tuple[Array, Array
     """
     rows = slice(first, last + 1)
     count = last - first  # of velocities
-    step = course.step
-    masses = course.masses
+    step, masses = course.step, course.masses
     center = course.center[rows]
     polar, _ = polar_rotation(course.linear[rows, int(masses.argmax())])
     axes = continuous(quaternion(polar * np.sign(np.linalg.det(polar))[:, None, None]))
     back = rotation_matrix(axes).swapaxes(-1, -2)[:, None]
     degree = DEGREE if step > CLOSE else CLOSE_DEGREE
     mean, rate = (
-        _stencils(count + 1, np.arange(count) + 0.5, NODES, order, degree)
-        for order in (False, True)
+        _stencils(count + 1, np.arange(count) + 0.5, NODES, derivative, degree)
+        for derivative in (False, True)
     )
     # In the axes of the heaviest part: the parts' places and shapes, and their rates.
     arms = (back @ (course.centers[rows] - center[:, None])[..., None])[..., 0]
@@ -123,6 +122,8 @@ def momenta_between(course: Course, first: int, last: int) -> tuple[Array, Array
     inner += axial_vectors(product.sum(axis=1))
     angular = inner + np.einsum("fij,fj->fi", inertia, spin)
     velocity = np.diff(center, axis=0) / step
+    # Twice the kinetic energy: M v², the rotation's ω·(I ω + 2 inner), and that of the motion in
+    # the turning axes, Σ m |arm'|² + tr(G S Gᵀ), with the growth G and the spread S of the parts.
     energy = masses.sum() * (velocity**2).sum(axis=1) + (spin * (angular + inner)).sum(axis=1)
     energy += np.einsum("p,fpi->f", masses, arm_rate**2) + (product * growth).sum(axis=(1, 2, 3))
     angular = np.einsum("fij,fj->fi", rotation, angular)
@@ -153,9 +154,10 @@ def momenta(course: Course, flights: Sequence[Flight]) -> tuple[Array, Array]:
     """
     now, change = np.zeros((2, len(course.centers), 7))
     ends = sorted({0, len(course.centers) - 1, *(end for flight in flights for end in flight)})
+    # Flights are the last: at their ends their motion replaces that of the sections on the ground.
     for first, last in sorted(zip(ends, ends[1:]), key=lambda section: section in flights):
         between = momenta_between(course, first, last)[0]
-        at = np.arange(last - first + 1) - 0.5
+        at = np.arange(last - first + 1) - 0.5  # frames, counted in velocities between them
         now[first : last + 1] = _stencils(last - first, at, AVERAGED)(between)
         change[first : last + 1] = (
             _stencils(last - first, at, AVERAGED, derivative=True)(between) / course.step
@@ -165,7 +167,7 @@ def momenta(course: Course, flights: Sequence[Flight]) -> tuple[Array, Array]:
 
 def find_unexplained(course: Course, flights: Sequence[Flight], gravity: NDArray) -> list[Span]:
     """Return spans of frames in flights with a change of momenta that gravity does not explain, and
-    its amount.
+    its amount. gravity: (3,).
 
     A force above a fifth of the weight is unexplained, and a torque above this force times the
     radius of gyration.
@@ -177,6 +179,7 @@ def find_unexplained(course: Course, flights: Sequence[Flight], gravity: NDArray
         if last - first < 2:
             continue
         between, inertia = momenta_between(course, first, last)
+        # A line through an even number of velocities is fitted evenly about the frame between them.
         nodes = min(2 * max(1, round(SMOOTHED / course.step / 2.0)), last - first)
         slope = _stencils(
             last - first, np.arange(last - first - 1) + 0.5, nodes, derivative=True, degree=1
@@ -185,6 +188,7 @@ def find_unexplained(course: Course, flights: Sequence[Flight], gravity: NDArray
         force = mass * np.linalg.norm(change[:, :3] - gravity, axis=1)
         torque = np.linalg.norm(change[:, 3:6], axis=1)
         gyration = np.sqrt(np.trace(inertia, axis1=1, axis2=2).mean() / (2.0 * mass))
+        # The first force is that at the frame `first` + 1; `end` is behind the run.
         for start, end in _runs((force > limit) | (torque > limit * gyration)):
             sums = (float(values[start:end].sum()) * course.step for values in (force, torque))
             spans.append((first + 1 + start, first + end, *sums))
@@ -201,9 +205,12 @@ def zero_moment_points(
     weight: (3,), a force.
     """
     up = -weight / np.linalg.norm(weight)
-    carried = force - weight
-    upward = carried @ up
-    moment = np.cross(up, torque) - height[:, None] * carried
+    contact = force - weight
+    upward = contact @ up
+    # With torque = (p - center) × contact and up·(p - center) = -height, the product up × torque is
+    # (p - center) upward + height contact.
+    moment = np.cross(up, torque) - height[:, None] * contact
+    # Less than a thousandth of the weight is noise of a flight: chosen.
     upward = np.where(upward > 1e-3 * np.linalg.norm(weight), upward, np.nan)
     return center + moment / upward[:, None]
 
@@ -218,12 +225,13 @@ def ballistic_arc(
 
 
 def frames_of_height(center: NDArray, step: float, gravity: ArrayLike) -> float:
-    """Return the frames, not whole, of a free fall between the ends of an (f, 3) path that rises as
-    high as it.
+    """Return the duration, in frames and not rounded, of a free flight from the first to the last
+    height of an (f, 3) path, with the top of that path.
     """
     strength = float(np.linalg.norm(gravity))
     heights = -(center - center[0]) @ np.asarray(gravity, np.float64) / strength
     top = float(heights.max())
+    # √(2h/g) up to the top, and down from it.
     return (
         float(np.sqrt(2.0 * top / strength) + np.sqrt(2.0 * (top - heights[-1]) / strength)) / step
     )
@@ -236,8 +244,8 @@ def continuous(quaternions: NDArray) -> NDArray:
 
 
 class _stencils:
-    """Interpolation, or its derivative, of (count, ...) values at (k,) places between them, by
-    their nearest nodes.
+    """Interpolation, or its derivative, of (count, ...) values at 0, 1, ... at (k,) places, by the
+    nearest of these nodes. nodes: their number for each place.
 
     degree: of a polynomial fitted to the nodes; by default the polynomial goes through all of them.
     """
@@ -266,7 +274,9 @@ class _stencils:
         self.weights = basis @ fit
 
     def __call__(self, values: NDArray) -> Array:
-        """Return (k, ...) combinations."""
+        """Return the (k, ...) interpolated values, or derivatives by one step, of (count, ...)
+        values.
+        """
         weights = self.weights[self.kinds].reshape(len(self.starts), -1, *(1,) * (values.ndim - 1))
         return np.sum(
             [weights[:, node] * values[self.starts + node] for node in range(weights.shape[1])],

@@ -46,7 +46,7 @@ class Parts:
 
     @classmethod
     def join(cls, several: Sequence[Parts]) -> Parts:
-        """Return the parts of several as one."""
+        """Return the parts of several characters together."""
         arrays = ("masses", "centers", "spreads", "matrices")
         names = tuple(name for parts in several for name in parts.names)
         return cls(
@@ -65,7 +65,8 @@ class Parts:
     def factors_to(self, total: float, shares: NDArray) -> Array:
         """Return (p,) factors of the masses to a total, 1 for a total of 0.
 
-        shares: (p,) mask of the parts that share the rest of it, if the others leave any.
+        shares: (p,) mask of the parts that share the rest of it, if the others leave any; else all
+        parts share the total.
         """
         rest = total - self.masses[~shares].sum()
         if total and rest > 0.0 and shares.any():

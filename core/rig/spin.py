@@ -26,7 +26,9 @@ PLACES = np.cos(np.pi * np.arange(5)[::-1] / 4.0)
 NODES = (PLACES + 1.0) / 2.0
 LAST = len(NODES) - 1
 _FIT = np.linalg.inv(PLACES[:, None] ** np.arange(len(NODES)))
-# maps values at the nodes to rates in a frame, and to the mean of the frame
+# RATE maps values at the nodes to rates at the nodes, by a frame, which is 2 in PLACES. No place is
+# 0, not even the middle one, cos(π/2) = 6e-17, so that the power -1 is finite; its factor is 0.
+# MEAN maps them to the mean of the frame: that of u^k over -1 to 1 is 1/(k + 1) for even k, else 0.
 RATE = 2.0 * (np.arange(len(NODES)) * PLACES[:, None] ** (np.arange(len(NODES)) - 1.0)) @ _FIT
 MEAN = (np.arange(1, len(NODES) + 1) % 2 / np.arange(1.0, len(NODES) + 1)) @ _FIT
 CONVERGED = 1e-6  # rad: change of any rotation when the steps are halved
@@ -106,7 +108,8 @@ class CarriedParts:
         return np.linalg.norm(self.momenta.sum(axis=2) - kept, axis=-1) / scale
 
     def constant_spin(self, kept: NDArray) -> Array:
-        """Return (f, n, 3, 3) rotations of the carrier with a constant momentum, from its own on.
+        """Return (f, n, 3, 3) rotations of the carrier that keep a (3,) momentum, the first one
+        being its own.
 
         Steps are halved until no rotation changes by more than 1e-6.
         """
@@ -121,12 +124,15 @@ class CarriedParts:
         return turns
 
     def _integrate(self, kept: NDArray, steps: int) -> Array:
-        """Return the rotations by this number of steps from node to node."""
+        """Return the (f, n, 3, 3) rotations by this number of steps from node to node."""
+        # The ends and middles of the steps between nodes: (m, s, n) weights of the n nodes at s
+        # places in m intervals.
         shares = np.arange(2 * steps + 1) / (2.0 * steps)
         places = PLACES[:-1, None] + np.diff(PLACES)[:, None] * shares
         weights = node_weights((places + 1.0) / 2.0)
         own = np.einsum("msn,fni->fmsi", weights, self.own_momenta.sum(axis=2))
         inertia = np.einsum("msn,fnij->fmsij", weights, self.inertia.sum(axis=2))
+        # Points on a line have no inertia about it, so that there may be no inverse.
         inverse = np.linalg.pinv(inertia, hermitian=True)
         lengths = self.step * np.diff(NODES) / steps
         turn = self.axes[0, 0]
@@ -152,9 +158,11 @@ def _step_vector(
     """
     rate = np.zeros(3)
     total = np.zeros(3)
-    for stage, share, weight in ((0, 0.0, 1.0), (1, 0.5, 2.0), (1, 0.5, 2.0), (2, 1.0, 1.0)):
+    # The stages of Runge and Kutta: the sample, the share of the step up to it, and the weight in
+    # sixths.
+    for sample, share, weight in ((0, 0.0, 1.0), (1, 0.5, 2.0), (1, 0.5, 2.0), (2, 1.0, 1.0)):
         vector = share * length * rate
-        spin = inverses[stage] @ ((turn @ rotation(vector)).T @ kept - momenta[stage])
+        spin = inverses[sample] @ ((turn @ rotation(vector)).T @ kept - momenta[sample])
         # The rate of a rotation vector, to the order of the integrator.
         bent = np.cross(vector, spin)
         rate = spin + bent / 2.0 + np.cross(vector, bent) / 12.0

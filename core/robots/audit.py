@@ -232,8 +232,7 @@ def _repair_by_twin(audits: list[LinkAudit], pair: Pair) -> None:
     """
     first, second, (likeliest, *_) = pair
     for index, other, pose in ((first, second, likeliest.inverse()), (second, first, likeliest)):
-        audit = audits[index]
-        twin = audits[other]
+        audit, twin = audits[index], audits[other]
         has_guess = all(entry.certainty in ("", "guess") for entry in audit.entries)
         is_twin_right = not twin.is_impossible and all(
             entry.change is None for entry in twin.entries
@@ -338,6 +337,8 @@ def _describe_overridden(link: StatedLink, used: StatedInertial) -> list[Entry]:
         apart = Reference.of_inertial(used).compare(stated)
     if link.from_shapes:
         apart = max(apart, abs(stated.mass / used.mass - 1.0))
+    # Rules of MuJoCo never have moments; a USD body that states an inertial has no rules, or rules
+    # with its moments.
     is_newton = link.rules is None or link.rules.moments is not None
     if is_newton and apart <= DIFFERS:
         return []
@@ -378,10 +379,11 @@ def repaired_copy(
     data = description.source
     writer = FORMATS[description.format].writer_module
     places = [(link.span, link, inertial) for link, inertial in repairs if link.span is not None]
-    # From the end of the file, so that the places before it stay valid.
+    # The last one first, so that the spans before it stay valid.
     for (start, end), link, inertial in sorted(places, key=lambda place: place[0], reverse=True):
         old = data[start:end].decode("utf-8", "surrogateescape")
         new = writer.inertial_text(inertial, old, link, description)
+        # Further lines get the spaces before the element, if it begins its line.
         before = data[:start].rpartition(b"\n")[2]
         if description.format != "usd" and not before.strip():
             new = new.replace("\n", "\n" + before.decode())

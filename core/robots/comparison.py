@@ -55,7 +55,7 @@ class Effect:
 def compare(
     body: Inertial, mass: float, shift: NDArray, second: NDArray, volume_ratio: float | None
 ) -> Effect:
-    """Compare a body with colliders of a mass, kg, whose center is shifted, (3,) m.
+    """Return the effect of colliders of a mass, kg, whose center is shifted, (3,) m, beside a body.
 
     second: (3, 3) ∫ x xᵀ dm of the colliders about their center, kg·m².
     """
@@ -96,13 +96,14 @@ def _axes_turn(
         return 0.0
     if is_equal.any():
         single = 2 if is_equal[0] else 0
-        first = axes[:, single]
-        second = other_axes[:, single]
+        first, second = axes[:, single], other_axes[:, single]
+        # Two unit vectors at an angle are 2 sin(angle/2) apart.
         chord = min(np.linalg.norm(first - second), np.linalg.norm(first + second))
         return 2.0 * asin(min(1.0, float(chord) / 2.0))
     along = np.diagonal(axes.T @ other_axes)
     signs = np.where(along < 0.0, -1.0, 1.0)
     if np.linalg.det(other_axes * signs) < 0.0:
+        # No rotation mirrors: the axis with the least to lose goes the other way.
         signs[np.abs(along).argmin()] *= -1.0
     # The norm of R - 1 is √8 times the sine of half the angle of a rotation R.
     distance = float(np.linalg.norm(other_axes * signs - axes))

@@ -137,7 +137,8 @@ def _diagnose_fit(fit: Fit, stated: StatedInertial) -> Diagnosis:
     if change.finding.values.get("part") != LENGTHS:
         return Diagnosis(*change)
     factor = change.finding.values["factor"]
-    # Both densities cannot be in the range: a cube of a factor exceeds it.
+    # Both densities cannot be in the range: its ends differ by a factor of 3000, and the cube of
+    # the least factor, that of inches, is 61,000.
     if is_possible(reference.density(stated) * factor**3):
         part = "lengths of the mesh"
         of_mesh = finding(AUDIT_UNIT, part=part, factor=1.0 / factor, agree=ALL_AGREE)

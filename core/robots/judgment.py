@@ -28,7 +28,9 @@ from .stated import Place, StatedInertial, StatedLink
 
 
 def judge(link: StatedLink, stated: StatedInertial, geometry: Geometry) -> LinkAudit:
-    """Judge an inertial by the geometry of its link."""
+    """Return the audit of an inertial by the geometry of its link: impossible, different by a
+    mistake that a change corrects, or of an unusual density.
+    """
     place = link.inertial_place
     hull = geometry.hull
     references = [*geometry.references.values()]
@@ -59,14 +61,13 @@ def judge(link: StatedLink, stated: StatedInertial, geometry: Geometry) -> LinkA
             repaired = None
         entries = (*_guess_entries(place, unexplained, repaired), *entries)
         if unusual:
-            density = finding(AUDIT_DENSITY, density=reference.density(stated))
-            entries = (*entries, Entry(density, place, compares=True))
+            findings = [finding(AUDIT_DENSITY, density=reference.density(stated))]
+            entries = (*entries, *_plain_entries(place, findings))
     is_told = any(entry.change or entry.finding.code == AUDIT_DENSITY for entry in entries)
     if not reasons and not is_told:
         least = _least_density(stated, references, hull)
         if least > LARGEST_DENSITY:
-            density = finding(AUDIT_DENSITY, density=least)
-            entries = (*entries, Entry(density, place, compares=True))
+            entries = (*entries, *_plain_entries(place, [finding(AUDIT_DENSITY, density=least)]))
     draws_any = any(shape.role == "visual" for shape, _ in geometry.pieces)
     return LinkAudit(
         link,
@@ -109,6 +110,7 @@ def _least_density(
     density = min(reference.density(stated) for reference in references)
     if density <= LARGEST_DENSITY or hull is None:
         return density
+    # One hull, of all points.
     volume = float(hull_volumes(hull.points, np.zeros(1, np.intp), 0.0)[0])
     return min(density, stated.mass / volume) if volume > 0.0 else density
 

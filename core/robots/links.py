@@ -110,8 +110,8 @@ def assemble_robot(
 def _spanning_edges(
     links: Mapping[str, Link], parents: Mapping[str, str], connections: Sequence[Connection]
 ) -> tuple[list[Connection], list[str]]:
-    """Return edges that make trees of the links, parents first, and the names of connections that
-    would close a loop.
+    """Return edges that make trees of the links, those to parents first, and the names of
+    connections that would close a loop. parents: by the names of their children.
 
     All fixed links count as one, the world, which has no name.
     """
@@ -171,18 +171,25 @@ def _exchange(edge: Connection, links: Mapping[str, Link]) -> Connection:
 
 
 def _directed_joints(links: Mapping[str, Link], edges: Sequence[Connection]) -> list[Joint]:
-    """Return the edges as joints, from fixed links to others, else from the top of first sides."""
-    above: dict[str, str] = {}
-    around: dict[str, list[Connection]] = {name: [] for name in links}
+    """Return the edges, which make trees, as joints that lead away from the roots, in the order of
+    the child links.
+
+    Each fixed link is a root, unless a joint from another one reaches it first; those near to their
+    top are the first. The top of a link is reached from second to first sides of edges, and is the
+    root of a tree without fixed links.
+    """
+    first_side_of: dict[str, str] = {}
+    edges_at: dict[str, list[Connection]] = {name: [] for name in links}
     for edge in edges:
-        above.setdefault(edge.second, edge.first)
-        around[edge.first].append(edge)
-        around[edge.second].append(edge)
+        first_side_of.setdefault(edge.second, edge.first)
+        edges_at[edge.first].append(edge)
+        edges_at[edge.second].append(edge)
 
     def path_up(name: str) -> list[str]:
+        """Return the links from a link to its top."""
         path = [name]
-        while path[-1] in above:
-            path.append(above[path[-1]])
+        while path[-1] in first_side_of:
+            path.append(first_side_of[path[-1]])
         return path
 
     fixed = sorted(
@@ -195,15 +202,13 @@ def _directed_joints(links: Mapping[str, Link], edges: Sequence[Connection]) -> 
         while waiting:
             parent = waiting.pop()
             visited.add(parent)
-            for edge in around[parent]:
-                edge = edge if edge.first == parent else _exchange(edge, links)
+            for either_way in edges_at[parent]:
+                edge = either_way if either_way.first == parent else _exchange(either_way, links)
                 child = edge.second
-                pose = Pose()
                 if child in visited:
                     continue
                 waiting.append(child)
-                if edge.pose is not None:
-                    pose = links[child].pose.inverse() @ edge.pose
+                pose = Pose() if edge.pose is None else links[child].pose.inverse() @ edge.pose
                 joints[child] = Joint(edge.name, parent, child, edge.free, pose, edge.mimic)
     return [joints[name] for name in links if name in joints]
 
@@ -214,13 +219,14 @@ def _check_mimics(joints: Iterable[Joint]) -> tuple[list[Joint], list[Finding]]:
     """
     checked = [*joints]
     findings = []
+    # Joints of one axis by the name of their child, and by their own, which comes first.
     single = {joint.child: joint.name for joint in checked if len(joint.free) == 1}
     single |= {name: name for name in single.values()}
     for index, joint in enumerate(checked):
         mimic = joint.mimic
         if mimic is None:
             continue
-        leader = single.get(mimic.joint, joint.name)
+        leader = single.get(mimic.joint, joint.name)  # itself, if there is none
         is_usable = leader != joint.name and joint.name in single
         if not is_usable:
             findings.append(

@@ -294,7 +294,7 @@ def _sequences(stated: StatedInertial) -> Iterator[Change]:
     entries = {name: ("xyz".index(name[0]), "xyz".index(name[1])) for name in SEQUENCES[0]}
     tried: set[tuple[str, ...]] = {SEQUENCES[0]}
     for listed, read in permutations(SEQUENCES, 2):
-        # The name of the number that was read as each entry, in the order of URDF.
+        # For each entry in the order of URDF, the name of the number that was read as it.
         names = tuple(listed[read.index(name)] for name in SEQUENCES[0])
         # Orders of the products alone have a change of their own.
         if names in tried or (names[0], names[3], names[5]) == ("xx", "yy", "zz"):
@@ -317,8 +317,7 @@ def _moments(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
     axes = np.linalg.eigh(reference.inertia + MIXED / stated.mass * tensor)[1]
     moments = np.diag(axes.T @ tensor @ axes)
     ascending = np.argsort(moments)
-    axes = axes[:, ascending]
-    moments = moments[ascending]
+    axes, moments = axes[:, ascending], moments[ascending]
     for order in AXES:
         exchanged = moments[order]
         if np.abs(exchanged - moments).max() > UNEQUAL * moments[2]:
@@ -347,7 +346,7 @@ def _reordered(tensor: NDArray, order: NDArray, where: str) -> Iterator[tuple[Fi
 
 def _transposed(stated: StatedInertial) -> Iterator[Change]:
     """Yield changes for a tensor that was made with its principal axes as rows instead of
-    columns.
+    columns: QᵀDQ instead of QDQᵀ, with the moments D.
     """
     part = "principal axes that make the tensor"
     moments, axes = np.linalg.eigh(stated.inertia)

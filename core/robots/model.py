@@ -20,7 +20,8 @@ from ..numerics import Array, NDArray, second_of_inertia
 
 # Known values of an axis: N·m·s/rad or N·s/m, N·m or N, N·m/rad or N/m, N·m or N, rad/s or m/s.
 VALUES = ("damping", "friction", "stiffness", "effort", "velocity")
-AGREEING_RTOL = 8.0 * float(np.finfo(np.float64).eps)  # Relative to the largest entry.
+# Relative to the largest entry; chosen: some roundings of a product of three (3, 3) matrices.
+AGREEING_RTOL = 8.0 * float(np.finfo(np.float64).eps)
 
 
 @dataclass(frozen=True, eq=False)

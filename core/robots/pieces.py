@@ -84,8 +84,7 @@ class Measurer:
         """Return a measured shape in its own coordinates; raise MeasureError if its mesh cannot be
         read.
         """
-        shape = stated.shape
-        weight = stated.weight
+        shape, weight = stated.shape, stated.weight
         if shape.kind != "mesh":
             piece = primitive(shape)
             return replace(piece, mass=weight.moments(shape)) if weight else piece
@@ -108,7 +107,7 @@ class Measurer:
                 elif piece.moments is not None:
                     piece = replace(piece, mass=weight.fill(piece.moments))
             piece = piece if fit is None else piece.placed(fit.pose)
-            if sum(len(one.points) for one in [*self.meshes.values()]) > MOST_POINTS:
+            if sum(len(other.points) for other in [*self.meshes.values()]) > MOST_POINTS:
                 self.meshes.clear()
             self.meshes[key] = piece
         return piece
@@ -124,23 +123,26 @@ class Geometry:
     @cached_property
     def hull(self) -> Hull | None:
         """The hull of all shapes, None if it is unknown."""
-        points = [one.shape.pose.apply(piece.points) for one, piece in self.pieces]
+        points = [stated.shape.pose.apply(piece.points) for stated, piece in self.pieces]
         return Hull(np.concatenate(points)) if points and self.is_whole else None
 
     @cached_property
     def references(self) -> dict[str, Reference]:
         """The evenly filled geometry by role, of roles whose bodies are all certain."""
         roles = ("visual", "collision") if self.is_whole else ()
-        found = ((role, _reference(self._of_role(role))) for role in roles)
-        return {role: reference for role, reference in found if reference is not None}
+        references = ((role, _reference(self._of_role(role))) for role in roles)
+        return {role: reference for role, reference in references if reference is not None}
 
     def upright(self) -> Geometry | None:
         """Return the geometry with the up axes of its mesh files as z; None if they are."""
         if all(piece.upright is None for _, piece in self.pieces):
             return None
         turned = [
-            (one, piece if piece.upright is None else piece.placed(Pose(rotation=piece.upright)))
-            for one, piece in self.pieces
+            (
+                stated,
+                piece.placed(Pose(rotation=piece.upright)) if piece.upright is not None else piece,
+            )
+            for stated, piece in self.pieces
         ]
         return replace(self, pieces=turned)
 
@@ -150,19 +152,19 @@ class Geometry:
         """
         for role in self.references:
             turned = []
-            for one, piece in self._of_role(role):
-                shape = one.shape
-                if one.angles is not None:
-                    turn = rotation_of_angles(*map(radians, one.angles))
+            for stated, piece in self._of_role(role):
+                shape = stated.shape
+                if stated.angles is not None:
+                    turn = rotation_of_angles(*map(radians, stated.angles))
                     shape = replace(shape, pose=Pose(shape.pose.position, turn))
-                turned.append((replace(one, shape=shape), piece))
+                turned.append((replace(stated, shape=shape), piece))
             reference = _reference(turned)
-            if reference is not None and any(any(one.angles or ()) for one, _ in turned):
+            if reference is not None and any(any(stated.angles or ()) for stated, _ in turned):
                 change = finding(AUDIT_ANGLES, part="geometry", unit="degrees", wanted="radians")
                 yield change, reference
 
     def _of_role(self, role: str) -> Pieces:
-        return [one for one in self.pieces if one[0].role == role]
+        return [(stated, piece) for stated, piece in self.pieces if stated.role == role]
 
 
 def _measured(surface: Surface, upright: NDArray | None = None) -> Piece:
@@ -200,7 +202,9 @@ def _reference(pieces: Pieces) -> Reference | None:
 
 
 def primitive(shape: Shape) -> Piece:
-    """Return a primitive in its own frame, with its moments and points that enclose it."""
+    """Return a primitive in its own frame, with its moments, and (n, 3) points whose hull encloses
+    it.
+    """
     if shape.kind == "box":
         points = np.array([*product((-0.5, 0.5), repeat=3)]) * shape.size
     elif shape.kind in ("sphere", "ellipsoid"):
@@ -210,6 +214,8 @@ def primitive(shape: Shape) -> Piece:
         if shape.kind == "capsule":
             ring = spread_directions(BALL)
         else:
+            # The hull of 48 points on a circle has the radius cos(π/48) = 1/1.002, which ROUND
+            # covers.
             turn = np.linspace(0.0, 2.0 * pi, 48, endpoint=False)
             ring = np.stack([np.cos(turn), np.sin(turn), np.zeros_like(turn)], axis=1)
         end = np.array([0.0, 0.0, length / 2.0])

@@ -74,11 +74,13 @@ class Hull:
         for _ in range(MAX_STEPS):
             nearest = shares @ shifted[chosen]
             length = float(np.linalg.norm(nearest))
-            if length <= 1e-12 * self.size:
+            if length <= 1e-12 * self.size:  # Rounding: the point is in the hull.
                 return 0.0
             heights = shifted @ nearest
             lowest = int(np.argmin(heights))
             bound = max(bound, float(heights[lowest]) / length)
+            # No point is nearer, or the bound is known to nine digits: chosen, as tolerances are
+            # 1e-3.
             if lowest in chosen or length - heights[lowest] / length <= 1e-9 * self.size:
                 break
             chosen, shares = _nearest_shares(shifted, [*chosen, lowest], np.append(shares, 0.0))
@@ -136,6 +138,7 @@ def _impossible_tensor(inertia: NDArray, mass: float) -> list[Finding]:
     density = least_density(mass, moments) if mass > LEAST_MASS else 0.0
     if density > OSMIUM:
         return [finding(INERTIAL_TOO_DENSE, density=density, limit=OSMIUM)]
+    # A flat body's excess is 0 up to the rounding of float64.
     return [finding(INERTIAL_TRIANGLE_SLIGHTLY, excess=excess)] if excess > 1e-12 else []
 
 
@@ -145,7 +148,7 @@ def _nearest_shares(points: NDArray, chosen: list[int], shares: NDArray) -> tupl
     """
     while True:
         corners = points[chosen]
-        # Foot on the plane through them: shares that add up to one and leave nothing along it.
+        # The foot on the plane through them, as shares of the corners that add up to one.
         rest = np.linalg.lstsq((corners[1:] - corners[0]).T, -corners[0], rcond=None)[0]
         wanted = np.append(1.0 - rest.sum(), rest)
         if (wanted > 0.0).all():
@@ -160,11 +163,12 @@ def _nearest_shares(points: NDArray, chosen: list[int], shares: NDArray) -> tupl
 
 
 def _excess_spread(stated: StatedInertial, hull: Hull, is_outside: bool) -> list[Finding]:
-    """Return the reason why no body within the hull has a possible tensor. is_outside: of a center
-    within the hull.
+    """Return the reason why no body within the hull has a possible tensor, empty if one may have
+    it. is_outside: True if the stated center is not in the hull.
     """
     second = second_of_inertia(stated.inertia) / stated.mass
     directions = np.concatenate([np.linalg.eigh(second)[1].T, spread_directions(DIRECTIONS)])
+    # Along the axes that the tensor itself has, and (k, 3) others.
     variance = np.einsum("ki,ij,kj->k", directions, second, directions)
     heights = (hull.points - stated.center) @ directions.T
     if is_outside:  # Half of the mass at either end has the largest variance about any center.

@@ -18,7 +18,7 @@ from ..polyhedron import integrate
 from .model import Inertial, Pose, Shape, second_moments
 
 LEAST_SPREAD = float(np.finfo(np.float64).eps)  # Relative to the largest one.
-BISECTIONS = 200  # more than the digits of a float64 need
+BISECTIONS = 200  # more than the digits of a float64 need: then both bounds stay
 
 
 def box_sides(mass: float, moments: NDArray) -> Array:
@@ -49,7 +49,7 @@ def capsule_size(mass: float, moments: NDArray) -> tuple[float, float]:
     if not along > across:
         return sqrt(5.0 * float(moments.mean()) / (2.0 * mass)), 0.0
     ratio = along / across
-    # A capsule of this length would have a larger ratio.
+    # The ratio of any capsule is larger than its t, so that the wanted t is below the wanted ratio.
     low = 0.0
     high = ratio
     for _ in range(BISECTIONS):
@@ -57,6 +57,7 @@ def capsule_size(mass: float, moments: NDArray) -> tuple[float, float]:
         wide, far = _capsule(t)
         low, high = (t, high) if far < ratio * wide else (low, t)
     t = (low + high) / 2.0
+    # The mass m has ∫x² dm = m r² (∫x² dV)/V across, with the latter two at the radius 1.
     radius = sqrt(across / mass * (pi * t + 4.0 * pi / 3.0) / _capsule(t)[0])
     return radius, t * radius
 
@@ -65,9 +66,7 @@ def equal_inertia_shape(inertial: Inertial, kind: str) -> Shape:
     """Return the "box", "ellipsoid" or "capsule" with a link's mass, center and inertia, in the
     link's frame; for a capsule without length, the sphere.
     """
-    mass = inertial.mass
-    moments = inertial.moments
-    axes = inertial.axes
+    mass, moments, axes = inertial.mass, inertial.moments, inertial.axes
     if kind == "capsule":
         along_z = axes[:, [1, 2, 0]]  # the long axis last, and still a rotation
         radius, length = capsule_size(mass, moments)
@@ -108,7 +107,7 @@ def moments_of(shape: Shape) -> Moments:
 
 def primitive_moments(shape: Shape) -> Moments:
     """Return the moments of a box, ellipsoid, sphere, capsule or cylinder about its middle, in its
-    own axes.
+    own axes: its volume, and the integrals of x², y² and z² over it.
     """
     if shape.kind == "box":
         sides = np.array(shape.size)
@@ -123,6 +122,8 @@ def primitive_moments(shape: Shape) -> Moments:
         volume = pi * radius**2 * length
         across = pi * radius**4 * length / 4.0
         along = pi * radius**2 * length**3 / 12.0
+        # Both halves of a ball, moved by ±L/2: ∫z² dV is the ball's own, L πr⁴/2 by the first
+        # moments πr⁴/4 of the halves about their flat sides, and (L/2)² times the ball's volume.
         if shape.kind == "capsule":
             volume += 4.0 / 3.0 * pi * radius**3
             across += 4.0 / 15.0 * pi * radius**5

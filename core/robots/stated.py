@@ -148,7 +148,8 @@ class Rules(NamedTuple):
             if not self.mass or not self.radius and self.moments is None:
                 return None
             center = np.zeros(3) if self.center is None else self.center
-            body = StatedInertial(1.0, center, 0.4 * self.radius**2 * np.eye(3))  # a ball
+            # A ball of 1 kg has the moment 2/5 r² about any axis.
+            body = StatedInertial(1.0, center, 0.4 * self.radius**2 * np.eye(3))
         mass = self.mass or body.mass
         center = body.center if self.center is None else self.center
         # Programs keep the shapes' place, and take their inertia about the stated center.
@@ -192,6 +193,7 @@ def _least_turn(tensor: NDArray) -> Array:
         i, j = max(((1, 2), (2, 0), (0, 1)), key=lambda pair: abs(along[pair]))
         if abs(along[i, j]) <= SINGLE * along.trace():  # Equal moments keep their axes.
             break
+        # The angle, at most 45 degrees, that makes the entry zero.
         angle = atan2(2.0 * along[i, j], abs(along[j, j] - along[i, i])) / 2.0
         if along[j, j] >= along[i, i]:
             angle = -angle

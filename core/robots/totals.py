@@ -44,7 +44,7 @@ class Body(NamedTuple):
 
     def add(self, other: Body) -> Body:
         """Return the total of both bodies."""
-        if not self.mass or not other.mass:
+        if not self.mass or not other.mass:  # A body without mass adds nothing.
             return self if self.mass else other
         mass = self.mass + other.mass
         if (
@@ -56,6 +56,7 @@ class Body(NamedTuple):
             return Body(mass)
         arm = other.center - self.center
         share = other.mass / mass
+        # Both about the common center: the reduced mass m_1 m_2/(m_1 + m_2) at the arm.
         term = parallel_axis_term(share * self.mass, arm)
         return Body(mass, self.center + share * arm, self.inertia + other.inertia + term)
 
@@ -106,6 +107,7 @@ class Expectation(NamedTuple):
             return findings
         text = "unknown"
         if whole.center is not None and whole.inertia is not None:
+            # The radius of gyration about the center: tr(I)/2 = ∫r² dm.
             radius = sqrt(max(float(np.trace(whole.inertia)), 0.0) / 2.0 / whole.mass)
             if np.linalg.norm(whole.center - self.center) <= self.within * radius:
                 return findings
@@ -122,8 +124,8 @@ def _point(numbers: Sequence[float]) -> str:
 
 
 def build_tree(description: Description, values: Mapping[str, float]) -> Tree:
-    """Return the places of all links. values: of joints, by their names, radians or meters; others
-    are at zero.
+    """Return the tree of a description's links, with their poses. values: of joints, by their
+    names, radians or meters; others are at zero.
     """
     links: dict[str, StatedLink] = {}
     for link in description.links:
@@ -261,7 +263,7 @@ def _pose(
     values: Mapping[str, float],
 ) -> Pose | None:
     """Return the pose of a link in the model, moved by its joint; None if it is unknown. poses: of
-    the links above it.
+    the links above it. values: of the motions that are not at zero, by name.
     """
     if joint is None:
         return link.pose

@@ -70,14 +70,16 @@ def find_pairs(audits: Sequence[LinkAudit], tree: Tree) -> list[Pair]:
     plane = _plane([(places[first], places[second]) for first, second in sides])
 
     def mirror(first: int, second: int) -> list[Pose]:
-        """Return the map by the plane, if it is known."""
-        start = places[first]
-        end = places[second]
+        """Return the map from the first link's frame to the second's by the plane, if it is
+        known, as the only item.
+        """
+        start, end = places[first], places[second]
         if plane is None or start is None or end is None:
             return []
         return [end.inverse() @ plane.mirror(start)]
 
     def pair(first: int, second: int, maps: Sequence[Pose], within: float) -> Pair:
+        """Return a pair with those of the maps that fit within a tolerance."""
         return Pair(first, second, _fitting_maps(audits[first], audits[second], maps, within))
 
     pairs = [pair(*side, [*mirror(*side), *_OWN_MAPS], TOLERANCE) for side in sides]
@@ -107,6 +109,7 @@ def find_pairs(audits: Sequence[LinkAudit], tree: Tree) -> list[Pair]:
             if place is not None
         ]
         # One link within the other has no other side.
+        # √tr(I) of 1 kg is √2 times the radius of gyration.
         if np.linalg.norm(centers[0] - centers[1]) > np.sqrt(np.trace(end.inertia)):
             pairs.append(pair(first, second, [*maps, *_OWN_MAPS], TOLERANCE))
     return [each for each in pairs if each.maps]
@@ -116,10 +119,9 @@ def _fitting_maps(
     first: LinkAudit, second: LinkAudit, maps: Sequence[Pose], within: float
 ) -> Sequence[Pose]:
     """Return the maps that lay the first link's geometry onto the second's; all of them if the
-    geometry is unknown.
+    geometry is unknown, none if it differs by more than a part `within`.
     """
-    start = first.reference
-    end = second.reference
+    start, end = first.reference, second.reference
     if start is None or end is None:
         return maps
     low, high = sorted((start.volume, end.volume))
@@ -149,7 +151,7 @@ def _plane(pairs: Sequence[tuple[Pose | None, Pose | None]]) -> Plane | None:
     apart = [(first, second) for first, second in points if (first != second).any()]
     if not apart:
         return None
-    first, second = (np.array(several) for several in zip(*apart))
+    first, second = map(np.array, zip(*apart))  # (k, 3) each
     ways = second - first
     directions = ways / np.linalg.norm(ways, axis=1)[:, None]
     # The direction to which most of them are near, whatever their signs.
@@ -176,6 +178,8 @@ def disagreement(
         float(np.linalg.norm(mapped(first, pose).inertia - second.inertia) / largest)
         for pose in maps
     )
+    # A wrong mass changes the tensor by the same part, so the masses are named unless the tensors
+    # differ by more than twice as much.
     return ("masses", mass) if mass >= 0.5 * tensor else ("inertias", tensor)
 
 
@@ -194,6 +198,7 @@ def find_copies(audits: Sequence[LinkAudit]) -> Iterator[list[int]]:
             groups.setdefault((numbers.tobytes(), draws), []).append(index)
     for group in groups.values():
         first, *others = (reference for index in group if (reference := audits[index].reference))
+        # Moments per kilogram do not depend on the axes.
         size = np.trace(first.inertia)
         moments = np.linalg.eigvalsh(first.inertia)
         if any(

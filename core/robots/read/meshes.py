@@ -195,6 +195,7 @@ def _instances(root: Node, by_id: dict[str, Node]) -> Iterator[tuple[Node, NDArr
 
 
 def _matrix(node: Node) -> Array:
+    """Return the (4, 4) matrix of a node of COLLADA, from its coordinates to its parent's."""
     matrix = np.eye(4)
     for child in node.children:
         if child.tag not in ("matrix", "translate", "rotate", "scale"):
@@ -242,6 +243,7 @@ def _geometry(geometry: Node, by_id: dict[str, Node]) -> Iterator[tuple[Array, I
 
 
 def _positions(vertices: Node, by_id: dict[str, Node]) -> Array:
+    """Return the (n, 3) points of an element `vertices`, or of the source itself."""
     source = vertices
     for element in vertices.all("input"):
         if element.get("semantic") == "POSITION":

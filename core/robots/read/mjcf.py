@@ -130,7 +130,8 @@ class _Model:
             values = self.attributes(node)
             # The file's own frame is moved and turned to `refpos` and `refquat`, back by them.
             frame = _Frame(self, scale=numbers(values.get("scale", ""), 3, (1.0, 1.0, 1.0)))
-            turn = _rotation({"quat": values["refquat"]} if "refquat" in values else {}, self)[0].T
+            reference = {"quat": values["refquat"]} if "refquat" in values else {}
+            turn = _rotation(reference, self).matrix.T
             size = frame.scale_along(turn, values.get("refquat", ""))
             pose = frame.place(-turn @ numbers(values.get("refpos", ""), 3, (0.0, 0.0, 0.0)), turn)
             surface = _surface(values) if "vertex" in values else None
@@ -183,10 +184,10 @@ class _Frame(NamedTuple):
         return self.prefix + name + self.suffix if name else ""
 
     def enter(self, node: Node) -> _Frame:
-        """Return the frame of an element `frame` in this one, or that of a `body`, scaled as this
-        one.
+        """Return the frame within an element `frame` in this one, or within a `body`: that is the
+        body's own, scaled as this one.
         """
-        turn = _rotation(node.attributes, self.model)[0]
+        turn = _rotation(node.attributes, self.model).matrix
         values = node.attributes if node.tag == "frame" else {}
         position = numbers(values.get("pos", ""), 3, (0.0, 0.0, 0.0))
         text = values.get("scale", "")
@@ -194,6 +195,7 @@ class _Frame(NamedTuple):
         if not ((factors >= LEAST) & (factors <= MOST)).all():
             raise ValueError(text)
         scale = self.scale_along(turn, text or node.get("name")) * factors
+        # By default the mass scales as the volume.
         mass = self.mass * number(values.get("massscale", ""), float(factors.prod()))
         pose = Pose() if node.tag == "body" else self.place(position, turn)
         return self._replace(
@@ -201,17 +203,21 @@ class _Frame(NamedTuple):
         )
 
     def attach(self, node: Node) -> tuple[list[Node], _Frame]:
-        """Return the elements of another model, or of this one, that an element `attach` names, and
-        their frame.
+        """Return the elements that an element `attach` names, and their frame: a body or a frame of
+        another model, or of this one if it names none, or all elements of the other model.
+
+        ValueError, with the name, if there is no such model, body or frame.
         """
-        name = node.get("model")
+        model_name = node.get("model")
         names = {tag: node.get(tag) for tag in ("body", "frame") if node.get(tag)}
-        # MuJoCo attaches a part of this model as it is at that place in the file.
+        # MuJoCo attaches a part of this model as it is at that place in the file: without this
+        # node.
         if node in self.attached:
             return [], self
-        model = self.model.models.get(name) if name or not names else self.model
+        is_own = names and not model_name
+        model = self.model if is_own else self.model.models.get(model_name)
         if model is None:
-            raise ValueError(name)
+            raise ValueError(model_name)
         worlds = model.root.all("worldbody")
         inner = self._replace(
             model=model,
@@ -222,14 +228,14 @@ class _Frame(NamedTuple):
         )
         if not names:
             return [child for world in worlds for child in world.children], inner
+        # Find the named element, and the class of defaults that holds at its place.
         waiting = [(world, "main") for world in worlds]
         while waiting:
-            part, defaults = waiting.pop()
+            part, above = waiting.pop()
             check_size(1, next(model.count))
             if part.tag in names and part.get("name") == names[part.tag]:
-                return [part], inner._replace(defaults=defaults)
-            defaults = part.get("childclass") or defaults
-            waiting += [(child, defaults) for child in part.children]
+                return [part], inner._replace(defaults=above)
+            waiting += [(child, part.get("childclass") or above) for child in part.children]
         raise ValueError(*names.values())
 
     def repeat(self, node: Node) -> list[_Frame]:
@@ -243,7 +249,7 @@ class _Frame(NamedTuple):
         frames = []
         for index in range(count):
             text = " ".join(map(repr, (angles * index).tolist()))
-            turn = _rotation({"euler": text}, self.model)[0]
+            turn = _rotation({"euler": text}, self.model).matrix
             scale = self.scale_along(turn, node.get("euler"))
             # The names of inner copies come before those of outer ones.
             suffix = "{}{:0{}d}{}".format(node.get("sep"), index, digits, self.suffix)
@@ -305,7 +311,7 @@ def read(root: Node, data: bytes) -> Description:
 def _body_pose(body: Node, above: _Frame) -> Pose:
     """Return the pose of a body in its parent's. above: the frame that it stands in."""
     position = numbers(body.get("pos"), 3, (0.0, 0.0, 0.0))
-    return above.place(position, _rotation(body.attributes, above.model)[0])
+    return above.place(position, _rotation(body.attributes, above.model).matrix)
 
 
 def _motion(joint: Node, frame: _Frame) -> Motion:
@@ -407,49 +413,56 @@ def _inertial(node: Node, frame: _Frame) -> StatedInertial:
     return StatedInertial(stated.mass * frame.mass, pose.position, inertia)
 
 
-Rotation = tuple[Array, Angles | None, tuple[float, ...] | None]
+class Rotation(NamedTuple):
+    """A (3, 3) rotation; roll, pitch and yaw, rad, and the quaternion, w first, if stated so."""
+
+    matrix: Array
+    angles: Angles | None = None
+    quaternion: tuple[float, ...] | None = None
 
 
 def _rotation(attributes: dict[str, str], model: _Model) -> Rotation:
-    """Return the (3, 3) rotation, roll, pitch and yaw if stated, and the quaternion if stated, of
-    an element.
+    """Return the rotation that the attributes of an element state, by default none. ValueError,
+    with the text, if it is wrong.
     """
     unit = 1.0 if model.compiler.get("angle") == "radian" else radians(1.0)
     if "quat" in attributes:
         values = numbers(attributes["quat"], 4, (1.0, 0.0, 0.0, 0.0))
         if not values.any():
             raise ValueError(attributes["quat"])
-        return rotation_matrix(values), None, tuple(values.tolist())
+        return Rotation(rotation_matrix(values), quaternion=tuple(values.tolist()))
     if "euler" in attributes:
         first, second, third = (numbers(attributes["euler"], 3, (0.0, 0.0, 0.0)) * unit).tolist()
-        turn = np.eye(3)
+        matrix = np.eye(3)
         if len(model.euler) != 3 or not {*model.euler.lower()} <= {*"xyz"}:
             raise ValueError(model.euler)
         for axis, angle in zip(model.euler, (first, second, third)):
             step = rotation_about(np.eye(3)["xyz".index(axis.lower())], angle)
-            turn = turn @ step if axis.islower() else step @ turn
-        return turn, (first, second, third) if model.euler == "XYZ" else None, None
-    turn = np.eye(3)
+            # Small letters are axes that turn with the element, capital letters fixed axes.
+            matrix = matrix @ step if axis.islower() else step @ matrix
+        # About the fixed x, y and z in turn the angles are roll, pitch and yaw.
+        return Rotation(matrix, (first, second, third) if model.euler == "XYZ" else None)
     if "axisangle" in attributes:
-        values = numbers(attributes["axisangle"], 4, (0.0, 0.0, 1.0, 0.0))
         text = attributes["axisangle"]
-        turn = rotation_about(direction(values[:3], text), values[3] * unit)
-    elif "xyaxes" in attributes:
-        values = numbers(attributes["xyaxes"], 6, ())
+        values = numbers(text, 4, (0.0, 0.0, 1.0, 0.0))
+        return Rotation(rotation_about(direction(values[:3], text), values[3] * unit))
+    if "xyaxes" in attributes:
         text = attributes["xyaxes"]
+        values = numbers(text, 6, ())
         x = direction(values[:3], text)
-        y = direction(values[3:], text)
-        y = direction(y - (y @ x) * x, text)
-        turn = np.column_stack([x, y, np.cross(x, y)])
-    elif "zaxis" in attributes:
-        turn = _upright(
-            direction(numbers(attributes["zaxis"], 3, (0.0, 0.0, 1.0)), attributes["zaxis"])
-        )
-    return turn, None, None
+        stated_y = direction(values[3:], text)
+        y = direction(stated_y - (stated_y @ x) * x, text)
+        return Rotation(np.column_stack([x, y, np.cross(x, y)]))
+    if "zaxis" in attributes:
+        text = attributes["zaxis"]
+        return Rotation(_upright(direction(numbers(text, 3, (0.0, 0.0, 1.0)), text)))
+    return Rotation(np.eye(3))
 
 
 def _upright(z: NDArray) -> Array:
     """Return the (3, 3) least rotation from the z axis to a unit vector."""
+    # (cos θ, sin θ n) = (z_3, k × z), with k along the z axis, is the quaternion of twice the turn
+    # θ; its sum with that of no turn, (1, 0), is that of the turn, up to its length.
     half = np.array([1.0 + z[2], -z[1], z[0], 0.0])
     return rotation_matrix(half if half.any() else [0.0, 1.0, 0.0, 0.0])
 
@@ -542,7 +555,7 @@ def _primitive(kind: str, attributes: dict[str, str], pose: Pose) -> Shape | Non
         return Shape(
             kind, sizes.get(kind, (size[0], length)), Pose((ends[:3] + ends[3:]) / 2.0, turn)
         )
-    # index of the first half of a length
+    # The index of the first size that is half of ours.
     halves = {"box": 0, "capsule": 1, "cylinder": 1}.get(kind, 3)
     values = tuple(
         2.0 * value if place >= halves else value for place, value in enumerate(size[: SIZES[kind]])

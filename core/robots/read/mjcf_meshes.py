@@ -55,21 +55,24 @@ def builtin_surface(kind: str, text: str) -> Surface:
 
 
 def _sphere(subdivisions: float) -> Array:
+    # Each subdivision divides a face by four; 20 of them exceed the limit without an overflow.
     check_size(1, int(12.0 * 4.0 ** min(subdivisions, 20.0)))
     golden = (1.0 + 5.0**0.5) / 2.0
+    # The corners of an icosahedron: those of three rectangles across each other.
     edges = np.array([[a, b * golden, 0.0] for a, b in product((-1.0, 1.0), repeat=2)])
     points = np.concatenate([np.roll(edges, shift, axis=1) for shift in range(3)])
     points = points / np.linalg.norm(points[0])
     for _ in range(_whole(subdivisions)):
         hull = convex_hull(points)
         corners = hull.points[hull.triangles]
-        middles = (corners + np.roll(corners, 1, axis=1)).reshape(-1, 3)
+        middles = (corners + np.roll(corners, 1, axis=1)).reshape(-1, 3)  # of the edges
         middles = middles / np.linalg.norm(middles, axis=1, keepdims=True)
         points = np.concatenate([hull.points, middles])
     return points
 
 
 def _hemisphere(resolution: float) -> Array:
+    """Return the points of a divided octahedron's upper half, moved onto the ball."""
     steps = _whole(resolution) + 1
     points = np.stack(np.meshgrid(*[np.arange(-steps, steps + 1.0)] * 3), axis=-1).reshape(-1, 3)
     points = points[(np.abs(points).sum(axis=1) == steps) & (points[:, 2] >= 0.0)]
@@ -84,16 +87,18 @@ def _cone(count: float, radius: float) -> Array:
 
 
 def _grid(kind: str) -> Callable[..., Array]:
+    """Return a function that returns (n, 3) points for three counts and three spacings."""
+
     def points(*values: float) -> Array:
         x, y, z, *spacings = values[:6]
         counts = [_whole(x), _whole(y), _whole(z)]
         check_size(1, counts[0] * counts[1] * counts[2])
         axes = [np.linspace(-1.0, 1.0, count) for count in counts]
         places = np.stack(np.meshgrid(*axes), axis=-1).reshape(-1, 3)
-        # The square or cube becomes a disc or ball.
-        flat = places[:, : {"cylinder": 2, "ellipsoid": 3}.get(kind, 1)]
-        lengths = np.maximum(np.linalg.norm(flat, axis=1), STEP)
-        flat *= (np.abs(flat).max(axis=1) / lengths)[:, None]
+        # The square or cube becomes a disc or ball, in place; along one axis all points stay.
+        rounded = places[:, : {"cylinder": 2, "ellipsoid": 3}.get(kind, 1)]
+        lengths = np.maximum(np.linalg.norm(rounded, axis=1), STEP)  # never zero
+        rounded *= (np.abs(rounded).max(axis=1) / lengths)[:, None]
         return places * (np.array(counts) - 1.0) * spacings / 2.0
 
     return points
@@ -174,16 +179,17 @@ class Fit(NamedTuple):
         axes = axes * (1.0, 1.0, np.sign(np.linalg.det(axes)))
         if self.in_box:
             points = (surface.points - center) @ axes
-            low = points.min(axis=0)
-            high = points.max(axis=0)
+            low, high = points.min(axis=0), points.max(axis=0)
             center = center + axes @ (low + high) / 2.0
             halves = (high - low) / 2.0
             across = max(halves[:2])
             along = halves[2] - (across if self.kind == "capsule" else 0.0)
             radius = max(halves)
         else:
+            # A box of half sides h has the mean squares h²/3.
             halves = np.sqrt(3.0 * np.maximum(spread, 0.0) / volume)
             across = halves[:2].mean()
+            # MuJoCo shortens a capsule by half of its radius here, and by the whole above.
             along = halves[2] - (across / 2.0 if self.kind == "capsule" else 0.0)
             radius = halves.mean()
         sizes = {"sphere": [radius], "box": 2.0 * halves, "ellipsoid": halves}
@@ -200,8 +206,8 @@ def mesh_moments(surface: Surface, inertia: str) -> tuple[float, Array, Array]:
         surface = Surface.from_triangles(hull.points, hull.triangles)
     if inertia != LEGACY:
         is_shell = inertia == "shell"
-        both = integrate(surface, 1, area=is_shell, area_moments=is_shell, exact=True)
-        moments = both[is_shell].about_center()
+        of_volume, of_area = integrate(surface, 1, area=is_shell, area_moments=is_shell, exact=True)
+        moments = (of_area if is_shell else of_volume).about_center()
         return float(moments.raw[0]), moments.about, moments.raw[SECOND_MOMENT_INDEX]
     corners = surface.points[surface.all_triangles()[0]].astype(np.float64)
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -213,6 +219,8 @@ def mesh_moments(surface: Surface, inertia: str) -> tuple[float, Array, Array]:
     # ... then from it.
     corners = corners - center
     volumes = np.abs(np.linalg.det(corners)) / 6.0
+    # A tetrahedron of volume V with the corners 0, a, b, c and their sum s has the second moments
+    # V (a aᵀ + b bᵀ + c cᵀ + s sᵀ)/20.
     sums = corners.sum(axis=1)
     second = np.einsum("n,nai,naj->ij", volumes, corners, corners) + (sums.T * volumes) @ sums
     return float(volumes.sum()), center, second / 20.0
@@ -246,9 +254,10 @@ class Weight(NamedTuple):
 
 
 def _shell_moments(shape: Shape) -> Moments:
-    """Return the moments of a primitive's surface, as the change of its volume if all walls move
-    outward.
+    """Return the moments of a primitive's surface, as the derivatives of those of its volume if all
+    walls move outward.
     """
+    # Growth of each size by the way of the walls: a length has a wall at both ends.
     walls = np.array(
         {"box": [2.0], "cylinder": [1.0, 2.0], "capsule": [1.0, 0.0]}.get(shape.kind, 1.0)
     )
@@ -258,6 +267,8 @@ def _shell_moments(shape: Shape) -> Moments:
     for move, factor in STENCIL:
         size = np.array(shape.size) + move * step * walls
         raw += factor / (12.0 * step) * primitive_moments(replace(shape, size=tuple(size))).raw
+    # The wall of an ellipsoid that grows is not equally thick; MuJoCo takes its moments
+    # nevertheless, scaled to the area.
     if shape.kind == "ellipsoid":
         a, b, c = np.power(shape.size, THOMSEN)
         raw = raw * 4.0 * pi * ((a * b + b * c + c * a) / 3.0) ** (1.0 / THOMSEN) / raw[0]

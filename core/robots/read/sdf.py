@@ -117,12 +117,16 @@ class _Model:
         return Pose() if self._is_single else _pose(self.node)[0]
 
     def pose(self, name: str, depth: int = 0) -> Pose:
-        """Return the pose of a frame in the model. ValueError if it is unknown, or in itself."""
+        """Return the pose of a frame in the model. ValueError if it is unknown, or in itself.
+
+        name: with "::" between models and their content. depth: of the frames that led to it.
+        """
         if name not in self._poses:
             first, _, rest = name.partition("::")
             node = self._frames.get(first)
             if node is None or rest and node.tag != "model" or depth > MAX_DEPTH:
                 raise ValueError(name)
+            # Without a frame of its own, a pose is in that of the child, or of the attachment.
             defaults = {"joint": _text(node, "child"), "frame": node.get("attached_to")}
             relative, _, _, outer = _pose(node)
             outer = outer or defaults.get(node.tag) or OWN
@@ -152,8 +156,7 @@ class _Model:
 
 def _joint(node: Node, model: _Model) -> StatedJoint:
     name = node.get("name")
-    parent = _text(node, "parent")
-    child = _text(node, "child")
+    parent, child = _text(node, "parent"), _text(node, "child")
     parent_model, parent_link = model.link_of(parent)
     child_model, child_link = model.link_of(child)
     if parent_link is not None:
@@ -165,6 +168,7 @@ def _joint(node: Node, model: _Model) -> StatedJoint:
         if kind in ("hinge", "slide"):
             in_child = child_model.place(child_link).inverse() @ model.place(node)
             motions = tuple(_motions(node, kind, model, in_child))
+    # "" is the world, and "?" no link, so that a joint without parent is refused.
     parent = "" if parent == "world" else parent or "?"
     return StatedJoint(name, parent, child, None, motions, node.place)
 
@@ -209,7 +213,7 @@ def _link(node: Node, model: _Model) -> StatedLink:
 
     shapes = read_shapes(findings, node, pose_of, KINDS, _text, 1.0, node.place.file)
     rules = None
-    if is_auto:
+    if is_auto:  # With a wrong number all shapes stay without weight.
         shapes, rules = attempt(findings, node, _weights, element, shapes) or (shapes, None)
     is_static = _text(model.node, "static") in TRUE
     moves = not is_static and (is_auto or bool(shapes) and element is None)

@@ -294,10 +294,13 @@ class _Stage:
         findings: list[Finding] = []
         frame = Pose(matrix[:3, 3], _turn(matrix))
         to_link = frame.inverse().matrix
-        rules = attempt(findings, prim, self._rules, to_link @ matrix)
+        local = to_link @ matrix
+        rules = attempt(findings, prim, self._rules, local)
         inertials = rules and attempt(findings, prim, self._inertials, rules)
         inertial, overridden = inertials or (None, None)
         density = rules and attempt(findings, prim, Prim.number, "physics:density", 0.0)
+        # A body that states its inertial and center takes nothing from colliders; nor does one with
+        # a wrong number. `newton:inertia`, which has no quaternion, replaces the other moments.
         if rules is None or inertial is not None and rules.center is not None or findings:
             rules = None
         elif inertial is not None and inertial.quaternion is None:
@@ -313,6 +316,7 @@ class _Stage:
                 of_shape = attempt(findings, part, self._rules, to_link @ place)
                 if of_shape and of_shape.axes is None and of_shape.moments is not None:
                     of_shape = of_shape._replace(axes=_turn(to_link @ place))
+                # The weight has the shape's mass already.
                 shape = replace(
                     shape, weight=weight, rules=of_shape and of_shape._replace(mass=0.0)
                 )
@@ -325,7 +329,7 @@ class _Stage:
             moves="PhysicsRigidBodyAPI" in prim.metadata,
             rules=rules,
             findings=tuple(findings),
-            local=to_link @ matrix,
+            local=local,
             place=Place(prim.line),
             inertial_place=Place(prim.line),
             overridden=overridden,
@@ -393,15 +397,16 @@ class _Stage:
 
 
 def _joint(prim: Prim, path: str, links: Mapping[str, StatedLink], unit: float) -> StatedJoint:
-    """Return a joint: both of its frames coincide when it is at zero. links: by their names.
+    """Return a joint: both of its frames coincide when it is at zero. links: by their names. unit:
+    m.
 
     ValueError if a number is wrong.
     """
-    first, second = (_end(prim, end, links, unit) for end in "01")
-    # The world may be either body.
-    is_reversed = bool(first[0]) and not second[0]
-    parent, in_parent = second if is_reversed else first
-    child, in_child = first if is_reversed else second
+    (parent, in_parent), (child, in_child) = (_end(prim, end, links, unit) for end in "01")
+    # The world may be either body, and is the parent here.
+    is_reversed = bool(parent) and not child
+    if is_reversed:
+        parent, in_parent, child, in_child = child, in_child, parent, in_parent
     pose = None
     outer = links[parent].pose if parent else None
     inner = links[child].pose if child else None
@@ -409,7 +414,7 @@ def _joint(prim: Prim, path: str, links: Mapping[str, StatedLink], unit: float) 
         pose = in_parent @ in_child.inverse()
         placed = outer.inverse() @ inner
         apart = np.abs(pose.matrix - placed.matrix).max()
-        # The prims' places have more digits than the frames.
+        # The prims' places have more digits than the frames, and count if both agree.
         if apart <= SINGLE_RTOL * max(1.0, np.abs(placed.position).max()):
             pose = None
     axis = prim.values.get("physics:axis", '"X"').strip("\"'")
@@ -490,6 +495,9 @@ def _parts(prim: Prim, matrix: NDArray) -> Iterator[tuple[Prim, NDArray]]:
 
 
 def _shape(prim: Prim, matrix: NDArray, unit: float) -> StatedShape | None:
+    """Return the shape of a prim, None if it has none. matrix: (4, 4), from the prim to the link,
+    in the file's unit, m.
+    """
     role = "collision" if "PhysicsCollisionAPI" in prim.metadata else "visual"
     if prim.kind == "Mesh":
         return _mesh(prim, matrix, unit, role)
@@ -508,6 +516,7 @@ def _shape(prim: Prim, matrix: NDArray, unit: float) -> StatedShape | None:
             Shape("ellipsoid", tuple((prim.number("radius", 1.0) * scales).tolist()), pose), role
         )
     axis = prim.values.get("axis", '"Z"').strip("\"'")
+    # The columns of the prim's axes that are the x, y and z axes of our shape.
     order = {"X": [1, 2, 0], "Y": [2, 0, 1], "Z": [0, 1, 2]}[axis if axis in "XYZ" else "Z"]
     across, _, along = scales[order]
     capsule = prim.kind == "Capsule"
@@ -528,6 +537,7 @@ def _mesh(prim: Prim, matrix: NDArray, unit: float, role: str) -> StatedShape | 
     if not (np.abs(placed) <= MOST).all():
         raise ValueError(prim.values["points"][:80])
     triangles = surface.triangles
+    # A mirrored mesh turns its faces as one of left-handed faces does; both together do not.
     is_left_handed = prim.values.get("orientation", "").strip("\"'") == "leftHanded"
     if is_left_handed != (np.linalg.det(matrix[:3, :3]) < 0.0):
         triangles = triangles[:, ::-1]

@@ -151,8 +151,7 @@ def parse(data: bytes, file: str = "") -> Node:
         parse_xml(parser, [data])
     except (expat.ExpatError, ValueError, LookupError) as error:
         reason = " ".join(str(error).partition(": line")[0].split())
-        line = parser.ErrorLineNumber
-        column = parser.ErrorColumnNumber + 1
+        line, column = parser.ErrorLineNumber, parser.ErrorColumnNumber + 1
         raise FileError(
             DESCRIPTION_INVALID, format="XML", line=line, column=column, error=reason
         ) from error

@@ -22,10 +22,13 @@ _IN_PROPERTIES = ((":", "%3A"), (",", "%2C"))
 
 
 def _located(documents: Sequence[dict[str, Any]]) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Yield all entries, each with the name of its link, "" if it is about the file."""
-    for one in documents:
-        yield from (("", reason) for reason in [*one["errors"], *one["findings"]])
-        yield from ((link["name"], found) for link in one["links"] for found in link["findings"])
+    """Yield the name of the link, "" if it is about the file, and the record of all entries of
+    report documents.
+    """
+    for document in documents:
+        yield from (("", found) for found in [*document["errors"], *document["findings"]])
+        for link in document["links"]:
+            yield from ((link["name"], found) for found in link["findings"])
 
 
 def _text(link: str, found: dict[str, Any]) -> str:
@@ -62,7 +65,7 @@ def to_sarif(documents: Sequence[dict[str, Any]]) -> str:
             "region": {"startLine": found["line"], "startColumn": found["column"]},
         }
         logical = [{"name": link, "kind": "object"}] if link else []
-        key = "\0".join((_relative(found["file"]), link, found["code"])).encode(
+        identity = "\0".join((_relative(found["file"]), link, found["code"])).encode(
             "utf-8", "surrogatepass"
         )
         results.append(
@@ -72,7 +75,7 @@ def to_sarif(documents: Sequence[dict[str, Any]]) -> str:
                 "level": found["severity"],
                 "message": {"text": _text(link, found)},
                 "locations": [{"physicalLocation": place, "logicalLocations": logical}],
-                "partialFingerprints": {"fileLinkCode/v1": hashlib.sha256(key).hexdigest()},
+                "partialFingerprints": {"fileLinkCode/v1": hashlib.sha256(identity).hexdigest()},
                 "baselineState": "unchanged" if found.get("known") else "new",
                 "properties": {
                     key: found.get(key) for key in ("stated", "geometry", "change", "certainty")

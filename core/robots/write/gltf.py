@@ -80,7 +80,9 @@ class _Document:
     def _node(
         self, name: str, pose: Pose, parent: int | None = None, turn: NDArray | None = None
     ) -> int:
-        """Add a node and return its index. turn: a further rotation, about axes of the node."""
+        """Add a node and return its index. pose: with z up, in the parent node or the scene. turn:
+        (3, 3) further rotation, about axes of the node.
+        """
         rotation = Y_UP @ pose.rotation @ Y_UP.T
         node: dict[str, Any] = {"name": name}
         if pose.position.any():
@@ -98,6 +100,7 @@ class _Document:
         if shape.kind == "mesh":
             if shape.surface is None:
                 return
+            # A mesh that is not seen hangs on a node of its own, outside of the scene.
             index = holder = self._node(
                 link.name + (" mesh" if shape.seen else " collider"), shape.pose, parent
             )
@@ -115,10 +118,12 @@ class _Document:
             self.nodes[index]["extensions"] = {KHR: {"collider": {"geometry": geometry}}}
 
     def _mesh(self, surface: Surface) -> int:
+        """Add a mesh with its tables, and return its index."""
         used_points, triangles = keep_used(surface.points, surface.all_triangles()[0])
         points = (used_points @ Y_UP.T + 0.0).astype("<f4")
-        ends = {"min": points.min(axis=0).tolist(), "max": points.max(axis=0).tolist()}
-        position = self._accessor(points.tobytes(), 5126, "VEC3", len(points), 34962, ends)
+        bounds = {"min": points.min(axis=0).tolist(), "max": points.max(axis=0).tolist()}
+        # 5126: float32, 5125: uint32; 34962: vertices, 34963: indices.
+        position = self._accessor(points.tobytes(), 5126, "VEC3", len(points), 34962, bounds)
         indices = self._accessor(
             triangles.astype("<u4").tobytes(), 5125, "SCALAR", triangles.size, 34963, {}
         )
@@ -145,6 +150,7 @@ class _Document:
     def add_joint(self, joint: Joint) -> None:
         child = self.robot.link(joint.child)
         parent = self.robot.link(joint.parent)
+        # The nodes' x axis is a single free axis; several are axes of the joint's frame already.
         turn = along_x(Y_UP @ joint.free[0].axis) if len(joint.free) == 1 else np.eye(3)
         place = parent.pose.inverse() @ child.pose @ joint.pose
         index = self._node(joint.name, place, self.node_of_link[parent.name], turn)
@@ -203,7 +209,7 @@ def _implicit(shape: Shape) -> dict[str, Any]:
 
 def _limits(joint: Joint, turn: NDArray) -> list[dict[str, Any]]:
     """Return the limits of a joint along its node's axes: zero for fixed directions, the range of
-    limited ones.
+    limited ones. turn: (3, 3), from the node's axes to those of the joint's frame with y up.
     """
     fixed = {"linearAxes": {0, 1, 2}, "angularAxes": {0, 1, 2}}
     limits: list[dict[str, Any]] = []

@@ -125,8 +125,8 @@ def with_axis_frames(
     had several.
 
     The frames stand at the joint, along the child's axes. is_whole: returns True for joints that
-    stay as they are. part: of the child's inertial, which each of its frames takes over; zero for
-    frames without mass.
+    stay as they are. part: the fraction of the child's mass and inertia that each of its frames
+    takes over; zero for frames without mass.
     """
     names = {link.name for link in robot.links}
     joint_names = {joint.name for joint in robot.joints}
@@ -141,6 +141,7 @@ def with_axis_frames(
         pose = child.pose @ Pose(place) if place.any() else child.pose
         inertial = None
         if part and between and child.inertial is not None:
+            # A frame has the child's axes and another origin: moved back, the total stays.
             inertial = child.inertial.share(part).place(Pose(-place))
             rest = child.inertial.share(1.0 - part * len(between))
             links[child.name] = replace(child, inertial=rest)

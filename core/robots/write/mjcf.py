@@ -30,6 +30,7 @@ from .text import (
 )
 
 LEAST = 1e-15  # mjMINVAL: MuJoCo refuses moving bodies of less mass or inertia, kg and kg·m².
+FAR = 1e10  # rad or m, in the place of an open limit beside a finite one
 
 
 def check(robot: Robot) -> list[Finding]:
@@ -65,31 +66,28 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
     """Return a robot as MJCF. remarks, inertial_only: as in `urdf.write`."""
     names = unique_names([link.name for link in robot.links], _name)
     joint_names = unique_names([joint.name for joint in robot.joints], _name)
-    axes = [
-        (joint.name, count)
+    # Each axis of a joint with several is a joint of its own in the file, numbered from 1.
+    numbered = {
+        (joint.name, index): "{}_{}".format(joint_names[joint.name], index + 1)
         for joint in robot.joints
         if len(joint.free) > 1 and not joint.is_ball
-        for count in range(len(joint.free))
-    ]
-    axis_names = unique_names(
-        axes,
-        lambda axis: "{}_{}".format(joint_names[axis[0]], axis[1] + 1),
-        joint_names.values(),
-    )
+        for index in range(len(joint.free))
+    }
+    axis_names = unique_names(numbered, lambda axis: numbered[axis], joint_names.values())
     root = Element("mujoco", model=xml_text(robot.name))
     if not inertial_only:
         bounds: dict[str, str] = {}
-        if small_links(robot, LEAST):
+        if small_links(robot, LEAST):  # MuJoCo refuses them unless it may raise them.
             bounds = {"boundmass": number(LEAST), "boundinertia": number(LEAST)}
         SubElement(root, "compiler", bounds, angle="radian", autolimits="true")
     robot = robot if inertial_only else with_masses(robot)
     meshes = {} if inertial_only else _add_meshes(root, robot)
     world = SubElement(root, "worldbody")
-    elements: dict[str, Element] = {}
+    bodies: dict[str, Element] = {}
     for link in robot.ordered():
         joint = robot.joint_of(link.name)
-        above = world if joint is None else elements[joint.parent]
-        body = elements[link.name] = SubElement(above, "body", name=names[link.name])
+        parent = world if joint is None else bodies[joint.parent]
+        body = bodies[link.name] = SubElement(parent, "body", name=names[link.name])
         if not inertial_only:
             _add_place(body, robot.pose_in_parent(link))
             _add_joints(body, robot, link, joint, joint_names, axis_names)
@@ -111,6 +109,7 @@ def _mimics(robot: Robot, names: dict[str, str]) -> Iterator[Element]:
         if joint.mimic is not None:
             leader, multiplier, offset = joint.mimic
             both = {"joint1": names[joint.name], "joint2": names[leader]}
+            # position = offset + multiplier · leader, and no higher powers
             powers = numbers((offset, multiplier, 0.0, 0.0, 0.0))
             yield element("joint", **both, polycoef=powers)
 
@@ -160,7 +159,8 @@ def _add_joints(
     names: dict[str, str],
     axis_names: dict[tuple[str, int], str],
 ) -> None:
-    """Add a joint for each degree of freedom of a link.
+    """Add a joint for each degree of freedom of a link. names: of joints with one axis; axis_names:
+    of each axis of others, by the joint's name and the axis's index.
 
     A root with mass moves freely if it is not fixed.
     """
@@ -180,7 +180,7 @@ def _add_joints(
                 effort = free.values["effort"]
                 values["actuatorfrcrange"] = numbers((-effort, effort))
         if free.is_limited:
-            values["range"] = numbers((max(free.lower, -1e10), min(free.upper, 1e10)))
+            values["range"] = numbers((max(free.lower, -FAR), min(free.upper, FAR)))
         for key, value in free.values.items():
             if NAMES["MJCF"].get(key):
                 values[NAMES["MJCF"][key]] = number(value)
@@ -201,6 +201,7 @@ def inertial_text(inertial: StatedInertial, *_: object) -> str:
 def _add_geoms(body: Element, shape: Shape, meshes: dict[tuple, str]) -> None:
     """Add a geom that is only seen, and one that collides, which has the mass of both."""
     mass = number(shape.mass) if shape.mass else "0"
+    # MuJoCo makes the convex hull of a collider; a flat sheet has none.
     is_collider = shape.collides and not shape.sheet
     if shape.seen:
         own_mass = "0" if is_collider else mass
@@ -217,6 +218,7 @@ def _add_geom(body: Element, shape: Shape, meshes: dict[tuple, str], role: dict[
     if shape.kind == "mesh":
         geom.set("mesh", meshes[_mesh_key(shape)])
     else:
+        # MuJoCo states half lengths; radii and semi-axes are halves already.
         halves = {"box": (0.5,) * 3, "capsule": (1.0, 0.5), "cylinder": (1.0, 0.5)}
         factors = halves.get(shape.kind, (1.0,) * 3)
         geom.set("size", numbers(map(mul, shape.size, factors)))

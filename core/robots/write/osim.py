@@ -42,6 +42,7 @@ def _order(joint: Joint) -> bool | None:
     neither.
     """
     kinds = [free.kind for free in joint.free]
+    # In the alphabet "rotate" comes before "translate".
     if kinds == sorted(kinds, reverse=True):
         return True
     return False if kinds == sorted(kinds) else None
@@ -60,7 +61,7 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
             joints.append(_joint(robot, joint, joint_names[joint.name], names))
         elif not inertial_only:
             name = names[link.name]
-            ends = _ends((("", link.pose), (name, Pose())))
+            ends = _ends((("", link.pose), (name, Pose())))  # the ground, and the link itself
             kind = "FreeJoint" if robot.moves_freely(link) else "WeldJoint"
             joints.append(element(kind, *ends, name=name + "_ground"))
     sets = [element("BodySet", element("objects", *bodies), name="bodyset")]
@@ -104,9 +105,10 @@ def _geometry(shape: Shape) -> Element:
 
 
 def _frame(name: str, body: str, pose: Pose, *parts: Element) -> Element:
-    """Return a frame of a body, "" for the ground, with more in it.
+    """Return a frame of a body, "" for the ground, with more elements in it.
 
-    Its angles turn about its own x, y and z in turn.
+    Its angles turn about its own x, y and z in turn. That is the inverse of Rz(-z) Ry(-y) Rx(-x),
+    so they are the roll, pitch and yaw of the transposed rotation, with the other sign.
     """
     texts = {
         "socket_parent": "/bodyset/" + body if body else "/ground",
@@ -118,6 +120,9 @@ def _frame(name: str, body: str, pose: Pose, *parts: Element) -> Element:
 
 
 def _ends(ends: Sequence[tuple[str, Pose]]) -> list[Element]:
+    """Return the elements for the parent and the child of a joint: each a body, "" for the ground,
+    and the pose of the joint in it.
+    """
     sides = [*zip(("parent", "child"), ends)]
     frames = (_frame(side, body, pose) for side, (body, pose) in sides)
     sockets = (element("socket_{}_frame".format(side), text=side) for side, _ in sides)
@@ -125,34 +130,37 @@ def _ends(ends: Sequence[tuple[str, Pose]]) -> list[Element]:
 
 
 def _joint(robot: Robot, joint: Joint, name: str, names: dict[str, str]) -> Element:
-    """Return a joint.
+    """Return a joint. names: of the bodies, by link.
 
-    A CustomJoint moves before it turns; one that turns first is stated from its other side.
+    A CustomJoint moves before it turns, each along three axes in a row, which are free or constant.
+    A joint that turns first is stated from its other side, with parent and child exchanged.
     """
     place = robot.pose_in_parent(robot.link(joint.child)) @ joint.pose
     ends = ((names[joint.parent], place), (names[joint.child], joint.pose))
     kind = "BallJoint" if joint.is_ball else "CustomJoint" if joint.free else "WeldJoint"
-    is_turned = _order(joint) is False
-    parts = _ends(ends[::-1] if is_turned else ends)
+    is_exchanged = _order(joint) is False
+    parts = _ends(ends[::-1] if is_exchanged else ends)
     if kind != "CustomJoint":
         return element(kind, *parts, name=name)
-    free_axes = [free.reverse() for free in reversed(joint.free)] if is_turned else joint.free
+    all_free = [free.reverse() for free in reversed(joint.free)] if is_exchanged else joint.free
     coordinates = []
     axes = []
-    for title, freedom in (("rotation", "rotate"), ("translation", "translate")):
-        own = [free for free in free_axes if free.kind == freedom]
-        directions = [free.axis for free in own]
-        rest = np.linalg.qr(np.column_stack([*directions, np.eye(3)]))[0].T[len(own) :]
-        for count, direction in enumerate([*directions, *rest]):
+    for title, kind_of_axis in (("rotation", "rotate"), ("translation", "translate")):
+        free_axes = [free for free in all_free if free.kind == kind_of_axis]
+        directions = [free.axis for free in free_axes]
+        # The first rows span the free directions; the others complete them to three axes.
+        completed = np.linalg.qr(np.column_stack([*directions, np.eye(3)]))[0].T
+        for index, direction in enumerate([*directions, *completed[len(directions) :]]):
+            axis_name = "{}{}".format(title, index + 1)
             along = element("axis", text=numbers(direction))
-            inner = [along, element("Constant", element("value", text="0"), name="function")]
-            if count < len(own):
-                label = "{}_{}{}".format(name, title, count + 1) if len(free_axes) > 1 else name
-                coordinates.append(_coordinate(own[count], label))
+            content = [along, element("Constant", element("value", text="0"), name="function")]
+            if index < len(free_axes):
+                label = "{}_{}".format(name, axis_name) if len(all_free) > 1 else name
+                coordinates.append(_coordinate(free_axes[index], label))
                 slope = element("coefficients", text="1 0")
                 function = element("LinearFunction", slope, name="function")
-                inner = [element("coordinates", text=label), along, function]
-            axes.append(element("TransformAxis", *inner, name="{}{}".format(title, count + 1)))
+                content = [element("coordinates", text=label), along, function]
+            axes.append(element("TransformAxis", *content, name=axis_name))
     parts += (element("coordinates", *coordinates), element("SpatialTransform", *axes))
     return element(kind, *parts, name=name)
 

@@ -32,7 +32,8 @@ from .text import (
 VERSION = (
     "1.9"  # The first with quaternions; newer parsers convert it, older ones refuse newer files.
 )
-# of the child's inertial, for frames between axes: readers take no link without mass
+# The fraction of the child's inertial for each frame between axes, as readers take no link without
+# mass; chosen: a millionth, and a power of 2, which rounds nothing.
 FRAME_PART = 2.0**-20
 _RESERVED = re.compile(r"__.*__|world", re.DOTALL)
 
@@ -124,7 +125,7 @@ def inertial_text(inertial: StatedInertial, old: str, *_: object) -> str:
     place = element("pose", text=numbers(principal.center) + " 0 0 0")
     text = element_text(_with_tensor([place], principal.mass, principal.inertia))
     kept = re.findall(r"<fluid_added_mass>.*?</fluid_added_mass>", old, re.DOTALL)
-    return text.replace("\n</inertial>", "".join("\n  " + one for one in kept) + "\n</inertial>")
+    return text.replace("\n</inertial>", "".join("\n  " + mass for mass in kept) + "\n</inertial>")
 
 
 def _shapes(link: Link) -> Iterator[Element]:
@@ -140,6 +141,7 @@ def _shapes(link: Link) -> Iterator[Element]:
 
 
 def _joint_type(joint: Joint) -> str:
+    """Return the type of a joint that has one, as `_is_whole` tells."""
     kinds = [free.kind for free in joint.free]
     if len(kinds) < 2:
         return {"rotate": "revolute", "translate": "prismatic"}[kinds[0]] if kinds else "fixed"
@@ -151,8 +153,7 @@ def _axes(joint: Joint) -> Iterator[Element]:
         limits = {"lower": free.lower, "upper": free.upper}
         dynamics: dict[str, float] = {}
         for name, value in free.values.items():
-            group = limits if name in ("effort", "velocity") else dynamics
-            group[NAMES["SDF"][name]] = value
+            (limits if name in ("effort", "velocity") else dynamics)[NAMES["SDF"][name]] = value
         groups = {"limit": limits} | ({"dynamics": dynamics} if dynamics else {})
         parts = (
             element(group, *(element(name, text=number(value)) for name, value in values.items()))

@@ -17,7 +17,8 @@ from ..model import Link, Pose, Robot, Shape
 from ..primitives import equal_inertia_shape, moments_of
 from .text import number, numbers
 
-BOX_OF_ELLIPSOID = 2.0 * sqrt(3.0 / 5.0)  # sides over semi-axes at equal mass and inertia
+# Sides s over semi-axes a at equal mass and inertia: a mean square of s²/12 = a²/5 along each axis.
+BOX_OF_ELLIPSOID = 2.0 * sqrt(3.0 / 5.0)
 
 
 def box_of_ellipsoid(shape: Shape) -> Shape:
@@ -119,8 +120,9 @@ def with_masses(robot: Robot) -> Robot:
         mass = link.inertial.mass
         shares = np.array([shape.mass for shape in heavy])
         if not (shares > 0.0).any():
+            # Volumes, at the density 1; equal shares if one is unknown.
             is_known = all(shape.kind != "mesh" or shape.surface for shape in heavy)
-            shares = np.array([moments_of(one).raw[0] if is_known else 1.0 for one in heavy])
+            shares = np.array([moments_of(shape).raw[0] if is_known else 1.0 for shape in heavy])
         if not shares.sum() > 0.0 or (shares < 0.0).any():
             shares = np.ones(len(heavy))
         masses = dict(zip(map(id, heavy), (mass * shares / shares.sum()).tolist()))

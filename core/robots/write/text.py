@@ -41,8 +41,9 @@ def xml_name(text: str) -> str:
     """Return a name for XML: readers trim spaces at its ends, and refuse an empty one."""
     text = xml_text(text)
     inner = text.strip()
-    start = len(text) - len(text.lstrip()) if inner else 0
-    return "_" * start + inner + "_" * (len(text) - start - len(inner)) if text else "_"
+    # An underscore takes the place of each space at an end.
+    before = len(text) - len(text.lstrip()) if inner else 0
+    return "_" * before + inner + "_" * (len(text) - before - len(inner)) if text else "_"
 
 
 def unique_names(
@@ -75,6 +76,7 @@ def roll_pitch_yaw(rotation: NDArray) -> tuple[float, float, float]:
     """
     yaw = atan2(rotation[1, 0], rotation[0, 0])
     pitch = atan2(-rotation[2, 0], hypot(rotation[0, 0], rotation[1, 0]))
+    # The rotation turned back by the yaw shows the roll however small the pitch's cosine is.
     roll = atan2(
         sin(yaw) * rotation[0, 2] - cos(yaw) * rotation[1, 2],
         cos(yaw) * rotation[1, 1] - sin(yaw) * rotation[0, 1],
@@ -89,10 +91,10 @@ def is_identity(pose: Pose) -> bool:
 
 def element(tag: str, *parts: Element, text: str | None = None, **attributes: str) -> Element:
     """Return an element with attributes, text and the elements in it."""
-    made = Element(tag, attributes)
-    made.text = text
-    made.extend(parts)
-    return made
+    result = Element(tag, attributes)
+    result.text = text
+    result.extend(parts)
+    return result
 
 
 def element_text(root: Element) -> str:
@@ -106,6 +108,7 @@ def document(root: Element, kind: str, remarks: Iterable[str]) -> str:
     element, indented.
     """
     lines = [MARKER.format(kind), *(xml_text(remark) for remark in remarks)]
+    # A comment of XML neither contains "--" nor ends in "-".
     comments = ["<!-- {} -->\n".format(re.sub("-(?=-|$)", "- ", line)) for line in lines]
     body = element_text(root)
     return '<?xml version="1.0" encoding="utf-8"?>\n{}{}\n'.format("".join(comments), body)

@@ -24,7 +24,7 @@ def with_geometry(
     mesh_format: str = "stl",
 ) -> tuple[Robot, list[Finding]]:
     """Return a robot with meshes, written to files unless the format embeds them, and a finding
-    about bare links.
+    about bare links. surface_of: as of `with_meshes`. The others: as of `write_meshes`.
     """
     robot, findings = with_meshes(robot, surface_of)
     return robot if FORMATS[format_name].holds_meshes else write_meshes(
@@ -47,6 +47,6 @@ def check(robot: Robot, format_name: str, *, inertial_only: bool = False) -> lis
     """Return findings about a robot in a format."""
     findings = FORMATS[format_name].writer_module.check(robot)
     if inertial_only:
-        return [one for one in findings if one.code == INERTIA_TOO_SMALL]
+        return [found for found in findings if found.code == INERTIA_TOO_SMALL]
     is_stiff = robot.joints and not any(joint.free for joint in robot.joints)
     return [*([finding(JOINTS_ALL_FIXED)] if is_stiff else []), *findings]

@@ -36,11 +36,9 @@ from .text import (
 
 FLATNESS = 1e-7  # Thickness relative to length, of float32 vertices in a plane.
 BASE, WORLD = "base_link", "world"
-SLACK = (
-    2.0**-48
-    # The largest moment of a flat body is lowered by this part: MuJoCo tests A + B ≥ C without
-    # tolerance.
-)
+# The largest moment of a flat body is lowered by this part, as MuJoCo tests A + B ≥ C without
+# tolerance: 16 times the rounding of float64, for the rounding of both programs.
+SLACK = 2.0**-48
 LEAST = 1e-14  # kg and kg·m² that MuJoCo gives massless frames, as it refuses less than 1e-15.
 BOUNDED = 1e-13  # It takes smaller tensors for singular, unless a bound is set.
 # A limited joint must state these unknown values. N·m or N, and rad/s or m/s, too large to have an
@@ -55,12 +53,12 @@ def check(robot: Robot) -> list[Finding]:
     if loose and len(robot.roots) > 1:
         name = BASE if len(loose) == len(robot.roots) else WORLD
         findings.append(finding(ROBOT_BASE_ADDED, count=len(loose), name=name))
-    # The root of the file that is to be free: an added one, or a frame.
-    free = BASE if len(loose) == len(robot.roots) > 1 else ""
+    # A root of the file that is to be free, and has no mass: an added one, or a frame.
+    massless_root = BASE if len(loose) == len(robot.roots) > 1 else ""
     if len(robot.roots) == len(loose) == 1 and loose[0].inertial is None:
-        free = loose[0].name
-    if free:
-        findings.append(finding(URDF_ROOT_WITHOUT_MASS, name=free))
+        massless_root = loose[0].name
+    if massless_root:
+        findings.append(finding(URDF_ROOT_WITHOUT_MASS, name=massless_root))
     findings += ellipsoids_as_boxes(robot)
     unknown = [
         joint.name
@@ -78,12 +76,15 @@ def check(robot: Robot) -> list[Finding]:
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
     """Return a robot as URDF, with remarks as comments. inertial_only: only the links with their
     inertials.
+
+    A file has one root. A single loose one is it; else all roots are fixed to an added link: the
+    world if one of them is fixed to it.
     """
     robot = robot if inertial_only else with_axis_frames(robot.at_joints())
     names = unique_names([link.name for link in robot.links], _name)
     joint_names = unique_names([joint.name for joint in robot.joints], xml_name)
     parts = []
-    base = None
+    base = None  # the name of the added root
     if not inertial_only:
         parts.append(_compiler(robot))
         if any(link.is_fixed for link in robot.roots):
@@ -98,15 +99,14 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
         parts.append(element("link", inertial, *shapes, name=names[link.name]))
     for link in () if inertial_only else robot.ordered():
         joint = robot.joint_of(link.name)
-        ends = {"child": names[link.name]}
+        child = names[link.name]
         if joint is not None:
-            ends |= {"name": joint_names[joint.name], "parent": names[joint.parent]}
+            name, parent = joint_names[joint.name], names[joint.parent]
         elif base is not None:
-            name = free_name(names[link.name] + "_joint", joint_names.values())
-            ends |= {"name": name, "parent": base}
+            name, parent = free_name(child + "_joint", joint_names.values()), base
         else:
             continue
-        parts.append(_joint(robot.pose_in_parent(link), joint, joint_names, **ends))
+        parts.append(_joint(robot.pose_in_parent(link), joint, joint_names, name, parent, child))
     return document(element("robot", *parts, name=xml_name(robot.name)), "urdf", remarks)
 
 
@@ -117,8 +117,8 @@ def _name(text: str) -> str:
 
 
 def _compiler(robot: Robot) -> Element:
-    """Let MuJoCo keep fixed links, folders of meshes, and links of little or no mass; other readers
-    skip it.
+    """Return the element that lets MuJoCo keep fixed links, folders of meshes, and links of little
+    or no mass; other readers skip it.
     """
     values = {"fusestatic": "false", "strippath": "false"}
     is_bare = any(link.inertial is None and robot.joint_of(link.name) for link in robot.links)
@@ -137,6 +137,7 @@ def _inertial(inertial: Inertial) -> Element:
     tensor = inertial.inertia
     axis = inertial.axes[:, 2]
     first, second, third = inertial.moments
+    # What the sum of the others lacks to exceed the largest moment by the slack.
     missing = SLACK * third - (first + second - third)
     if missing > 0.0:
         tensor = tensor - missing * np.outer(axis, axis)
@@ -176,6 +177,7 @@ def _is_flat(surface: Surface | None) -> bool:
     if surface is None:
         return False
     points = surface.used_points()
+    # Variances along the principal directions, the least at the end: squares of lengths.
     spread = np.linalg.svd(np.cov((points - points[0]).T), compute_uv=False)
     return bool(spread[2] <= FLATNESS**2 * spread[0])
 
@@ -183,14 +185,17 @@ def _is_flat(surface: Surface | None) -> bool:
 def _joint(
     pose: Pose, joint: Joint | None, names: Mapping[str, str], name: str, parent: str, child: str
 ) -> Element:
-    axis = joint.free[0] if joint is not None and joint.free else None
+    """Return a joint of at most one axis. pose: of the child in the parent. joint: None for a root
+    that is fixed to the added link. names: of the joints in the file.
+    """
+    free = joint.free[0] if joint is not None and joint.free else None
     parts = [_origin(pose), element("parent", link=parent), element("child", link=child)]
-    if joint is not None and axis is not None:
-        parts.append(element("axis", xyz=numbers(joint.pose.rotation @ axis.axis)))
-        if _needs_limit(axis):
-            parts.append(_limit(axis))
+    if joint is not None and free is not None:
+        parts.append(element("axis", xyz=numbers(joint.pose.rotation @ free.axis)))
+        if _needs_limit(free):
+            parts.append(_limit(free))
         dynamics = {
-            key: number(axis.values[key]) for key in ("damping", "friction") if key in axis.values
+            key: number(free.values[key]) for key in ("damping", "friction") if key in free.values
         }
         if dynamics:
             parts.append(element("dynamics", **dynamics))
@@ -198,7 +203,7 @@ def _joint(
             leader, multiplier, offset = joint.mimic
             values = {"multiplier": number(multiplier), "offset": number(offset)}
             parts.append(element("mimic", joint=names[leader], **values))
-    return element("joint", *parts, name=name, type=_joint_type(axis))
+    return element("joint", *parts, name=name, type=_joint_type(free))
 
 
 def _needs_limit(free: FreeAxis) -> bool:
@@ -221,7 +226,7 @@ def _limit(free: FreeAxis) -> Element:
     """Return the limits of a joint; an open one becomes a far one, because URDF requires both."""
     limit = {}
     if free.is_limited or free.kind == "translate":
-        far = 2.0 * pi if free.kind == "rotate" else 1e3
+        far = 2.0 * pi if free.kind == "rotate" else 1e3  # a whole turn, or a kilometer: chosen
         limit = {"lower": number(max(free.lower, -far)), "upper": number(min(free.upper, far))}
     rates = {"effort": EFFORT, "velocity": VELOCITY}
     limit |= {name: number(free.values.get(name, value)) for name, value in rates.items()}

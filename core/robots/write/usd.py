@@ -40,6 +40,7 @@ _INDENT = "    "
 
 def check(robot: Robot) -> list[Finding]:
     """Return findings about numbers that single precision cannot hold."""
+    # Twice the least number, chosen as a margin for rounding.
     small = [
         link.name
         for link in robot.links
@@ -147,8 +148,9 @@ def header(
         "(",
         '    """{}"""'.format(doc),
         "    defaultPrim = {}".format(quoted(prim)),
+        "    kilogramsPerUnit = 1",
+        "    metersPerUnit = {}".format(number(meters_per_unit)),
     ]
-    lines += ["    kilogramsPerUnit = 1", "    metersPerUnit = {}".format(number(meters_per_unit))]
     if sublayers:
         lines += [
             "    subLayers = [",
@@ -201,6 +203,7 @@ def inertial_text(
     mass = description.scales["mass"]
     local = np.eye(4) if link.local is None else link.local
     principal = inertial.principal()
+    # The file states the center in the prim's own coordinates, and all numbers in its units.
     center = np.asarray(
         np.linalg.solve(local[:3, :3], inertial.center / unit - local[:3, 3]) * unit, np.float64
     )
@@ -287,11 +290,8 @@ def _geometry(shape: Shape) -> list[str]:
     if shape.kind == "mesh":
         return [] if shape.surface is None else _mesh(shape.surface, shape.pose)
     scale = None
-    if shape.kind == "box":
-        attributes = ["double size = 1"]
-        scale = shape.size
-    elif shape.kind == "ellipsoid":
-        attributes = ["double radius = 1"]
+    if shape.kind in ("box", "ellipsoid"):
+        attributes = ["double {} = 1".format("size" if shape.kind == "box" else "radius")]
         scale = shape.size
     elif shape.kind == "sphere":
         attributes = ["double radius = {}".format(number(shape.size[0]))]
@@ -299,8 +299,8 @@ def _geometry(shape: Shape) -> list[str]:
         attributes = [
             "double radius = {}".format(number(shape.size[0])),
             'uniform token axis = "Z"',
+            "double height = {}".format(number(shape.size[1])),
         ]
-        attributes.append("double height = {}".format(number(shape.size[1])))
     return [*attributes, *_transform(shape.pose, scale)]
 
 
@@ -342,14 +342,14 @@ def _joint(robot: Robot, joint: Joint, name: str, names: dict[str, str]) -> list
     parent = robot.link(joint.parent)
     place = parent.pose.inverse() @ child.pose @ joint.pose
     turn = np.eye(3)
+    apis: Sequence[str] = ()
+    more: list[str] = []
     if not joint.free:
         kind = "PhysicsFixedJoint"
-        apis = ()
-        more = []
     elif len(joint.free) == 1:
         free = joint.free[0]
         kind = "PhysicsRevoluteJoint" if free.kind == "rotate" else "PhysicsPrismaticJoint"
-        turn = along_x(free.axis)
+        turn = along_x(free.axis)  # USD's joints move along an axis of their frames: x.
         apis, drive = _drive(free, "angular" if free.kind == "rotate" else "linear")
         more = [
             'uniform token physics:axis = "X"',
@@ -359,8 +359,6 @@ def _joint(robot: Robot, joint: Joint, name: str, names: dict[str, str]) -> list
         ]
     elif joint.is_ball:
         kind = "PhysicsSphericalJoint"
-        apis = ()
-        more = []
     else:
         kind = "PhysicsJoint"
         apis, more = _limits(joint)
@@ -374,7 +372,11 @@ def _joint(robot: Robot, joint: Joint, name: str, names: dict[str, str]) -> list
 def _ends(
     parent: str | None, child: str, place: Pose, own: Pose | None = None, top: str = "/" + ROOT
 ) -> list[str]:
-    """Return the lines of a joint's bodies and its frames in them. parent: None for the world."""
+    """Return the lines of a joint's bodies and its frames in them.
+
+    parent: its path below `top`, None for the world. place: the frame in the parent. own: the frame
+    in the child, by default the child's own.
+    """
     lines = []
     for index, (body, pose) in enumerate(((parent, place), (child, own or Pose()))):
         lines += [] if body is None else ["rel physics:body{} = <{}/{}>".format(index, top, body)]
@@ -410,12 +412,12 @@ def _limits(joint: Joint) -> tuple[tuple[str, ...], list[str]]:
     apis = []
     lines = []
     for free in joint.free:
-        axis = int(np.argmax(np.abs(free.axis)))
+        axis = int(np.argmax(np.abs(free.axis)))  # Directions are axes of the joint's frame.
         is_reversed = free.axis[axis] < 0.0
         low, high = (-free.upper, -free.lower) if is_reversed else (free.lower, free.upper)
-        name = ("rot" if free.kind == "rotate" else "trans") + "XYZ"[axis]
-        limits[name] = (_in_degrees(free.kind, low), _in_degrees(free.kind, high))
-        drive_apis, drive = _drive(free, name)
+        direction = ("rot" if free.kind == "rotate" else "trans") + "XYZ"[axis]
+        limits[direction] = (_in_degrees(free.kind, low), _in_degrees(free.kind, high))
+        drive_apis, drive = _drive(free, direction)
         apis += drive_apis
         lines += drive
     for name, (low, high) in limits.items():
