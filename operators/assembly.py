@@ -106,13 +106,19 @@ def report_cleared(operator: Operator, is_cleared: bool) -> set[str]:
     return selection.finish(operator, [write.reports.phrase(text, count=1)], is_changed=is_cleared)
 
 
-# ID property of an empty: the collection or empty whose frame it shows
+# ID property of an empty: the collection, scene or empty whose frame it shows
 FRAME_OF = "principal_frame_of_assembly"
 
 
 class _SnapToAssembly:
+    """Base of operators that move something to an assembly's center of mass.
+
+    `_place` moves it, given the context, the measured assembly and its center of mass in the world,
+    in Blender's units, and returns the report.
+    """
+
     target: TARGET
-    _place: Callable[..., str]  # places the cursor, empty or origin, and returns the report
+    _place: Callable[..., str]
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
@@ -154,7 +160,7 @@ class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
     def _place(self, context: Context, assembly: "bodies.Assembly", center: list[float]) -> str:
         root = assembly.root.member.data
         body = assembly.measurement.mass_properties
-        # nothing else can point to it
+        # An ID property cannot point to a scene's own collection, but to the scene.
         owner = context.scene if root == context.scene.collection else root
         empty = next((obj for obj in context.scene.objects if obj.get(FRAME_OF) == owner), None)
         if empty is None:
@@ -166,6 +172,7 @@ class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
             context.scene.collection.objects.link(empty)
         scene.changes.require_editable(empty)
         unit = scale.meters_per_unit(context.scene)
+        # An empty of a point mass would have no size: no empty is smaller than 0.001 units.
         empty.empty_display_size = max(float(body.radii_of_gyration.max()) / unit, 1e-3)
         frame = Matrix(body.principal.axes.tolist()).to_4x4()
         frame.translation = center
@@ -192,6 +199,7 @@ class OBJECT_OT_body_moments_assembly_origin(_SnapToAssembly, Operator):
             )
         scene.move_parent(context, root, center)
         if write.properties.is_stored(root):
+            # The empty is the active object: no other one is an operator's assembly.
             session.stored.assembly.store(context, measured_assembly(context, "OBJECT"))
         return write.reports.phrase(
             "Moved “{assembly}” to the center of mass; its children stay", assembly=root.name
@@ -220,6 +228,5 @@ class OBJECT_OT_body_moments_export_bill(Operator, ExportHelper):
             "Wrote the masses of {count} member to “{file}”",
             "Wrote the masses of {count} members to “{file}”",
         )
-        return selection.report(
-            self, write.reports.phrase(*texts, count=len(lines) - 2, file=path.name)
-        )
+        count = len(lines) - 2  # without the header and the assembly itself
+        return selection.report(self, write.reports.phrase(*texts, count=count, file=path.name))

@@ -89,7 +89,11 @@ def _answer(argv: list[str], channel: int, file_needed: bool) -> int:
 
 
 def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
-    """Measure files in child processes, or in this process, and return the exit code."""
+    """Measure files in child processes, or in this process, and return the exit code.
+
+    Modules are imported as late as possible: a wrong option is refused at once, and the process
+    that supervises others never loads the code that measures.
+    """
     from ..command.options import arguments
 
     options = arguments.parse(argv, file_needed)
@@ -107,7 +111,7 @@ def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
     from ..command.supervisor import processes
 
     arguments.check_blender(options, options.files)
-    _load_settings()
+    _load_settings()  # imports bpy, if there is one
     bpy = sys.modules.get("bpy")
     checks.prepare(options)
     opened = bpy.data.filepath if bpy else None
@@ -148,6 +152,7 @@ def _print(word: str, argv: list[str], channel: int) -> int:
     module = getattr(command, _PRINTING[word])
     options = module.parse(argv)
     text, code = module.answer(options)
+    # Not every command has the options --force and --output.
     check = output.guard(getattr(options, "force", False))
     is_written = output.write_result(text, getattr(options, "output", None), channel, check)
     return code if is_written or code == INTERNAL_ERROR else SOME_FAILED
@@ -212,7 +217,7 @@ def run_process() -> None:
         traceback.print_exc()
         code = INTERNAL_ERROR
     bpy = sys.modules.get("bpy")
-    if bpy is None or not bpy.app.module:
+    if bpy is None or not bpy.app.module:  # without bpy, or in Blender itself
         sys.exit(code)
     # The module may hang while the interpreter ends, after it has opened a file of a newer Blender.
     session = Path(bpy.app.tempdir)
@@ -228,7 +233,7 @@ def _run() -> int:
         _load_package()
     output = importlib.import_module(PACKAGE + ".command.files.output")
     channel = output.claim_stdout()  # first of all: importing bpy may print
-    words = sys.argv
+    words = sys.argv  # the first one is the program, or Blender's "--"
     bpy = sys.modules.get("bpy")
     in_blender = bpy is not None and not bpy.app.module
     if in_blender:  # Blender leaves the words after "--" to the script

@@ -110,8 +110,9 @@ class OBJECT_OT_body_moments_show_level(OnSubjectInObjectMode, Operator):
         if level is None:
             return selection.refuse(self, "“{object}” has changed. Press Level", object=obj.name)
         if self.what == "SURFACE" and not len(level.triangles):
-            text = "“{object}” is full to its top. Choose a lower level"
-            return selection.refuse(self, text, object=obj.name)
+            return selection.refuse(
+                self, "“{object}” is full to its top. Choose a lower level", object=obj.name
+            )
         add = stored.cuts.add_surface if self.what == "SURFACE" else stored.cuts.add_table
         added: Object = add(context, obj, level)
         return selection.report(self, write.reports.phrase("Added “{object}”", object=added.name))

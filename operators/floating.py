@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Floating objects: where they rest in a liquid, all such positions, and righting arms."""
 
+from collections.abc import Callable
+
 from bpy.props import BoolProperty, FloatProperty, IntProperty
 from bpy.types import Context, Object, Operator
 
@@ -19,8 +21,18 @@ class OnFloating(selection.OnSelectionInObjectMode):
         "children",
     )
 
-    def for_each_body(self, context: Context, act, summary_texts: tuple[str, str]) -> set[str]:
-        """Run a function for each body, and report how many it returned True for."""
+    def for_each_body(
+        self,
+        context: Context,
+        act: Callable[[tuple[Object, ...], list[Finding]], bool],
+        summary_texts: tuple[str, str],
+    ) -> set[str]:
+        """Run `act` for each body, and report how many it returned True for.
+
+        act: gets the objects of a body, and the list for its findings. summary_texts: the English
+        report, for one body and for `count` bodies.
+        """
+        # by the first object of each body, whose name a refusal is reported with
         bodies = {
             body[0]: body
             for body in session.stored.floating.bodies_of(
@@ -59,8 +71,9 @@ class OBJECT_OT_body_moments_float(OnFloating, Operator):
         def settle(members: tuple[Object, ...], notes: list[Finding]) -> bool:
             return session.stored.floating.float_body(context, members, self.position, notes)
 
-        texts = ("Set {count} body afloat", "Set {count} bodies afloat")
-        return self.for_each_body(context, settle, texts)
+        return self.for_each_body(
+            context, settle, ("Set {count} body afloat", "Set {count} bodies afloat")
+        )
 
 
 class OBJECT_OT_body_moments_float_positions(OnFloating, Operator):
@@ -74,8 +87,11 @@ class OBJECT_OT_body_moments_float_positions(OnFloating, Operator):
         def find(members: tuple[Object, ...], _notes: list[Finding]) -> bool:
             return bool(session.stored.floating.find_positions(context, members).rests)
 
-        texts = ("Found the positions of {count} body", "Found the positions of {count} bodies")
-        return self.for_each_body(context, find, texts)
+        return self.for_each_body(
+            context,
+            find,
+            ("Found the positions of {count} body", "Found the positions of {count} bodies"),
+        )
 
 
 class OBJECT_OT_body_moments_righting_arms(OnFloating, Operator):
@@ -114,6 +130,7 @@ class OBJECT_OT_body_moments_righting_arms(OnFloating, Operator):
     )
 
     def execute(self, context: Context) -> set[str]:
+        # The range is divided evenly, by steps next to the given one; 0 is one of the angles.
         count = round(self.last / self.step)
         angles = [self.last * i / count for i in range(-count, count + 1)]
 
@@ -123,8 +140,11 @@ class OBJECT_OT_body_moments_righting_arms(OnFloating, Operator):
                 session.stored.floating.add_curve(context, afloat)
             return True
 
-        texts = (
-            "Computed righting arms of {count} body",
-            "Computed righting arms of {count} bodies",
+        return self.for_each_body(
+            context,
+            heel,
+            (
+                "Computed righting arms of {count} body",
+                "Computed righting arms of {count} bodies",
+            ),
         )
-        return self.for_each_body(context, heel, texts)

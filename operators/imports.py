@@ -113,6 +113,7 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
     ) -> list[verdict.Finding | str]:
         """Make the object, and return findings and texts about the steps and decisions."""
         limits = replace(core.files.limits.file_limits(), allow_outside=self.allow_outside)
+        # None if the file's name states the size
         raw = (self.raw_shape, self.raw_type, self.raw_big_endian) if all(self.raw_shape) else None
         files = {"x": self.x_positions, "y": self.y_positions, "z": self.z_positions}
         files = {axis: bpy.path.abspath(file) for axis, file in files.items() if file}
@@ -123,7 +124,7 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
             raise verdict.FileError(FILE_EXISTS, file=target.name)
         unit = scale.meters_per_unit(context.scene)
         try:
-            low = scene.write_volume(module, placed, unit)
+            lowest_value = scene.write_volume(module, placed, unit)
         except (OSError, RuntimeError) as error:  # OpenVDB's own errors are RuntimeErrors
             raise verdict.FileError(
                 write.findings.FILE_NOT_WRITTEN,
@@ -138,13 +139,14 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
             )
         ]
         if files:
-            text = (
-                "Blender draws samples evenly. They are measured where they stand; the ends along "
-                "{axes} are in their "
-                "places."
+            texts.append(
+                write.reports.phrase(
+                    "Blender draws samples evenly. They are measured where they stand; the ends "
+                    "along {axes} are in their places.",
+                    axes=sorted(files),
+                )
             )
-            texts.append(write.reports.phrase(text, axes=sorted(files)))
-        if low < 0.0:
+        if lowest_value < 0.0:
             obj.body_moments.values_from = "TABLE"
             texts.append(
                 write.reports.phrase(
@@ -196,10 +198,9 @@ class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, I
         visible = [obj for obj in imported if obj.name in context.view_layer.objects]
         if visible:
             selection.select_only(context, visible, visible[0])
+        # One report each: a refused file does not undo the others.
         for part in [*parts, *(write.reports.failure(error.subject, error) for error in refusals)]:
-            write.reports.report(
-                self, part
-            )  # one line each: a refused file does not undo the others
+            write.reports.report(self, part)
         return {"FINISHED"}
 
     def _paths(self) -> list[Path]:
@@ -218,7 +219,7 @@ class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, I
             "Imported {count} patch of order {order} from {file}.",
             "Imported {count} patches of order {order} at most from {file}.",
         )
-        if not surfaces.order:
+        if not surfaces.order:  # solids have no order
             texts = "Imported {count} solid from {file}.", "Imported {count} solids from {file}."
         summary = write.reports.phrase(
             *texts, count=surfaces.patches, order=surfaces.order, file=path.name

@@ -73,6 +73,7 @@ class ModalSteps:
             return {"RUNNING_MODAL"}
         try:
             now = perf_counter()
+            # as long as the window took since the last step, within the limits
             until = now + max(STEP_SECONDS, min(now - self._returned_at, MAX_STEP_SECONDS))
             for completed in self._steps:
                 if perf_counter() >= until:
@@ -100,9 +101,8 @@ class ModalSteps:
 class ModalDialog(ModalSteps):
     """Base of operators that work in steps after a dialog of their properties."""
 
-    _is_interactive = (
-        False  # its dialog has just been confirmed; False in a script, and from the redo panel
-    )
+    # True from the opening of the dialog to its confirmation; False in a script and the redo panel
+    _is_interactive = False
 
     def invoke(self, context: Context, _event: Event) -> set[str]:
         if context.window is None:

@@ -30,7 +30,7 @@ class KeyedFlight(modal.ModalDialog, rig.OnArmature):
     DONE = ""
     OWN: tuple[str, ...] = ()  # properties that only a subclass has
     layout: UILayout
-    # properties of subclasses
+    # values in subclasses without these properties
     lead = 0
     blend = 0
     keep = "TIMES"
@@ -103,7 +103,7 @@ class KeyedFlight(modal.ModalDialog, rig.OnArmature):
         flight = None
         if not self.use_contacts:
             flight = self.take_off, self.landing
-            if self.landing < self.take_off + 2:
+            if self.landing < self.take_off + 2:  # no frame between them could be keyed
                 raise write.reports.Refused(EMPTY_FLIGHT)
             frames = range(self.take_off - self.lead, self.landing + self.blend + 1)
         followed = session.CharacterMotion(context, frames)
@@ -116,7 +116,7 @@ class KeyedFlight(modal.ModalDialog, rig.OnArmature):
 
     def _finish(self, context: Context) -> set[str]:
         followed = self._followed
-        self._show_found(followed)
+        self._show_found(followed)  # for the redo panel
         followed.key(context, self.TURNS, self.anyway)
         values = {"name": followed.armature.name, "start": followed.first, "end": followed.landing}
         texts = [write.reports.phrase(self.DONE, off=followed.deviation, **values)]
@@ -130,12 +130,20 @@ class KeyedFlight(modal.ModalDialog, rig.OnArmature):
             }
             texts.append(write.reports.phrase(text, **values))
         if followed.off > 0.0:
-            text = "The center is off by up to {off}: constraints hold parts in the world"
-            texts.append(write.reports.phrase(text, off=write.reports.distance(followed.off)))
+            texts.append(
+                write.reports.phrase(
+                    "The center is off by up to {off}: constraints hold parts in the world",
+                    off=write.reports.distance(followed.off),
+                )
+            )
             level = Severity.WARNING
         if followed.is_lost:
-            text = "The momentum changes by more than 1%, most at frame {frame}"
-            texts.append(write.reports.phrase(text, frame=round(followed.worst, 1)))
+            texts.append(
+                write.reports.phrase(
+                    "The momentum changes by more than 1%, most at frame {frame}",
+                    frame=round(followed.worst, 1),
+                )
+            )
             level = Severity.WARNING
         return selection.report(self, *texts, level=level)
 
@@ -206,13 +214,15 @@ class KeyedPath(modal.ModalSteps, rig.OnArmature):
     def _finish(self, context: Context) -> set[str]:
         followed = self._followed
         empty, spans = followed.bake(context, self.CURVES)
-        text = (
-            "Keys of the center of mass on “{empty}”: {count}. Spans with momentum from nothing: "
-            "{spans}"
-        )
         return selection.report(
             self,
-            write.reports.phrase(text, empty=empty.name, count=len(followed.centers), spans=spans),
+            write.reports.phrase(
+                "Keys of the center of mass on “{empty}”: {count}. Spans with momentum from "
+                "nothing: {spans}",
+                empty=empty.name,
+                count=len(followed.centers),
+                spans=spans,
+            ),
         )
 
 

@@ -106,8 +106,13 @@ class OBJECT_OT_body_moments_rig_center(OnArmature, Operator):
         rig = bodies.measure_rig(context, read.rig.require_armature(armature_of(context)))
         with read.tracking.tracking_paused():
             scene.add_center(context, rig)
-        text = "Added the center of mass of “{armature}”, which follows its pose"
-        return selection.report(self, write.reports.phrase(text, armature=rig.armature.name))
+        return selection.report(
+            self,
+            write.reports.phrase(
+                "Added the center of mass of “{armature}”, which follows its pose",
+                armature=rig.armature.name,
+            ),
+        )
 
 
 class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
@@ -168,7 +173,12 @@ class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
         margin = self.margin if self.target == "INSIDE" else None
+        # values of the report; none if the center was over its target already
         values = session.balance_pose(context, context.object, self.bone, margin)
-        text = "Moved “{bone}”: the center is {gap} from its target, {margin} inside the support"
-        summary = write.reports.phrase(text if values else BALANCED, **values)
+        summary = write.reports.phrase(
+            "Moved “{bone}”: the center is {gap} from its target, {margin} inside the support"
+            if values
+            else BALANCED,
+            **values,
+        )
         return selection.finish(self, [summary], is_changed=bool(values))

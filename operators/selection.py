@@ -21,9 +21,7 @@ from ..core.verdict import FileError, Finding, MeasureError, Severity, system_re
 
 NO_FILE = "No file is named. Choose one."
 NO_RESULTS = "The selected objects have no results"
-MAX_OBJECTS_WITHOUT_REDRAW = (
-    4  # limit of objects that are measured before the window is drawn again
-)
+MAX_OBJECTS_WITHOUT_REDRAW = 4  # so many objects are measured before the window is drawn again
 
 
 def selected_measurable(context: Context) -> list[Object]:
@@ -120,7 +118,9 @@ def select_only(context: Context, objects: Collection[Object], active: Object) -
 
 
 def redraw(context: Context) -> None:
-    """Redraw the window, if there is one: stored results show in several of its areas."""
+    """Let Blender redraw the window, if there is one: stored results show in several of its
+    areas.
+    """
     for area in context.screen.areas if context.screen else ():
         area.tag_redraw()
 
@@ -136,8 +136,8 @@ def report(operator: Operator, *parts: Finding | str, level: Severity = Severity
 
 
 def refuse(operator: Operator, reason: MeasureError | Finding | str, **values: Any) -> set[str]:
-    """Report why an operator does nothing, and return what its `execute` has to return. values: of
-    an English text.
+    """Report why an operator does nothing, and return the result of `execute`. values: fill a
+    reason that is an English text.
     """
     if isinstance(reason, str):
         report(operator, write.reports.phrase(reason, **values), level=Severity.ERROR)
@@ -252,9 +252,12 @@ def iterate_objects(
 
 
 def name_warned(names: Sequence[str]) -> list[str]:
-    """Return a text that names the objects with warnings, none without any."""
-    text = "{count} with warnings: {objects}"
-    return [write.reports.phrase(text, count=len(names), objects=names)] if names else []
+    """Return a list of one text, which names the objects with warnings; [] if there are none."""
+    return (
+        [write.reports.phrase("{count} with warnings: {objects}", count=len(names), objects=names)]
+        if names
+        else []
+    )
 
 
 def change_all(
@@ -306,7 +309,7 @@ def apply_to_all(
 
 
 def write_file(path: Path, pieces: Iterable[str | bytes]) -> None:
-    """Write a file, whole or not at all. FileError if it cannot be written."""
+    """Write a file, whole or not at all. Raise FileError if it cannot be written."""
     try:
         with core.files.whole_file.whole_file(path) as file:
             file.writelines(

@@ -41,8 +41,12 @@ class OBJECT_OT_body_moments_stability(selection.OnSelection, Operator):
         ]
         if falling:
             notes.insert(0, finding(findings.OBJECTS_TIP, count=len(falling), names=falling))
-        texts = ("{count} of {total} object stands", "{count} of {total} objects stand")
-        summary = write.reports.phrase(*texts, count=len(standing), total=len(checked))
+        summary = write.reports.phrase(
+            "{count} of {total} object stands",
+            "{count} of {total} objects stand",
+            count=len(standing),
+            total=len(checked),
+        )
         return selection.summarize(self, len(checked), len(objects), summary, failures, notes)
 
 
@@ -78,7 +82,7 @@ class OBJECT_OT_body_moments_rest_on_ground(selection.OnSelectionInObjectMode, O
         poses = None if obj is None else session.stored.stability.poses(obj, context.scene)
         if self.pose and poses is not None and not isinstance(poses, Finding):
             count = len(poses.shares)
-            place = (self.pose - 1) % count
+            place = (self.pose - 1) % count  # as for the operator, poses begin again after the last
             text = write.translations.localized("Pose {:d} of {:d}: {:.1f}%, tips at {:.1f}°")
             share = 100.0 * poses.shares[place]
             angle = degrees(poses.tipping_angles[place])
@@ -189,6 +193,11 @@ class OBJECT_OT_body_moments_balance_group(modal.ModalDialog, Operator):
         ]
         if group.feet:
             inside = sum(support is not None and support.stands for support in group.supports)
-            text = "It is over the support polygon at {count} of {total} frames"
-            texts.append(write.reports.phrase(text, count=inside, total=len(group.supports)))
+            texts.append(
+                write.reports.phrase(
+                    "It is over the support polygon at {count} of {total} frames",
+                    count=inside,
+                    total=len(group.supports),
+                )
+            )
         return selection.report(self, *texts)

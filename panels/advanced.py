@@ -30,6 +30,7 @@ class AdvancedPanel:
         obj = session.selected.subject(context)
         scene = context.scene
         rows.button(layout, "object.body_moments_fourier", "MOD_WAVE", short="Fourier")
+        # Live numbers have no error bounds.
         if (displayed_body := displayed(obj, scene)) is not None and displayed_body.live is None:
             numbers = displayed_body.in_frame(scene.body_moments.frame)
             _bounds(layout, obj, numbers)
@@ -59,12 +60,15 @@ def _bounds(layout: UILayout, obj: Object, numbers: inertia.PlainBody) -> None:
         (rounding, numbers.error_bound),
         ("Float32 Coordinates, at Most", numbers.error_bound["input"]),
     )
-    measures = (
-        ("Volume", "volume", "volume", numbers.volume),
-        ("Area", "area", "area", numbers.area),
-    )
-    # a wire has neither, a grid of densities no surface
-    entries = [entry for entry in measures if entry[-1]]
+    # label, quantity, name of the bound, and the value beside which the bound is shown
+    entries = [
+        (label, name, name, size)
+        for label, name, size in (
+            ("Volume", "volume", numbers.volume),
+            ("Area", "area", numbers.area),
+        )
+        if size  # a wire has neither, a grid of densities no surface
+    ]
     entries.append(("Center", "length", "center_of_mass", max(map(abs, numbers.center))))
     entries.append(("Inertia", "inertia", "inertia", max(numbers.moments)))
     rows.error_bounds(body, sources, entries)
@@ -105,8 +109,12 @@ class MomentsPanel:
             )
             rows.table(column, [(*row, degree.unit) for row in degree.rows])
         if computed.order > table.MAX_SHOWN_ORDER:
-            text = "Orders {first} to {last} are only in the copy."
-            texts.remark(layout, text, first=table.MAX_SHOWN_ORDER + 1, last=computed.order)
+            texts.remark(
+                layout,
+                "Orders {first} to {last} are only in the copy.",
+                first=table.MAX_SHOWN_ORDER + 1,
+                last=computed.order,
+            )
 
 
 CLASSES = (

@@ -37,18 +37,21 @@ MEMBER_ICONS = {
     "POINT": "EMPTY_SINGLE_ARROW",
 }
 LINES = 8  # height of the tree, before it scrolls
-EQUAL_RTOL = 1e-5  # relative to the masses of equal parts: turned copies differ by rounding
+# Masses of turned copies differ by the rounding of float32 coordinates, about 1e-7; chosen, with a
+# margin of 100.
+EQUAL_RTOL = 1e-5
 
 
 class BODY_MOMENTS_UL_assembly(UIList):
     """The members of an assembly with their masses and shares."""
 
     def draw_item(
-        self, context, layout, _data, row, _icon, _active_data, _active_property, index
+        self, context, layout, data, row, _icon, _active_data, _active_property, index
     ) -> None:
         line = layout.row(align=True)
+        # 0.001: every line begins with a separator of some width, also those of depth 0
         line.separator(factor=0.001 + 1.5 * row.depth)
-        tree = assembly.settings_of(_data.id_data).rows
+        tree = assembly.settings_of(data.id_data).rows
         if index + 1 < len(tree) and tree[index + 1].depth > row.depth:
             icon = "DISCLOSURE_TRI_DOWN" if row.is_open else "DISCLOSURE_TRI_RIGHT"
             line.prop(row, "is_open", text="", icon=icon, emboss=False)
@@ -63,7 +66,7 @@ class BODY_MOMENTS_UL_assembly(UIList):
         words = []
         if row.mass > 0.0:
             words.append(texts.scene_units().text("mass", copies * row.mass))
-            if row.is_counted and row.depth:
+            if row.is_counted and row.depth:  # the share of the whole assembly would be 100%
                 words.append("{:.0f}%".format(100.0 * copies * row.share))
         numbers = rows.right(line, *words)
         numbers.active = row.is_counted
@@ -78,18 +81,19 @@ class BODY_MOMENTS_UL_assembly(UIList):
         the first.
         """
         flags = []
-        closed = None
-        before = None
+        closed_depth = None  # depth of the closed member that the row may be below
+        previous_row = None
         for row in getattr(data, name):
-            last, before = before, row
-            is_hidden = closed is not None and row.depth > closed
-            if is_hidden or last is not None and _are_equal(last, row):
+            is_hidden = closed_depth is not None and row.depth > closed_depth
+            is_repeated = previous_row is not None and _are_equal(previous_row, row)
+            previous_row = row
+            if is_hidden or is_repeated:
                 flags.append(0)
                 continue
-            closed = None if row.is_open else row.depth
+            closed_depth = None if row.is_open else row.depth
             matches = not self.filter_name or self.filter_name.lower() in row.name.lower()
             flags.append(self.bitflag_filter_item if matches else 0)
-        return flags, []
+        return flags, []  # []: in the order of the rows
 
 
 def _base_name(name: str) -> str:
@@ -98,6 +102,7 @@ def _base_name(name: str) -> str:
 
 
 def _are_equal(row: PropertyGroup, other_row: PropertyGroup) -> bool:
+    # Successive copies of one part are shown as one line.
     return (
         row.member == other_row.member == "OBJECT"
         and (row.depth, row.is_counted, row.findings)
@@ -108,6 +113,7 @@ def _are_equal(row: PropertyGroup, other_row: PropertyGroup) -> bool:
 
 
 def _count_equal(tree: bpy_prop_collection, first: int) -> int:
+    # equal rows from the index `first` on; not if the last one has members, which are below it
     end = first + 1
     while end < len(tree) and _are_equal(tree[end - 1], tree[end]):
         end += 1
@@ -178,7 +184,7 @@ def _tree(layout: UILayout, settings: PropertyGroup) -> None:
 
 def _numbers(layout: UILayout, stored: inertia.PlainBody, in_world: bool) -> None:
     entries = [("Volume", "volume", stored.volume), ("Area", "area", stored.area)]
-    rows.quantities(layout, [entry for entry in entries if entry[-1]])
+    rows.quantities(layout, [(label, name, si) for label, name, si in entries if si])
     heading = "Center of Mass (World)" if in_world else "Center of Mass (Object)"
     rows.center(layout, heading, stored)
     rows.group(layout, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", stored.moments)
@@ -194,7 +200,8 @@ class AssemblyPanel:
         root = assembly.active_assembly(context) if chosen.chosen_objects(context) else None
         if not isinstance(root, Collection):
             return root is not None
-        members = (True for obj in root.all_objects if given.has_density(obj))
+        members = (obj for obj in root.all_objects if given.has_density(obj))
+        # A collection of one body is no assembly. Two are enough to know: it may have thousands.
         return properties.is_stored(root) or len([*islice(members, 2)]) > 1
 
     def draw(self, context: Context) -> None:

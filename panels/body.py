@@ -75,7 +75,7 @@ class BodyPanel:
     def draw_header_preset(self, context: Context) -> None:
         row = self.layout.row(align=True)
         header_switch(row, context)
-        if not texts.is_narrow():  # the name would be below them
+        if not texts.is_narrow():  # the links would cover the panel's name
             settings.preferences.draw_links(row, icons_only=True)
 
     def draw(self, context: Context) -> None:
@@ -101,7 +101,8 @@ class BodyPanel:
         density = None
         if answer.numbers is not None:
             area = answer.numbers.area or None  # neither a wire nor a grid has a surface
-            density = None if answer.size[1] == "length" else answer.numbers.density
+            _label, quantity, _si = answer.size
+            density = None if quantity == "length" else answer.numbers.density
         column = layout.column(align=True)
         rows.quantities(column, [("Area", "area", area), ("Density", "density", density)])
         rows.table(column, [("Method", answer.method or "–", "", "")])
@@ -142,23 +143,24 @@ def _of_one(context: Context, obj: Object) -> Answer:
     findings = () if displayed_body is None else displayed_body.findings
     followed = session.memory.followed.get(obj)
     is_refused = followed is not None and followed.refusal is not None
-    if is_refused and session.stored.outcome.last() is None:
+    if is_refused and session.stored.outcome.last() is None:  # else the last action names it
         findings = followed.refusal, *findings
     return Answer(
-        obj.name,
-        "OBJECT_DATA",
-        None if displayed_body is None else displayed_body.verdict,
-        numbers,
-        (RESTING_HEADINGS if is_rig else CENTER_HEADINGS)[frame],
-        density,
-        size if length is None else ("Length", "length", length),
-        state,
-        "" if displayed_body is None else _method(obj, displayed_body),
-        [Group(finding) for finding in findings],
+        name=obj.name,
+        icon="OBJECT_DATA",
+        verdict=None if displayed_body is None else displayed_body.verdict,
+        numbers=numbers,
+        heading=(RESTING_HEADINGS if is_rig else CENTER_HEADINGS)[frame],
+        density=density,
+        size=size if length is None else ("Length", "length", length),
+        state=state,
+        method="" if displayed_body is None else _method(obj, displayed_body),
+        groups=[Group(finding) for finding in findings],
     )
 
 
 def _of_several(context: Context) -> Answer:
+    # The objects may be the meshes of a posed armature.
     displayed_total = total(context)
     active = context.object
     count = displayed_total.count + len(displayed_total.missing)
@@ -182,14 +184,16 @@ def _of_several(context: Context) -> Answer:
         density = _density(numbers, None, template, displayed_total.assumed, count)
     volume = None if numbers is None else numbers.volume
     if is_rest:
-        state = texts.outdated(posed.reason) if posed.reason else ""
-        state = state or write.translations.localized("The mass is that of the rest pose")
+        state = (
+            texts.outdated(posed.reason)
+            if posed.reason
+            else write.translations.localized("The mass is that of the rest pose")
+        )
         icon = "FILE_REFRESH" if posed.reason else "INFO"
     else:
         volume = displayed_total.volume if displayed_total.count else volume
-        missing = (
-            displayed_total.missing if displayed_total.count else ()
-        )  # of none the verdict says it
+        # If no object is measured, the verdict says so.
+        missing = displayed_total.missing if displayed_total.count else ()
         outstanding = [
             _outstanding(text, names, count)
             for names, text in (
@@ -201,17 +205,18 @@ def _of_several(context: Context) -> Answer:
         state = "; ".join(outstanding)
         icon = "FILE_REFRESH" if outstanding else ""
     return Answer(
-        name,
-        "GROUP",
-        posed.verdict if is_rest else displayed_total.verdict,
-        numbers,
-        CENTER_HEADINGS["WORLD"],
-        density,
-        ("Volume", "volume", volume),
-        (state, icon),
-        "",
-        [*map(Group, posed.findings if is_rest else displayed_total.findings)]
-        + ([] if is_rest else [*displayed_total.groups]),
+        name=name,
+        icon="GROUP",
+        verdict=posed.verdict if is_rest else displayed_total.verdict,
+        numbers=numbers,
+        heading=CENTER_HEADINGS["WORLD"],
+        density=density,
+        size=("Volume", "volume", volume),
+        state=(state, icon),
+        method="",
+        groups=[*map(Group, posed.findings)]
+        if is_rest
+        else [*map(Group, displayed_total.findings), *displayed_total.groups],
     )
 
 
@@ -228,7 +233,10 @@ def _outstanding(template: str, names: Sequence[str], count: int) -> str:
 
 
 def _density(numbers: inertia.PlainBody, length: float | None, template: str, *counts: int) -> str:
-    """Return the density behind a mass, or that nobody has set it."""
+    """Return a template filled with the mean density, or with mass per length, and then `counts`.
+
+    length: in m, of a wire.
+    """
     if length:
         text = "{:.4g} kg/m".format(numbers.mass / length)
     else:
@@ -280,6 +288,7 @@ def _method(obj: Object, displayed_body: Displayed) -> str:
         displayed_body.method,
         any(finding.code == wall.WALL_MEASURED for finding in displayed_body.findings),
     )
+    # The name of a method with a key of its own says what was measured.
     origin = (
         Source.POLYGONS
         if displayed_body.method is None or key == str(displayed_body.method)

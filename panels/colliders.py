@@ -96,23 +96,25 @@ class CollidersPanel:
         texts.filled(
             column, "1 Collider" if stored["count"] == 1 else "{:d} Colliders", stored["count"]
         )
+        # largest extent, in m
         size = max(body.dimensions) * scale.meters_per_unit(context.scene)
         shift = dist(stored["center_shift"], (0.0, 0.0, 0.0))
         changes = (
             abs(stored.get("mass_ratio", 1.0) - 1.0),
             stored.get("inertia_change", 0.0),
-            shift / (size or 1.0),
+            shift / (size or 1.0),  # an empty has no size
         )
         if max(changes) > SLIGHT:
-            remedies = REMEDIES.get(stored["correct"], REMEDIES["none"])
+            remedy, remedy_for_pieces = REMEDIES.get(stored["correct"], REMEDIES["none"])
+            if stored["shape"] == "pieces":
+                remedy = remedy_for_pieces
             kinds = {
                 child[settings.given.COLLIDER]["kind"]
                 for child in body.children
                 if settings.given.COLLIDER in child
             }
-            remedy = remedies[stored["shape"] == "pieces"] if "mesh" in kinds else PRIMITIVE_REMEDY
             texts.remark(column, ANOTHER_BODY, icon="ERROR")
-            texts.remark(column, remedy)
+            texts.remark(column, remedy if "mesh" in kinds else PRIMITIVE_REMEDY)
         else:
             texts.remark(column, "An engine simulates the body within 1%.", icon="CHECKMARK")
         if is_beyond_tolerance(stored):

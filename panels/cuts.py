@@ -14,7 +14,7 @@ from ..blender.session.tracking.staleness import stale_reason
 from ..blender.session.tracking.stamps import Kind
 from . import places, rows, texts
 
-TABLE_STEP = 4  # every fourth row of the level table is listed
+TABLE_STEP = 4  # every fourth row of the level table is listed; the first one is that of no liquid
 
 
 class CutsPanel:
@@ -32,8 +32,9 @@ class CutsPanel:
             (memory.cut_fills, Kind.CUT_FILL, _cut_fill),
         ):
             if obj in values and stale_reason(obj, context.scene, kind):
-                text = "The object has changed. Press the button again."
-                texts.remark(layout, text, icon="FILE_REFRESH")
+                texts.remark(
+                    layout, "The object has changed. Press the button again.", icon="FILE_REFRESH"
+                )
             elif obj in values:
                 draw(layout, values[obj])
 
@@ -59,7 +60,7 @@ def _level(layout: UILayout, level: stored.cuts.Level) -> None:
     row.operator("object.body_moments_show_level", text="Show Level").what = "SURFACE"
     row.operator("object.body_moments_show_level", text="", icon="CURVE_DATA").what = "TABLE"
     if (body := rows.fold(layout, "body_moments_level_surface", "Free Surface")) is not None:
-        area, least, largest = level.surface_moments
+        area, least, largest = level.surface_moments  # m², and the principal second moments, m⁴
         rows.quantities(
             body,
             [
@@ -75,7 +76,7 @@ def _level(layout: UILayout, level: stored.cuts.Level) -> None:
             rows.AXIS_LABELS,
             "length",
             center,
-            level.volume ** (1 / 3),
+            level.volume ** (1 / 3),  # a length beside which rounding is shown as 0
         )
     if (body := rows.fold(layout, "body_moments_level_table", "Level Table")) is not None:
         units = texts.scene_units()

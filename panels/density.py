@@ -208,6 +208,11 @@ def _uniform_density(column: UILayout, context: Context, settings, heading: str)
 
 
 def _material(column: UILayout, context: Context, settings: PropertyGroup, heading: str) -> None:
+    """Draw the menu of materials, with the name of the chosen one, and the user's presets.
+
+    The name of a density that nobody has set is that of the default material, and "Custom" that of
+    a density without a material.
+    """
     row = rows.labeled_row(column, heading)
     name = "Mixed"
     if not is_mixed(settings, "material") and (
@@ -290,7 +295,7 @@ class GivenPanel:
             given_rows(layout, settings)
 
 
-def _may_be_point(obj) -> bool:
+def _may_be_point(obj: Object) -> bool:
     return obj.type == "EMPTY" and not given.shows_collection(obj)
 
 

@@ -59,11 +59,11 @@ class FloatingPanel:
 
 def _numbers(layout: UILayout, held_body: stored.floating.Held) -> None:
     state = held_body.state
-    stable = state.metacentric_heights[0] > 0.0
+    smaller, larger = state.metacentric_heights  # GM in m, athwart and lengthwise
     if not held_body.is_at_rest:
         layout.label(text="Not at Rest: Held as Placed", icon="INFO")
     else:
-        layout.label(text="Afloat", icon="CHECKMARK" if stable else "ERROR")
+        layout.label(text="Afloat", icon="CHECKMARK" if smaller > 0.0 else "ERROR")
     for finding in held_body.afloat.rest.findings:
         texts.message(layout, finding)
     column = layout.column(align=True)
@@ -82,10 +82,9 @@ def _numbers(layout: UILayout, held_body: stored.floating.Held) -> None:
             rows.angle_cell("Trim, about Y", held_body.trim),
         ],
     )
-    smaller, larger = state.metacentric_heights
     rows.quantities(column, [("GM", "length", smaller), ("GM, Lengthwise", "length", larger)])
     if (body := rows.fold(layout, "body_moments_floating_more", "Hydrostatics")) is not None:
-        keel = state.keel
+        keel = state.keel  # height of the lowest point, m
         rows.quantities(
             body,
             [
@@ -139,7 +138,7 @@ def _stability(layout: UILayout, curve: floating.RightingCurve) -> None:
         reached = [abs(angle) for angle in angles if isfinite(angle)]
         if reached:
             rows.table(column, [rows.angle_cell(label, min(reached))])
-    if high >= pi - 1e-6 and low <= 1e-6 - pi:
+    if high >= pi - 1e-6 and low <= 1e-6 - pi:  # 1e-6: half a turn is stored as a float32
         texts.remark(column, "It comes back from any heel.")
 
 

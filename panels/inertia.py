@@ -13,9 +13,9 @@ from ..blender.session.displayed import displayed, shown_objects, total
 from ..core import inertia, verdict
 from . import places, rows, texts
 
-ERROR_OF_A_DIFFERENCE = (
-    6.0  # each principal moment is off by at most 3 times the error of a tensor entry
-)
+# By Weyl, each principal moment is off by at most the norm of the tensor's error, which is at most
+# 3 times the largest error of its 9 entries; a difference of two moments by twice as much.
+ERROR_OF_A_DIFFERENCE = 6.0
 EQUAL_MOMENTS = {  # keys: are moments 1 and 2 equal, and moments 2 and 3?
     (True, True): "All principal moments are equal",
     (True, False): "Principal moments 1 and 2 are equal",
@@ -57,13 +57,15 @@ class InertiaPanel:
 
 
 def _equal_moments(body: inertia.PlainBody) -> str:
+    # The moments ascend.
     error = body.error_bound["inertia"] + body.error_bound["input"]["inertia"]
     pairs = zip(body.moments, body.moments[1:])
-    equal = tuple(b - a <= ERROR_OF_A_DIFFERENCE * error for a, b in pairs)
+    equal = tuple(larger - less <= ERROR_OF_A_DIFFERENCE * error for less, larger in pairs)
     return EQUAL_MOMENTS.get(equal, "")
 
 
 def _are_several(context: Context) -> bool:
+    # A posed armature counts as one object.
     obj = session.selected.subject(context)
     is_posed = obj is not None and session.tracking.armatures.stands_for_meshes(obj)
     return not is_posed and len(shown_objects(context)) > 1
@@ -114,11 +116,20 @@ class ReferencePanel:
         if settings.about == "AXIS":
             column = layout.column(align=True)
             rows.quantities(column, [("About Axis", "inertia", result.about_z)])
-            distances = result.radius_about_z, result.distance_from_z
-            rows.values(column, ("Radius of Gyration", "Distance of Center"), "length", distances)
-        center = result.center
-        reach = max(map(abs, result.center))
-        rows.group(layout, "Center of Mass from There", rows.AXIS_LABELS, "length", center, reach)
+            rows.values(
+                column,
+                ("Radius of Gyration", "Distance of Center"),
+                "length",
+                (result.radius_about_z, result.distance_from_z),
+            )
+        rows.group(
+            layout,
+            "Center of Mass from There",
+            rows.AXIS_LABELS,
+            "length",
+            result.center,
+            max(map(abs, result.center)),
+        )
         rows.group(layout, "Inertia, Ixy = −∫xy dm", rows.TENSOR_LABELS, "inertia", result.inertia)
         sources = (
             ("Rounding, at Most", result.rounding_error),

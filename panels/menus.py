@@ -198,6 +198,7 @@ def _rigid_body_panel(panel: Menu, context: Context) -> None:
 
 
 def _map() -> tuple[str, tuple[tuple[str, str], ...]]:
+    # Blender asks for the manual's address and its pages.
     return manual_folder().as_uri() + "/", PAGES
 
 

@@ -22,7 +22,7 @@ ICONS = {write.remedies.DEFECTS: "ZOOM_SELECTED", write.remedies.SELECT: "RESTRI
 LINE_SHARE = 0.6  # of a row for the text of a line and its button, beside the icons
 MIN_QUESTIONED_LENGTH = 5.0  # m: longer bodies may be meant in millimeters
 MIN_QUESTIONED_MASS = 1e5  # kg
-QUESTION_DIGITS = 3
+QUESTION_DIGITS = 3  # of the length and mass in the question
 
 
 def lines(
@@ -112,19 +112,16 @@ def _headline(context: Context, group: verdict.Group) -> str:
     """Return the first clause of a group's sentence; of several objects, their number and the words
     before a number.
     """
-    finding = replace(group.finding, elements=())
+    finding = replace(group.finding, elements=())  # without the indices of elements
     clause = re.split(
         r"\.$|[.;,] | \(",
         write.translations.localized_sentence(finding, context.scene.unit_settings),
     )[0]
     if not group.objects:
-        # its names are in the sentence
+        # A sentence may list names after a colon: without them if there is no room.
         return clause if texts.fits(1.0, clause) else clause.partition(": “")[0]
-    # nouns keep their capitals in other languages
-    if bpy.app.translations.locale[:2] in (
-        "",
-        "en",
-    ):
+    # In other languages, nouns keep their capitals.
+    if bpy.app.translations.locale[:2] in ("", "en"):
         clause = clause[0].lower() + clause[1:]
     if len(group.objects) == 1:
         return "{:s}: {:s}".format(group.objects[0], clause)
@@ -134,6 +131,9 @@ def _headline(context: Context, group: verdict.Group) -> str:
 
 
 def _remedies(context: Context, group: verdict.Group) -> tuple[str, ...]:
+    """Return the remedies of a group: those of the shown object, else the selection of the objects
+    that the group is about.
+    """
     if group.finding.values.get("objects"):
         return (write.remedies.SELECT,)  # a caveat about a total or an assembly
     obj = selected.subject(context)  # a collection may be shown without an object
@@ -165,8 +165,8 @@ def _remedy(layout: UILayout, group: verdict.Group, remedy: str, with_text: bool
         button.code = group.finding.code
         listed = group.finding.values.get("objects", ())
         button.listed = "\n".join(
-            listed_object if isinstance(listed_object, str) else listed_object[0]
-            for listed_object in listed
+            name if isinstance(name, str) else name[0]  # an operand is listed with its object
+            for name in listed
         )
 
 

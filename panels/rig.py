@@ -69,8 +69,7 @@ class WeightPanel:
         settings = armature.body_moments_weight
         column = layout.column()
         column.scale_y = 1.4
-        show = "pose.body_moments_show_weight"
-        column.operator(show, icon="CON_FLOOR", depress=settings.show)
+        column.operator("pose.body_moments_show_weight", icon="CON_FLOOR", depress=settings.show)
         if not settings.show:
             return
         # Buttons and settings first: they stay in place however the character stands.
@@ -113,11 +112,10 @@ def standing(
 ) -> tuple[str, dict[str, str], str]:
     """Return the English text on how a character stands, the lengths in it, and its icon."""
     support = weight.support
-    height = weight.contacts.height
-    if height is None:
+    if weight.contacts.height is None:
         return "No mesh can touch the ground", {}, "INFO"
     if support is None:
-        lengths = {"height": write.reports.distance(height * unit)}
+        lengths = {"height": write.reports.distance(weight.contacts.height * unit)}
         return "In the air: {height} above ground", lengths, "INFO"
     margin = {"margin": write.reports.distance(abs(support.margin) * unit)}
     if not support.stands:

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import degrees
 from typing import Any
 
@@ -140,7 +140,7 @@ def quantity_cell(label: str, quantity: str, si: float | None) -> Cell:
 
 def angle_cell(label: str, angle: float) -> Cell:
     """Return the cells of a row for an angle in radians, shown in degrees."""
-    text = "{:.2f}°".format(round(degrees(angle), 2) + 0.0).replace("-", "−")
+    text = "{:.2f}°".format(round(degrees(angle), 2) + 0.0).replace("-", "−")  # + 0.0: no −0
     return label, text, repr(degrees(angle)), "°"
 
 
@@ -169,11 +169,13 @@ def center(layout: UILayout, label: str, numbers: inertia.PlainBody | None) -> N
 
 def error_bounds(
     layout: UILayout,
-    sources: Sequence[tuple[str, Any]],
+    sources: Sequence[tuple[str, Mapping[str, Any]]],
     entries: Sequence[tuple[str, str, str, float]],
 ) -> None:
-    """Draw each source, a heading and bounds by name, with a row for each (label, quantity, name,
-    value beside it).
+    """Draw the error bounds by source, with a row for each entry below the source.
+
+    sources: headings, and bounds in SI units by name. entries: label, quantity, name of the bound,
+    and the SI value that the bound is about, whose unit it takes.
     """
     bound = texts.scene_units().bound
     for source, errors in sources:
@@ -213,6 +215,7 @@ def direction(layout: UILayout, label: str, vector: Sequence[float] | None) -> N
             for component in vector
         ]
         exact = [repr(float(component)) for component in vector]
+    # In place of the first cosine, the widest one.
     if not texts.fits(1.0 - INDEX_LABEL_SHARE, WIDEST_COSINE, *cosines[1:]):
         table(
             layout,
@@ -255,16 +258,19 @@ def table(layout: UILayout, cells: Sequence[Cell]) -> None:
             right(row, text)
             _copy(row, exact, unit)
         else:
-            number, _, name = text.rpartition(" ")
+            number, _, unit_name = text.rpartition(" ")
             row = layout.row(align=True)
-            texts.headline(row, "{:s} {:s}".format(label, name))
+            texts.headline(row, "{:s} {:s}".format(label, unit_name))
             _copy(row, exact, unit)
             right(layout, number)
 
 
 def _form(labels: Sequence[str], value_texts: Sequence[str]) -> tuple[float, bool]:
-    """Return the share of a row that its label takes, 0 if it is above, and whether the text fits
-    into a row.
+    """Return the share of a row that labels take, 0 if they are above their texts, and whether each
+    text fits into a row.
+
+    The share depends on the lengths of the labels, and is changed only if a label or a text needs
+    more room.
     """
     letters = max(map(len, labels))
     share = LABEL_SHARE

@@ -13,9 +13,9 @@ from ..blender.session.tracking import staleness, stamps
 from ..core.verdict import Group
 from . import places, remedies, rows, texts
 
-FLAT_RTOL = (
-    1e-5  # thickness of a flat shape by its width; other shapes have sections of selected faces
-)
+# Largest thickness of a flat shape, relative to its width; chosen, above the rounding of float32.
+# Other shapes have sections of selected faces.
+FLAT_RTOL = 1e-5
 ABOUT_LABELS = ("x", "y", "1", "2")
 
 
@@ -75,13 +75,20 @@ def _numbers(layout: UILayout, section) -> None:
     size = section.area**0.5
     rows.group(layout, "Centroid (World)", rows.AXIS_LABELS, "length", section.center, size)
     second = (*section.second, section.polar)
-    labels = ("Ix", "Iy", "Ixy", "Polar Jp")
-    rows.group(layout, "Second Moments of Area", labels, "area_moment", second, section.polar)
+    rows.group(
+        layout,
+        "Second Moments of Area",
+        ("Ix", "Iy", "Ixy", "Polar Jp"),
+        "area_moment",
+        second,
+        section.polar,
+    )
     column = rows.group(layout, "Principal", ("I1", "I2"), "area_moment", section.principal)
     if section.axes_undetermined:
         column.label(text="Every Axis Is Principal", icon="INFO")
     else:
         angle = degrees(section.angle)
+        # A smaller angle is rounding: chosen, 1e-6° are 2e-8 rad.
         angle_text = "{:s}°".format(write.units.number(0.0 if abs(angle) < 1e-6 else angle))
         rows.table(column, [("Angle from x to 1", angle_text, repr(section.angle), "rad")])
 
@@ -116,9 +123,10 @@ def _more_numbers(layout: UILayout, section) -> None:
             ("Centroid", "length", "centroid", section.area**0.5),
             ("Moments", "area_moment", "second", section.polar),
         ]
-        rounding = section.rounding_error
-        coordinates = section.input_error
-        sources = ("Rounding, at Most", rounding), ("Float32 Coordinates, at Most", coordinates)
+        sources = (
+            ("Rounding, at Most", section.rounding_error),
+            ("Float32 Coordinates, at Most", section.input_error),
+        )
         rows.error_bounds(body, sources, entries)
 
 

@@ -35,6 +35,7 @@ class StabilityPanel:
         row.enabled = tips_over_edge
         balance = rows.button(row, "object.body_moments_sculpt_balance", "SCULPTMODE_HLT")
         if tips_over_edge:
+            # halfway from the foot's nearest point of the edge to the middle of the polygon
             edge = support.foot + support.margin * support.direction
             balance.target = "POINT"
             balance.point = (edge + support.polygon.mean(axis=0)) / 2.0

@@ -129,8 +129,8 @@ def outdated(reason: str) -> str:
 
 
 def fits(share: float, *cells: str) -> bool:
-    """Return whether texts fit side by side in that share of a row, beside its button, of the
-    region being drawn.
+    """Return whether texts fit side by side, in cells of equal width, in this share of a row of the
+    region being drawn, without the row's button.
     """
     room = find_room()
     return room is None or len(cells) * max(map(length, cells)) <= share * room
@@ -164,6 +164,7 @@ def _width() -> tuple[int, float]:
 
 @lru_cache(maxsize=256)
 def _wrapped(text: str, width: int, size: float) -> tuple[str, ...]:
+    # width and font size are in pixels
     blf.size(0, size)
     lines = []
     line = ""
@@ -180,7 +181,9 @@ def _wrapped(text: str, width: int, size: float) -> tuple[str, ...]:
 
 
 def _parts(word: str, width: int) -> list[str]:
-    """Split a word that is longer than a line; return a shorter one unchanged."""
+    """Split a word that is longer than a line, of this width in pixels; return a shorter one
+    unchanged.
+    """
     parts = []
     rest = word
     while len(rest) > MIN_PART and not _is_within(rest, width):

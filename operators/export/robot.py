@@ -111,9 +111,15 @@ class RobotExport(selection.InObjectMode, ExportHelper):
         links = self._links(context, objects, path.stem)
         links = replace(links, robot=links.robot.with_fixed_roots()) if self.fixed_base else links
         findings = self._export(context, links, path)
-        texts = "{count} link exported to {file}.", "{count} links exported to {file}."
         return selection.report(
-            self, reports.phrase(*texts, count=len(links.robot.links), file=path.name), *findings
+            self,
+            reports.phrase(
+                "{count} link exported to {file}.",
+                "{count} links exported to {file}.",
+                count=len(links.robot.links),
+                file=path.name,
+            ),
+            *findings,
         )
 
     def _links(self, context: Context, objects: list[Object], name: str) -> "SceneLinks":
@@ -130,17 +136,18 @@ class RobotExport(selection.InObjectMode, ExportHelper):
             return session.robots.object_links(context, name, objects, step)
 
     def _export(self, context: Context, links: "SceneLinks", path: Path) -> list[verdict.Finding]:
+        # writes the files of meshes, too; returns the findings about them and the robot
         if self.geometry == "MESH" and self.use_collision and not self.inertial_only:
             links = links.with_colliders()
         robot = links.robot
-        bare = []
+        geometry_findings = []
         if self.geometry != "MESH":
             robot = write.shapes.with_primitives(robot, self.geometry.lower())
         if not self.use_collision:
             robot = write.shapes.without_collision(robot)
         if self.geometry == "MESH" and not self.inertial_only:
             try:
-                robot, bare = write.texts.with_geometry(
+                robot, geometry_findings = write.texts.with_geometry(
                     robot,
                     self.FORMAT,
                     partial(links.surface, context),
@@ -152,7 +159,7 @@ class RobotExport(selection.InObjectMode, ExportHelper):
                     FILE_NOT_WRITTEN, file=path.name, error=verdict.system_reason(error)
                 ) from error
         robot = write.joints.merge_fixed(robot) if self.merge_fixed else robot
-        all_findings = [*links.findings, *bare]
+        all_findings = [*links.findings, *geometry_findings]
         text, findings = write.texts.robot_text(
             robot, self.FORMAT, all_findings, inertial_only=self.inertial_only
         )
@@ -177,13 +184,14 @@ class GeometryExport(RobotExport):
     """Base of exporters that leave the geometry of objects to Blender's own exporter."""
 
     def _export(self, context: Context, links: "SceneLinks", path: Path) -> list[verdict.Finding]:
-        is_own = self.links != "OBJECT" or self.geometry != "MESH" or self.inertial_only
+        # Blender's exporters write the meshes of objects, and nothing else.
+        needs_own_file = self.links != "OBJECT" or self.geometry != "MESH" or self.inertial_only
         has_colliders = self.use_collision and any(
             not shape.seen for link in links.with_colliders().robot.links for shape in link.shapes
         )
-        # Nested prims and nodes cannot move in each other, and Blender's exporters would show
-        # colliders.
-        if is_own or has_colliders or any(joint.free for joint in links.robot.joints):
+        # Blender's exporters nest prims and nodes by parents: nested ones cannot move freely. And
+        # they would show colliders.
+        if needs_own_file or has_colliders or any(joint.free for joint in links.robot.joints):
             return super()._export(context, links, path)
         links.findings.extend(write.texts.check(links.robot, self.FORMAT))
         sheared = session.robots.sheared_objects(
@@ -200,7 +208,10 @@ class GeometryExport(RobotExport):
         raise NotImplementedError
 
     def _run_exporter(self, exporter: str, path: Path, options: dict) -> None:
-        """Run Blender's own exporter on the same objects."""
+        """Run Blender's own exporter, such as "wm.usd_export", on the same objects.
+
+        Raise FileError if it fails, or leaves no file.
+        """
         module, name = exporter.split(".")
         try:
             result = getattr(getattr(bpy.ops, module), name)(
@@ -221,6 +232,7 @@ class UsdExport(GeometryExport):
         robot = links.robot
         findings = links.findings
         usd = write.usd
+        # by link, its prim in Blender's layer
         paths = {
             label: session.robots.usd_path(objects[0], usd.identifier)
             for label, objects in links.members.items()
@@ -234,9 +246,9 @@ class UsdExport(GeometryExport):
             "root_prim_path": "/" + session.robots.USD_ROOT,
         }
         self._run_exporter("wm.usd_export", geometry, options)
-        scaled = [link.name for link in robot.roots if min(link.scale) < 0.0]
-        if scaled:
-            findings.append(verdict.finding(ROBOT_SCALED, count=len(scaled), links=scaled))
+        mirrored = [link.name for link in robot.roots if min(link.scale) < 0.0]
+        if mirrored:
+            findings.append(verdict.finding(ROBOT_SCALED, count=len(mirrored), links=mirrored))
         if links.unit != 1.0:
             findings.append(verdict.finding(UNIT_SCALE, scale=links.unit, cause=USD_SCALED))
         remarks = list(map(verdict.sentence, findings))

@@ -82,7 +82,9 @@ def selected_document(context: Context) -> dict[str, Any]:
     )
 
 
-Copied = tuple[str, str]  # a text for the clipboard, and the sentence that says so
+# A text for the clipboard, and the sentence that says so. The functions of `COPIES` return them, or
+# the reason why there is nothing to copy.
+Copied = tuple[str, str]
 MEASURE_FIRST = "Measure the selected objects first"
 
 
@@ -96,8 +98,9 @@ def _report(context: Context) -> Copied | str:
         return MEASURE_FIRST
     document = selected_document(context)
     count = len(document["objects"]) + len(document["errors"])
-    summary_texts = "Copied the report of {count} object", "Copied the report of {count} objects"
-    return write.text_report.text(document), reports.phrase(*summary_texts, count=count)
+    return write.text_report.text(document), reports.phrase(
+        "Copied the report of {count} object", "Copied the report of {count} objects", count=count
+    )
 
 
 def _table(context: Context) -> Copied | str:
@@ -112,12 +115,10 @@ def _table(context: Context) -> Copied | str:
 
 def _reference(context: Context) -> Copied | str | verdict.Finding:
     obj, scene = selected.subject(context), context.scene
-    result = (
-        None
-        if obj is None or not properties.is_stored(obj)
-        else stored.reference.referred(obj, scene)
-    )
-    if obj is None or result is None or isinstance(result, verdict.Finding):
+    if obj is None or not properties.is_stored(obj):
+        return MEASURE_FIRST
+    result = stored.reference.referred(obj, scene)
+    if result is None or isinstance(result, verdict.Finding):
         return result or MEASURE_FIRST
     choice = stored.reference.ReferenceChoice.from_settings(scene.body_moments_reference)
     return reference_text(obj.name, choice, result), reports.phrase(
@@ -149,7 +150,8 @@ def _moments(context: Context) -> Copied | str:
     text = stored.computed_moments.as_csv(
         computed, settings.moments_of, about, settings.frame, reference
     )
-    return text, reports.phrase("Copied {count} moments", count=text.count("\n") - 2)
+    count = text.count("\n") - 2  # lines without the description and the heading
+    return text, reports.phrase("Copied {count} moments", count=count)
 
 
 # Copied texts: the name, its tooltip, and the function that returns it or the reason why there is
@@ -198,7 +200,8 @@ class OBJECT_OT_body_moments_copy(Operator):
     def execute(self, context: Context) -> set[str]:
         findings: list[verdict.Finding] = []
         if self.what in COPIES:
-            copied = COPIES[self.what][2](context)
+            _label, _tip, read_text = COPIES[self.what]
+            copied = read_text(context)
         elif not (objects := selection.selected_measurable(context)) or context.mode != "OBJECT":
             copied = "Select objects in Object Mode"
         else:
@@ -206,8 +209,14 @@ class OBJECT_OT_body_moments_copy(Operator):
             text, _ = robot_formats.texts.robot_text(
                 links.robot, self.what, links.findings, inertial_only=True
             )
-            summary_texts = "Inertial of {count} link copied.", "Inertials of {count} links copied."
-            copied = (text, reports.phrase(*summary_texts, count=len(links.robot.links)))
+            copied = (
+                text,
+                reports.phrase(
+                    "Inertial of {count} link copied.",
+                    "Inertials of {count} links copied.",
+                    count=len(links.robot.links),
+                ),
+            )
             findings = links.findings
         if not isinstance(copied, tuple):
             return selection.refuse(self, copied)
@@ -257,9 +266,14 @@ class OBJECT_OT_body_moments_save_numbers(Operator, ExportHelper):
             )
         document = selected_document(context)
         selection.write_file(path, measurement.FORMATS[SUFFIXES[path.suffix.lower()]]([document]))
-        texts = ("Saved {count} object to “{file}”.", "Saved {count} objects to “{file}”.")
         return selection.report(
-            self, reports.phrase(*texts, count=len(document["objects"]), file=path.name)
+            self,
+            reports.phrase(
+                "Saved {count} object to “{file}”.",
+                "Saved {count} objects to “{file}”.",
+                count=len(document["objects"]),
+                file=path.name,
+            ),
         )
 
 

@@ -102,7 +102,8 @@ class OBJECT_OT_body_moments_fourier(modal.ModalSteps, selection.OnSubject, Oper
             raise core.verdict.FileError(
                 write.findings.FILE_NOT_WRITTEN, file=self._path.name, error=os.strerror(ENOENT)
             )
-        self._dimension, frame = 2 if self.of == "FLAT" else 3, self.frame.lower()
+        self._dimension = 2 if self.of == "FLAT" else 3
+        frame = self.frame.lower()
         self._work: bodies.fourier.ObjectTransform
         if self.of == "FLAT":
             self._work = bodies.flat_transform(obj, depsgraph, self._grid, frame=frame)
@@ -112,13 +113,14 @@ class OBJECT_OT_body_moments_fourier(modal.ModalSteps, selection.OnSubject, Oper
             self._work = bodies.object_transform(
                 obj, depsgraph, options, self._grid, frame=frame, area=area
             )
-        self._steps = (share for share in self._work.steps())
+        self._steps = self._work.steps()
         return 1.0
 
     def _grid(self, size: float) -> core.fourier.FrequencyGrid:
         """Return the grid for a body of this size in m.
 
-        Without a given largest frequency, its step is π over the size.
+        Without a given largest frequency, its step is that of a discrete transform of a box of
+        twice the size: 2π / (2 size) = π / size.
         """
         largest = core.numerics.shortest_decimal(self.largest) or pi / size * (self.count // 2)
         return core.fourier.FrequencyGrid(self.count, largest, self._dimension)

@@ -17,13 +17,13 @@ from bpy.types import Context, Event, Operator
 
 from ... import command, core
 from ...blender.write import reports
-from .. import selection
+from .. import batch, selection
 from ..modal import ModalSteps
 
 RESULT, REPORT = "body_moments.jsonl", "body_moments.html"
 JOURNAL = RESULT + ".journal"
 FOLDER = "FOLDER"
-_PAUSE = 0.05  # seconds between looks at the run
+_PAUSE = 0.05  # seconds between looks at the run; chosen: short beside the time of a file
 
 
 def _sources(_operator: Operator | None, context: Context | None) -> list[tuple[str, str, str]]:
@@ -36,11 +36,12 @@ def _sources(_operator: Operator | None, context: Context | None) -> list[tuple[
         ("LIBRARY_{:d}".format(number), library.name, library.path)
         for number, library in enumerate(libraries)
     ]
-    _kept[:] = items  # Blender keeps no reference to the texts
+    _menu_items[:] = items
     return items
 
 
-_kept: list[tuple[str, str, str]] = []
+# the last items of the menu: Blender keeps no reference to their texts
+_menu_items: list[tuple[str, str, str]] = []
 
 
 class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
@@ -90,6 +91,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
             )
 
     def modal(self, context: Context, event: Event) -> set[str]:
+        # All events but the timer's and Esc are left to the window.
         outcome = ModalSteps.modal(self, context, event)
         return (
             {"PASS_THROUGH"} if outcome == {"RUNNING_MODAL"} and event.type != "TIMER" else outcome
@@ -107,8 +109,9 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
         count = sum(1 for _ in command.supervisor.expand([folder]))
         self._folder = Path(folder)
         words = [folder, "--format", "jsonl", *(["--thumbnails"] if self.thumbnails else [])]
-        is_begun = (self._folder / JOURNAL).exists() and not (self._folder / RESULT).exists()
-        words += ["--resume"] if is_begun else []  # an earlier run was stopped
+        # An earlier run that was stopped has left a journal without a result.
+        was_stopped = (self._folder / JOURNAL).exists() and not (self._folder / RESULT).exists()
+        words += ["--resume"] if was_stopped else []
         if self.asset_metadata:
             words += ["--asset-metadata", "file" if self.overwrite else "copy"]
         blender = None if bpy.app.module else bpy.app.binary_path
@@ -118,6 +121,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
         return count
 
     def _watch(self, run: command.supervisor.WholeRun) -> Generator[float, None, None]:
+        # yields the number of completed files; a canceled work closes this generator
         try:
             while run.exit_code is None:
                 time.sleep(_PAUSE)
@@ -128,12 +132,14 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
 
     def _finish(self, context: Context) -> set[str]:
         result = self._folder / RESULT
-        if self._exit_code not in (0, 1, 70) or not result.exists():
-            text = (
+        codes = (batch.ALL_MEASURED, batch.SOME_FAILED, batch.INTERNAL_ERROR)  # with a result
+        if self._exit_code not in codes or not result.exists():
+            return selection.refuse(
+                self,
                 "Measuring the library failed with exit code {code}. Use the command line to see "
-                "why."
+                "why.",
+                code=self._exit_code,
             )
-            return selection.refuse(self, text, code=self._exit_code)
         with command.supervisor.Journal(result.with_name(JOURNAL)) as journal:
             paths = list(journal.entries)
             failed = sum(entry.status != "ok" for entry in journal.entries.values())
@@ -143,16 +149,22 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
             )
         counts = {"count": len(paths), "failed": failed, "file": str(self._folder / REPORT)}
         if failed:
-            text = "Files measured: {count}, not or not fully: {failed}; report: {file}"
             reports.report(
-                self, reports.phrase(text, **counts), level=core.verdict.Severity.WARNING
+                self,
+                reports.phrase(
+                    "Files measured: {count}, not or not fully: {failed}; report: {file}", **counts
+                ),
+                level=core.verdict.Severity.WARNING,
             )
         else:
-            texts = (
-                "{count} file measured; report: {file}",
-                "{count} files measured; report: {file}",
+            reports.report(
+                self,
+                reports.phrase(
+                    "{count} file measured; report: {file}",
+                    "{count} files measured; report: {file}",
+                    **counts,
+                ),
             )
-            reports.report(self, reports.phrase(*texts, **counts))
         return {"FINISHED"}
 
 

@@ -138,6 +138,7 @@ class OBJECT_OT_body_moments_measure(modal.ModalSteps, selection.OnSelection, Op
         return self._report(len(measured), shared)
 
     def _report(self, count: int, notes: list[verdict.Finding]) -> set[str]:
+        # count: of the measured objects. notes: about several objects together
         warnings = [
             verdict.finding(
                 findings.OBJECT_WARNINGS,
@@ -153,7 +154,7 @@ class OBJECT_OT_body_moments_measure(modal.ModalSteps, selection.OnSelection, Op
         ]
         tried = count + len(self._failures)
         names = [warning.values["object"] for warning in warnings]
-        if tried == count == 1:
+        if tried == count == 1:  # so there is one result
             text = "Measured {object}, with warnings" if warnings else "Measured {object}"
             summary = [write.reports.phrase(text, object=self._results[0][0].name)]
         else:
@@ -219,7 +220,7 @@ class OBJECT_OT_body_moments_clear(selection.OnSelection, Operator):
     )
 
     def execute(self, context: Context) -> set[str]:
-        # Measure stored results on the meshes of a posed armature, too
+        # Measure stores results on the meshes of a posed armature, too: `subjects` returns them.
         selected = context.view_layer.objects.selected
         objects = [
             obj

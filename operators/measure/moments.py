@@ -31,16 +31,18 @@ class OBJECT_OT_body_moments_compute_moments(selection.OnSubject, Operator):
         order: int = context.scene.body_moments.moments_order
         computed, findings = stored.compute_moments(context, obj, order)
         if computed is None:
-            text = (
-                "{object}: a wire has no volume or surface. Set Kind to Solid or Shell; measure "
-                "--order gives moments "
-                "of length."
-            )
             write.reports.report(
-                self, write.reports.phrase(text, object=obj.name), level=Severity.WARNING
+                self,
+                write.reports.phrase(
+                    "{object}: a wire has no volume or surface. Set Kind to Solid or Shell; "
+                    "measure --order gives moments of length.",
+                    object=obj.name,
+                ),
+                level=Severity.WARNING,
             )
             return {"CANCELLED"}
         stored.moments.cache_moments(obj, computed, context.evaluated_depsgraph_get())
+        # A flat shape has the moments of x^i y^j with i + j ≤ order: 1 + 2 + … + (order + 1).
         count = (
             (order + 1) * (order + 2) // 2 if computed.volume is None else len(computed.volume.raw)
         )
@@ -59,8 +61,9 @@ class OBJECT_OT_body_moments_measure_section(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        reason = "Select faces in Edit Mode, or a flat mesh, 2D curve or text"
-        return bool(_objects_with_sections(context)) or write.reports.unavailable(cls, reason)
+        return bool(_objects_with_sections(context)) or write.reports.unavailable(
+            cls, "Select faces in Edit Mode, or a flat mesh, 2D curve or text"
+        )
 
     def execute(self, context: Context) -> set[str]:
         depsgraph = context.evaluated_depsgraph_get()
@@ -85,8 +88,15 @@ class OBJECT_OT_body_moments_measure_section(Operator):
             )
             summary = [write.reports.phrase(text, object=measured[0].name)]
         else:
-            texts = ("Measured {count} section", "Measured {count} sections")
-            summary = [write.reports.phrase(*texts, count=len(measured))] if measured else []
+            summary = (
+                [
+                    write.reports.phrase(
+                        "Measured {count} section", "Measured {count} sections", count=len(measured)
+                    )
+                ]
+                if measured
+                else []
+            )
             summary += selection.name_warned(warned)
         level = Severity.WARNING if warned else Severity.NOTE
         return selection.finish(self, summary, failures, level=level, is_changed=bool(measured))
@@ -109,7 +119,7 @@ def _objects_with_sections(context: Context) -> list[Object]:
     return [obj for obj in edited if obj.data.total_face_sel] or edited
 
 
-POINTS = 2  # points of an axis
+POINTS = 2  # An axis goes through two points.
 
 
 class OBJECT_OT_body_moments_store_reference(selection.OnSelection, Operator):
@@ -126,7 +136,7 @@ class OBJECT_OT_body_moments_store_reference(selection.OnSelection, Operator):
             stored.reference.store(obj, context.scene)
             write.properties.retrigger_drivers(obj)
 
-        # the results are bound to their places, and stay the same
+        # The new properties change no result: an assembly that was up to date stays so.
         with stored.assembly.kept_up_to_date(context):
             return selection.change_all(
                 self,
@@ -144,10 +154,9 @@ def reference_text(
     name: str, choice: stored.reference.ReferenceChoice, result: core.inertia.ReferredInertia
 ) -> str:
     """Return the text of an object's inertia about a reference, with its bounds."""
-    axes, inertia = (
-        list(map(list, matrix))
-        for matrix in (zip(*result.reference.axes), tensor_rows(result.inertia))
-    )
+    # The reference lists its axes; they become the columns of a matrix.
+    axes = [list(row) for row in zip(*result.reference.axes)]
+    inertia = [list(row) for row in tensor_rows(result.inertia)]
     lines = [
         "{:s}, about {:s}".format(name, choice.text),
         "origin (m, world) {!r}".format(list(result.reference.origin)),
@@ -176,8 +185,11 @@ class OBJECT_OT_body_moments_axis_from_selection(Operator):
     def execute(self, context: Context) -> set[str]:
         points = _selected_points(context)
         if len(points) != POINTS:
-            text = "{count} points are selected. Select two vertices, or two objects."
-            return selection.refuse(self, text, count=len(points))
+            return selection.refuse(
+                self,
+                "{count} points are selected. Select two vertices, or two objects.",
+                count=len(points),
+            )
         settings = context.scene.body_moments_reference
         settings.about = "AXIS"
         settings.first = points[0]

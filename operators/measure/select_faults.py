@@ -93,8 +93,11 @@ class OBJECT_OT_body_moments_select_faults(Operator):
                 total=len(checked),
             )
         else:
-            texts = ("Measured {count} object: no defects", "Measured {count} objects: no defects")
-            text = write.reports.phrase(*texts, count=len(checked))
+            text = write.reports.phrase(
+                "Measured {count} object: no defects",
+                "Measured {count} objects: no defects",
+                count=len(checked),
+            )
         defects = [
             finding(findings.OBJECT_WARNINGS, object=obj.name, causes=_counts(object_faults))
             for obj, object_faults in faults.items()
@@ -111,7 +114,10 @@ def _counts(faults: dict[str, Any]) -> list[dict]:
 
 
 def _show_defects(context: Context, faults: dict[Object, dict[str, Any]]) -> None:
-    """Enter Edit Mode on the faulty objects alone, and select their faults."""
+    """Enter Edit Mode on the faulty objects alone, and select their faults.
+
+    faults: by object and kind, (n,) indices of faces or (n, 2) vertices of edges.
+    """
     for obj in list(context.view_layer.objects.selected):
         if obj not in faults:
             obj.select_set(False)
@@ -119,7 +125,7 @@ def _show_defects(context: Context, faults: dict[Object, dict[str, Any]]) -> Non
         context.view_layer.objects.active = next(iter(faults))
     dimensions = {indices.ndim for elements in faults.values() for indices in elements.values()}
     context.tool_settings.mesh_select_mode = (False, 2 in dimensions, 1 in dimensions)
-    # the undo step of Edit Mode that follows holds meshes only
+    # The undo step of Edit Mode that follows holds meshes only, not the stored results.
     bpy.ops.ed.undo_push(message="Measure")
     bpy.ops.object.mode_set(mode="EDIT")
     for obj, elements in faults.items():

@@ -10,6 +10,7 @@ the object as its child falls as the object does.
 from __future__ import annotations
 
 from collections.abc import Callable, Generator
+from typing import Any
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
@@ -58,14 +59,15 @@ MAX_SHOWN_NAMES = 4
 
 
 class _Making(selection.OnSelectionInObjectMode, modal.ModalSteps):
-    """Base of operators that make colliders: `_wanted` returns the fields of `Wanted`."""
+    """Base of operators that make colliders: `_wanted` returns their shape and limits."""
 
     PROGRESS = "Making colliders: {share:.0%}. Esc to cancel"
     CANCELED = "Making colliders canceled; nothing was changed"
     tolerance = "LENGTH"
     correct = "NONE"
     engine = "NONE"
-    _wanted: Callable[[], tuple[str, float, float, int, int]]
+    # returns `core.colliders.fits.Wanted`, whose name Blender would evaluate, and so load numpy
+    _wanted: Callable[[], Any]
 
     def _check(self, obj: Object) -> None:
         """Raise MeasureError for an object that cannot have the colliders."""
@@ -77,16 +79,22 @@ class _Making(selection.OnSelectionInObjectMode, modal.ModalSteps):
         known_plans: dict[str, session.colliders.Plan] = {}
         unit = scale.meters_per_unit(context.scene)
         measured = bodies.measured_in_turn(self._objects, context.evaluated_depsgraph_get())
-        fit_request = core.colliders.fits.Wanted(*self._wanted())
+        fit_request = self._wanted()
 
-        def plan(obj: Object) -> Generator[float, None, None]:
+        def add_plan(obj: Object) -> Generator[float, None, None]:
             self._check(obj)
-            options = fit_request, self.tolerance == "SHARE", self.correct, known_plans
-            self._plans.append(
-                (yield from session.plan_colliders(obj, measured(obj), unit, *options))
+            plan = yield from session.plan_colliders(
+                obj,
+                measured(obj),
+                unit,
+                fit_request,
+                self.tolerance == "SHARE",
+                self.correct,
+                known_plans,
             )
+            self._plans.append(plan)
 
-        self._steps = selection.iterate_objects(self._objects, plan, self._failures)
+        self._steps = selection.iterate_objects(self._objects, add_plan, self._failures)
         return len(self._objects)
 
     def _finish(self, context: Context) -> set[str]:
@@ -95,9 +103,9 @@ class _Making(selection.OnSelectionInObjectMode, modal.ModalSteps):
             "{count} collider made", "{count} colliders made", count=len(self._made)
         )
         if len(self._plans) == 1:
-            text = "volume {share:percent} of the object's"
             summary += "; " + write.reports.phrase(
-                text, share=self._plans[0].record["volume_ratio"]
+                "volume {share:percent} of the object's",
+                share=self._plans[0].record["volume_ratio"],
             )
         beyond = [
             finding(
@@ -184,8 +192,10 @@ class OBJECT_OT_body_moments_make_colliders(_Making, Operator):
         for name in self.names.splitlines():
             column.label(text=name, translate=False)
 
-    def _wanted(self) -> tuple[str, float, float, int, int]:
-        return self.shape.lower(), self.outward, self.inward, self.pieces, self.vertices
+    def _wanted(self) -> core.colliders.fits.Wanted:
+        return core.colliders.fits.Wanted(
+            self.shape.lower(), self.outward, self.inward, self.pieces, self.vertices
+        )
 
     def _finish(self, context: Context) -> set[str]:
         result = super()._finish(context)
@@ -226,7 +236,7 @@ class OBJECT_OT_body_moments_equal_inertia(_Making, Operator):
         description="What is added",
         items=[
             (name.removeprefix("EQUAL_"), label.split()[-1], tip)
-            for name, label, tip in SHAPES[-3:]
+            for name, label, tip in SHAPES[-3:]  # the shapes of equal inertia
         ],
         default="BOX",
     )
@@ -236,8 +246,9 @@ class OBJECT_OT_body_moments_equal_inertia(_Making, Operator):
         default=False,
     )
 
-    def _wanted(self) -> tuple[str, float, float, int, int]:
-        return "equal_" + self.kind.lower(), 0.0, 0.0, 1, 4
+    def _wanted(self) -> core.colliders.fits.Wanted:
+        # the limits do not count for shapes of equal inertia
+        return core.colliders.fits.Wanted("equal_" + self.kind.lower(), 0.0, 0.0, 1, 4)
 
     def _check(self, obj: Object) -> None:
         if self.rigid_body and (not obj.is_editable or obj.parent is not None):
@@ -251,6 +262,7 @@ class OBJECT_OT_body_moments_equal_inertia(_Making, Operator):
         result = super()._finish(context)
         scene.rigid_world.add_rigid_bodies(context, self._made if self.rigid_body else [])
         for new, plan in zip(self._made, self._plans) if self.rigid_body else ():
+            # The new shape is no collider of the object, but its parent.
             matrix = new.matrix_world.copy()
             new.parent, new.matrix_world = None, matrix
             del new[settings.given.COLLIDER], plan.obj[settings.given.COLLIDERS]

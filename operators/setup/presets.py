@@ -7,7 +7,7 @@ object to others.
 import bpy
 from bl_operators.presets import AddPresetBase
 from bpy.props import EnumProperty, StringProperty
-from bpy.types import Context, Object, Operator
+from bpy.types import Context, Object, Operator, PropertyGroup
 
 from ...blender import scene, session, write
 from ...blender.settings import given, preferences, properties
@@ -64,11 +64,12 @@ class OBJECT_OT_body_moments_set_material(Operator):
             return before != _density_of(settings)
 
         texts = ("Set {count} object to {material}", "Set {count} objects to {material}")
-        idle = "already set to {material}"
-        return selection.change_all(self, objects, set_density, texts, idle, material=material.name)
+        return selection.change_all(
+            self, objects, set_density, texts, "already set to {material}", material=material.name
+        )
 
 
-def _density_of(settings) -> tuple:
+def _density_of(settings: PropertyGroup) -> tuple[str, str, float, str]:
     return settings.mass_from, settings.density_from, settings.density, settings.material
 
 
@@ -94,7 +95,7 @@ class MATERIAL_OT_body_moments_set_density(Operator):
         return {"RUNNING_MODAL"}
 
     def execute(self, _context: Context) -> set[str]:
-        target = bpy.data.materials.get((self.target, None))
+        target = bpy.data.materials.get((self.target, None))  # None: from no library
         if target is None:
             return selection.refuse(
                 self, "No local material “{material}”. Make it local.", material=self.target
@@ -135,8 +136,13 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
             scene.changes.require_storable_data(obj)
             return properties.copy_settings(active.body_moments, obj.body_moments)
 
-        texts = ("Copied the settings to {count} object", "Copied the settings to {count} objects")
-        return selection.change_all(self, objects, copy, texts, "the settings are equal")
+        return selection.change_all(
+            self,
+            objects,
+            copy,
+            ("Copied the settings to {count} object", "Copied the settings to {count} objects"),
+            "the settings are equal",
+        )
 
 
 class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):
@@ -146,7 +152,7 @@ class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):
     preset_menu = PRESET_PANEL
     preset_subdir = PRESET_FOLDER
     preset_defines = ["settings = bpy.context.object.body_moments"]
-    # an object
+    # without `density_volume`, which refers to an object of this file
     preset_values = [
         "settings." + name for name in properties.COPIED_PROPERTIES if name != "density_volume"
     ]
@@ -177,5 +183,6 @@ class OBJECT_OT_body_moments_preset_apply(Operator):
                 bpy.ops.script.execute_preset(filepath=self.filepath, menu_idname=PRESET_PANEL)
 
         objects = session.selected.objects_with_settings(chosen_objects(context))
-        texts = ("Set {count} object", "Set {count} objects")
-        return selection.change_all(self, objects, apply, texts)
+        return selection.change_all(
+            self, objects, apply, ("Set {count} object", "Set {count} objects")
+        )

@@ -86,15 +86,13 @@ class OBJECT_OT_body_moments_remedy(selection.OnSubject, Operator):
 
     def _edit(self, context: Context, obj: Object) -> int:
         """Edit the mesh of an object; return the number of changed elements."""
-        if self.remedy in (
-            write.remedies.FILL,
-            write.remedies.MERGE,
-        ):  # also of a mesh whose modifiers change its elements
-            return (
-                scene.fill_holes(obj.data)
-                if self.remedy == write.remedies.FILL
-                else scene.merge_by_distance(obj.data)
-            )
+        # These two need no indices of elements: modifiers may change the elements.
+        by_shape = {
+            write.remedies.FILL: scene.fill_holes,
+            write.remedies.MERGE: scene.merge_by_distance,
+        }
+        if self.remedy in by_shape:
+            return by_shape[self.remedy](obj.data)
         scene.require_editable_mesh(obj)
         depsgraph = context.evaluated_depsgraph_get()
         measurement = bodies.measured_in_turn([obj], depsgraph)(obj).measurement
@@ -160,12 +158,13 @@ class OBJECT_OT_body_moments_accept(selection.OnSubject, Operator):
                 write.properties.findings(shown_object), verdict.Severity.WARNING
             )
             codes = {self.code} if self.code else {reported.code for reported in warnings}
+            # The button is about the active object; others count if they have such a finding.
             if shown_object != obj and not codes & {
                 reported.code for reported in write.properties.findings(shown_object)
             }:
                 continue
             scene.changes.require_storable_data(shown_object)
-            if not any(
+            if not any(  # a list: every code has to be set
                 [
                     settings.accepted.set_accepted(shown_object, code, self.accepted)
                     for code in codes
@@ -209,7 +208,7 @@ class OBJECT_OT_body_moments_select_refused(selection.InObjectMode, Operator):
                 if reported.code == self.code
             ]
         names = {
-            name if isinstance(name, str) else name[0]
+            name if isinstance(name, str) else name[0]  # an operand is listed with its object
             for reported, owners in chosen_findings
             for name in reported.values.get("objects", owners)
         }

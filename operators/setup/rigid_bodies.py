@@ -113,14 +113,17 @@ class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Ope
             mass=mass,
         )
         if rigid_bodies.calculated and all(rigid_bodies.calculated.values()):
-            text = "; Calculate Mass would say {calculated:.7g} kg"
             summary += write.reports.phrase(
-                text, calculated=float(sum(rigid_bodies.calculated.values()))
+                "; Calculate Mass would say {calculated:.7g} kg",
+                calculated=float(sum(rigid_bodies.calculated.values())),
             )
         if rigid_bodies.floors:
-            text = "{count} passive body without volume", "{count} passive bodies without volume"
-            floors = write.reports.phrase(*text, count=len(rigid_bodies.floors))
-            summary = "; ".join([*([summary] if count else ()), floors])
+            floors = write.reports.phrase(
+                "{count} passive body without volume",
+                "{count} passive bodies without volume",
+                count=len(rigid_bodies.floors),
+            )
+            summary = "; ".join([summary, floors]) if count else floors
             count += len(rigid_bodies.floors)
         findings = [
             body.target.finding.of_sources([obj.name])
@@ -148,7 +151,7 @@ def _compare_masses(context: Context, rigid_bodies: "session.rigid_bodies.RigidB
     lines = []
     for obj, body in list(rigid_bodies.measured.items())[:SHOWN]:
         line = "{:s}: {:s}".format(obj.name, units.text("mass", body.target.mass))
-        if rigid_bodies.calculated[obj] > 0.0:  # of a compound, Blender weighs nothing
+        if rigid_bodies.calculated[obj] > 0.0:  # Calculate Mass weighs no compound
             calculated = units.text("mass", rigid_bodies.calculated[obj])
             line += write.translations.localized("; Calculate Mass: {:s}").format(calculated)
         lines.append(line)
@@ -212,15 +215,14 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(
 
     def _finish(self, context: Context) -> set[str]:
         bodies, failures = self._bodies, self._failures
-        with (
-            read.tracking.tracking_paused()
-        ):  # Blender reports a rigid body as a change of the shape
+        # Blender reports a rigid body as a change of the shape.
+        with read.tracking.tracking_paused():
             new = [body.obj for body in bodies if body.obj.rigid_body is None]
             scene.rigid_world.add_rigid_bodies(context, new)
             changed = set(new)
             for body in bodies:
                 before = body.obj.rigid_body.mass
-                body.obj.rigid_body.mass = body.mass
+                body.obj.rigid_body.mass = body.mass  # is rounded to float32
                 if body.obj.rigid_body.mass != before:
                     changed.add(body.obj)
             context.view_layer.update()
@@ -256,14 +258,16 @@ def _centers_elsewhere(bodies: "list[scene.snap_targets.SnapTarget]") -> list[Fi
 
 
 def _display_scaled(context: Context, count: int) -> list[str]:
-    """Return the message that Blender shows masses multiplied by the cube of the unit scale, if it
-    shows any.
+    """Return a list of one message: Blender multiplies displayed masses by the cube of the unit
+    scale; [] if it does not, or if no body of `count` shows one.
     """
     unit = scale.meters_per_unit(context.scene)
     if not count or unit == 1.0 or context.scene.unit_settings.system == "NONE":
         return []
-    text = (
-        "Physics properties show masses times {factor:.6g} (unit scale cubed); the physics engine "
-        "uses kilograms."
-    )
-    return [write.reports.phrase(text, factor=unit**3)]
+    return [
+        write.reports.phrase(
+            "Physics properties show masses times {factor:.6g} (unit scale cubed); the physics "
+            "engine uses kilograms.",
+            factor=unit**3,
+        )
+    ]

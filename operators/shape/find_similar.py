@@ -65,6 +65,8 @@ COUNTS = {  # texts of the report, by similarity
 
 
 class _SearchMixin:
+    """Base of operators that search for shapes similar to the active object's."""
+
     bl_label: str
     mirrored: bool
     scaled: bool
@@ -84,6 +86,8 @@ class _SearchMixin:
     ) -> set[str]:
         """Keep the nearest matches with the scene, and report the number of matches by
         similarity.
+
+        matches: the nearest first. looked_at: name of the library's file, "" for the scene.
         """
         search = context.scene.body_moments_search
         search.wanted = require_subject(context).name
@@ -107,9 +111,12 @@ class _SearchMixin:
             matches_text,
         ]
         if matches:
-            text = "nearest is {object}, at {distance:.2e}"
             summary.append(
-                write.reports.phrase(text, object=matches[0].name, distance=matches[0].distance)
+                write.reports.phrase(
+                    "nearest is {object}, at {distance:.2e}",
+                    object=matches[0].name,
+                    distance=matches[0].distance,
+                )
             )
         return selection.finish(self, summary, failures)
 
@@ -144,6 +151,7 @@ class OBJECT_OT_body_moments_find_similar(modal.ModalSteps, _SearchMixin, Operat
         return len(self._others)
 
     def _compare(self, name: str) -> Generator[float, None, None]:
+        # name: of the active object, which is measured first
         try:
             yield from self._search.measure()
         except MeasureError as error:
@@ -157,13 +165,14 @@ class OBJECT_OT_body_moments_find_similar(modal.ModalSteps, _SearchMixin, Operat
         """Keep and select the matches at the end, so that a canceled search changes nothing."""
         matches = self._search.find_nearest(self.scaled, self.mirrored)
         if self.select:
-            verdicts = {
+            # A mirror image or scaled copy counts as a copy if the search ignores the difference.
+            is_selected = {
                 "copy": True,
                 "mirror": self.mirrored,
                 "scaled_copy": self.scaled,
                 "scaled_mirror": self.mirrored and self.scaled,
             }
-            picked = {match.obj for match in matches if verdicts.get(match.verdict)}
+            picked = {match.obj for match in matches if is_selected.get(match.verdict)}
             subject = require_subject(context)
             selection.select_only(context, {*picked, subject}, subject)
         return self.store_and_report(context, matches, "", self._failures)
@@ -186,8 +195,9 @@ class OBJECT_OT_body_moments_find_in_library(_SearchMixin, Operator, ImportHelpe
         try:
             matches, missing = search.find_in_library(path, self.scaled, self.mirrored)
         except OSError as error:
-            text = "{file} cannot be read: {error}"
-            return selection.refuse(self, text, file=path.name, error=system_reason(error))
+            return selection.refuse(
+                self, "{file} cannot be read: {error}", file=path.name, error=system_reason(error)
+            )
         except MeasureError as error:
             return selection.refuse(self, error.about(require_subject(context).name))
         return self.store_and_report(context, matches, path.name, missing)

@@ -83,6 +83,7 @@ class OBJECT_OT_body_moments_find_symmetry(modal.ModalSteps, selection.OnSelecti
 
     def _begin(self, context: Context) -> int:
         self._objects = selection.selected_measurable(context)
+        # an object, its shape, the symmetry of the surface, and that of the moments
         self._results: list[
             tuple[
                 Object,
@@ -96,7 +97,7 @@ class OBJECT_OT_body_moments_find_symmetry(modal.ModalSteps, selection.OnSelecti
         def find(obj: Object) -> Iterator[float]:
             scene.changes.require_storable_data(obj)
             shape = bodies.comparable_shape_of(obj, context.evaluated_depsgraph_get())
-            yield 0.3
+            yield 0.3  # share of the time, estimated
             self._results.append((obj, shape, *shape.find_symmetries(self.tolerance)))
 
         self._steps = selection.iterate_objects(self._objects, find, self._failures)
@@ -118,7 +119,7 @@ class OBJECT_OT_body_moments_find_symmetry(modal.ModalSteps, selection.OnSelecti
         )
         symmetries = [
             write.reports.phrase(
-                texts[shape.is_display_mesh],
+                texts[1] if shape.is_display_mesh else texts[0],
                 object=obj.name,
                 group=symmetry.group,
                 description=", ".join(describe(symmetry)),
@@ -140,7 +141,7 @@ class OBJECT_OT_body_moments_find_symmetry(modal.ModalSteps, selection.OnSelecti
 def describe(symmetry: "core.shape.Symmetry") -> list[str]:
     """Return translated descriptions of the elements of a symmetry."""
     phrase = write.reports.phrase
-    if len(symmetry.revolution_axes) == 3:
+    if len(symmetry.revolution_axes) == 3:  # any axis is one; three stand for all
         return [phrase("sphere")]
     if len(symmetry.revolution_axes) == 1:
         reversible = symmetry.group == "D∞h"
@@ -152,7 +153,8 @@ def describe(symmetry: "core.shape.Symmetry") -> list[str]:
     clauses = []
     if symmetry.axes:
         texts = ("{count} rotation axis, {order}-fold", "{count} rotation axes, up to {order}-fold")
-        clauses.append(phrase(*texts, count=len(symmetry.axes), order=symmetry.axes[0][1]))
+        _direction, order = symmetry.axes[0]  # the highest order comes first
+        clauses.append(phrase(*texts, count=len(symmetry.axes), order=order))
     if symmetry.planes:
         clauses.append(
             phrase("{count} mirror plane", "{count} mirror planes", count=len(symmetry.planes))

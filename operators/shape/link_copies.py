@@ -54,39 +54,40 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
         ),
         options={"ENUM_FLAG"},
     )
-    _objects = None  # the dialog's, while it is open
-    _found: tuple | None = None  # the settings of the last search, and its kinds of meshes
+    _objects = None  # the objects selected when the dialog opened, while it is open
+    _search_key: tuple | None = None  # the settings of the last search, until the copies are linked
+    _kinds: list = []  # the kinds of meshes that it found
 
-    def _kinds(self, context: Context) -> list["scene.copies.Copies"]:
+    def _find_kinds(self, context: Context) -> list["scene.copies.Copies"]:
         """Return the kinds of meshes among the selected objects, or all visible ones if none is
-        selected.
+        selected; search only if a setting has changed.
         """
         key = self.tolerance, frozenset(self.may_differ)
-        if self._found is None or self._found[0] != key:
+        if self._search_key != key:
             candidates = self._objects or context.selected_objects or context.visible_objects
             objects = [obj for obj in candidates if obj.type == "MESH"]
             with write.reports.progress(len(objects)) as step:
-                self._found = (
-                    key,
-                    scene.copies.find_copies(objects, self.tolerance, set(key[1]), step),
+                self._kinds = scene.copies.find_copies(
+                    objects, self.tolerance, set(self.may_differ), step
                 )
-        return self._found[1]
+            self._search_key = key
+        return self._kinds
 
     def invoke(self, context: Context, _event: Event) -> set[str]:
         self._objects = [*context.selected_objects]
-        self._kinds(context)
+        self._find_kinds(context)  # for `draw`
         return context.window_manager.invoke_props_dialog(self, width=420)
 
     def check(self, context: Context) -> bool:
-        self._kinds(context)
-        return True
+        self._find_kinds(context)
+        return True  # Blender shall draw the dialog again
 
     def draw(self, context: Context) -> None:
         column = selection.draw_properties(self, "tolerance", "may_differ")
-        if self._found is None:  # the redo panel
+        if self._search_key is None:  # the redo panel
             return
         kinds = sorted(
-            (kind for kind in self._found[1] if kind.members), key=lambda kind: -len(kind.members)
+            (kind for kind in self._kinds if kind.members), key=lambda kind: -len(kind.members)
         )
         count = sum(len(kind.members) for kind in kinds)
         size = _size(sum(kind.saved_bytes for kind in kinds))
@@ -112,8 +113,8 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
             )
 
     def execute(self, context: Context) -> set[str]:
-        kinds = self._kinds(context)
-        self._found = None
+        kinds = self._find_kinds(context)
+        self._search_key = None
         self._objects = None
         keeps_materials = "MATERIALS" in self.may_differ
         with session.stored.assembly.kept_up_to_date(context):
@@ -140,5 +141,7 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
         )
 
 
-def _size(size: int) -> str:
-    return "{:.3g} MB".format(size / 1e6) if size >= 1e6 else "{:.3g} kB".format(size / 1e3)
+def _size(byte_count: int) -> str:
+    if byte_count >= 1e6:
+        return "{:.3g} MB".format(byte_count / 1e6)
+    return "{:.3g} kB".format(byte_count / 1e3)

@@ -70,9 +70,11 @@ class OBJECT_OT_body_moments_sculpt_balance(selection.OnSubject, Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        reason = "Switch to Edit Mode and select the vertices that may move"
         return super().poll(context) and (
-            context.mode in {"OBJECT", "EDIT_MESH"} or write.reports.unavailable(cls, reason)
+            context.mode in {"OBJECT", "EDIT_MESH"}
+            or write.reports.unavailable(
+                cls, "Switch to Edit Mode and select the vertices that may move"
+            )
         )
 
     def draw(self, context: Context) -> None:
@@ -98,7 +100,7 @@ class OBJECT_OT_body_moments_sculpt_balance(selection.OnSubject, Operator):
                 **vars(balanced),
             )
         ]
-        if obj.data.users - obj.data.use_fake_user > 1:
+        if obj.data.users - obj.data.use_fake_user > 1:  # a fake user counts as a user
             texts.append(write.reports.phrase("Other objects use this mesh and changed too."))
         if any(
             other_object.type == "MESH"
@@ -169,8 +171,8 @@ class OBJECT_OT_body_moments_make_it_stand(selection.OnSubject, Operator):
         settings = obj.body_moments
         scale = meters_per_unit(context.scene)
         if not self.properties.is_property_set("margin"):
-            self.margin = 1e-3 / scale
-        session.check_stability(context, obj, [])
+            self.margin = 1e-3 / scale  # 1 mm in Blender's units
+        session.check_stability(context, obj, [])  # computes the hull, which `support` reads
         support = session.stored.stability.support(obj, context.scene)
         point = context.scene.cursor.location[:] if self.target == "CURSOR" else None
         corners = None if support is None else support.polygon
@@ -182,7 +184,7 @@ class OBJECT_OT_body_moments_make_it_stand(selection.OnSubject, Operator):
             return selection.refuse(self, write.reports.phrase(text))
         values = {
             "walls": balance.walls,
-            "infill": round(balance.infill, 2),
+            "infill": round(balance.infill, 2),  # in percent
             "margin": balance.margin * scale,
             "radius": balance.pocket.radius if balance.pocket else 0.0,
         }
@@ -197,7 +199,7 @@ class OBJECT_OT_body_moments_make_it_stand(selection.OnSubject, Operator):
             )
             return selection.refuse(self, write.reports.phrase(text, **values))
         if is_ballast:
-            settings.pocket_radius = 1e3 * values["radius"]
+            settings.pocket_radius = 1e3 * values["radius"]  # in mm
             if balance.pocket:
                 settings.pocket_center = balance.pocket.center
                 settings.pocket_density = self.ballast

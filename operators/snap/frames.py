@@ -66,11 +66,15 @@ class OBJECT_OT_body_moments_origin_to_center(selection.OnSelectionInObjectMode,
     bl_label = "Origin to Center of Mass"
 
     def execute(self, context: Context) -> set[str]:
-        summary = (
-            "Moved the origin of {count} object to the center of mass",
-            "Moved the origins of {count} objects to the center of mass",
+        return reframe_selected(
+            self,
+            context,
+            False,
+            (
+                "Moved the origin of {count} object to the center of mass",
+                "Moved the origins of {count} objects to the center of mass",
+            ),
         )
-        return reframe_selected(self, context, False, summary)
 
 
 class OBJECT_OT_body_moments_axes_to_principal(selection.OnSelectionInObjectMode, Operator):
@@ -83,15 +87,20 @@ class OBJECT_OT_body_moments_axes_to_principal(selection.OnSelectionInObjectMode
     strict: STRICT_PROPERTY
 
     def execute(self, context: Context) -> set[str]:
-        summary = (
-            "Aligned the axes of {count} object to its principal axes",
-            "Aligned the axes of {count} objects to their principal axes",
+        return reframe_selected(
+            self,
+            context,
+            True,
+            (
+                "Aligned the axes of {count} object to its principal axes",
+                "Aligned the axes of {count} objects to their principal axes",
+            ),
+            self.strict,
         )
-        return reframe_selected(self, context, True, summary, self.strict)
 
 
-# Targets of principal axes 1, 2 and 3. An odd order would mirror the body, so axis 3 is reversed in
-# it.
+# World axes for the principal axes 1, 2 and 3. The last three orders are odd: they would mirror the
+# body, so axis 3 is reversed.
 ORDERS = ("XYZ", "YZX", "ZXY", "XZY", "YXZ", "ZYX")
 
 
@@ -159,21 +168,21 @@ class VIEW3D_OT_body_moments_cursor_to_center(selection.OnSelection, Operator):
     def execute(self, context: Context) -> set[str]:
         objects = selection.selected_measurable(context)
         measured = bodies.measured_in_turn(objects, context.evaluated_depsgraph_get())
-        bodies_measured = []
+        measurements = []
 
         def add(obj: Object) -> None:
             measurement = measured(obj).measurement
             if measurement.method.procedure == verdict.Procedure.OPEN:
                 raise verdict.EditRefusedError(scene.findings.OPEN_OBJECT)
-            bodies_measured.append((measurement.mass_moments, measurement.mass_properties))
+            measurements.append(measurement)
 
         added, failures = selection.apply_to_all(objects, add)
         findings = []
-        if bodies_measured:
+        if measurements:
             # A single body keeps its measured frame, whose signs come from exact third moments.
-            total = bodies_measured[0][1]
-            if len(bodies_measured) > 1:
-                total = inertia.combine([moments for moments, _ in bodies_measured])
+            total = measurements[0].mass_properties
+            if len(measurements) > 1:
+                total = inertia.combine([measurement.mass_moments for measurement in measurements])
             cursor = context.scene.cursor
             cursor.location = total.center / scale.meters_per_unit(context.scene)
             if self.rotate:
@@ -188,7 +197,9 @@ class VIEW3D_OT_body_moments_cursor_to_center(selection.OnSelection, Operator):
 
 
 def turn_cursor(cursor: View3DCursor, axes: Sequence[Sequence[float]]) -> None:
-    """Turn the 3D cursor to axes, the columns of a matrix, in its own rotation mode."""
+    """Turn the 3D cursor to the columns of a (3, 3) rotation, without a change of its rotation
+    mode.
+    """
     mode = cursor.rotation_mode
     rotation = Matrix(axes).to_quaternion()
     if mode == "QUATERNION":
@@ -291,6 +302,7 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
         name = self.name or "{:s} Principal".format(obj.name)
         slot = context.scene.transform_orientation_slots[0]
         before = slot.type
+        # `use` makes the new orientation that of the slot, where its matrix can be set.
         with context.temp_override(**place):
             bpy.ops.transform.create_orientation(name=name, use=True, overwrite=True)
         slot.custom_orientation.matrix = Matrix(body.axes.tolist())
@@ -340,8 +352,13 @@ class OBJECT_OT_body_moments_add_nodes(selection.InObjectMode, Operator):
                 self, write.reports.phrase("Added the node group “{group}”", group=group.name)
             )
         marker = scene.add_marker(context, obj, group)
-        text = "Added the node group “{group}” and the marker “{object}”"
-        texts = [write.reports.phrase(text, group=group.name, object=marker.name)]
+        texts = [
+            write.reports.phrase(
+                "Added the node group “{group}” and the marker “{object}”",
+                group=group.name,
+                object=marker.name,
+            )
+        ]
         settings = obj.body_moments
         if (settings.kind, settings.mass_from, settings.density_from) != (
             "SOLID",

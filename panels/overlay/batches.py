@@ -87,7 +87,7 @@ def draw_region(context: Context) -> None:
     view_key = (
         gpu.matrix.get_model_view_matrix(),
         gpu.matrix.get_projection_matrix(),
-        gpu.state.viewport_get()[2:],
+        gpu.state.viewport_get()[2:],  # width and height
     )
     if region_batches.view_key != view_key:
         region_batches.discs = _discs(region_batches.bodies, discs.View(*map(np.array, view_key)))
@@ -97,13 +97,17 @@ def draw_region(context: Context) -> None:
 
 
 def _rebuild(context: Context, key: tuple, before: _Drawn | None) -> _Drawn:
-    """Return current batches; rows of bodies that are the same as before are not computed again."""
+    """Return current batches; rows of bodies that are the same as before are not computed again.
+
+    The arrays of `before` are changed and taken over if most rows stay.
+    """
     scene = context.scene
     settings = context.scene.body_moments.overlay
     objects = draw.drawn_objects(context, settings.show_all)
-    (entries, active) = collect(context, objects)
+    entries, active = collect(context, objects)
     details = list_details(context, objects)
     changed = list(range(len(entries)))
+    # if only the generation, the first of the key, has changed
     if before is not None and before.key[1:] == key[1:] and len(before.entries) == len(entries):
         changed = [row for row in changed if entries[row] is not before.entries[row]]
     bodies = Bodies.of([entries[row] for row in changed], meters_per_unit(scene))
@@ -114,7 +118,7 @@ def _rebuild(context: Context, key: tuple, before: _Drawn | None) -> _Drawn:
         bodies, segments = before.bodies, before.segments
     colors = look.COLORS[bodies.verdicts][:, None].repeat(segments.shape[1], axis=1)
     if settings.show_axes:
-        colors[:, :3, :3] = _axis_colors()
+        colors[:, :3, :3] = _axis_colors()  # RGB of the first three segments, the axes
     parts = [
         (segments.reshape(-1, 2, 3), colors.reshape(-1, 4)),
         *(detail.segments for detail in details),
@@ -171,7 +175,9 @@ def _axis_numbers(center: Vector, *tips: Vector, scale: float) -> list[tuple[Vec
     placed = []
     for number, arm in enumerate(arms, 1):
         away = max(arm.length, scale * look.FRAME) + scale * look.TEXT / 2.0
-        toward = (arm + Vector((-1e-3, -3e-4))).normalized()  # an axis may point at the eye
+        # An axis that points at the eye has no arm: its number is to the lower left, 1e-3 pixels
+        # off, which turn no other arm visibly.
+        toward = (arm + Vector((-1e-3, -3e-4))).normalized()
         size = blf.dimensions(0, str(number))
         placed.append((center + away * toward - Vector(size) / 2.0, str(number), look.WHITE))
     return placed
@@ -218,6 +224,7 @@ def _line_batches(parts: list[Colored]) -> tuple[Batch, ...]:
 
 
 def _discs(bodies: Bodies, view: discs.View) -> tuple[Batch, ...]:
+    # the batches for discs behind surfaces and in front; none if no body is in view
     arrays = discs.disc_triangles(bodies, view, _scale())
     if arrays is None:
         return ()
@@ -250,6 +257,7 @@ def _restored_state() -> Iterator[None]:
 
 
 def _draw_batches(region_batches: _Drawn, size: tuple[int, int]) -> None:
+    # size: of the region, in pixels
     scale = _scale()
     flat = gpu.shader.from_builtin("FLAT_COLOR")
     gpu.state.depth_test_set("NONE")

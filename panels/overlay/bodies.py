@@ -20,14 +20,17 @@ from ...core.verdict import Verdict
 from . import appearance as look
 
 Entry = Displayed | inertia.PlainBody  # one body, or several as one
-MAX_MEMBERS = (
-    250  # of an assembly that is drawn; to know whether it is out of date takes 40 µs a member
-)
+# Larger assemblies are not drawn: to know whether one is out of date takes 40 µs a member.
+MAX_MEMBERS = 250
 MANY = 20  # from this number of bodies on, their sum is drawn, and only doubtful ones beside it
 
+# angles in radians: 48 and 16 sides of a closed circle
 CIRCLE = 2.0 * np.pi / 48.0 * np.arange(49)
 RING = CIRCLE[::3]
 DASHES = 12  # dashes of a drop line
+# radius of the ring at the foot of a drop line, relative to the largest radius of gyration; chosen
+RING_RADIUS = 0.15
+# The corner i of a cube has +1 along the axes of its set bits; an edge sets one more bit.
 EDGES = np.array([[i, i | 1 << axis] for i in range(8) for axis in range(3) if not i & 1 << axis])
 CORNERS = np.array([[(i >> axis & 1) * 2.0 - 1.0 for axis in range(3)] for i in range(8)])
 
@@ -154,23 +157,24 @@ def axis_lines(
 
 
 def drop_lines(centers: numerics.NDArray, gyration: numerics.NDArray) -> numerics.Array:
-    """Return a dashed line from each center to the floor, and a ring at its foot."""
+    """Return (n, k, 2, 3) segments of a dashed line from each center to the floor, Z = 0, and of a
+    ring at its foot.
+    """
     feet = centers.copy()
     feet[:, 2] = 0.0
+    # Dashes, and gaps of the same length between them: 2 DASHES − 1 parts.
     steps = np.arange(2 * DASHES).reshape(-1, 2) / (2.0 * DASHES - 1.0)
     dashes = feet[:, None, None] + steps[None, :, :, None] * (centers - feet)[:, None, None]
-    ring = np.stack([np.cos(RING), np.sin(RING), np.zeros_like(RING)], axis=1)
-    ring = np.stack([ring[:-1], ring[1:]], axis=1)
-    return np.concatenate(
-        [dashes, feet[:, None, None] + 0.15 * gyration.max(axis=1)[:, None, None, None] * ring],
-        axis=1,
-    )
+    points = np.stack([np.cos(RING), np.sin(RING), np.zeros_like(RING)], axis=1)
+    ring = np.stack([points[:-1], points[1:]], axis=1)
+    radii = RING_RADIUS * gyration.max(axis=1)[:, None, None, None]
+    return np.concatenate([dashes, feet[:, None, None] + radii * ring], axis=1)
 
 
 def _spread(gyration: numerics.NDArray) -> numerics.Array:
     """Return (n, 3) values (I_j + I_k - I_i) / m from (n, 3) radii of gyration.
 
-    The values are twice the mean square distance along axis i.
+    The values are twice the mean square distance along axis i. Rounding leaves none below 0.
     """
     squares = gyration**2
     return np.maximum(squares.sum(axis=1, keepdims=True) - 2.0 * squares, 0.0)
@@ -195,7 +199,7 @@ def ellipsoid_lines(
     """
     half = np.sqrt(2.5 * _spread(gyration))
     circles = np.zeros((3, len(CIRCLE), 3))
-    for axis in range(3):
+    for axis in range(3):  # in the plane of the two other axes
         circles[axis, :, axis - 1] = np.cos(CIRCLE)
         circles[axis, :, axis - 2] = np.sin(CIRCLE)
     points = centers[:, None, None] + np.einsum("nij,ckj,nj->ncki", axes, circles, half)

@@ -25,8 +25,13 @@ from . import draw
 
 FILL = 0.25  # opacity of faces
 ARROW = 0.12  # length of the tipping arrow's head, relative to the support polygon's extent
-CROSS = 0.02  # half the width of a center's cross, relative to a floating body's size
+# half the width of a cross, relative to the size of the floating body, or the extent of the path
+CROSS = 0.02
+TICK = 0.01  # length of the ticks of a path, relative to its extent
+# (k, c, 3) points of k shapes with c corners, and their (k, 4) colors
 Colored = tuple[Array, NDArray[np.float32]]
+CROSS_LINES = np.stack([-np.eye(3), np.eye(3)], axis=1)  # (3, 2, 3) segments with arms of length 1
+NO_TRIANGLES: Colored = (np.zeros((0, 3, 3)), np.zeros((0, 4), np.float32))
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +43,7 @@ class Detail:
     """
 
     segments: Colored
-    triangles: Colored
+    triangles: Colored = NO_TRIANGLES
     texts: tuple[tuple[Array, str, NDArray], ...] = ()
 
 
@@ -83,6 +88,7 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
         levels = [cuts.level_of(obj, context.scene) for obj in objects]
         details += [_surface(level, unit) for level in levels if level is not None]
     if settings.show_waterline:
+        # one object of each body: its objects share a record
         afloat = {id(memory.afloat[obj]): obj for obj in objects if obj in memory.afloat}
         floating_bodies = [floating.held_body(obj, context.scene) for obj in afloat.values()]
         details += [
@@ -92,26 +98,25 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
 
 
 def _path(path: balance_groups.Path) -> Detail:
-    """Return a line from frame to frame with a tick at each, orange if the center is outside the
-    support polygon.
+    """Return a line from frame to frame with a tick at each.
+
+    They are orange if the center is outside the support polygon while anything touches the ground,
+    and red if momentum changes while nothing does.
     """
     ticks = np.stack([path.centers, path.centers], axis=1)
-    ticks[:, 1, 2] += 0.01 * float(np.ptp(path.centers, axis=0).max())
+    ticks[:, 1, 2] += TICK * float(np.ptp(path.centers, axis=0).max())
     inside = np.ones(len(ticks), bool) if path.inside is None else path.inside
     if path.contact is not None:
         inside = inside | ~path.contact
-    colors = [
+    line_colors, tick_colors = (
         np.where(is_inside[:, None], look.PATH, look.TIPS)
         for is_inside in (inside[:-1] & inside[1:], inside)
-    ]
-    if path.unexplained is not None:
-        colors[0][path.unexplained[:-1] | path.unexplained[1:]] = look.FAULT
-        colors[1][path.unexplained] = look.FAULT
-    segments = np.concatenate([np.stack([path.centers[:-1], path.centers[1:]], axis=1), ticks])
-    return Detail(
-        (segments, np.concatenate(colors).astype(np.float32)),
-        _tinted(np.zeros((0, 3, 3)), look.PATH),
     )
+    if path.unexplained is not None:
+        line_colors[path.unexplained[:-1] | path.unexplained[1:]] = look.FAULT
+        tick_colors[path.unexplained] = look.FAULT
+    segments = np.concatenate([np.stack([path.centers[:-1], path.centers[1:]], axis=1), ticks])
+    return Detail((segments, np.concatenate([line_colors, tick_colors]).astype(np.float32)))
 
 
 def _arcs(scene: Scene, path: balance_groups.Path) -> list[Detail]:
@@ -121,25 +126,24 @@ def _arcs(scene: Scene, path: balance_groups.Path) -> list[Detail]:
     if path.contact is None or not scene.use_gravity:
         return []
     details = []
-    size = 0.02 * float(np.ptp(path.centers, axis=0).max())
+    size = CROSS * float(np.ptp(path.centers, axis=0).max())
     for first, last in core.rig.find_flights(path.contact):
         if path.contact[first] and path.contact[last]:
-            time = (path.frames[last] - path.frames[first]) / fcurves.time_scale(scene)
-            time *= scene.render.fps_base / scene.render.fps
+            frame_count = (path.frames[last] - path.frames[first]) / fcurves.time_scale(scene)
+            time = frame_count * (scene.render.fps_base / scene.render.fps)
             ends = path.centers[[first, last]]
             shares = np.linspace(0.0, 1.0, last - first + 1)
             arc = core.rig.ballistic_arc(*ends, shares, time, scene.gravity)
-            crosses = ends[:, None, None] + size * np.stack([-np.eye(3), np.eye(3)], axis=1)
+            crosses = ends[:, None, None] + size * CROSS_LINES
             lines = np.concatenate(
                 [np.stack([arc[:-1], arc[1:]], axis=1), crosses.reshape(-1, 2, 3)]
             )
-            details.append(
-                Detail(_tinted(lines, look.EDGE), _tinted(np.zeros((0, 3, 3)), look.EDGE))
-            )
+            details.append(Detail(_tinted(lines, look.EDGE)))
     return details
 
 
 def _surface(level: cuts.Level, unit: float) -> Detail:
+    # unit: meters per Blender unit
     hollow = level.hollow
     outline = cut_outline(hollow.points, hollow.triangles, hollow.up, level.height) / unit
     triangles = level.triangles / unit
@@ -156,7 +160,7 @@ def _waterline(floating_body: floating.Held, unit: float) -> Detail:
     buoyancy, gravity = state.center_of_buoyancy, state.center_of_gravity
     metacenter = buoyancy + state.metacentric_radii[0] * state.up
     places = np.array([buoyancy, gravity, metacenter])
-    crosses = places[:, None, None] + CROSS * body.size * np.stack([-np.eye(3), np.eye(3)], axis=1)
+    crosses = places[:, None, None] + CROSS * body.size * CROSS_LINES
     axis = np.array([[buoyancy, metacenter]])
     segments = np.concatenate([line, axis, crosses.reshape(-1, 2, 3)])
     color = look.WATER if floating_body.is_at_rest else look.EDGE
@@ -164,11 +168,7 @@ def _waterline(floating_body: floating.Held, unit: float) -> Detail:
         (place / unit, letter, color)
         for place, letter in zip(floating_body.to_world(places), "BGM")
     ]
-    return Detail(
-        _tinted(floating_body.to_world(segments) / unit, color),
-        _tinted(np.zeros((0, 3, 3)), color),
-        tuple(texts),
-    )
+    return Detail(_tinted(floating_body.to_world(segments) / unit, color), texts=tuple(texts))
 
 
 def _faults(obj: Object, mesh_faults: faults.Faults) -> Detail:
@@ -183,11 +183,12 @@ def _faults(obj: Object, mesh_faults: faults.Faults) -> Detail:
 def _weight(context: Context, weight: Weight) -> list[Detail]:
     text, lengths, _ = standing(weight, meters_per_unit(context.scene))
     polygon = None if weight.support is None else support_detail(weight.support)
+    # that of the polygon's segments, which have one color
     color = look.TIPS if polygon is None else polygon.segments[1][0]
     plumb = _tinted(np.array([[weight.parts.center, weight.foot]]), color)
     texts = ((weight.foot, blender.write.reports.phrase(text, **lengths), color),)
     return [
-        Detail(plumb, _tinted(np.zeros((0, 3, 3)), color), texts),
+        Detail(plumb, texts=texts),
         *([] if polygon is None else [polygon]),
     ]
 
@@ -205,6 +206,7 @@ def support_detail(support: core.statics.Support) -> Detail:
         [np.broadcast_to(corners[0], corners[2:].shape), corners[1:-1], corners[2:]], axis=1
     )
     extent = float(np.linalg.norm(np.ptp(np.concatenate([corners, [foot]]), axis=0)))
+    # The arrow reaches the edge, and is at least twice as long as its head.
     tip = foot + max(abs(support.margin), 2.0 * ARROW * extent) * support.direction
     side = np.cross(support.direction, support.up) * ARROW * extent / 2.0
     back = tip - ARROW * extent * support.direction

@@ -41,16 +41,16 @@ GlyphShape = tuple[NDArray, NDArray, NDArray]  # corners, (k, 2, 4) colors, tria
 
 
 def _arc(radius: float, first: int = 0, last: int = SEGMENTS, segments: int = SEGMENTS) -> Array:
+    # (k, 2) corners `first` to `last` of a circle of `segments` sides
     angles = 2.0 * np.pi / segments * np.arange(first, last + 1)
     return radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
 
 
 def _fan(points: NDArray) -> Part:
     """Return the triangle fan between the origin and an open polyline."""
-    count = np.arange(1, len(points), dtype=np.int32)
-    return np.concatenate([np.zeros((1, 2)), points]), np.stack(
-        [0 * count, count, count + 1], axis=1
-    )
+    corner = np.arange(1, len(points), dtype=np.int32)  # 0 is the origin
+    triangles = np.stack([0 * corner, corner, corner + 1], axis=1)
+    return np.concatenate([np.zeros((1, 2)), points]), triangles
 
 
 def _stroke(path: NDArray, width: float) -> Part:
@@ -97,22 +97,24 @@ def _colored(*layers: tuple[Part, NDArray, float]) -> GlyphShape:
 
 def _frame(verdict: int) -> list[Array]:
     """Return the polylines around the disc that show the verdict by their form."""
-    # square, triangle, diamond
+    # By verdict: direction of the first corner in degrees, corners, and distance of the corners
+    # relative to the circle's radius, chosen so that the frames look equally large.
     polygons = {
-        1: (45.0, 4, 1.25),
-        2: (90.0, 3, 1.75),
-        4: (90.0, 4, 1.3),
+        1: (45.0, 4, 1.25),  # square
+        2: (90.0, 3, 1.75),  # triangle
+        4: (90.0, 4, 1.3),  # diamond
     }
     if verdict in polygons:
         start, count, size = polygons[verdict]
         angles = np.radians(start + 360.0 / count * np.arange(count + 1))
         return [size * look.FRAME * np.stack([np.cos(angles), np.sin(angles)], axis=1)]
-    if verdict == 3:  # dashed
+    if verdict == 3:  # dashed: two of four sides
         return [_arc(look.FRAME, first, first + 2) for first in range(0, SEGMENTS, 4)]
     return [_arc(look.FRAME)]
 
 
 def _disc(verdict: int) -> GlyphShape:
+    # from the lowest layer to the highest: frame, disc of four quadrants, and dot, each on dark
     color = look.COLORS[verdict]
     lines = _frame(verdict)
     quarter = SEGMENTS // 4
@@ -128,6 +130,7 @@ def _disc(verdict: int) -> GlyphShape:
 
 
 def _stack(shapes: Sequence[GlyphShape]) -> Glyphs:
+    # A triangle of zeros, one corner three times, draws nothing.
     def filled(arrays: Sequence[NDArray]) -> NDArray:
         size = max(map(len, arrays))
         return np.stack(
@@ -183,6 +186,8 @@ class View:
         behind the eye.
         """
         view_points = points @ self.view[:3, :3].T + self.view[:3, 3]
+        # The screen is 2 wide in clip coordinates, where a length of 1 along the view's axis i is
+        # projection[i, i] / w long.
         w = view_points @ self.projection[3, :3] + self.projection[3, 3]
         return np.maximum(w, 0.0)[:, None] * 2.0 / (self.size * np.diagonal(self.projection)[:2])
 
@@ -218,7 +223,7 @@ def disc_triangles(
     pixel of `appearance`.
     """
     sizes = view.pixel_sizes(bodies.centers).max(axis=1)
-    # in pixels
+    # largest radius of gyration in pixels
     reach = np.divide(
         bodies.gyration.max(axis=1), sizes, out=np.zeros(len(sizes)), where=sizes > 0.0
     )

@@ -45,6 +45,7 @@ SETTINGS = BodyMomentsOverlaySettings.__annotations__
 EQUIVALENTS = [item[0] for item in SETTINGS["equivalent"].keywords["items"]]
 _handles: list[object] = []
 _kept: dict[str, dict[str, bool | str]] = {}  # by scene, the settings before an undo
+# Whether there was anything to draw: from then on numpy and the engine are loaded, and always draw.
 _has_drawn = False
 
 
@@ -52,6 +53,7 @@ def _mirrored(name: str) -> object:
     """Return a property that reads and sets the active scene's setting of this name."""
     keywords = {key: value for key, value in SETTINGS[name].keywords.items() if key != "default"}
 
+    # Blender reads and sets an enumeration by the index of its item.
     def get(_mirror: PropertyGroup) -> bool | int:
         value = getattr(bpy.context.scene.body_moments.overlay, name)
         return EQUIVALENTS.index(value) if name == "equivalent" else value
@@ -72,13 +74,12 @@ class BodyMomentsOverlayMirror(PropertyGroup):
 def _keep_settings() -> None:
     _kept.clear()
     for scene in bpy.data.scenes:
-        settings = scene.body_moments
-        if settings.is_property_set("overlay"):  # reading a group within a group stores it
-            settings = settings.overlay
-            overlay_settings = {
+        # `overlay` is read only if it is set: Blender would store a group that is read in a group.
+        if scene.body_moments.is_property_set("overlay"):
+            settings = scene.body_moments.overlay
+            _kept[scene.name_full] = {
                 name: getattr(settings, name) for name in SETTINGS if settings.is_property_set(name)
             }
-            _kept[scene.name_full] = overlay_settings
 
 
 def _restore_settings() -> None:
