@@ -13,7 +13,9 @@ from ..read import objects, visibility
 
 
 def world_surface(obj: Object, depsgraph: Depsgraph, unit: float) -> mesh.Surface:
-    """Return the faces that an object shows, before any repair. unit: meters per Blender unit."""
+    """Return the faces that an object shows, before any repair, in meters along the world's axes.
+    unit: meters per Blender unit.
+    """
     surface = objects.read_object(obj, depsgraph, edges=False).join()
     return surface.transform(unit * np.eye(3), np.zeros(3))
 
@@ -31,21 +33,23 @@ def cut_fill_against(
     shown = world_surface(other, depsgraph, unit)
     faces = shown.all_triangles()[0]
     try:
-        error = float(shown.coordinate_error.max())
-        plane = flat.fit_plane(shown.points, faces, np.eye(3), np.zeros(3), error)
-    except verdict.MeasureError:
+        coordinate_error = float(shown.coordinate_error.max())
+        plane = flat.fit_plane(shown.points, faces, np.eye(3), np.zeros(3), coordinate_error)
+    except verdict.MeasureError:  # the surface is not flat
         return cuts.cut_fill_between(
             surface.points, surface.all_triangles()[0], shown.points, faces
         )
     return _against_plane(surface, plane.axes[:, 2], plane.origin)
 
 
-def _against_plane(surface: mesh.Surface, normal: Array, place: Array) -> cuts.CutFill:
-    """Return cut and fill against the plane through a place; its upper side counts as up."""
-    size = float(np.linalg.norm(normal))
-    if not size > 0.0 or abs(normal[2]) < cuts.MIN_RIM_SPREAD * size:
+def _against_plane(surface: mesh.Surface, normal: Array, point: Array) -> cuts.CutFill:
+    """Return cut and fill against the plane through a (3,) point, or raise MeasureError if it is
+    upright. The normal may have any length and point down; its upper side counts as up.
+    """
+    length = float(np.linalg.norm(normal))
+    if not length > 0.0 or abs(normal[2]) < cuts.MIN_RIM_SPREAD * length:
         raise verdict.MeasureError(cuts.CUT_FILL_UNAVAILABLE, fault=cuts.PLANE_UPRIGHT)
     normal = normal if normal[2] >= 0.0 else -normal
     triangles = surface.all_triangles()[0]
-    offset = float(normal @ place)
+    offset = float(normal @ point)  # the plane is normal · x = offset
     return cuts.cut_fill(surface.points, triangles, normal, offset, surface.coordinate_error)

@@ -108,7 +108,7 @@ def object_transform(
             measure = moments.Measure.VOLUME
             total = body.volume.total
         if frame == "object":
-            axes = reading.rotation.T
+            axes = reading.rotation.T  # the rows are the object's axes in the world
             to_frame = moments.affine_matrices(axes, -axes @ reading.location * unit)
             parts = [(surface, to_frame @ matrices) for surface, matrices in parts]
         frequencies = q(_extent(parts)) if callable(q) else q
@@ -142,7 +142,7 @@ def flat_transform(
     region = flat_region(obj, depsgraph, selected=False, exact=False, unit=unit)
     findings = (*region.findings, *area_findings(region, region.moments(1).total))
     plane = region.plane
-    # in the plane's axes, from its origin
+    # The foot is a (3,) point in the plane's axes, relative to the plane's origin.
     foot = flat.foot(plane, np.zeros(3) if frame == "world" else region.location)
     origin = plane.origin + plane.axes @ foot
     frequencies = q(float(np.ptp(region.used, axis=0).max())) if callable(q) else q
@@ -155,8 +155,8 @@ def flat_transform(
 
 
 def _extent(parts: list[tuple[mesh.Surface, NDArray]]) -> float:
-    """Return the longest side, in m, of the box that holds the boxes of all parts, or raise
-    ReadError if it is 0.
+    """Return the longest side, in m, of the box around all parts, or raise ReadError if it is 0.
+    parts: surfaces with their (k, 4, 4) maps to m.
     """
     low = np.full(3, np.inf)
     high = np.full(3, -np.inf)

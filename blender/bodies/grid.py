@@ -68,7 +68,7 @@ def body(reading: volume.VolumeReading, request: Request) -> measurement.Body:
 def _grid_body(
     reading: volume.VolumeReading, options: GridOptions, settings: measurement.Settings
 ) -> measurement.Body:
-    """Return the body of one grid, with its mass moments to an order.
+    """Return the body of one grid, with its mass moments to the order of the settings.
 
     Raises MeasureError if the grid has no body.
     """
@@ -110,7 +110,7 @@ def _matrix_to_world(reading: volume.VolumeReading, unit: float) -> Array:
 
 
 def _label(reading: volume.VolumeReading, label: int, unit: float) -> measurement.Body:
-    """Return the body of the voxels of a label, or for 0 of all labels but 0."""
+    """Return the body of the voxels with a label; label 0 stands for all labels but 0."""
     sums = sum_labels(reading.blocks)
     chosen = [total for value, total in sums.items() if value and label in (0, value)]
     if not chosen:
@@ -166,7 +166,7 @@ def threshold_grid(reading: volume.VolumeReading, unit: float) -> ThresholdGrid:
         raise ReadError(GRID_TOO_LARGE, grid=reading.grid, samples=list(reading.shape))
     values = np.full(reading.shape, reading.background, np.float32)
     for (i, j, k), block in reading.blocks():
-        if block.dtype.itemsize > 4:
+        if block.dtype.itemsize > 4:  # float32 would round these values
             values = values.astype(np.float64, copy=False)
         values[i : i + block.shape[0], j : j + block.shape[1], k : k + block.shape[2]] = block
     matrix = _matrix_to_world(reading, unit) @ moments.affine_matrices(np.eye(3), reading.low)

@@ -39,7 +39,7 @@ def measure_body(
             measurement, body = point_measurement(point, request)
             return stack.Measured(measurement, reading=point, body=body)
         kinds = (kind for kind in KINDS if request.settings.kind in kind.MEASURED_AS)
-        readings = ((kind, kind.read(request)) for kind in kinds)  # read one after the other
+        readings = ((kind, kind.read(request)) for kind in kinds)  # lazy: read until one fits
         # The last kind raises MeasureError in place of returning None.
         kind, reading = next((kind, reading) for kind, reading in readings if reading is not None)
         body = with_given(kind.body(reading, request), reading, request)

@@ -26,7 +26,7 @@ from ..settings.options import AS_SET, MeasureOptions, object_settings
 from .stack import Measured, Member, measure_members
 
 MAX_OBJECTS_PER_STACK = 512
-MAX_STACKED_FACES = 20_000  # of one mesh
+MAX_STACKED_FACES = 20_000  # of one mesh; larger ones are measured alone
 MAX_FACES_PER_STACK = 40_000
 
 Outcome = Measured | Exception
@@ -100,6 +100,7 @@ class _Collector:
     def add(self, obj: bpy.types.Object) -> None:
         """Add an object, as a member of the stack if it can be stacked and read."""
         self.objects.append(obj)
+        # An object that is no member is measured alone, which raises the same error again.
         with suppress(Exception):
             member = self._member(obj)
             if member is not None:
@@ -117,7 +118,7 @@ class _Collector:
             return None
         blender_matrix = obj.evaluated_get(self.depsgraph).matrix_world
         location, rotation, _scale = blender_matrix.decompose()
-        if has_places(obj):
+        if has_places(obj):  # kept in float64, unlike Blender's matrix
             matrix = world_matrices(obj)[0]
             location = matrix[:3, 3].tolist()
         else:
@@ -132,10 +133,13 @@ class _Collector:
         settings = object_settings(obj, self.scene, options)
         if settings.kind != "solid" or settings.overlap != "signed":
             return None
-        return self._settings.setdefault(settings, settings)  # equal ones share their digest
+        # Equal settings become one object, so that their digest is computed once.
+        return self._settings.setdefault(settings, settings)
 
     def _read(self, mesh: bpy.types.Mesh) -> int | None:
-        """Return the index of the shape of a mesh; None if it has to be measured alone."""
+        """Return the index of a mesh's surface, equal meshes having the same; None if the mesh has
+        to be measured alone.
+        """
         if not len(mesh.polygons) or len(mesh.polygons) > MAX_STACKED_FACES:
             return None
         surface = mesh_surface(mesh)
@@ -147,7 +151,9 @@ class _Collector:
         return self._by_content[content]
 
     def outcomes(self) -> Iterator[list[tuple[bpy.types.Object, Outcome]]]:
-        """Yield the outcomes of the objects: stacked objects together, others one by one."""
+        """Yield lists of objects with their outcomes, in order: consecutive stacked objects in one
+        list, each of the others in a list of its own.
+        """
         stacked = self._measure()
         together: list[tuple[bpy.types.Object, Outcome]] = []
         for obj in self.objects:
@@ -171,12 +177,13 @@ class _Collector:
         """Return the stacked measurements; none if the stack fails and all must be measured
         alone.
         """
+        if not self.members:
+            return {}
         try:
-            members = self.members
-            rows = measure_members(members, measure_again(self.surfaces)) if members else []
+            rows = measure_members(self.members, measure_again(self.surfaces))
         except Exception as error:
-            internal_error.finding_of(error)
-            rows = []
+            internal_error.finding_of(error)  # prints the traceback of a fault of the program
+            return {}
         return {row.member.obj: row for row in rows}
 
 

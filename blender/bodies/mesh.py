@@ -33,13 +33,13 @@ MEASURED_AS = frozenset({"solid", "shell", "printed"})
 # findings about the bodies before their union that also apply to the union
 REPAIRS = {HOLES_CAPPED, verdict.FLIPPED_FACES, INVERTED_COMPONENTS}
 HULL_RTOL = 1e-6  # relative to the extent: points that are outside by less are left out
-NOISE = 4.0  # half ulps of float32 coordinates: allowed unevenness of flat faces
+NOISE = 4.0  # largest unevenness of flat faces, in errors of a coordinate; chosen with a margin
 MAX_CORNERS = 10000  # per hull: finely divided round bodies have more
 
 
 def read(request: Request) -> bodies.Reading | None:
     """Return the polygons that an object shows, or None if it has NURBS patches of one density (see
-    `nurbs.py`).
+    `nurbs.py`). A finding tells of patches and flat curves that polygons stand for.
     """
     reading = request.surfaces
     density = request.density
@@ -52,6 +52,7 @@ def read(request: Request) -> bodies.Reading | None:
         return None
     else:
         return reading
+    # Flat curves of one density do not come here: `flat.region` reads them first.
     is_flat_sheet = density is not None and kind == "shell" and request.obj.type == "CURVE"
     if reading.has_patches or (is_flat_sheet and visibility.shows_flat_region(request.obj)):
         reading.findings.append(verdict.finding(DISPLAY_MESH_MEASURED, cause=cause))
@@ -134,7 +135,7 @@ def object_hull(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
     reading = objects.read_object(obj, depsgraph, edges=False)
     if reading.is_singular:
         raise verdict.EditRefusedError(SCALE_ZERO_AXIS)
-    to_local = np.linalg.inv(reading.matrix)
+    to_local = np.linalg.inv(reading.matrix)  # from the world to the object's coordinates
     points = []
     coordinate_error = 0.0
     for part in reading.parts:
@@ -147,5 +148,6 @@ def object_hull(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
             coordinate_error = max(coordinate_error, float(error.max()))
     joined = np.concatenate(points)
     extent = float(np.ptp(joined, axis=0).max())
+    # Without extent, all points are one, and any tolerance will do.
     rtol = max(HULL_RTOL, NOISE * coordinate_error / (extent or np.inf))
     return convex_hull(joined, rtol, MAX_CORNERS)

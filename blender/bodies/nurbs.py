@@ -36,7 +36,7 @@ from .request import Request
 MEASURED_AS = frozenset({"solid", "shell"})
 
 MIN_CREASE_ANGLE = 0.02  # radians; smaller creases may be due to float32 alone
-# in thicknesses of a wall
+# Heights of a wall's two faces above the surface, in thicknesses of the wall.
 HEIGHTS = {
     "inward": (-1.0, 0.0),
     "outward": (0.0, 1.0),
@@ -79,7 +79,7 @@ class PatchBody(Body):
             volume = bodies.extend_input_error(volume, integrals.volume)
             volumes.append(sum_of_images(volume, matrices))
             if area:
-                faces = nurbs.area_moments(_patches(part), order, integrals.area.about)[0]
+                faces = nurbs.area_moments(_splines(part).patches, order, integrals.area.about)[0]
                 faces = bodies.extend_input_error(faces, integrals.area)
                 areas.extend(_image_areas(part, faces, matrices))
         if self.polygons is not None:
@@ -111,21 +111,20 @@ class PatchSheetBody(Body):
         """Return zero moments of the volume, and the moments of the area."""
         areas = []
         for part in self.parts:
-            of_part = nurbs.stored_area_moments(_patches(part), order, stored=_stored(part))
-            areas.extend(_image_areas(part, of_part, bodies.to_si(part.matrices, self.unit)))
+            splines = _splines(part)
+            faces = nurbs.stored_area_moments(splines.patches, order, stored=splines.stored)
+            areas.extend(_image_areas(part, faces, bodies.to_si(part.matrices, self.unit)))
         if self.polygons is not None:
             faces = self.polygons.moments(order, True)[1]
             areas += [faces] if faces is not None else []
         return nothing(order, self.area.about)[0], sum_moments(areas)
 
 
-def _patches(part: bodies.Part) -> tuple[nurbs.Face, ...]:
-    """Return the patches of a part, which must have some."""
-    return cast(bodies.SplineReading, part.splines).patches
-
-
-def _stored(part: bodies.Part) -> float:
-    return cast(bodies.SplineReading, part.splines).stored
+def _splines(part: bodies.Part) -> bodies.SplineReading:
+    """Return the patches of a part, which must have some, and the rounding of their points in
+    storage.
+    """
+    return cast(bodies.SplineReading, part.splines)
 
 
 def read(request: Request) -> bodies.Reading:
@@ -211,7 +210,7 @@ def _split_parts(
     pieces = [
         PlacedPatches(
             part,
-            nurbs.measure_patches(_patches(part), area_order=3, stored=_stored(part)),
+            nurbs.measure_patches(part.splines.patches, area_order=3, stored=part.splines.stored),
             bodies.to_si(part.matrices, unit),
         )
         for part in reading.parts
@@ -230,12 +229,14 @@ def _source(reading: bodies.Reading) -> verdict.Source:
 
 
 def _image_areas(part: bodies.Part, area: Moments, matrices: NDArray) -> Iterator[Moments]:
-    """Yield the area moments of each place of a part."""
+    """Yield the area moments of a part in its (k, 4, 4) places: one sum of all evenly scaled images
+    of `area`, and one of all images by each other linear map, which are measured anew.
+    """
     is_even = are_similarities(matrices[:, :3, :3])
     if is_even.any():
         yield sum_of_images(area, matrices[is_even])
-    stored = _stored(part) * _largest_stretch(matrices)
-    for patches, translations in _distinct_images(_patches(part), matrices[~is_even]):
+    stored = _splines(part).stored * _largest_stretch(matrices)
+    for patches, translations in _distinct_images(_splines(part).patches, matrices[~is_even]):
         yield sum_of_images(
             nurbs.stored_area_moments(patches, area.order, stored=stored), translations
         )
@@ -256,7 +257,8 @@ def _sheet_body(reading: bodies.Reading, settings: Settings) -> Body:
     pieces, meshes = _split_parts(reading, settings.unit)
     healths = []
     for _part, integrals, matrices in pieces:
-        growth = np.cbrt(np.linalg.det(matrices[:, :3, :3])) ** 2  # of the area, if scaled evenly
+        # The areas only weigh the healths, so that growth by an even scale is near enough.
+        growth = np.cbrt(np.linalg.det(matrices[:, :3, :3])) ** 2
         area = integrals.area.total * float(growth.sum())
         healths.append((integrals.health, len(matrices), area))
     if settings.wall != "thin":
@@ -298,15 +300,16 @@ def _wall_body(
     inner, outer = (settings.thickness * height for height in HEIGHTS[settings.wall])
     for part, integrals, matrices in pieces:
         source = part.source_object_name
-        crease_angle = nurbs.sharpest_crease(_patches(part), integrals.topology)
+        splines = _splines(part)
+        crease_angle = nurbs.sharpest_crease(splines.patches, integrals.topology)
         if crease_angle > MIN_CREASE_ANGLE:
             creases = verdict.finding(WALL_CREASES, angle=float(np.degrees(crease_angle)))
             by_part.append((source, [creases]))
         outward = [
             patch.reverse_orientation() if sign < 0.0 else patch
-            for patch, sign in zip(_patches(part), integrals.signs)
+            for patch, sign in zip(splines.patches, integrals.signs)
         ]
-        stored = _stored(part) * (settings.unit * _largest_stretch(part.matrices))
+        stored = splines.stored * (settings.unit * _largest_stretch(part.matrices))
         for patches, translations in _distinct_images(outward, matrices):
             wall, area, has_converged = nurbs.measure_sheet(patches, inner, outer, stored=stored)
             walls.append(sum_of_images(wall, translations))
@@ -330,9 +333,9 @@ def _distinct_images(
     patches: Sequence[nurbs.Face], matrices: NDArray
 ) -> Iterator[tuple[list[nurbs.Face], NDArray]]:
     """Yield the patches under each distinct linear map, facing as before, with (k, 4, 4)
-    translations to the places.
+    translations to the places that have this map.
     """
-    for linear, members in distinct_linear_parts(matrices):
+    for linear, members in distinct_linear_parts(matrices):  # members: indices of matrices
         mapped = [patch.transform(affine_matrices(linear)) for patch in patches]
         if np.linalg.det(linear) < 0.0:
             mapped = [patch.reverse_orientation() for patch in mapped]

@@ -50,8 +50,15 @@ def overlap_caveats(
     if not pairs:
         return []
     first, second = pairs[0]
-    values = {"first": first, "second": second, "pairs": pairs[:MAX_NAMED]}
-    return [verdict.finding(findings.BODIES_OVERLAP, count=len(pairs), **values)]
+    return [
+        verdict.finding(
+            findings.BODIES_OVERLAP,
+            count=len(pairs),
+            first=first,
+            second=second,
+            pairs=pairs[:MAX_NAMED],
+        )
+    ]
 
 
 def _overlapping_pairs(
@@ -71,7 +78,9 @@ def _overlapping_pairs(
     corners = corners @ matrices[:, :3, :3].transpose(0, 2, 1) + matrices[:, None, :3, 3]
     low, high = corners.min(axis=1), corners.max(axis=1)
     size = float(np.linalg.norm(high.max(axis=0) - low.min(axis=0)))
+    # Boxes and bodies that share less than the margin touch, but do not overlap.
     margin = verdict.welding_tolerance(size, float(np.spacing(np.float32(np.abs(corners).max()))))
+    # Pairs beyond MAX_PAIRS remain untested: only certain overlaps are reported.
     first, second, _ = mesh.overlapping_box_pairs(low, high, margin, MAX_PAIRS)
     meet = _boxes_meet(corners[first], corners[second])
     surfaces: dict[str, mesh.Surface] = {}
@@ -103,7 +112,8 @@ def _boxes_meet(first: Array, second: Array) -> Mask:
     """Return a (k,) mask of the pairs of turned boxes, (k, 8, 3) corners each, that no plane along
     two of their edges separates.
     """
-    # the edges from the first corner, in the order of Blender's `bound_box`
+    # In Blender's `bound_box`, edges lead from corner 0 to the corners 1, 3 and 4. If boxes are
+    # separate, so are their images along a face normal or the cross product of two edges.
     first_edges = first[:, [1, 3, 4]] - first[:, :1]
     second_edges = second[:, [1, 3, 4]] - second[:, :1]
     across = cross_rows(first_edges[:, :, None], second_edges[:, None]).reshape(-1, 9, 3)
@@ -121,8 +131,8 @@ def _boxes_meet(first: Array, second: Array) -> Mask:
 def _closed_surface(
     obj: Object, depsgraph: Depsgraph, limit: int, measured: stack.Measured | None
 ) -> mesh.Surface | None:
-    """Return the triangles of a closed object in the world, None if it is open or has more than
-    `limit`.
+    """Return the surface of a closed object in the world, in Blender units; None if it is open or
+    cannot be read, or has no triangles or more than `limit`.
     """
     try:
         reading = (
@@ -135,7 +145,7 @@ def _closed_surface(
     count = sum(part.surface.triangle_count * len(part.matrices) for part in reading.parts)
     if not 0 < count <= limit:
         return None
-    if measured is None or not measured.is_faultless:
+    if measured is None or not measured.is_faultless:  # a faultless surface is closed
         for part in reading.parts:
             boundary = mesh.BoundarySum()
             boundary.add(part.surface)

@@ -210,8 +210,9 @@ class _Measuring:
         measurement = measured.measurement
         moments, factor = measurement.mass_moments
         bone_sum = self._sum_of(bone, obj)
-        mass = replace(moments.truncate(KNOWN_ORDER), measure=Measure.MASS) * factor
-        bone_sum.hanging.append(mass)
+        bone_sum.hanging.append(
+            replace(moments.truncate(KNOWN_ORDER), measure=Measure.MASS) * factor
+        )
         bone_sum.volumes.append(extent_of(measurement, "volume"))
         bone_sum.areas.append(extent_of(measurement, "area"))
         bone_sum.procedures.append(measurement.method.procedure)
@@ -228,7 +229,8 @@ class _Measuring:
         if shell and settings.wall != "thin":
             self.findings.append(finding(RIG_WALL_THIN).of_sources([obj.name]))
         pieces = [piece for part in reading.parts for piece in self._pieces(obj, part, shell)]
-        thickness = settings.thickness if shell else 1.0  # the factor of moments
+        # The moments of solids are those of volumes already, those of sheets are areas.
+        thickness = settings.thickness if shell else 1.0
         volume = sum(piece.moments.total for piece in pieces) * thickness
         if not volume > 0.0:
             # `rig` reports the names of refused objects, without the reason
@@ -255,7 +257,9 @@ class _Measuring:
             self.unset.append(obj.name)
 
     def _pieces(self, obj: Object, part: bodies.Part, shell: bool) -> Iterator[_Piece]:
-        """Yield the pieces of a surface in all its places; note vertices without weights."""
+        """Yield the pieces of a surface in all its places; add findings about its repair and about
+        vertices without weights.
+        """
         surface = part.surface
         if not len(surface.triangles) and not len(surface.quads):
             return
@@ -277,7 +281,7 @@ class _Measuring:
             bone_of_face, _ = dominant_bones(
                 corner_face, corner_vertex, points, weights, self.bones.segments
             )
-            metric = bodies.to_si(matrix[None], self.unit)[0]
+            metric = bodies.to_si(matrix[None], self.unit)[0]  # (4, 4), to the world in m
             if solid is None:
                 yield from self._sheets(surface, triangles, bone_of_face[face_of_triangle], metric)
             else:
@@ -286,7 +290,7 @@ class _Measuring:
     def _note_unweighted(
         self, obj: Object, weights: VertexWeights, corner_vertex: Index, point_count: int
     ) -> None:
-        """Note vertices of faces that have no weight on a deforming bone."""
+        """Add a finding if vertices of faces have no weight on a deforming bone."""
         is_used = np.zeros(point_count, bool)
         is_used[corner_vertex] = True
         unweighted = weights.unweighted(point_count)
@@ -301,7 +305,7 @@ class _Measuring:
     ) -> Iterator[_Piece]:
         """Yield the pieces of a solid, closed by caps where bones meet."""
         parts = solid.parts()
-        is_cap = parts.face < 0
+        is_cap = parts.face < 0  # triangles over holes belong to no face
         bones = bones_of_caps(
             parts.triangles, is_cap, np.where(is_cap, 0, bone_of_face[parts.face])
         )
@@ -393,14 +397,14 @@ class _Measuring:
 
 
 def _area(sheet: Surface, metric: Array, order: int) -> Moments:
-    """Return the area moments of a sheet mapped to its place in the world."""
-    if are_similarities(metric[None, :3, :3])[0]:  # the mapped points would be rounded once more
-        area = polyhedron.polyhedron_moments(sheet, 0, area_order=order, allow_open=True)[1]
-        return area.transform(metric)
-    placed = sheet.transform(metric[:3, :3], metric[:3, 3])
-    return polyhedron.polyhedron_moments(placed, 0, area_order=order, allow_open=True)[1]
+    """Return the area moments of a sheet mapped to its place in the world, in m."""
+    # Moments map by a similarity; the mapped points would be rounded once more.
+    is_even = are_similarities(metric[None, :3, :3])[0]
+    placed = sheet if is_even else sheet.transform(metric[:3, :3], metric[:3, 3])
+    area = polyhedron.polyhedron_moments(placed, 0, area_order=order, allow_open=True)[1]
+    return area.transform(metric) if is_even else area
 
 
 def _extent(moments: Moments) -> Extent:
-    """Return the total of a volume or an area, with its bounds of rounding and of float32."""
+    """Return the total of a volume or an area, with its bounds of rounding and of the input."""
     return moments.total, float(moments.rounding_error[0]), float(moments.input_error[0])

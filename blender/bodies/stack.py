@@ -97,6 +97,7 @@ class Measured:
             return self.stack
         row = self.stack.at(self.index)
         solid = self.shapes[self.member.shape]
+        # A spread is a volume and grows with the volume, from the mesh's coordinates to the world.
         spread = solid.health.volume_spread * (row.volume / solid.volume.total)
         return replace(row, health=replace(solid.health, volume_spread=spread))
 
@@ -131,11 +132,12 @@ class Measured:
 
 def measure_members(members: list[Member], shapes: SolidStack) -> list[Measured]:
     """Return the measurements of the members with certain volume and mass, as one stack; all
-    members have the same unit. shapes: the solids that members show.
+    members have the same unit. shapes: the solids that members show. The other members are left
+    out: measured alone, they are refused.
     """
 
     def measure_some(usable: Mask) -> list[Measured]:
-        """Measure the usable members; each of the others will be refused alone."""
+        """Measure the usable members in a new stack."""
         return measure_members([members[i] for i in np.flatnonzero(usable)], shapes)
 
     if not members:

@@ -24,6 +24,7 @@ from ..read.mesh import mesh_surface
 MAX_PAIRS = 2_000_000  # of boxes; if there are more, all shells are united at once
 TOUCHING_RTOL = 1e-6  # of the size: boxes nearer than this meet
 VOLUME_RTOL = 1e-5  # of the union, beyond its bounds
+# A tetrahedron apart from all bodies, whose coordinates are scaled to at most 1.
 MARKER = np.array([(0.0, 0.0, 0.0), (0.1, 0.0, 0.0), (0.0, 0.1, 0.0), (0.0, 0.0, 0.1)]) + 1.2
 MARKER_FACES = np.array([(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])
 PointsAndTriangles = tuple[Array, Integers]
@@ -32,7 +33,7 @@ PointsAndTriangles = tuple[Array, Integers]
 def unite(body: bodies.MeshBody) -> Surface:
     """Return the surface around the union of a body's shells, each in all its places."""
     surfaces = []
-    shells = []  # (t,) numbers of the shells of each surface's triangles
+    shells = []  # (t,) shell of each triangle of each surface, numbered across all surfaces
     shell_count = 0
     for solid, matrices in body.solids:
         parts = solid.oriented.closed_parts()
@@ -40,6 +41,7 @@ def unite(body: bodies.MeshBody) -> Surface:
         surface = Surface(parts.points, parts.triangles, displacement=error)
         for matrix in matrices:
             surfaces.append(surface.transform(matrix[:3, :3], matrix[:3, 3]))
+            # A cavity is part of the shell around it, its host.
             shells.append(parts.host_part[parts.part] + shell_count)
             shell_count += parts.number
     self_intersections = {solid.health.self_intersection for solid, _ in body.solids}
@@ -65,6 +67,7 @@ def _unite_simple(surface: Surface, shell: Index) -> Surface:
     low = np.minimum.reduceat(surface.points[triangles].min(axis=1), starts)
     high = np.maximum.reduceat(surface.points[triangles].max(axis=1), starts)
     touching = TOUCHING_RTOL * float((high - low).max())
+    # A negative margin: boxes that are apart by less meet, too.
     left, right, untested = overlapping_box_pairs(low, high, -touching, MAX_PAIRS)
     if untested:
         return union_surface(surface)
@@ -144,7 +147,8 @@ def _unit_cube(surface: Surface) -> tuple[Array, float]:
 
 def subtract(body: Surface, cutters: Sequence[Surface]) -> Surface | None:
     """Return the surface of a body without the space inside cutters, or None if the Boolean
-    fails; without triangles if nothing is left. All must be closed.
+    fails; without triangles if nothing is left. All must be closed. The Boolean has failed if the
+    result is open, larger than the body, or smaller than by the sum of the cutters.
     """
     middle, scale = _unit_cube(join_surfaces([body, *cutters]))
     first, *operands = (
@@ -157,10 +161,10 @@ def subtract(body: Surface, cutters: Sequence[Surface]) -> Surface | None:
     rest = rest.transform(scale * np.eye(3), middle)
     rest = replace(rest, displacement=2.0 * rest.coordinate_error + body.coordinate_error)
     solid = measure_solid(rest)
-    before = polyhedron.volume_and_center(body)[0]
-    least = before - sum(polyhedron.volume_and_center(cutter)[0] for cutter in cutters)
-    slack = VOLUME_RTOL * before
-    is_right = least - slack <= solid.volume.total <= before + slack
+    body_volume = polyhedron.volume_and_center(body)[0]
+    least = body_volume - sum(polyhedron.volume_and_center(cutter)[0] for cutter in cutters)
+    slack = VOLUME_RTOL * body_volume
+    is_right = least - slack <= solid.volume.total <= body_volume + slack
     return rest if is_right and solid.method == verdict.Procedure.EXACT else None
 
 
@@ -170,7 +174,9 @@ def _evaluate(
     solver: str,
     operation: str = "UNION",
 ) -> Surface:
-    """Return the surface of Blender's Boolean of a body with itself or with operands."""
+    """Return the surface of Blender's Boolean of a body with operands, or without them its union
+    with itself. All data that are made for it are removed.
+    """
     created = []
     try:
         created.append(scene := bpy.data.scenes.new(""))

@@ -50,8 +50,7 @@ def body(reading: bodies.Reading, request: Request) -> measurement.Body:
     length = nurbs.length_moments(curves)
     if not length.total > 0.0:
         raise verdict.ReadError(findings.NOTHING_TO_MEASURE, cause=findings.NO_SPLINE_LENGTH)
-    # an estimate for smooth curves: a length changes with its ends, and as much again by its
-    # turning
+    # Chosen for smooth curves, whose length changes with the place of both ends, and by turning.
     reach = max(float(np.abs(curve.points - length.about).max()) for curve in curves)
     input_error = stored * (2.0 * len(curves) + 8.0 * length.total / reach) * reach**DEGREE
     return WireBody(
@@ -80,8 +79,8 @@ def curves_in_world(
 
 
 def _is_closed(curve: nurbs.Curve, reach: float) -> bool:
-    """Return whether a curve ends at its start, within the rounding by its size and distance from
-    the origin.
+    """Return whether a curve ends at its start, within the rounding by its size and (32 U, chosen)
+    by its distance from the origin.
     """
     first, last = curve.samples(1)[[0, -1]]
     return bool(np.abs(last - first).max() <= CLOSED_RTOL * reach + 32.0 * U * np.abs(first).max())

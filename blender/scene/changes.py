@@ -41,8 +41,9 @@ def require_editable(data: ID) -> None:
 
 
 def require_storable_data(obj: Object) -> None:
-    """Raise EditRefusedError for a linked object, and for a library override."""
-    # a file keeps only overridable properties of it
+    """Raise EditRefusedError for a linked object, and for a library override, of which a file keeps
+    only the overridable properties.
+    """
     if not obj.is_editable or obj.override_library is not None:
         raise EditRefusedError(LINKED_OBJECT)
 
@@ -84,7 +85,7 @@ def run_together(changes: Iterable[SceneChange]) -> SceneChange:
                 except StopIteration:
                     waiting.remove(change)
     finally:
-        for change in waiting:  # if one fails, the others put back their changes
+        for change in waiting:  # after an error; `GeneratorExit` lets each put back its changes
             change.close()
 
 
@@ -92,12 +93,12 @@ def independent_rounds(changes: Iterable[tuple[Planned, set[ID]]]) -> list[list[
     """Group changes, given with the data that they may touch, into rounds: changes of the same data
     follow in order.
     """
-    last: dict[ID, int] = {}
+    last_round: dict[ID, int] = {}  # of the changes that touch the data
     by_round: dict[int, list[Planned]] = {}
     for change, touched in changes:
-        number = 1 + max((last.get(data, -1) for data in touched), default=-1)
-        last.update(dict.fromkeys(touched, number))
-        by_round.setdefault(number, []).append(change)
+        index = 1 + max((last_round.get(data, -1) for data in touched), default=-1)
+        last_round.update(dict.fromkeys(touched, index))
+        by_round.setdefault(index, []).append(change)
     return list(by_round.values())
 
 
@@ -113,7 +114,7 @@ def dependents(objects: Iterable[Object]) -> dict[Object, set[Object]]:
         while front:
             front = {user for data in front for user in users[data]} - reachable
             reachable |= front
-        # lying in one collection ties nothing
+        # A collection leads on to the objects that show it as instances, not to its other members.
         return {data for data in reachable if isinstance(data, Object)}
 
     return {obj: reached(obj) for obj in objects}
@@ -127,8 +128,9 @@ def users_of(objects: Iterable[Object], through: set[str]) -> dict[ID, set[ID]]:
     new: set[ID] = set(objects)
     while new:
         users |= bpy.data.user_map(subset=new, value_types={"OBJECT", *LINKING_TYPES})
-        new = {user for data in new for user in users[data]} - users.keys()
-        new = {user for user in new if user.id_type in through}
+        new = {
+            user for data in new for user in users[data] if user.id_type in through
+        } - users.keys()
     return users
 
 
@@ -147,8 +149,8 @@ def made_collection(context: Context, key: str, owner: object, name: str) -> Col
 
 
 class MadeCollection:
-    """A scene's collection of objects made for an armature, cleared of earlier ones; everything
-    else in it stays.
+    """A scene's collection of objects made for an armature. The constructor removes the objects
+    made earlier, with their meshes; everything else in the collection stays.
 
     key: name of the ID property that holds the armature object, on the collection and the objects
     made in it.
@@ -162,7 +164,7 @@ class MadeCollection:
         made = [obj for obj in self._collection.objects if obj.get(self._key) == self._armature]
         meshes = {obj.data for obj in made if obj.data is not None}
         bpy.data.batch_remove(made)
-        # other meshes have users of their own
+        # A mesh with users left belongs to other objects, too.
         bpy.data.batch_remove([mesh for mesh in meshes if not mesh.users])
 
     def link(self, obj: Object) -> None:

@@ -78,7 +78,7 @@ def _origin_and_points(shape: Shape, stretch: Array, unit: float) -> tuple[Array
     points = shape.surface.points @ shape.pose.rotation.T + shape.pose.position
     points = np.linalg.solve(stretch, points.T).T / unit
     center = volume_and_center(Surface.from_triangles(points, shape.surface.all_triangles()[0]))[1]
-    if not np.isfinite(center).all():  # it is flat
+    if not np.isfinite(center).all():  # a flat hull has no volume
         center = points.mean(axis=0)
     center = center.astype(np.float32).astype(np.float64)
     return center, (points - center).astype(np.float32).astype(np.float64)
@@ -107,8 +107,9 @@ def place_colliders(
     unit: float,
     engine: str,
 ) -> list[Object]:
-    """Give an object these colliders in place of its `old` ones, which are used again, and return
-    them.
+    """Give an object a collider for each shape, with the mesh of the same index, and return them.
+    The objects of the `old` ones are used again, surplus ones removed. stretch: see `stretch_of`.
+    engine: a key of NAMES.
     """
     collection = made_collection(context, COLLECTION, True, "Colliders")
     colliders = list(old[: len(shapes)])
@@ -208,7 +209,7 @@ def apply_for_bullet(collider: Object) -> None:
 def remove_colliders(colliders: Sequence[Object]) -> None:
     """Remove colliders with their meshes, and their collection if nothing is left in it."""
     meshes = {obj.data for obj in colliders}
-    collections = {one for obj in colliders for one in obj.users_collection}
+    collections = {collection for obj in colliders for collection in obj.users_collection}
     bpy.data.batch_remove(colliders)
     bpy.data.batch_remove([mesh for mesh in meshes if not mesh.users])
     for collection in collections:
@@ -233,10 +234,11 @@ def read_colliders(colliders: Iterable[Object], rotation: Array, unit: float) ->
             surface = mesh_surface(collider.data, edges=False).transform(to_frame, place)
             shapes.append(Shape(kind, surface=surface, mass=mass))
             continue
+        # A mirrored primitive equals itself turned by the opposite of the mirroring matrix.
         rotation_or_mirror = polar_rotation(to_frame[None])[0][0]
         pose = Pose(place, rotation_or_mirror * np.sign(np.linalg.det(rotation_or_mirror)))
         scale = np.linalg.norm(to_frame, axis=0) / unit
-        if len(size) < 3:  # radius across, and length along z
+        if len(size) < 3:  # the radius of a ball, or the radius across and the length along z
             scale = np.array([(scale[0] * scale[1]) ** 0.5, scale[2]])[: len(size)]
         scale = np.where(np.abs(scale - 1.0) < 1e-6, 1.0, scale)  # rounding is no scale
         shapes.append(Shape(kind, tuple((size * scale).tolist()), pose, mass=mass))
@@ -244,6 +246,7 @@ def read_colliders(colliders: Iterable[Object], rotation: Array, unit: float) ->
 
 
 def _draw_primitive(mesh: Mesh, shape: Shape, unit: float) -> None:
+    """Make the faces of a primitive about the origin, in Blender's units."""
     made = bmesh.new()
     size = [length / unit for length in shape.size]
     if shape.kind == "box":
@@ -258,6 +261,7 @@ def _draw_primitive(mesh: Mesh, shape: Shape, unit: float) -> None:
         bmesh.ops.create_uvsphere(
             made, u_segments=SEGMENTS, v_segments=RINGS, radius=1.0, matrix=scale
         )
+    # The halves of a capsule's ball move apart by the length of its cylinder.
     for vertex in made.verts if shape.kind == "capsule" else ():
         vertex.co.z += copysign(size[1] / 2.0, vertex.co.z)
     made.to_mesh(mesh)

@@ -109,7 +109,8 @@ class MeshData:
         for name, (data_type, domain, values) in self.layers.items():
             if _aspect(name, data_type, domain) in self.may_differ or values.dtype == object:
                 continue
-            mixture = np.cos(np.arange(values.shape[1]))  # so that no two components are alike
+            # The weights of the components are distinct, so that swapped components change labels.
+            mixture = np.cos(np.arange(values.shape[1]))
             label = values @ mixture / max(np.abs(values).max(initial=0), 1.0)
             if domain == "POINT":
                 labels += label
@@ -196,6 +197,7 @@ def _is_same_layer(
     if values.dtype != np.float32:
         return np.array_equal(values, other_values)
     off = np.abs(values - other_values).max(initial=0.0)
+    # Two values computed in float32 may differ by a few roundings; 16 is chosen with a margin.
     return bool(off <= 16.0 * FLOAT32 * np.abs(other_values).max(initial=1.0))
 
 
@@ -276,13 +278,13 @@ def _join_kind(
 def _best_correspondence(
     kind: Copies, new: Copies, tolerance: float, may_differ: set[str]
 ) -> tuple[set[str], Correspondence] | None:
-    """Return the similarity of two surfaces with the fewest differing aspects, after these; None
-    if the surfaces differ.
+    """Return the differing aspects and the similarity of two surfaces that has the fewest of them;
+    None if the surfaces differ.
     """
     groups = [[group.name for group in each.objects[0].vertex_groups] for each in (kind, new)]
     labels = kind.data.labels, new.data.labels
     pair = kind.data.elements, new.data.elements
-    # First those under which the labels agree, too.
+    # Similarities under which the labels agree, too, come first.
     candidates = chain(correspondences(*pair, tolerance, labels), correspondences(*pair, tolerance))
     best: tuple[set[str], Correspondence] | None = None
     for candidate in islice(candidates, MAX_TURNS):

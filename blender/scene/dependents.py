@@ -32,7 +32,7 @@ Shape = list[tuple[Array, Array]]
 
 
 def referring(objects: set[Object]) -> dict[Object, set[Object]]:
-    """Return for each object its users, directly or through data and collections."""
+    """Return for each object the objects that use it, directly or through data and collections."""
     users = users_of(objects, LINKING_TYPES)
 
     def through(data: ID, visited: set[ID]) -> set[Object]:
@@ -72,7 +72,7 @@ def transform_shape(before: Shape | None, was: Matrix4, now: Matrix4) -> Shape |
     """Return the shape after a rigid move of its object from one (4, 4) matrix to another."""
     if before is None:
         return None
-    motion = now @ np.linalg.pinv(was)
+    motion = now @ np.linalg.pinv(was)  # the matrix may be singular
     linear = motion[:3, :3].T
     offset = motion[:3, 3]
     return [(first @ linear + offset, rest @ linear + offset) for first, rest in before]
@@ -86,10 +86,11 @@ def same_shape(before: Shape | None, after: Shape | None, size: float) -> bool:
     if len(before) == len(after) and all(first.shape == second.shape for first, second in pairs):
         return all(_nearly_equal(*pair, size) for pair in pairs)
     # Objects that shared a mesh are separate parts once one of them has a copy.
-    samples = _sample_instances(before)
-    others = _sample_instances(after)
-    return samples.keys() == others.keys() and all(
-        _nearly_equal(samples[n], others[n], size) for n in samples
+    samples_before = _sample_instances(before)
+    samples_after = _sample_instances(after)
+    return samples_before.keys() == samples_after.keys() and all(
+        _nearly_equal(samples, samples_after[count], size)
+        for count, samples in samples_before.items()
     )
 
 
@@ -111,6 +112,9 @@ def _sample_instances(shape: Shape) -> dict[int, Array]:
 
 
 def _nearly_equal(first: NDArray, second: NDArray, size: float) -> bool:
+    """Return whether (..., 3) points agree to the tolerance of a body of this size, or to 16
+    roundings in float32, a margin for a chain of modifiers far from the origin.
+    """
     if first.shape != second.shape:
         return False  # more or fewer places
     if not first.size:
@@ -155,7 +159,7 @@ class DependentsGuard:
         self.shapes = {
             dependent: shape(dependent, depsgraph)
             for dependent in dependents
-            # the others' shapes depend on no other object
+            # Objects of other types without modifiers have a shape of their own.
             if (
                 dependent.modifiers
                 or dependent.type in {"CURVE", "FONT"}
@@ -168,6 +172,7 @@ class DependentsGuard:
         """Set the inverses of children and of Child Of constraints so that the children stay in
         place.
         """
+        # A child stays if its inverse absorbs the change of the parent's matrix, W'⁻¹ W.
         held = {parent: np.linalg.solve(world(parent), was) for parent, was in self.changed.items()}
         for child, inverse in self.children.items():
             child.matrix_parent_inverse = Matrix(held[child.parent] @ inverse)
@@ -191,13 +196,15 @@ class DependentsGuard:
                 raise EditRefusedError(DEPENDENT_SHAPE_CHANGES, object=dependent.name)
 
     def _moved(self, before: NDArray, now: NDArray, size: float) -> bool:
-        """Return whether two (4, 4) matrices differ by more than rounding."""
+        """Return whether two (4, 4) matrices differ by more than rounding in a body of this size,
+        or by 16 roundings of the farthest location, as in `_nearly_equal`.
+        """
         changed = [np.abs(was[:3, 3]).max() for was in self.changed.values()]
         reach = max(np.abs(before[:3, 3]).max(), *changed)
         off = np.abs(now - before)
         return bool(
             off[:3, 3].max() > SAME_SHAPE_RTOL * size + 16.0 * FLOAT32 * reach
-            or off[:3, :3].max() > 1e-5 * np.abs(before[:3, :3]).max()
+            or off[:3, :3].max() > SAME_SHAPE_RTOL * np.abs(before[:3, :3]).max()
         )
 
     def restore(self) -> None:

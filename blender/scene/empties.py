@@ -90,11 +90,11 @@ def _place(
     """
     parent = body.obj if is_parent else None
     if existing is not None:
-        return (yield from _moved(existing, body, parent, size))
+        return (yield from _move(existing, body, parent, size))
     empty = _new_empty(context, body.obj)
     empty.empty_display_type = display
     try:
-        return (yield from _moved(empty, body, parent, size))
+        return (yield from _move(empty, body, parent, size))
     except BaseException:
         bpy.data.objects.remove(empty)
         raise
@@ -116,7 +116,7 @@ def _new_empty(context: Context, obj: Object) -> Object:
     return empty
 
 
-def _moved(
+def _move(
     empty: Object, body: SnapTarget, parent: Object | None, size: float
 ) -> Generator[None, Depsgraph, bool]:
     """Move the empty to the body's frame; return whether it was elsewhere.
@@ -164,6 +164,7 @@ def _moved(
 
 
 def _is_there(empty: Object, body: SnapTarget) -> bool:
+    """Return whether an empty is at a body's principal frame, to a few roundings in float32."""
     now = world(empty)
     off = np.abs(now[:3, 3] - body.center).max()
     return bool(
@@ -173,8 +174,8 @@ def _is_there(empty: Object, body: SnapTarget) -> bool:
 
 
 def move_parent(context: Context, empty: Object, center: Sequence[float]) -> None:
-    """Put an empty at a point while its children stay; raise EditRefusedError if constraints or
-    locks prevent it.
+    """Put an empty at a (3,) point, in Blender units, while its children, at least one, stay; raise
+    EditRefusedError if constraints or locks prevent it.
     """
     require_editable(empty)
     children = [child for child in empty.children if child.parent_type == "OBJECT"]

@@ -35,7 +35,7 @@ KEY = np.dtype(
 FIELDS = KEY.names or ()
 HANDLES = ("handle_left", "handle_right")
 SAME_TIME = 1e-3  # frames; Blender itself takes closer keys for one
-SAME_VALUE = 1e-4
+SAME_VALUE = 1e-4  # in the unit of a channel, mostly radians: smaller jumps are rounding
 MOVED = 1e-3  # relative to a curve's range: a smaller move of a handle does not matter
 JUMP = 1.0 / 80.0  # the least time between keys: Blender merges those within 0.01
 Channel = tuple[str, int]  # data path and index
@@ -57,10 +57,9 @@ def ensure_curves(obj: Object, alone: bool = False):
         slot = animation.action_slot.identifier
         animation.action = animation.action.copy()
         animation.action_slot = animation.action.slots[slot]
-    action = animation.action
     if animation.action_slot is None:
-        animation.action_slot = action.slots.new("OBJECT", obj.name)
-    return slot_curves(action, animation.action_slot)
+        animation.action_slot = animation.action.slots.new("OBJECT", obj.name)
+    return slot_curves(animation.action, animation.action_slot)
 
 
 def slot_curves(action: bpy.types.Action, slot: bpy.types.ActionSlot):
@@ -184,7 +183,7 @@ def write(curve: FCurve, keys: NDArray) -> None:
     tolerance = MOVED * max(float(np.ptp(keys["co"][:, 1])), np.finfo(np.float32).tiny)
     # A handle bends the curve if the segment on its side is a Bézier one.
     is_bezier = np.concatenate([[False], keys["interpolation"] == BEZIER])
-    while True:
+    while True:  # until no handle moves: a freed one may move others, but each is freed once
         _put(points, keys, FIELDS)
         curve.update()
         has_freed = False
@@ -236,7 +235,8 @@ def section_keys(times: NDArray, values: NDArray) -> NDArray:
     """
     keys = np.zeros(len(times), KEY)
     keys["interpolation"] = BEZIER
-    keys["co"] = np.stack([times, values[:: (len(values) - 1) // (len(times) - 1)]], axis=1)
+    nodes_per_frame = (len(values) - 1) // (len(times) - 1)
+    keys["co"] = np.stack([times, values[::nodes_per_frame]], axis=1)
     thirds = np.diff(times) / 3.0
     right, left = handle_values(values)
     keys["handle_left"] = keys["handle_right"] = keys["co"]
@@ -289,7 +289,9 @@ def _jump_keys(outside: NDArray, inside: NDArray, inward: float) -> NDArray:
 
 
 def _hold_slopes(curve: FCurve, keys: NDArray, start: NDArray, end: NDArray) -> None:
-    """Keep the extrapolation of a curve whose first or last key ends a section, by its handle."""
+    """Keep the slope beyond the first or last key, if that key ends a section, which becomes a
+    Bézier key: linear extrapolation then follows its outward handle, which is set in place.
+    """
     if curve.extrapolation != "LINEAR":
         return
     for key, row, neighbor, handle, outward in (
@@ -353,9 +355,10 @@ def _split(previous: NDArray, new: NDArray, following: NDArray, time: float) -> 
     span = points[3, 0] - points[0, 0]
     shares = np.minimum(1.0, span / np.maximum(lengths, SAME_TIME))  # Blender shortens long handles
     points[[1, 2]] = points[[0, 3]] + shares[:, None] * (points[[1, 2]] - points[[0, 3]])
-    levels = [points]  # of 4, 3, 2 and 1 points; the last one is on the curve
     low, high = 0.0, 1.0
-    for _ in range(60):  # bisection by the time of this point
+    # Bisection by the time of the point on the curve; 60 halvings are finer than float64. The last
+    # one leaves its levels: of 4, 3, 2 and 1 points, of which the single one is on the curve.
+    for _ in range(60):
         share = (low + high) / 2.0
         levels = [points]
         while len(levels[-1]) > 1:

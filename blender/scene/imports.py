@@ -94,7 +94,8 @@ def _stored(patch: Patch, factor: float, origin: NDArray) -> tuple[NDArray[np.fl
     if patch.weights is not None:
         weights = patch.weights / patch.weights.max()
         values[..., 3] = weights
-        # The point is a mean of control points; its weights change by at most twice this share.
+        # The point is a mean of control points; its weights change by at most twice this share, and
+        # control points are apart by at most twice their distance from the first one.
         share = float(np.abs(values[..., 3] / weights - 1.0).max())
         moved += 4.0 * share * float(np.linalg.norm(points - points[0, 0], axis=2).max())
     return values.reshape(-1, 4), moved
@@ -167,6 +168,7 @@ def _grid(scene: Scene, shape: tuple[int, int]) -> Curve:
         bpy.ops.object.mode_set(mode="EDIT")
         bpy.ops.curve.make_segment()
         if rows > shape[0]:
+            # points row by row; the surplus rows are deleted
             surplus = np.arange(rows).repeat(shape[1]) >= shape[0]
             data.splines[0].points.foreach_set("select", surplus)
             bpy.ops.curve.delete(type="VERT")
@@ -326,7 +328,8 @@ def read_placed(
     files: dict[str, str],
     unit: float,
 ) -> PlacedScan:
-    """Read a scan and place its samples; files: of their positions, in `unit` meters, by axis.
+    """Read a scan and place its samples. raw: shape, type and byte order for `read_raw`. files: of
+    sample positions, in `unit` meters, by axis. spacing: of samples in place of the file's, in m.
 
     Raises FileError.
     """
@@ -386,6 +389,7 @@ def write_volume(module: ModuleType, placed: PlacedScan, unit: float) -> float:
 
 
 def _slabs(scan: Scan) -> Iterator[tuple[int, Array]]:
+    """Yield slabs of a scan's values along the first axis, each after the index of its start."""
     planes = max(1, SAMPLES_PER_SLAB // scan.samples[0].size)
     for start in range(0, len(scan.samples), planes):
         slab = scan.samples[start : start + planes].astype(np.float64)

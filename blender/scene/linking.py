@@ -108,6 +108,7 @@ def link_copies(
                     reframe.Plan(
                         obj,
                         matrix @ change,
+                        # so that `reframe` compares to the tolerance
                         radius * tolerance / SAME_SHAPE_RTOL,
                         move_only=False,
                         mesh=kind.data.mesh,
@@ -130,8 +131,12 @@ def link_copies(
     unused = {link.previous for link in links.values() if link.previous.mesh.users == 0}
     bpy.data.batch_remove([data.mesh for data in unused])
     context.view_layer.update()
-    saved = sum(data.bytes for data in unused)
-    return Linked(linked, left_out + [*refused.items()], farthest, saved)
+    return Linked(
+        linked,
+        left_out + [*refused.items()],
+        farthest,
+        saved=sum(data.bytes for data in unused),
+    )
 
 
 def _is_mere_exchange(correspondence: Correspondence) -> bool:
@@ -185,7 +190,7 @@ def _read_by_drivers(user: ID) -> set[ID]:
         data.update(starts)
         for start in starts:
             for end in (end for end, letter in enumerate(path) if letter == "."):
-                with suppress(ValueError):  # of a point inside a name
+                with suppress(ValueError):  # a point inside a name ends no path
                     passed = start.path_resolve(path[:end])
                     if isinstance(passed, ID):
                         data.add(passed)

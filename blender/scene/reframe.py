@@ -131,7 +131,8 @@ def reframe(
     objects = {plan.obj for plan in plans}
     users, touched = (referring(objects), dependents(objects)) if plans else ({}, {})
     refused: dict[Object, Finding] = {}
-    # objects that share a mesh are changed in one way, so that they go on sharing it
+    # All objects of a mesh are changed with a trial if one needs it, so that they can go on sharing
+    # the mesh.
     needs_trial = {
         plan.obj.data
         for plan in plans
@@ -309,7 +310,9 @@ def set_world_matrix(plan: Plan) -> SceneChange:
         raise EditRefusedError(SCALE_ZERO_AXIS)
     tolerance = location_tolerance(obj, plan.size) / np.cbrt(abs(np.linalg.det(outer[:3, :3])))
     target = plan.target
-    for _ in range(3):  # rounding of the parents' float32 matrices is corrected once it is known
+    # The rounding of the parents' float32 matrices is corrected once it is known; a third pass is
+    # a margin.
+    for _ in range(3):
         local = solve(outer, target)
         set_location(obj, local[:3, 3], tolerance)
         if not plan.move_only:
@@ -373,6 +376,9 @@ def _transform_mesh(mesh: bpy.types.Mesh, change: Matrix4) -> None:
 
 
 def _reason_of_change(obj: Object, harmless: set[str]) -> Finding:
+    """Return the finding that modifiers of no `harmless` type would change the shape, or without
+    any that the object itself would.
+    """
     names = [
         modifier.name
         for modifier in obj.modifiers

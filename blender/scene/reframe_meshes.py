@@ -64,13 +64,15 @@ def location_tolerance(obj: Object, size: float) -> float:
 
 
 def rounding_of_locations(size: PerBody, reach: PerBody) -> PerBody:
-    """Return the tolerance of origins, for locations up to `reach` and bodies of a size."""
+    """Return the tolerance of origins, for locations up to `reach` and bodies of a size: a few
+    roundings in float32, chosen with a margin.
+    """
     return 4e-7 * size + 4.0 * FLOAT32 * reach
 
 
 def largest_move(difference: NDArray, reach: float) -> Array:
-    """Return the (...,) largest moves of points up to `reach` by (..., 4, 4) differences of
-    maps.
+    """Return (...,) bounds of the moves of points up to `reach` by (..., 4, 4) differences of maps:
+    the sum of all entries is no less than that of any row.
     """
     off = np.abs(difference)
     return off[..., :3, :3].sum(axis=(-2, -1)) * reach + off[..., :3, 3].max(axis=-1)

@@ -38,15 +38,15 @@ def add_center(context: Context, rig: Rig) -> None:
         0.1 * float(rig.measurement.mass_properties.radii_of_gyration.max()) / unit
     )
     made.link(center)
-    mass = 0.0
+    mass_so_far = 0.0
     for part in rig.parts:
         if part.mass.total <= 0.0:
             continue
-        mass += part.mass.total
+        mass_so_far += part.mass.total
         constraint = center.constraints.new("COPY_LOCATION")
         constraint.name = part.name
         constraint.target = _follower(context, made, armature, part, unit)
-        constraint.influence = part.mass.total / mass
+        constraint.influence = part.mass.total / mass_so_far
     context.view_layer.update()
 
 
@@ -121,9 +121,8 @@ def _body(made: MadeCollection, armature: Object, part: BonePart, unit: float) -
     made.link(obj)
     obj.rotation_mode = "QUATERNION"
     obj.matrix_world = Matrix(frame)
-    settings = obj.body_moments
-    settings.mass_from = "MASS"
-    settings.mass = part.mass.total
+    obj.body_moments.mass_from = "MASS"
+    obj.body_moments.mass = part.mass.total
     return obj
 
 

@@ -103,6 +103,7 @@ class SnapTarget:
             largest_product <= limit
             and (np.diff(moments) >= -limit).all()
             and (np.abs(cosines - expected) <= MAX_DIRECTION_NOISE).all()
+            # Otherwise no axis may be reversed: a cosine would be near -1.
             and (self.shape_axes or (own_cosines > -0.5).all())
         )
 
@@ -259,7 +260,7 @@ def is_copy(match: RigidMatch, size: float) -> bool:
 
 
 def move_to_match(context: Context, plan: reframe.Plan) -> bool:
-    """Carry out a plan; return False if the object was in place already."""
+    """Carry out a plan; return False if the object was in place already, to rounding in float32."""
     off = np.abs(plan.target - world(plan.obj))
     if off[:, :3].max() <= 1e-7 and off[:, 3].max() <= reframe.location_tolerance(
         plan.obj, plan.size

@@ -72,7 +72,7 @@ def euler_angles(rotation: NDArray, mode: str, near: NDArray) -> Array:
     nearest to `near`.
     """
     i, j, k, s = _order(mode)
-    # In gimbal lock the first angle is free.
+    # In gimbal lock, to float32 rounding of a rotation, the first angle is free.
     is_locked = np.hypot(rotation[..., k, j], rotation[..., k, k]) < 1e-7
     first = np.arctan2(s * rotation[..., k, j], rotation[..., k, k])
     first = np.where(is_locked, near[..., i], first)
@@ -85,6 +85,7 @@ def euler_angles(rotation: NDArray, mode: str, near: NDArray) -> Array:
         angles[..., k] = np.arctan2(-s * rest[..., i, j], rest[..., j, j])
         solutions.append(angles - 2.0 * pi * np.round((angles - near) / (2.0 * pi)))
     distances = [np.abs(angles - near).sum(axis=-1, keepdims=True) for angles in solutions]
+    # Of equally near ones, to rounding in float64, the first is taken.
     return np.where(distances[1] < distances[0] - 1e-9, solutions[1], solutions[0])
 
 
@@ -96,7 +97,7 @@ def _rotation(obj: Object) -> Matrix3:
         angle, *axis = obj.rotation_axis_angle
         length = np.linalg.norm(axis)
         if length == 0.0:
-            return np.eye(3)  # Blender takes it so
+            return np.eye(3)  # Blender, too, takes an axis of no length for no rotation
         return rotation_matrix([cos(angle / 2.0), *(sin(angle / 2.0) * np.divide(axis, length))])
     return euler_matrix(np.array(obj.rotation_euler), mode)
 
@@ -104,7 +105,7 @@ def _rotation(obj: Object) -> Matrix3:
 def _delta_rotation(obj: Object) -> Matrix3:
     if obj.rotation_mode == "QUATERNION":
         return rotation_matrix(obj.delta_rotation_quaternion)
-    # its delta has no place in Blender's interface and is not shown
+    # An axis and angle have no delta in Blender's interface, and Blender applies none.
     if obj.rotation_mode == "AXIS_ANGLE":
         return np.eye(3)
     return euler_matrix(np.array(obj.delta_rotation_euler), obj.rotation_mode)
@@ -177,6 +178,7 @@ def set_rotation_and_scale(obj: Object, linear: Matrix3) -> None:
         return
     length = np.linalg.norm(q[1:])
     angle = 2.0 * atan2(length, q[0])
+    # A rotation by nearly nothing has no axis of its own and keeps the present one.
     axis = q[1:] / length if angle > 1e-12 else np.array(obj.rotation_axis_angle[1:])
     _assign(obj, "rotation_axis_angle", np.array([angle, *axis]), locks)
 
@@ -185,7 +187,7 @@ def _assign(
     obj: Object, channel: str, value: NDArray, locks: Sequence[bool], tolerance: float = 1e-6
 ) -> None:
     """Set a channel; EditRefusedError if a locked component, or an animated channel, moves by more
-    than the tolerance.
+    than the tolerance, or than rounding in float32.
     """
     before = np.array(getattr(obj, channel), np.float64)
     moves = np.abs(value - before) > max(tolerance, 1e-6 * np.abs(before).max())

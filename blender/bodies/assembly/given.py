@@ -41,7 +41,8 @@ def given_moments(
     mass: float, given: GivenPart, rotation: NDArray, location: NDArray, geometry: Moments | None
 ) -> tuple[Moments, list[verdict.Finding]]:
     """Return mass moments (SI, world, about the center) of a part with given mass, center and
-    inertia, and findings.
+    inertia, and findings. rotation (3, 3), location (3,): the object's frame in m. geometry: the
+    moments in proportion to which the mass is spread; without them it is at the object's origin.
     """
     if not mass > 0.0:
         raise verdict.ReadError(ZERO_QUANTITY, quantity="mass")
@@ -54,7 +55,7 @@ def given_moments(
         rounding_error = central.rounding_error * factor
         input_error = central.input_error * factor
         center = central.about
-        rounding_error[0] = U * mass
+        rounding_error[0] = U * mass  # the mass itself is given, so no input error remains
         input_error[0] = 0.0
     raw[0] = mass
     findings = []
@@ -68,6 +69,7 @@ def given_moments(
             array[HIGHER_MOMENTS] = 0.0
         second = rotation @ _second_moments(np.array(given.inertia)) @ rotation.T
         raw[SECOND_MOMENT_INDEX] = (second + second.T) / 2.0
+        # Each of two products has three terms per entry, each rounded by U twice; 16 is above 12.
         rounding_error[SECOND_MOMENT_INDEX] = 16.0 * U * np.trace(given.inertia)
         findings.append(verdict.finding(GIVEN, quantity=INERTIA))
     center = np.asarray(center, np.float64)
@@ -97,7 +99,7 @@ def with_given(body: Body, reading: bodies.Reading, request: Request) -> Body:
     given = GivenPart.from_settings(request.obj.body_moments, request.settings.unit)
     if not given:
         return body
-    # raises MeasureError if there is no extent
+    # `find_extent` raises MeasureError if there is no volume, area or length.
     geometry = body.mass or find_extent(body, request.settings)
     location = reading.location * request.settings.unit
     mass, findings = given_moments(
@@ -105,6 +107,7 @@ def with_given(body: Body, reading: bodies.Reading, request: Request) -> Body:
     )
     if given.center is not None and _is_outside(mass.about, reading, request.settings.unit):
         findings.append(verdict.finding(GIVEN_CENTER, fault=CENTER_OUTSIDE))
+    # The key must not change with the scene's unit.
     key = body.density_key + GivenPart.from_settings(request.obj.body_moments, 1.0).key
     return replace(body, mass=mass, density_key=key, findings=(*body.findings, *findings))
 
@@ -139,9 +142,12 @@ def point_measurement(reading: bodies.Reading, request: Request) -> tuple[Measur
     # A point has no density, and therefore always its own mass or that of the options.
     mass = shortest_decimal(properties.mass) if settings.mass is None else settings.mass
     mass_moments, findings = given_moments(mass, given, reading.rotation, location, None)
-    varying = GivenPart.from_settings(properties, 1.0).key
     settings = replace(
-        settings, kind=properties.kind.lower(), density=None, mass=mass, varying=varying
+        settings,
+        kind=properties.kind.lower(),
+        density=None,
+        mass=mass,
+        varying=GivenPart.from_settings(properties, 1.0).key,
     )
     measurement = measure_total(
         mass_moments,

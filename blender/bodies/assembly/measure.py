@@ -138,7 +138,7 @@ def measure_members(
     root: Member, depsgraph: Depsgraph, results: Results, options: MeasureOptions = AS_SET
 ) -> Generator[int, None, None]:
     """Store the result or refusal of each object of an assembly in `results`; yield the number of
-    results.
+    results. Instances that stretch are measured as one object, too, for their areas.
     """
     objects = {
         member.data: None for member in root.walk() if member.is_measured or _is_sheared(member)
@@ -279,6 +279,7 @@ _LEFT_OUT: dict[str, str] = {
 
 
 def _object_body(member: Member, result: stack.Measured | Finding) -> MemberBody:
+    """Return the body of a measured object, without its children, or of a refusal."""
     if isinstance(result, Finding):
         return MemberBody(member, refusal=result)
     measurement = result.measurement
@@ -363,6 +364,7 @@ def _instance_body(whole: MemberBody, results: Results, unit: float) -> MemberBo
     if not volume_factor > 0.0:
         return replace(nothing, refusal=finding(SCALE_ZERO_AXIS))
     sheared = _is_sheared(member)
+    # Uneven stretching multiplies all volumes by one factor, but not areas and lengths.
     if sheared and not {0, 3}.issuperset(whole.masses):
         return replace(nothing, refusal=finding(INSTANCE_STRETCHES_SHEETS))
     masses = {

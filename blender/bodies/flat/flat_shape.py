@@ -72,7 +72,7 @@ class FlatShape:
 
     @property
     def size(self) -> float:
-        """The radius of gyration."""
+        """The radius of gyration about the normal through the centroid, m."""
         return float(np.sqrt((self.moments[2, 0, 0] + self.moments[0, 2, 0]) / self.moments.total))
 
     @cached_property
@@ -82,7 +82,7 @@ class FlatShape:
 
     @property
     def radius(self) -> float:
-        """Radius of the smallest disc about the centroid that holds the shape."""
+        """Radius of the smallest disc about the centroid that holds the shape, m."""
         return float(np.hypot(*self.corners.T).max())
 
     def zernike(self, radius: float) -> Complex:
@@ -98,13 +98,14 @@ class FlatShape:
         scale = 2.0 ** np.frexp(self.radius)[1]  # a power of two rounds nothing
         moments = self.moments.truncate(min(order, MAX_ORDER_BY_MOMENTS))
         degree = monomials(moments.order).sum(axis=1)
+        # A moment of the area grows with the power degree + 2 of a length.
         scaled = Moments(moments.raw / scale ** (degree + 2.0), np.zeros(3), moments.measure)
         unit_signature = flat_signature(scaled, self.radius / scale)
         return replace(unit_signature, size=unit_signature.size * scale)
 
     def pieces(self) -> Iterator[mesh.Surface]:
-        """Yield a wall along the outline, one `size` high on both sides, as far from points as the
-        outline.
+        """Yield a wall along the outline, one `size` high on both sides of the plane. Points of the
+        plane are as far from it as from the outline.
         """
         ends = self.region.points[self.region.edges] - self.moments.about[:2]  # (m, 2 ends, 2)
         count = len(ends)
@@ -141,9 +142,10 @@ class FlatShape:
         """
         zernike = self.zernike(self.radius)
         max_distance = tolerance * self.size
-        skin = OutlineDistance(self)
+        skin = OutlineDistance(self)  # distances from the outline, and samples of it
 
         def distance(points: NDArray) -> Array:
+            """Return the distances of (n, 2) points of the plane from the outline."""
             return skin.distance(points @ self.axes.T + self.center, within=max_distance)
 
         flat_points = (skin.points - self.center) @ self.axes

@@ -126,7 +126,9 @@ def flat_region(
     unit: float | None = None,
 ) -> FlatRegion:
     """Return an object, or its selected faces, as a region of a plane, in SI units; MeasureError if
-    it is not one.
+    it is not one. resolution: of curves that are read as polygons, None for the drawn one. exact:
+    with the curves themselves if they are known. unit: meters per Blender unit, None for the
+    scene's.
     """
     reading = read_section(obj, depsgraph, selected=selected, resolution=resolution)
     unit = unit or meters_per_unit(depsgraph.scene)
@@ -220,6 +222,7 @@ def area_findings(region: FlatRegion, area: float) -> list[verdict.Finding]:
     """
     findings = []
     off = region.plane.out_of_plane
+    # Rounding in storage moves the points and the fitted plane; the factor is chosen with a margin.
     if off > 4.0 * region.stored:
         share = float(off / np.sqrt(area))
         findings.append(
@@ -249,7 +252,7 @@ def _curves(
         boundary, _ = nurbs.planar_region([curve.transform(to_plane) for curve in placed], stored)
     except verdict.MeasureError:
         return None
-    if len(boundary) != len(reading.loops):  # polygons leave out some loops
+    if len(boundary) != len(reading.loops):  # Blender's polygons leave out some loops
         return None
     is_left = nurbs.plane_moments(boundary, NORMAL, 1).total > 0.0
     return tuple(boundary if is_left else [curve.reverse() for curve in boundary]), stored
@@ -265,13 +268,14 @@ def _curve_moments(
     moments = nurbs.plane_moments(curves, NORMAL, order, about)
     lengths = [np.hypot(*np.diff(curve.points[:, :2], axis=0).T).sum() for curve in curves]
     corners = np.concatenate([curve.points[:, :2] for curve in curves])
+    # The largest |x| and |y| about the centroid; 1 for z, whose exponent is 0 at `positions`.
     reach = np.append(np.abs(corners - about[:2]).max(axis=0) + 2.0 * (rounded + stored), 1.0)
     positions = plane_positions(order)  # of the moments that a flat region has
     largest_monomial = (reach ** monomials(order))[positions].prod(axis=1)
 
     def swept(displacement: float) -> Array:
-        """Return the effect of moving all points so far along both axes: the curves sweep over no
-        more than their control polygons are long.
+        """Return the effect on each moment of moving all points so far along both axes: the curves
+        sweep over an area of no more than the length of the moved control polygons times the way.
         """
         way = displacement * np.sqrt(2.0)
         return way * (sum(lengths) + 2.0 * way * len(corners)) * largest_monomial
@@ -344,6 +348,7 @@ def body(reading: RegionReading, request: Request) -> measurement.Body:
     area = nurbs.plane_moments(curves, reading.normal)
     boundary_length = nurbs.length_moments(curves, 0).total
     reach = max(float(np.abs(curve.points - area.about).max()) for curve in curves)
+    # A moved boundary sweeps over its length times the move; 2 is above the diagonal move's √3.
     area = replace(area, input_error=2.0 * reading.stored * boundary_length * reach**DEGREE)
     return RegionBody(
         polyhedron.nothing(area.order, area.about)[0],

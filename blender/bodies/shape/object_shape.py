@@ -109,7 +109,7 @@ class Shape:
         """
         with np.errstate(over="ignore", invalid="ignore"):
             volume, area = self.body.moments(MAX_ORDER, self._sheets)
-        moments = volume if area is None else area
+        moments = volume if area is None else area  # the area's for a shell
         if not np.isfinite([moments.raw, moments.rounding_error]).all():
             raise verdict.ReadError(verdict.OBJECT_SIZE, fault=verdict.TOO_LARGE)
         measured = self.body.area if self._sheets else self.body.volume
@@ -133,6 +133,7 @@ class Shape:
 
     @property
     def _sheets(self) -> bool:
+        """True if the body consists of sheets, described by their area, not by a volume."""
         return self.measurement.kind == "shell"
 
     def pieces(self) -> Iterator[mesh.Surface]:
@@ -202,7 +203,7 @@ class Shape:
         return {"symmetry": group, "symmetry_order": by_moments.order}
 
     def _harmonics(self, frame: NDArray) -> AxialHarmonics:
-        """Return the harmonics about the third axis of a frame, cached for the last axis."""
+        """Return the harmonics about the third axis of a frame; the latest ones are kept."""
         if (
             not self._known_harmonics
             or abs(self._known_harmonics[0].frame[:, 2] @ frame[:, 2]) < 1.0 - EQUAL_AXES_ATOL
@@ -220,6 +221,8 @@ class Shape:
             max(float(np.linalg.norm(piece.coordinate_error)) for piece in self.pieces())
             / self.size
         )
+        # Misfits relative to the size: points nearer than `near` always count as equal, those farther
+        # than `far` never. The factors are chosen: a few errors of two points, and four times that.
         near = inertia.NOISE_LEVEL + 4.0 * coordinate_error
         far = 4.0 * inertia.NOISE_LEVEL + 16.0 * coordinate_error
         if far > MAX_MISFIT:

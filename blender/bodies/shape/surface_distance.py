@@ -53,8 +53,9 @@ class SurfaceDistance:
         """
         scaled = (points - self._center) / self._scale
         queries = scaled.tolist()
+        # A little beyond both limits, so that float32 hides no distance below them.
         reach = np.inf if within is None else 1.01 * max(NEAR_DISTANCE, within / self._scale)
-        # The distance is None, which becomes NaN, if nothing is within reach.
+        # The fourth value is the distance, or None, which becomes NaN, if nothing is within reach.
         nearest = [self._tree.find_nearest(query, reach)[3] for query in queries]
         distances = np.array(nearest, np.float64)
         distances[np.isnan(distances)] = np.inf
@@ -69,7 +70,7 @@ class SurfaceDistance:
                 [hit[2] for hit in self._tree.find_nearest_range(queries[i], NEAR_DISTANCE)]
                 for i in batch.tolist()
             ]
-            # pairs of a point and a triangle near it
+            # Pairs of a point and a triangle near it, whose index is the third value of a hit.
             point = np.repeat(batch, [len(hits) for hits in near_triangles])
             triangle = np.fromiter(chain.from_iterable(near_triangles), np.intp)
             corners = self._corners[self._triangles[triangle]]
@@ -107,7 +108,9 @@ def register_surfaces(
     """
 
     def residual(rotation: NDArray, max_points: int | None) -> Array:
-        """Return the distances that a rotation or reflection leaves, in the target's size."""
+        """Return the distances, at the target's scale, that a rotation or reflection leaves, of at
+        most about `max_points` points of each surface.
+        """
         source_points, target_points = (
             skin.points[:: max(1, len(skin.points) // max_points) if max_points else 1]
             for skin in (source_skin, target_skin)
