@@ -16,8 +16,8 @@ def world_surface(obj: Object, depsgraph: Depsgraph, unit: float) -> mesh.Surfac
     """Return the faces that an object shows, before any repair, in meters along the world's axes.
     unit: meters per Blender unit.
     """
-    surface = objects.read_object(obj, depsgraph, edges=False).join()
-    return surface.transform(unit * np.eye(3), np.zeros(3))
+    reading = objects.read_object(obj, depsgraph, edges=False)
+    return reading.join().transform(unit * np.eye(3), np.zeros(3))
 
 
 def cut_fill_against(

@@ -143,16 +143,15 @@ def measure_members(members: list[Member], shapes: SolidStack) -> list[Measured]
     if not members:
         return []
     unit = members[0].settings.unit
-    shape_volume = shapes.volume
     shape = np.array([member.shape for member in members])
     matrices = np.array([member.matrix for member in members], np.float64)
     usable = np.isfinite(matrices).all(axis=(1, 2))
-    usable &= shape_volume.raw[shape, 0] > shape_volume.rounding_error[shape, 0]
+    usable &= shapes.volume.raw[shape, 0] > shapes.volume.rounding_error[shape, 0]
     usable[usable] = ~moments.are_singular(matrices[usable, :3, :3])
     if not usable.all():
         return measure_some(usable)
     matrices[:, :3] *= unit
-    volume = moments.image(shape_volume.at(shape), matrices)
+    volume = moments.image(shapes.volume.at(shape), matrices)
     area = _areas(shapes, shape, matrices)
     # None becomes NaN: a member has a density or a mass.
     density, mass = np.array(

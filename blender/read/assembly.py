@@ -96,12 +96,12 @@ def members_key(root: Member, fingerprints: Mapping[Object, str]) -> str:
     """
     keys = []
     for member in root.walk():
-        # an empty with children stores the results of its assembly
+        # The fingerprint of an empty with children is that of its assembly, not of its point mass.
         if member.kind == MemberKind.POINT:
             settings = member.data.body_moments
             key = GivenPart.from_settings(settings, 1.0).key + repr(settings.mass)
         elif member.is_measured:
-            key = fingerprints.get(member.data, "")  # which moving leaves unchanged
+            key = fingerprints.get(member.data, "")  # the same after a move
         else:
             continue
         keys.append(key + matrix_hash(member.data))
@@ -217,6 +217,7 @@ class _Walk:
         source = obj.instance_collection
         walk = _Walk(source.all_objects, self.depsgraph, inside=True)
         x, y, z = source.instance_offset
+        # The rows of matrix_world · T(-offset): members are placed relative to the offset.
         matrix = tuple((a, b, c, d - (a * x + b * y + c * z)) for a, b, c, d in obj.matrix_world)
         return Member(obj, MemberKind.INSTANCE, (walk.collection(source, depth + 1),), matrix)
 
@@ -258,6 +259,7 @@ def operands_of(objects: Iterable[Object]) -> dict[Object, Object]:
     """Return the operands of objects' Boolean modifiers, each with the first object by name that
     uses it.
     """
+    # In reverse order, the first user is entered last and stays.
     users = sorted(objects, key=by_name, reverse=True)
     return {operand: user for user in users for operand in _operands(user)}
 
@@ -321,8 +323,8 @@ def copies_in_place(objects: Iterable[Object]) -> list[str]:
 
 
 def _shape(obj: Object) -> tuple:
-    """Return an object's box, modifiers and geometry, the latter as a sample of its vertices, which
-    are equal for a copy.
+    """Return a key that is equal for copies: an object's box, modifiers and geometry, of a mesh the
+    counts of its elements and a sample of its vertices.
     """
     is_mesh = obj.type == "MESH"
     vertices = obj.data.vertices if is_mesh else ()
@@ -337,6 +339,7 @@ def _shape(obj: Object) -> tuple:
 
 
 def _operands(obj: Object) -> Iterator[Object]:
+    """Yield the operands of an object's enabled Boolean modifiers."""
     for modifier in obj.modifiers:
         if modifier.type != "BOOLEAN" or not (modifier.show_viewport or modifier.show_render):
             continue

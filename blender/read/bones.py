@@ -58,8 +58,8 @@ def vertex_weights(
     """Return the weights of the deforming bones on an object's own vertices; none if the mesh has
     others.
     """
-    bone_numbers = {name: k for k, name in enumerate(bones.deforming)}
-    bone_of_group = [bone_numbers.get(group.name) for group in obj.vertex_groups]
+    bone_indices = {name: k for k, name in enumerate(bones.deforming)}
+    bone_of_group = [bone_indices.get(group.name) for group in obj.vertex_groups]
     geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
     vertices = [] if geometry.mesh is None else geometry.mesh.vertices
     is_own = part.source_object_name in ("", obj.name) and len(vertices) == len(part.surface.points)

@@ -28,11 +28,9 @@ from .visibility import evaluated_geometry
 STRAIGHT_RTOL = 1e-6  # relative to a spline's length: float32 may bend a straight line by as much
 TYPES = ("CATMULL_ROM", "POLY", "BEZIER", "NURBS")  # curve types by their number in a geometry set
 CUSTOM_KNOTS_MODE = 4  # the mode of custom knots, which no flags describe
-# steps per point, then tolerances: relative to the length, and for each step to the largest
-# coordinate
-STEPS_PER_POINT = 8
-SAME_LENGTH_RTOL = 1e-4
-AGREEMENT_RTOL = 1e-7
+STEPS_PER_POINT = 8  # straight steps per point in which lengths are compared
+SAME_LENGTH_RTOL = 1e-4  # relative to the length: other knots change it by more
+AGREEMENT_RTOL = 1e-7  # relative to the largest coordinate: rounding in float32 of each step
 
 
 def read_curves(obj, depsgraph) -> tuple[list[Curve], list[Finding]]:
@@ -98,7 +96,7 @@ def _is_straight(spline) -> bool:
         return True
     pieces = _control_points(spline)[None]
     if spline.type == "BEZIER":
-        # from each point and its right handle to the left handle of the next point and this point
+        # A piece has four: a point, its right handle, the next left handle and the next point.
         knots = pieces.reshape(-1, 3, 3)
         following = np.roll(knots, -1, axis=0)
         pieces = np.concatenate([knots[:, 1:], following[:, :2]], axis=1)
@@ -108,6 +106,7 @@ def _is_straight(spline) -> bool:
     if not lengths.any():
         return True
     longest = np.take_along_axis(arms, lengths.argmax(axis=1)[:, None, None], axis=1)
+    # The cross product is the distance from the line times the longest arm.
     beside = np.linalg.norm(np.cross(arms, longest), axis=2)
     return bool((beside <= STRAIGHT_RTOL * lengths.max(axis=1, keepdims=True) ** 2).all())
 
@@ -150,7 +149,7 @@ def _spline_curves(evaluated, depsgraph) -> Iterator[Curve | None]:
     _require_finite(points, name)
     ends = np.cumsum([len(stored) for stored in control_points])
     for spline, stored, deformed in zip(splines, control_points, np.split(points, ends[:-1])):
-        # Bézier splines have none and need none
+        # Bézier splines have no weights and need none.
         weights = weighted_points(spline)[:, 3].astype(np.float64)
         if spline.type == "NURBS":
             stored_curve = _curve(*_kind(spline), stored, weights)
@@ -166,6 +165,7 @@ def _has_known_knots(spline, curve: Curve | None) -> bool:
     if curve is None:
         return True
     low, high = curve.space.domain
+    # `calc_length` adds up as many straight steps.
     steps = (
         STEPS_PER_POINT * len(spline.points)
         if spline.use_cyclic_u
@@ -214,8 +214,8 @@ def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
             kind,
             bool(cyclic[number]),
             orders[number],
-            bool(knots[number] & 2),
-            bool(knots[number] & 1),
+            bool(knots[number] & 2),  # Bézier knots
+            bool(knots[number] & 1),  # end points
             points,
             weights[of_curve],
         )

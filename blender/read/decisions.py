@@ -162,6 +162,7 @@ def _node_errors(obj) -> Iterator[Finding]:
 
 
 def _family(obj, depsgraph) -> list:
+    """Return the metaballs of an object's family, the mother first; other objects are alone."""
     families = metaball_families(depsgraph.view_layer) if obj.type == "META" else []
     return next((family for family in families if obj in family), [obj])
 
@@ -208,8 +209,11 @@ def _render_differences(obj, scene, exact: bool = False) -> Iterator[Finding]:
         shown = modifier.show_viewport
         rendered = modifier.show_render
         if shown != rendered:
-            place = "viewport" if shown else "render"
-            yield finding(RENDER_MODIFIER_DIFFERS, modifier=modifier.name, place=place)
+            yield finding(
+                RENDER_MODIFIER_DIFFERS,
+                modifier=modifier.name,
+                place="viewport" if shown else "render",
+            )
         elif shown:
             viewport, render = _levels(modifier, scene.render)
             quoted = "“{}”".format(modifier.name)
@@ -225,8 +229,12 @@ def _render_differences(obj, scene, exact: bool = False) -> Iterator[Finding]:
             shown = getattr(data, "resolution_" + axis)
             rendered = getattr(data, "render_resolution_" + axis)
             if rendered not in (0, shown):
-                name = "Resolution " + axis.upper()
-                yield finding(RENDER_LEVELS_DIFFER, name=name, viewport=shown, render=rendered)
+                yield finding(
+                    RENDER_LEVELS_DIFFER,
+                    name="Resolution " + axis.upper(),
+                    viewport=shown,
+                    render=rendered,
+                )
     if obj.type == "META" and data.resolution != data.render_resolution:
         yield finding(
             RENDER_LEVELS_DIFFER,

@@ -26,7 +26,7 @@ from ..settings.given import COLLIDER
 if TYPE_CHECKING:
     from ...core.measurement import Settings
 
-# relative to an axis' length: float32 matrices change as much as the object turns
+# Relative to an axis' length: float32 rounding, when the object turns, changes it by no more.
 SAME_SCALE_RTOL = 2e-6
 MAX_LENGTH = 3e38  # largest length of an axis that float32 can store
 
@@ -143,6 +143,7 @@ def has_scale(obj: bpy.types.Object, key: str, products: list[float]) -> bool:
         _moves_along(obj)
         and key[:1] not in {"+", "-"}
         and len(products) == len(now)
+        # Both axes of a product are rounded, before and now.
         and all([abs(a - b) <= 4.0 * SAME_SCALE_RTOL * max(now) for a, b in zip(now, products)])
     )
 

@@ -92,8 +92,8 @@ class InstanceCollector:
             self._add_listed_instances(place)
 
     def parts(self) -> list[Part]:
-        """Return a part for each surface, without instances of scale 0; ReadError for a non-finite
-        matrix.
+        """Return a part for each surface, without instances of scale 0, which are added to
+        `vanished_count`; ReadError for a non-finite matrix.
         """
         parts = []
         for part, matrix_blocks in self._parts.values():
@@ -132,6 +132,7 @@ class InstanceCollector:
             self.left_out["metaballs, which Blender cannot instance"] += len(matrices)
             return
         self.sources[original] = None
+        # The path of objects that show one another ends endless recursion.
         self._path.append(original)
         instanced = False
         if original.type in GEOMETRY_TYPES:

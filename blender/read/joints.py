@@ -81,6 +81,7 @@ def constraint_connections(
 
 
 def _pose(obj: Object, unit: float) -> Pose:
+    """Return an object's place in m and nearest rotation; of a mirror image the opposite matrix."""
     matrix = float64_matrix(obj.matrix_world)
     rotation_or_mirror = polar_rotation(matrix[None])[0][0]
     rotation = rotation_or_mirror * np.sign(np.linalg.det(rotation_or_mirror))
@@ -107,16 +108,17 @@ def _freedom(
             last = getattr(constraint, f"limit_{limit}_upper")
             if first == last:
                 continue
-            # Bullet takes a lower limit above the upper one as none.
+            # Equal limits lock the axis; a lower limit above the upper one is none for Bullet.
             if first < last:
                 length = 1.0 if turns else unit
                 lower, upper = sorted((sign * first * length, sign * last * length))
         spring = {}
         name = ("ang_" if turns else "") + axis
         if has_springs and getattr(constraint, "use_spring_" + name):
-            torque = unit**2 if turns else 1.0
-            spring["stiffness"] = getattr(constraint, "spring_stiffness_" + name) * torque
-            spring["damping"] = getattr(constraint, "spring_damping_" + name) * torque
+            # A torque has the square of a length in Blender units, a force per length has none.
+            factor = unit**2 if turns else 1.0
+            spring["stiffness"] = getattr(constraint, "spring_stiffness_" + name) * factor
+            spring["damping"] = getattr(constraint, "spring_damping_" + name) * factor
         free.append(FreeAxis(kind, np.eye(3)[index], lower, upper, {**spring, **values}))
     return tuple(free)
 
@@ -140,8 +142,11 @@ def joint_values(
         if is_usable:
             values[name] = float(value)
         else:
-            unusable = {"joint": owner.name, "key": "joint_" + name, "value": str(value)}
-            findings.append(finding(JOINT_VALUE_UNUSABLE, **unusable))
+            findings.append(
+                finding(
+                    JOINT_VALUE_UNUSABLE, joint=owner.name, key="joint_" + name, value=str(value)
+                )
+            )
     factors = values.pop("mimic_multiplier", 1.0), values.pop("mimic_offset", 0.0)
     leader = owner.get("joint_mimic")
     return values, None if leader is None else Mimic(str(leader), *factors), findings
@@ -166,7 +171,7 @@ def bone_freedom(
         @ float64_matrix(bone.bone.matrix_local)[:3, :3]
     )
     lengths = (unit * np.linalg.norm(world_axes, axis=0)).tolist()  # m per unit of the bone
-    free = []
+    free = []  # kind, index of the axis, limits
     for index, axis in enumerate("xyz"):
         if axis in location_limits and not bone.lock_location[index]:
             lower, upper = (lengths[index] * end for end in location_limits[axis])
@@ -183,8 +188,8 @@ def bone_freedom(
 
 
 def _bone_limits(bone: PoseBone, kind: str, *uses: str) -> dict[str, tuple[float, float]]:
-    """Return the limits of a bone's constraints of a kind in local space, by axis. uses: switches
-    of both ends.
+    """Return the limits of a bone's constraints of a kind in local space, by axis. uses: beginnings
+    of the switches of the lower and the upper end, or of one switch for both.
     """
     limits = {}
     for constraint in bone.constraints:

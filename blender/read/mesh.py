@@ -68,9 +68,7 @@ def mesh_points(mesh, corners: NDArray[np.integer]) -> NDArray[np.float32] | Non
     """Return (n, 3) points of a `bpy.types.Mesh`, or None if the vertices at its corners are not
     `corners`.
     """
-    if len(mesh.loops) != len(corners):
-        return None
-    if not np.array_equal(
+    if len(mesh.loops) != len(corners) or not np.array_equal(
         _attribute(mesh, ".corner_vert", "value", corners.shape, np.int32), corners
     ):
         return None
@@ -101,7 +99,7 @@ def _faces(mesh, corners: NDArray[np.int32]) -> dict[str, NDArray]:
     ):
         return {"quads": corners.reshape(-1, 4)}
 
-    sizes = np.bincount(owners, minlength=faces) + 2
+    sizes = np.bincount(owners, minlength=faces) + 2  # corners: two more than triangles
     starts = sizes.cumsum() - sizes
     three = (sizes == 3).nonzero()[0]
     four = (sizes == 4).nonzero()[0]
@@ -165,6 +163,7 @@ def read_array(data, member: str, shape: tuple[int, ...], dtype) -> NDArray:
 
 
 def _loop_triangles(mesh, indices: NDArray) -> NDArray[np.int32]:
+    """Return the (k, 3) vertices of some loop triangles, read one by one if there are few."""
     triangles = mesh.loop_triangles
     if SINGLE_ACCESS_COST * len(indices) < len(triangles):
         vertices = chain.from_iterable(triangles[row].vertices for row in indices.tolist())

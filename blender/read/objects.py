@@ -42,6 +42,7 @@ def read_object(
     if not parts:
         raise ReadError(why_empty(obj, gathered, depsgraph), subject=obj.name)
     for part in parts:
+        # A point that is not finite makes the box so; weights can be the reason.
         if not np.isfinite(part.surface.box).all():
             if obj.type == "SURFACE" and nonpositive_weights(obj.data.splines):
                 raise ReadError(

@@ -74,25 +74,30 @@ def member_error(member: Member) -> tuple[float, float]:
 
 
 def _object_error(obj: Object, reach: float, followers: tuple[Object, ...]) -> float:
-    """Bound the move of points within `reach`; followers: objects whose places depend on this."""
+    """Return a bound of the move, by rounding to single precision, of points within `reach` of an
+    object's origin. followers: objects whose places depend on this one; they end circles.
+    """
     basis = float64_matrix(obj.matrix_basis)
     angles = sum(map(abs, (*obj.rotation_euler, *obj.delta_rotation_euler)))
     if obj.rotation_mode == "AXIS_ANGLE":
         angles += abs(obj.rotation_axis_angle[0])
     distance = obj.location.length + obj.delta_location.length
     stretched = _norm(basis) * reach
+    # Points turn with rounded angles, and move with a rounded location.
     is_turned = not np.array_equal(basis[:3, :3], np.eye(3))
     error = _HALF_STEP * (is_turned * (_ROUNDINGS + angles) * stretched + distance)
     if obj.parent is not None:
         inverse = float64_matrix(obj.matrix_parent_inverse)
         stretch = _norm(inverse)
-        radius = stretch * (stretched + _length(basis)) + _length(inverse)
+        radius = stretch * (stretched + _length(basis)) + _length(
+            inverse
+        )  # from the parent's origin
         above = float64_matrix(obj.parent.matrix_world)
         error = _norm(above) * (stretch * error + _HALF_STEP * (1.0 + _ROUNDINGS) * radius)
         error += _HALF_STEP * _ROUNDINGS * _length(above)
         bone = obj.parent.pose and obj.parent.pose.bones.get(obj.parent_bone)
         if obj.parent_type == "BONE" and bone:
-            # the bone's tail is the origin
+            # Children of a bone start at its tail, so its length is added.
             radius, bone_error = _bone_radius_and_error(bone, radius + bone.bone.length)
             error += _norm(above) * bone_error
         elif obj.parent_type != "OBJECT":
@@ -121,8 +126,10 @@ def _bone_radius_and_error(bone: PoseBone, reach: float) -> tuple[float, float]:
 
 
 def _norm(matrix: Array) -> float:
+    """Return the largest factor by which a (4, 4) matrix lengthens a vector."""
     return float(np.linalg.norm(matrix[:3, :3], 2))
 
 
 def _length(matrix: Array) -> float:
+    """Return the distance by which a (4, 4) matrix moves the origin."""
     return float(np.linalg.norm(matrix[:3, 3]))

@@ -48,8 +48,10 @@ def is_skin_of(obj: Object, armature: Object) -> bool:
 
 def skinned_objects(armature: Object, objects: Iterable[Object]) -> list[Object]:
     """Return the mesh objects that an armature deforms, sorted by name."""
-    meshes = [obj for obj in objects if obj.type == "MESH" and is_skin_of(obj, armature)]
-    return sorted(meshes, key=lambda obj: obj.name)
+    return sorted(
+        (obj for obj in objects if obj.type == "MESH" and is_skin_of(obj, armature)),
+        key=lambda obj: obj.name,
+    )
 
 
 def hanging_objects(armature: Object, skinned: Iterable[Object]) -> list[tuple[Object, str]]:

@@ -261,7 +261,7 @@ def _spline_outlines(obj, resolution: int | None) -> tuple[NDArray[np.float32], 
         bpy.data.curves.remove(data)  # and the object with it
     # Each spline is a row of points; the edge that closes it leads back from its last one to its
     # first.
-    closing = edges[edges[:, 1] < edges[:, 0]].tolist()
+    closing = edges[edges[:, 1] < edges[:, 0]].tolist()  # (last, first) points of closed splines
     loops = [np.arange(first, last + 1) for last, first in closing if last - first >= 2]
     is_closed = np.zeros(len(points), bool)
     for last, first in closing:

@@ -135,6 +135,7 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
     largest = float(np.abs(points).max())
     size = float(np.ptp(points, axis=0).max())
     has_weights = any(patch.weights is not None for patch in patches)
+    # A point has three coordinates: √3 < 1.8. Rounded weights move a mean of points within `size`.
     stored = FLOAT32_HALF_ULP * (1.8 * largest + (2.0 * size if has_weights else 0.0))
     findings = []
     left_out = len(splines) - len(patches)
@@ -235,7 +236,7 @@ def _interpolating_patch(
     """
     inverses = []
     for table in sample:
-        has_effect = table.any(axis=0)
+        has_effect = table.any(axis=0)  # other control points show in no sample
         if np.linalg.cond(table[:, has_effect]) > MAX_CONDITION:
             return None
         inverses.append(np.linalg.pinv(table))

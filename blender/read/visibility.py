@@ -155,7 +155,7 @@ def hidden_reason(obj, depsgraph) -> Finding | None:
     """
     if obj.visible_get(view_layer=depsgraph.view_layer):
         return None
-    homes = set(obj.users_collection)
+    homes = set(obj.users_collection)  # the collections that the object is in
     branches = [
         path
         for path in _branches(depsgraph.view_layer.layer_collection)
@@ -187,7 +187,7 @@ def hidden_reason(obj, depsgraph) -> Finding | None:
         reasons += switch_reasons
         hidden_branches |= hiding.keys()
     if len(hidden_branches) == len(branches):
-        return reasons[-1]  # each of its collections has another reason; the mildest
+        return reasons[-1]  # its collections are hidden by several switches; the mildest one
     is_hidden = obj.hide_get(view_layer=depsgraph.view_layer)
     return finding(HIDDEN_IN_VIEWPORT, name=obj.name, switch="eye icon") if is_hidden else None
 
@@ -200,6 +200,7 @@ def blends_keys(obj) -> bool:
 
 
 def _split_name(name: str) -> tuple[str, int]:
+    """Return a name without its number, and the number, 0 if there is none."""
     stem, dot, tail = name.rpartition(".")
     return (stem, int(tail)) if dot and tail.isdecimal() else (name, 0)
 

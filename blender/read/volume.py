@@ -73,7 +73,8 @@ def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | N
     if evaluated is None:
         yield None
         return
-    volume, geometry = evaluated  # the set of geometry may own the volume
+    # The geometry set is kept, because it may own the volume.
+    volume, geometry = evaluated
     located = locate(obj, depsgraph)
     findings = located.findings
     name = _choose_grid(obj, volume, grid, findings)
@@ -100,9 +101,10 @@ def _volume_findings(obj, geometry: bpy.types.GeometrySet, depsgraph) -> Iterato
     yield from modifier_findings(obj, depsgraph.scene)
     instances = geometry.instances_pointcloud()
     if instances is not None:
-        count = len(instances.points)
-        kinds = [finding(KIND_COUNT, kind="instances beside the volume", count=count).as_record()]
-        yield finding(SURFACELESS_LEFT_OUT, kinds=kinds)
+        beside = finding(
+            KIND_COUNT, kind="instances beside the volume", count=len(instances.points)
+        )
+        yield finding(SURFACELESS_LEFT_OUT, kinds=[beside.as_record()])
 
 
 def _volume_and_geometry(obj, depsgraph) -> tuple[bpy.types.Volume, bpy.types.GeometrySet] | None:
@@ -132,7 +134,7 @@ def _volume_and_geometry(obj, depsgraph) -> tuple[bpy.types.Volume, bpy.types.Ge
 
 def _choose_grid(obj, volume: bpy.types.Volume, name: str, findings: list[Finding]) -> str:
     """Return the name of the scalar grid to read: `name`, or if it is empty “density”, else the
-    first one.
+    first one. Findings about repeated names and about grids left out are added to `findings`.
     """
     types = {grid.name: grid.data_type for grid in volume.grids}
     if len(types) < len(volume.grids):

@@ -137,7 +137,6 @@ def target_of(
     """
     if measured.measurement.method.procedure == Procedure.OPEN:
         raise EditRefusedError(OPEN_OBJECT)
-    unit = meters_per_unit(context.scene)
     body = measured.measurement.mass_properties
     principal = body.principal
     if strict or (by_shape and not principal.is_unique and EQUAL_AXES[principal.symmetry]):
@@ -154,7 +153,7 @@ def target_of(
         else:
             with suppress(NoShapeError):
                 principal = shape_of_measured(alone, 1).principal_frame()
-    return SnapTarget.of_body(obj, body, principal, unit)
+    return SnapTarget.of_body(obj, body, principal, meters_per_unit(context.scene))
 
 
 def matrix_at_center(obj: Object, body: SnapTarget) -> NDArray | None:

@@ -128,6 +128,7 @@ def values_of(measurement: core.measurement.Measurement) -> Iterator[dict[str, A
         column.tolist() if hasattr(column, "tolist") else column
         for column in (*columns.values(), *bounds)
     ]
+    # In a stack, these are lists, too.
     texts = measurement.method, measurement.findings, measurement.fingerprint
     is_stack = isinstance(measurement.findings, list)
     rows = zip(*numbers, *texts) if is_stack else [(*numbers, *texts)]
@@ -162,8 +163,8 @@ def _special_values(measurement: core.measurement.Measurement) -> dict[str, Any]
 
 
 def store_values(obj: Owner, values: dict[str, Any]) -> None:
-    """Replace all results by `values`, or none if Blender cannot hold one; add the tensor in two
-    parts.
+    """Replace all results by `values`, or none if Blender cannot hold one of them. The tensor is
+    stored a second time in two parts, which are added to `values`.
     """
     require_storable(obj)
     entries = values["body_inertia"]
@@ -191,6 +192,7 @@ def store_scaled(
             obj[key] = [factor * value for value in obj[key]]
     # the bounds of inertia: of rounding, and of float32
     bounds = list(obj["body_error_bound"])
+    # The principal moments are scaled already; their sum bounds each entry, which is rounded anew.
     bounds[3] = factor * bounds[3] + ROUNDING * sum(obj["body_principal_moments"])
     bounds[7] *= factor
     obj["body_error_bound"] = bounds
@@ -220,7 +222,7 @@ def store_body(obj: Owner, body: PlainBody, fingerprint: str) -> None:
 
 
 def _set(obj: Owner, key: str, value: object) -> None:
-    is_new = key not in obj  # otherwise it has its description
+    is_new = key not in obj  # an old property has its description already
     obj[key] = value
     if is_new and not isinstance(value, str):
         description = DESCRIPTIONS[key].format(frame=FRAMES[type(obj)])
@@ -240,7 +242,7 @@ def store_reference(obj: Owner, values: dict) -> None:
 def require_storable(obj: Owner) -> None:
     """Raise EditRefusedError for an owner that cannot store results."""
     data = obj.id_data
-    # saving drops an override's new ID properties
+    # A file does not keep new ID properties of a library override.
     if not data.is_editable or data.override_library is not None:
         raise EditRefusedError(LINKED_OBJECT, subject=data.name_full)
 

@@ -48,7 +48,9 @@ def phrase(template: str, plural: str | None = None, /, **values: Any) -> str:
 
 
 def text(*parts: Finding | str) -> str:
-    """Return the sentences of findings and finished texts, one after the other."""
+    """Return the sentences of findings and finished texts, one after the other, with a period or
+    semicolon between them.
+    """
     joined = ""
     for part in parts:
         added = (
@@ -74,6 +76,7 @@ def distance(meters: float) -> str:
 
 
 def _rank(part: Finding | str) -> Severity:
+    """Return the severity of a finding; a text is a note."""
     return Severity.NOTE if isinstance(part, str) else severity(part)
 
 
@@ -116,8 +119,9 @@ def first(parts: Sequence[Any]) -> list[Any]:
     """Return at most MAX_REPORTED findings or texts, the most severe first, and the number of
     omitted ones.
     """
-    ranked = sorted(parts, key=lambda part: [*Severity].index(_rank(part)), reverse=True)
-    return truncate_findings(ranked, MAX_REPORTED)
+    return truncate_findings(
+        sorted(parts, key=lambda part: [*Severity].index(_rank(part)), reverse=True), MAX_REPORTED
+    )
 
 
 def failure(name: str, reason: Finding | Exception) -> Finding:

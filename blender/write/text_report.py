@@ -72,8 +72,11 @@ def text(file_document: dict[str, Any]) -> str:
             *starmap(report_line, _report_rows(entry, file_document["frame"])),
         ]
     if len(file_document["objects"]) > 1:
-        heading = "Total of {} objects, world frame".format(len(file_document["objects"]))
-        lines += ["", heading, *starmap(report_line, _report_rows(file_document["total"], "world"))]
+        lines += [
+            "",
+            "Total of {} objects, world frame".format(len(file_document["objects"])),
+            *starmap(report_line, _report_rows(file_document["total"], "world")),
+        ]
     for heading, entries in (
         ("Left out", file_document["left_out"]),
         ("Not measured", file_document["errors"]),

@@ -46,6 +46,7 @@ def thumbnail(
         _draw(image, corners, normals, areas)
     start = (np.asarray(center, np.float64) @ _VIEW - middle) * scale
     for axis, color in zip(np.asarray(axes, np.float64).T @ _VIEW, _AXES):
+        # Half an axis is 0.42 of the picture; its steps are less than a pixel, its width is two.
         steps = np.linspace(-1.0, 1.0, 2 * SIZE)[:, None] * axis * 0.42 * SIZE + start
         for right, up in ((0, 0), (1, 0), (0, 1)):
             _put(image, steps + (right, up, 0), np.array([*color, 255], np.uint8))
@@ -78,7 +79,7 @@ def _covered_pixels(corners: NDArray) -> tuple[NDArray, Array]:
     spans = np.maximum(last - first + 1, 0)
     # pairs of a triangle and a pixel in its box; the pixels of a box are numbered from 0
     counts = spans.prod(axis=1)
-    counts *= counts.sum() <= _MAX_TESTS
+    counts *= counts.sum() <= _MAX_TESTS  # zero if there are too many
     owner = np.repeat(np.arange(len(corners)), counts)
     number = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
     points = first[owner] + np.stack(np.divmod(number, np.maximum(spans[owner, 1], 1)), axis=1)
@@ -113,6 +114,9 @@ def _sample(corners: NDArray, areas: NDArray, count: int) -> tuple[NDArray, Arra
 
 
 def _put(image: NDArray, spots: NDArray, colors: NDArray) -> None:
+    """Color the pixels at (k, 2 or 3) spots, in pixels from the middle, by one or by (k, 4) colors;
+    spots outside are left out.
+    """
     places = np.rint(spots[:, :2] + 0.5 * SIZE).astype(int)
     inside = ((places >= 0) & (places < SIZE)).all(axis=1)
     column, row = places[inside].T

@@ -132,10 +132,10 @@ class Units(NamedTuple):
         it is shown as 0.
         """
         largest = max((abs(value) for value in values if isfinite(value)), default=0.0)
+        # Beside the largest value, the rest of a sum that cancels is noise, and beside the size,
+        # rounding in float32: 1e-17 kg·m² is shown as 0.
         noise = max(1e-12 * largest, 1e-7 * size)
         factor, name = self.unit(quantity, 0.0 if largest < noise else largest)
-        # The rest of a sum that cancels is noise beside the largest value: 1e-17 kg·m² is shown as
-        # 0.
         scaled = [0.0 if abs(value) < noise else value / factor for value in values]
         texts = column(scaled, self.digits, self.grouping)
         return ["{:s} {:s}".format(text, name).rstrip() for text in texts]
@@ -212,7 +212,7 @@ def _fitting_unit(
     if value == 0.0:
         return base
     for unit in units:
-        if value >= unit[0] * (1.0 - 1e-6):
+        if value >= unit[0] * (1.0 - 1e-6):  # a value that rounds to 1 unit is shown in it
             return unit
     return units[-1]
 
@@ -246,6 +246,7 @@ def column(values: Sequence[float], digits: int = DIGITS, grouping: str = "SPACE
     exponent = int("{:.{:d}e}".format(largest, digits - 1).partition("e")[2])
     power = exponent if not MIN_EXPONENT < exponent < MAX_EXPONENT else 0
     decimals = digits - 1 - (exponent - power)
+    # `round` takes negative decimals, too; the text then has none.
     texts = [
         _plain_number(round(value / 10.0**power, decimals), max(decimals, 0), GROUPS[grouping])
         for value in values

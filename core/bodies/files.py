@@ -195,6 +195,7 @@ def measure_mesh_file(
         )
         if kind == "solid" and not volume.total > volume.rounding_error[0]:
             raise ReadError(NO_VOLUME)
+        # The moments are in meters already.
         return measure_reading(bare_reading(name, "MESH"), body, replace(settings, unit=1.0))
 
 

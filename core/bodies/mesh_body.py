@@ -120,7 +120,7 @@ def with_input_error(moments: Moments, known: Moments) -> Moments:
     """
     if not np.array_equal(moments.about, known.about):
         return moments
-    error = moments.input_error.copy()
+    error = moments.input_error.copy()  # begins with the orders of `known`
     error[: len(known.raw)] = np.minimum(error[: len(known.raw)], known.input_error)
     return replace(moments, input_error=error)
 
@@ -129,7 +129,7 @@ def extend_input_error(moments: Moments, known: Moments) -> Moments:
     """Return moments with input bounds of every order: the bound of the `known` total times powers
     of the reach.
 
-    The bound of the first moment along x is that of the total times the reach.
+    The reach is the bound of the first moment along x by that of the total.
     """
     total_error, first_error = known.input_error[:2].tolist()
     reach = first_error / total_error if total_error > 0.0 else 0.0

@@ -96,6 +96,7 @@ def print_body(
             "pocket_density": pocket.density,
             "pocket_mass": ballast.total,
         }
+    # Without a density, a given mass scales these moments when the body is measured.
     mass = replace(material, measure=moments.Measure.MASS) * (settings.density or 1.0)
     record |= {"core_volume": core_volume.total, "material_volume": material.total}
     kilograms = settings.mass or mass.total  # of printed material, without ballast

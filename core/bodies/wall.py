@@ -99,6 +99,7 @@ class WallPiece:
 
     def per_thickness(self) -> Moments:
         """Return the wall's moments per thickness, in the limit of zero thickness."""
+        # The first coefficient of the polynomials is the wall's derivative by the thickness.
         first = Moments(self.offset.coefficients[:, 0], self.offset.about, Measure.VOLUME)
         return sum_of_images(first, self.matrices) * (1.0 / self.scale)
 
@@ -230,6 +231,7 @@ class Walls:
             .raw
         )
         sheet = surface.about_point(center).truncate(2).raw
+        # The radius of gyration about the center, from the moments of x², y² and z².
         reach = np.sqrt(sheet[(degree == 2) & (monomials(2).max(axis=1) == 2)].sum() / sheet[0])
         return float((np.abs(wall - sheet) / (sheet[0] * reach**degree)).max())
 

@@ -58,9 +58,9 @@ def _number_labels(block: NDArray) -> tuple[list[int], Index]:
     return labels.tolist(), indices.reshape(block.shape)
 
 
-def _check_count(labels: int) -> None:
+def _check_count(label_count: int) -> None:
     """Raise ReadError if there are too many labels."""
-    if labels > MAX_LABELS:
+    if label_count > MAX_LABELS:
         raise ReadError(
             LABELS_UNFIT, cause="they have more than {} different numbers".format(MAX_LABELS)
         )
@@ -156,6 +156,7 @@ def _block_sums(label_indices: Index, count: int) -> NDArray:
             sums = np.bincount(bins, row_weights, count * len(part))
             row_sums[power, first : first + len(part)] = sums.reshape(len(part), count)
     row_sums = row_sums.reshape(KNOWN_ORDER + 1, planes, columns, count)
+    # By label l and the powers P, Q and r of a voxel's plane i, column j and place in its row.
     i, j = (np.arange(size)[:, None] ** np.arange(KNOWN_ORDER + 1) for size in (planes, columns))
     all_sums = np.einsum("rijl,iP,jQ->lPQr", row_sums, i, j, optimize=True)
     return all_sums[:, *POWERS.T]

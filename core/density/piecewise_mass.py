@@ -60,6 +60,7 @@ def solid_mass_moments(
     sums, size, tau = _accumulate(points, triangles, density, volume, solid=True)
     reach = _reach(points, triangles, volume.about)
     raw = sums * factorial_ratios(monomials(order), 3)
+    # α! h_α is at most (n+2)!/2 times the largest monomial, and over (n+3)! this is 1/(2n+6).
     error = (
         (9.0 * U * (reach @ tau) + _relative_rounding(len(triangles), order) * size)
         / (2.0 * monomials(order).sum(axis=1) + 6.0)
@@ -90,6 +91,7 @@ def sheet_mass_moments(
     density_degree = density.ndim - 1
     raw = sums * factorial_ratios(monomials(order), 2 + density_degree)
     bounds = _monomial_bounds(reach, order)
+    # α! h_α is at most (n+2)!/2 times the largest monomial, and over (n+2)! this is 1/2.
     size = doubled_mass / 2.0 * bounds
     error = 9.0 * U * tau.sum() / 2.0 * bounds + _relative_rounding(len(triangles), order) * size
     input_error = area.input_error * float(density.max(initial=0.0))
@@ -125,6 +127,7 @@ def _accumulate(
         vx = cx - ax
         vy = cy - ay
         vz = cz - az
+        # The components of the normal (b - a) × (c - a), as pairs to be subtracted.
         products = ((uy * vz, uz * vy), (uz * vx, ux * vz), (ux * vy, uy * vx))
         normal = np.array([plus - minus for plus, minus in products])
         corners -= like.about[:, None, None]
@@ -183,7 +186,9 @@ def _reach(points: NDArray, triangles: NDArray, center: NDArray) -> Array:
 
 
 def _relative_rounding(count: int, order: int) -> Array:
-    """Return the (K,) rounding errors relative to the sum of the terms' sizes."""
+    """Return the (K,) rounding errors relative to the sum of the terms' sizes; 27 are the 9 of the
+    module for each of three corners.
+    """
     return U * (
         27.0 * (monomials(order).sum(axis=1) + 1)
         + PAIRWISE_SUM_ROUNDINGS

@@ -118,10 +118,11 @@ class Polynomial:
         high = np.asarray(high, float)
         coefficients = self.translate(low).coefficients()
         exponents = monomials(self.degree)
-        net = np.zeros((self.degree + 1,) * 3)
+        net = np.zeros((self.degree + 1,) * 3)  # coefficients by the powers of (x - low) / side
         net[tuple(exponents.T)] = coefficients * np.multiply.reduce(
             (high - low) ** exponents, axis=1
         )
+        # Rounding of the net; 64 is chosen with a margin.
         tolerance = 64.0 * U * (self.degree + 1) * float(np.abs(net).sum())
         degrees = range(self.degree + 1)
         bernstein = np.array(
@@ -131,10 +132,10 @@ class Polynomial:
             net = np.moveaxis(np.tensordot(bernstein, net, (1, axis)), 0, axis)
         # A heap with the least bound first. The number breaks ties, as nets cannot be compared.
         boxes = [(float(net.min()), 0, net)]
-        for number in range(1, 2 * MAX_BOXES, 2):
+        for number in range(1, 2 * MAX_BOXES, 2):  # each pass adds two boxes
             least, _, net = boxes[0]
-            # The corners of a net are values of the polynomial. If one of them is negative, more
-            # halving cannot lead to a bound that is not.
+            # The corners of a net are values of the polynomial. If one of them is negative, the
+            # bound stays negative, however often boxes are halved.
             if least >= -tolerance or min(net[corner] for corner in CORNERS) < 0.0:
                 break
             heapq.heappop(boxes)

@@ -75,6 +75,7 @@ def polynomial_mass_of_images(
             * _offset_sizes(field_linear[:, :, part], point, field_offsets[:, part], field_center),
         )
         maps = linear[:, :, part]
+        # Errors of offsets: a product, sums and a difference round each term 6 times at most.
         offset = origins[:, part] - center[:, None]
         offset_error = 6.0 * U * _offset_sizes(maps, point, offsets[:, part], center)
         scale, scale_error, anisotropy = measure_scale_factors(moments.measure, maps)
@@ -184,8 +185,8 @@ def _multiply_by_polynomial(values: NDArray, order: int, terms: Terms, forms: Fo
 
 
 def _largest(terms: Terms, start: tuple[int, ...]) -> int:
-    """Return the largest next exponent among terms whose exponents start so, -1 if there are
-    none.
+    """Return the largest next exponent of the terms whose first exponents are `start`, -1 if there
+    are none.
     """
     place = len(start)
     return max((powers[place] for powers in terms if powers[:place] == start), default=-1)

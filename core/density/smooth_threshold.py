@@ -61,8 +61,9 @@ def smooth_threshold_body(
         fine = body_of(values, parts)
         extrapolated = _change_moments(fine, coarse, _extrapolate)
         bounded = _change_moments(extrapolated, best, _add_to_bounds)
-        error = bounded.volume.rounding_error[0]
-        if error <= TOLERANCE * bounded.volume.total or 8 * values.size > MAX_SAMPLES:
+        volume_error = bounded.volume.rounding_error[0]
+        # The next grid would have eight times as many samples.
+        if volume_error <= TOLERANCE * bounded.volume.total or 8 * values.size > MAX_SAMPLES:
             return bounded
         coarse = fine
         best = extrapolated
@@ -118,8 +119,8 @@ def _change_moments(
     differences from another body's.
     """
 
-    def changed(moments: Moments, others: Moments) -> Moments:
-        return change(moments, moments.raw - others.about_point(moments.about).raw)
+    def changed(moments: Moments, other_moments: Moments) -> Moments:
+        return change(moments, moments.raw - other_moments.about_point(moments.about).raw)
 
     mass = None if body.mass is None else changed(body.mass, cast("Moments", other.mass))
     return replace(

@@ -64,7 +64,7 @@ def density_moments(
     if order < 2 or not moments.total > 0.0:
         return moments
     offset = moments.raw[1:4] / moments.total
-    variance = moments.raw[[4, 7, 9]] / moments.total - offset * offset  # of x, y and z
+    variance = moments.raw[[4, 7, 9]] / moments.total - offset * offset  # moments of x², y², z²
     if not (offset * offset > MAX_OFFSET_RATIO * np.maximum(variance, 0.0)).any():
         return moments
     nearest_knot = [
@@ -181,6 +181,8 @@ def _moments_about(
         raise MeasureError(DENSITY_NON_FINITE)
     bound_matrices = [_absolute_from_even(axes[i], order, about[i]) for i in axis_order]
     size = np.einsum("ax,by,cz,xyz->abc", *bound_matrices, magnitudes)
+    # Roundings of the tables along each axis, of the sums in blocks and over blocks, with margins;
+    # 1.01 covers products of roundings.
     units = sum(2 * axis.order + 3 * order + 8 for axis in axes) + longest + blocks + 8
     p, q, r = monomials(order)[:, axis_order].T
     return Moments(sums[p, q, r], about, Measure.MASS, 1.01 * units * U * size[p, q, r])

@@ -177,6 +177,7 @@ def threshold_body(
             sums.add_crossed_cells(Cells.join(collected))
             collected = []
 
+    # Roundings of a term, by its order, and of pairwise sums; 60 is chosen with a margin.
     errors = sums.estimates + (60 + 8 * order + np.log2(sums.terms + 1.0)) * U * sums.sizes
     # In the grid's coordinates, the sums of areas are already those of the mapped surface, and
     # masses are those of the unmapped body. So the map leaves the first alone, as it leaves a mass,
@@ -300,6 +301,7 @@ class _Sums:
         """Add the inside parts of cells that the surface crosses, and the surface in them."""
         if not len(cells):
             return
+        # Crossed cells count as half full.
         volume_per_cell = (self.totals[VOLUME, 0] + len(cells) / 2.0) / len(cells)
         allowed = np.array([TOLERANCE * volume_per_cell, AREA_TOLERANCE * self.face_area])
         allowed = allowed * self._tolerance_factor(cells, allowed)
@@ -310,6 +312,8 @@ class _Sums:
             inside = cells.corners >= 0.0
             remaining_parts -= len(cells)
             cells = cells[np.asarray(inside.any(axis=(1, 2, 3)))]
+            # Too many parts, or parts too small to matter: the next pass adds them all, with their
+            # differences in the estimates.
             if remaining_parts < 0 or (cells.size**3).sum() < allowed[0]:
                 allowed[:] = np.inf
 
@@ -330,6 +334,7 @@ class _Sums:
         # (rule, cell): a cell needs the next rule, or the cut, as long as all ratios up to this
         # rule exceed the factor.
         least_ratio = np.minimum.accumulate(np.concatenate(ratios, axis=1))
+        # Of 200 factors, up to one that no cell exceeds, the first with little enough work.
         factors = np.geomspace(1.0, max(least_ratio.max(), 1.0), 200)
         work = 1.0 + EXTRA_WORK @ (least_ratio[..., None] > factors).mean(axis=1)
         return factors[np.argmax(work <= limit)]

@@ -67,6 +67,7 @@ def inside_moments(
         voxels = np.minimum(centers[in_columns].astype(np.int64), shape - 1)
         volume += _add_pieces(pieces, voxels, densities, below, about, total, size)
         longest_sum = max(longest_sum, len(pieces))
+    # Roundings of a term, by its order, of sums along a column and of pairwise sums; 40 is chosen.
     units = 40 + 4 * order + int(shape[2]) + int(math.log2(longest_sum + 1))
     return Moments(total, about, Measure.MASS, units * U * size), volume
 

@@ -83,7 +83,7 @@ class GridTransform(Transform):
         self.grid = grid
         faces = self.faces
         # Allowed error of a mean over the area: half of the tolerance each for the points and for
-        # the kernel.
+        # the kernel. A volume is the sum divided by |q|, which is from `step` to `largest`.
         if of == Measure.VOLUME:
             allowed = tolerance / faces.scale**3 / (2.0 * faces.area)
             step = grid.step * faces.scale
@@ -261,7 +261,7 @@ def _kernel_width(half: int, tolerance: float, divided: bool) -> int:
     if `divided`.
     """
     k = np.arange(1, half + 1) if divided else np.ones(half)
-    for width in WIDTHS:
+    for width in WIDTHS:  # the errors of three axes add up
         if (3.0 * np.maximum.accumulate(aliasing(half, width))[1:] / k).max() <= tolerance:
             return width
     raise ValueError("tolerance out of reach")
@@ -274,6 +274,8 @@ def _points_per_side(spans: NDArray, tolerance: float) -> NDArray[np.int64]:
     span = np.append(0.0, np.geomspace(1e-6, 4.0 * MAX_POINTS_PER_SIDE, 4000))
     limits = []
     for n in range(1, MAX_POINTS_PER_SIDE + 1):
+        # The bound of the module, with further terms of the series as a geometric one; spans for
+        # which it hardly converges are left to more points.
         ratio = span / 4.0 / (2 * n + 1)
         bound = 2.0 * (span / 4.0) ** (2 * n) / factorial(2 * n) / np.maximum(1.0 - ratio, 0.1)
         limits.append(span[(bound <= tolerance) & (ratio < 0.9)].max())

@@ -148,7 +148,7 @@ class Transform:
         self.gap = 0.0  # the part of the vector sum that only an open surface has
         if of == Measure.VOLUME:
             across = np.cross(GENERIC_WAVE_VECTOR[0], self._vector_sum())
-            self.gap = float(np.linalg.norm(across)) / 1.5
+            self.gap = float(np.linalg.norm(across)) / 1.5  # by the length of the wave vector
             if self.gap > OPEN_AREA_RTOL * self.faces.area:
                 raise MeasureError(FOURIER_OF_OPEN_SURFACE)
         scale = self.faces.scale

@@ -106,6 +106,7 @@ class SortedTriangles:
             cell = np.clip(
                 ((a + b + c) / 3.0 + 1.0) * (MORTON_CELLS / 2.0), 0, MORTON_CELLS
             ).astype(np.int64)
+            # 1100 makes all binary exponents of float64 positive.
             octave = np.clip(np.frexp(diameter)[1] + 1100, 0, 2000).astype(np.int64)
             x, y, z = spread_bits(cell)  # Interleaved, they are the place on a Z-shaped curve.
             keys.append(octave << 30 | x | y << 1 | z << 2)
@@ -169,6 +170,7 @@ class PhaseMeans:
         self.first, self.second = (waves.dot(part, vectors) for vectors in block.from_center)
         self.half = waves.phase_factors(part, block.centers / 2.0)
         self.largest = np.sqrt((waves.vectors(part) ** 2).sum(axis=0).max()) * block.diameter
+        # A corner is no farther from the mean of all than 2/3 of the diameter.
         self.terms = _series_terms(min(self.largest, MAX_SERIES_DIAMETER) * 2.0 / 3.0)
         if self.largest > MAX_SERIES_DIAMETER:
             self.middle = waves.phase_factors(part, block.middles)
@@ -197,6 +199,7 @@ class PhaseMeans:
         small = np.flatnonzero(square < MAX_SERIES_SQUARE)
         series = self._series_of_pairs(small, self.waves.vectors(wave_rows), a, b, c)
         edge_a, edge_b, edge_c = self.block.edges
+        # Smaller squares belong to the pairs that the series replaces. `square` is overwritten.
         negative = -np.maximum(square, MAX_SERIES_SQUARE / 2.0, out=square)
         real, imaginary = (
             (
@@ -258,7 +261,7 @@ def _series(square: NDArray, cube: NDArray, terms: int) -> tuple[NDArray, NDArra
 
 def _series_terms(radius: float) -> int:
     """Return the number of terms needed for |d| up to radius: |h_n| is at most radius^n, as a mean
-    of earlier ones.
+    of earlier ones. Terms below 2e-17 are less than the rounding of 1/2.
     """
     n = 4
     while radius**n / factorial(n + 2) > 2e-17:
@@ -266,5 +269,5 @@ def _series_terms(radius: float) -> int:
     return n
 
 
-# For Σ d² below MAX_SERIES_SQUARE.
+# For Σ d² below MAX_SERIES_SQUARE: as Σ d = 0, the square of each d is at most 2/3 of the sum.
 SPLIT_SERIES_TERMS = _series_terms(np.sqrt(MAX_SERIES_SQUARE * 2.0 / 3.0))

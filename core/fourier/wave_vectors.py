@@ -119,7 +119,7 @@ def wave_vectors(q: ArrayLike, dimension: int) -> Array:
 
 class ListWaves:
     """A list of wave vectors (M, 3), sorted by size so that a block has similar ones; a row is one
-    wave vector.
+    wave vector. Methods take the same arguments as those of `GridWaves`, and ignore `part`.
     """
 
     columns = 1
@@ -264,6 +264,7 @@ class Spectrum:
         """Return the spectrum of `count` copies together, from the (M,) sums of exp(-i q·t) over
         their places.
         """
+        # Of each phase, with a margin, and of the sum of the copies.
         rounding = (8.0 + count) * count * U * np.abs(self.values)
         return replace(
             self,

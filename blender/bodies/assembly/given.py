@@ -69,7 +69,7 @@ def given_moments(
             array[HIGHER_MOMENTS] = 0.0
         second = rotation @ _second_moments(np.array(given.inertia)) @ rotation.T
         raw[SECOND_MOMENT_INDEX] = (second + second.T) / 2.0
-        # Each of two products has three terms per entry, each rounded by U twice; 16 is above 12.
+        # By the rounding of two products of (3, 3) matrices; the factor is chosen with a margin.
         rounding_error[SECOND_MOMENT_INDEX] = 16.0 * U * np.trace(given.inertia)
         findings.append(verdict.finding(GIVEN, quantity=INERTIA))
     center = np.asarray(center, np.float64)

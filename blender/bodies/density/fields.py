@@ -54,7 +54,7 @@ from ..findings import (
 )
 from ..request import Request
 
-# different places of a surface in which the sign of the density is checked
+# Different places of a surface in which the sign of the density is checked.
 MAX_CHECKED_INSTANCES = 50
 MAX_OUTSIDE_SHARE = 1e-9  # relative to the volume: a smaller share outside the grid is rounding
 
@@ -142,7 +142,8 @@ def _sheet_pieces(reading: bodies.Reading, in_world: bool, unit: float) -> Itera
         axes = polar_rotation(matrices)[0]
         for surface, image_matrices, places in bodies.group_by_similarity(part.surface, matrices):
             to_local = fields[places]
-            if surface is not part.surface:  # mapped already: only the turn is left
+            # A mapped surface is in the world's units, about its origin: only the turn is left.
+            if surface is not part.surface:
                 to_local = affine_matrices(axes[places].transpose(0, 2, 1))
             yield _Piece(surface, image_matrices, image_matrices if in_world else to_local)
 
@@ -162,7 +163,7 @@ def _negative_density_note(
     for piece in pieces:
         triangles = piece.surface.all_triangles()[0]
         points = piece.surface.points.astype(np.float64)
-        # places that differ by more than the rounding of Blender's matrices, in a fixed order
+        # Places differ if they do so in float32, the precision of Blender's matrices.
         distinct = np.unique(np.float32(piece.fields), axis=0, return_index=True)[1]
         is_doubtful |= len(distinct) > MAX_CHECKED_INSTANCES
         for field in piece.fields[distinct[:MAX_CHECKED_INSTANCES]]:
@@ -182,7 +183,9 @@ def _negative_density_note(
 
 
 def _box_of_fields(pieces: list[_Piece]) -> tuple[Array, Array]:
-    """Return the (3,) least and largest coordinates of the density at corners of pieces' boxes."""
+    """Return the (3,) least and largest coordinates, in those of the density, of the corners of all
+    pieces' boxes.
+    """
     unit_corners = np.array(list(product((0.0, 1.0), repeat=3)))
     corners = []
     for piece in pieces:
@@ -244,7 +247,7 @@ def voxel_filled_body(
     triangles = np.concatenate(
         [_corners(solid, to_grid @ place) for solid, matrices in body.solids for place in matrices]
     )
-    # the voxels around the solid, at least one along each axis
+    # The box of voxels around the solid, at least one along each axis, in indices of voxels.
     low = np.clip(np.floor(triangles.min(axis=(0, 1))), 0, np.array(reading.shape) - 1).astype(
         np.int64
     )
@@ -308,8 +311,8 @@ def _box_densities(
 
 
 def _input_error(body: bodies.MeshBody, mass: Moments) -> Array:
-    """Return the solid's input error, scaled by the ratio of largest moments or of totals,
-    whichever is larger.
+    """Return the input error of the mass moments: the solid's, multiplied by the ratio of largest
+    moments or of totals, whichever is larger.
     """
     solid = body.volume if mass.order <= body.volume.order else body.moments(mass.order, False)[0]
     solid = solid.about_point(mass.about).truncate(mass.order)

@@ -66,7 +66,7 @@ def weigh(reading: bodies.Reading, body: bodies.MeshBody, request: Request) -> b
     """Return the body with mass moments to the requested order, or raise MeasureError if a density
     is impossible.
     """
-    # It raises MeasureError before anything is weighed.
+    # `find_extent` raises MeasureError without a volume or area, before anything is weighed.
     measurement.find_extent(body, request.settings)
     order = request.settings.order or 0
     needs_higher = order > KNOWN_ORDER
@@ -201,7 +201,7 @@ class _FaceDensities:
         for part in reading.parts:
             slots = part.attributes.materials
             face_slots = part.attributes.face_slots
-            # slot -1, no material, takes the last entry
+            # The slot -1, for no material, takes the last entry.
             densities = [*(material_density(material) for material in slots), None]
             lacks_density = np.array([density is None for density in densities])
             density_of_slot = np.array(
@@ -279,9 +279,11 @@ def _solid_moments(
         mass = solid_mass_moments(components.points, components.triangles, density, volume)
         moments.append(sum_of_images(mass, group))
         diagonal = float(np.linalg.norm(np.ptp(components.points, axis=0)))
-        negligible = NEGLIGIBLE * float(mass.total) / diagonal  # density times area
+        # In kg/m, like a density times an area: a share of the mass by the body's length.
+        negligible = NEGLIGIBLE * float(mass.total) / diagonal
         findings += _mixed_parts_notes(components, part_density, names, negligible)
         foreign = part_density.has_foreign_cavity_material
+        # The finding is the same for all groups, of which the last one decides if it is slight.
         has_foreign_material = bool(foreign.any())
         is_slight = bool(part_density.most_by_area[foreign].sum() < negligible)
     if has_foreign_material:
@@ -340,6 +342,7 @@ def _sheet_moments(
     part = reading.parts[i]
 
     def measured(surface: mesh.Surface) -> Moments:
+        """Return the moments ∫ρ dA of the part's surface or of its image under an uneven map."""
         triangles, faces = surface.all_triangles()
         density = values[triangles] if by_vertex else values[faces]
         area = polyhedron.polyhedron_moments(

@@ -348,7 +348,8 @@ def body(reading: RegionReading, request: Request) -> measurement.Body:
     area = nurbs.plane_moments(curves, reading.normal)
     boundary_length = nurbs.length_moments(curves, 0).total
     reach = max(float(np.abs(curve.points - area.about).max()) for curve in curves)
-    # A moved boundary sweeps over its length times the move; 2 is above the diagonal move's √3.
+    # A moved boundary sweeps over its length times the move; 2 is a margin for moves along several
+    # axes.
     area = replace(area, input_error=2.0 * reading.stored * boundary_length * reach**DEGREE)
     return RegionBody(
         polyhedron.nothing(area.order, area.about)[0],

@@ -221,8 +221,8 @@ class Shape:
             max(float(np.linalg.norm(piece.coordinate_error)) for piece in self.pieces())
             / self.size
         )
-        # Misfits relative to the size: points nearer than `near` always count as equal, those farther
-        # than `far` never. The factors are chosen: a few errors of two points, and four times that.
+        # Misfits relative to the size: points nearer than `near` always count as equal, points
+        # farther than `far` never. The factors are chosen: a few errors, and four times as many.
         near = inertia.NOISE_LEVEL + 4.0 * coordinate_error
         far = 4.0 * inertia.NOISE_LEVEL + 16.0 * coordinate_error
         if far > MAX_MISFIT:
